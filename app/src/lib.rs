@@ -1,1 +1,3 @@
-//! app
+//! Rapidity, the program, as a library: the command line in `main.rs` only calls it, and so do the tests.
+
+pub mod scene;

@@ -1,0 +1,198 @@
+//! What there is to see: flattened meshes at rest in the world, their materials, the light that falls on them.
+//!
+//! A scene is plain data. Files come in through `gltf`, the old town through `town`; both end in
+//! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
+//! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
+//!
+//! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
+//! the world's origin keeps its millimetres.
+
+use glam::{DVec3, Vec2, Vec3};
+
+/// A world at rest: geometry, materials, light, and a place to start from.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// What to call it in titles and messages.
+    pub name: String,
+    /// World position, in metres, that every mesh position is relative to.
+    pub origin: DVec3,
+    /// Pictures that materials refer to by index.
+    pub textures: Vec<Texture>,
+    /// Surfaces that meshes refer to by index.
+    pub materials: Vec<Material>,
+    /// Triangles, one entry per primitive and instance.
+    pub meshes: Vec<Mesh>,
+    /// Sun and sky, in the world frame.
+    pub light: Lighting,
+    /// Where a visitor begins.
+    pub start: Start,
+    /// A closed way round the scene (world metres, on the ground), if it has one: the built-in tour follows it.
+    pub circuit: Vec<DVec3>,
+    /// What the file asked for and this program does not draw, one sentence each.
+    pub notices: Vec<String>,
+}
+
+/// Where a visitor stands at first and which way he looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// A point on the ground, world metres.
+    pub position: DVec3,
+    /// Unit vector, world axes.
+    pub look: DVec3,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self { position: DVec3::ZERO, look: DVec3::NEG_Z }
+    }
+}
+
+/// Triangles of one material.
+///
+/// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
+/// Front faces are counter-clockwise.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// From the file's node and mesh, for messages.
+    pub name: String,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Metres, relative to [`Scene::origin`].
+    pub positions: Vec<Vec3>,
+    /// Unit vectors, world axes.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, origin at the picture's upper left (glTF).
+    pub uvs: Vec<Vec2>,
+    /// Linear colour and opacity, multiplied into the base colour.
+    pub colours: Vec<[f32; 4]>,
+    /// Three per triangle.
+    pub indices: Vec<u32>,
+    /// Whether a vehicle collides with it and rides on it; foliage and signs do not count.
+    pub solid: bool,
+}
+
+/// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// From the file, for messages.
+    pub name: String,
+    /// Linear factor of the base colour, and opacity.
+    pub base_colour: [f32; 4],
+    /// Index into [`Scene::textures`]; its colour multiplies the factor.
+    pub base_colour_texture: Option<usize>,
+    /// Linear radiance sent out on its own.
+    pub emissive: [f32; 3],
+    /// Index into [`Scene::textures`]; its colour multiplies `emissive`.
+    pub emissive_texture: Option<usize>,
+    /// The base colour is the radiance itself: no light falls on it (KHR_materials_unlit).
+    pub unlit: bool,
+    /// Drawn from behind as well.
+    pub double_sided: bool,
+    /// What the opacity does.
+    pub alpha: Alpha,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            base_colour: [1.0; 4],
+            base_colour_texture: None,
+            emissive: [0.0; 3],
+            emissive_texture: None,
+            unlit: false,
+            double_sided: false,
+            alpha: Alpha::Opaque,
+        }
+    }
+}
+
+/// What a material's opacity does (glTF `alphaMode`).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Alpha {
+    /// Ignored.
+    #[default]
+    Opaque,
+    /// Below the threshold a fragment is not drawn.
+    Mask(f32),
+    /// Mixed with what lies behind.
+    Blend,
+}
+
+/// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// From the file, for messages.
+    pub name: String,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// `width * height` times four bytes: R, G, B, A.
+    pub rgba: Vec<u8>,
+    /// Beyond 0…1 along u, along v.
+    pub wrap: [Wrap; 2],
+    /// Sampled without filtering when magnified.
+    pub nearest: bool,
+}
+
+/// What a texture shows beyond its edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// Itself again.
+    #[default]
+    Repeat,
+    /// Its mirror image.
+    Mirror,
+    /// Its border pixels.
+    Clamp,
+}
+
+/// Daylight in the world frame: what falls on lit materials, and what is seen where no surface is.
+///
+/// Colours are linear radiance on the scale where a white unlit surface is 1. A lit surface of albedo ρ sends out
+/// ρ (sun · max(0, n·s) · visibility + sky hemisphere), so sun + sky near 1 keeps whites just below clipping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lighting {
+    /// Unit vector towards the sun, world axes.
+    pub sun_direction: Vec3,
+    /// Light of the sun on a surface that faces it.
+    pub sun: [f32; 3],
+    /// Light from above, on a surface that faces up.
+    pub sky: [f32; 3],
+    /// Light bounced from the ground, on a surface that faces down.
+    pub ground: [f32; 3],
+    /// Sky seen at the zenith.
+    pub zenith: [f32; 3],
+    /// Sky seen at the horizon.
+    pub horizon: [f32; 3],
+    /// Whether the sun casts shadows.
+    pub shadows: bool,
+}
+
+impl Default for Lighting {
+    /// A clear late morning.
+    fn default() -> Self {
+        Self {
+            sun_direction: Vec3::new(0.45, 0.75, 0.48).normalize(),
+            sun: [0.80, 0.74, 0.64],
+            sky: [0.30, 0.36, 0.46],
+            ground: [0.16, 0.14, 0.12],
+            zenith: [0.16, 0.32, 0.66],
+            horizon: [0.62, 0.74, 0.86],
+            shadows: true,
+        }
+    }
+}
+
+impl Scene {
+    /// Number of vertices in all meshes.
+    pub fn vertex_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.positions.len()).sum()
+    }
+
+    /// Number of triangles in all meshes.
+    pub fn triangle_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
+    }
+}
