@@ -8,6 +8,7 @@
 //! the world's origin keeps its millimetres.
 
 pub mod mipmap;
+pub mod refine;
 
 use glam::{DVec3, Vec2, Vec3};
 
