@@ -125,7 +125,7 @@ impl File {
 
     fn scene(&self) -> Scene {
         let scene = self.load().unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(scene.fault(), None);
+        assert_eq!(scene.validate(), Ok(()));
         scene
     }
 
@@ -620,7 +620,7 @@ fn rich_file() -> File {
 fn survive(bytes: &[u8]) -> bool {
     match load_bytes(bytes) {
         Ok(scene) => {
-            assert_eq!(scene.fault(), None);
+            assert_eq!(scene.validate(), Ok(()));
             true
         }
         Err(error) => {
