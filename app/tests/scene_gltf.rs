@@ -420,15 +420,19 @@ fn what_is_not_drawn_is_named() {
 }
 
 #[test]
-fn a_camera_says_where_to_start() {
+fn a_visitor_starts_on_the_ground_below_the_first_camera() {
     let mut file = File::triangle();
+    let ground = file.floats("VEC3", &[0.0, 0.25, 0.0, 0.0, 0.25, 9.0, 9.0, 0.25, 0.0]);
+    file.attribute("POSITION", ground);
     file.json["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
     let half = 0.5_f64.sqrt();
-    file.push("nodes", json!({ "camera": 0, "translation": [3, 1.5, 4], "rotation": [0, half, 0, half] }));
-    file.json["scenes"][0]["nodes"] = json!([0, 1]);
+    let camera = file.push("nodes", json!({ "camera": 0, "translation": [3, 1.5, 4], "rotation": [0, half, 0, half] }));
+    file.json["scenes"][0]["nodes"] = json!([0, camera]);
     let start = file.scene().start;
-    assert_eq!(start.position, DVec3::new(3.0, 1.5, 4.0));
+    assert_eq!(start.position, DVec3::new(3.0, 0.25, 4.0));
     assert!(start.look.distance(DVec3::NEG_X) < 1e-12);
+    file.json["nodes"][camera]["translation"] = json!([-3, 1.5, 4]);
+    assert_eq!(file.scene().start.position, DVec3::new(-3.0, 1.5, 4.0), "where there is no ground, at the camera");
 }
 
 #[test]
