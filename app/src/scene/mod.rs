@@ -7,7 +7,14 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod mipmap;
+pub mod refine;
+
 use glam::{DVec3, Vec2, Vec3};
+
+/// The most triangles, and three times as many vertices, that a scene may have: about 10 GB of arrays. What would be more is refused
+/// before memory is asked for.
+pub const MAX_TRIANGLES: usize = 50_000_000;
 
 /// A world at rest: geometry, materials, light, and a place to start from.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +50,10 @@ pub struct Start {
 
 impl Default for Start {
     fn default() -> Self {
-        Self { position: DVec3::ZERO, look: DVec3::NEG_Z }
+        Self {
+            position: DVec3::ZERO,
+            look: DVec3::NEG_Z,
+        }
     }
 }
 
@@ -194,5 +204,59 @@ impl Scene {
     /// Number of triangles in all meshes.
     pub fn triangle_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
+    }
+
+    /// The first promise of these types that the data breaks, as a sentence: array lengths and indices, not coordinates.
+    ///
+    /// Loaders keep the promises; this is the door for scenes made by hand, so that what lies behind it may index freely.
+    pub fn fault(&self) -> Option<String> {
+        let texture = |texture: &Texture| {
+            let bytes = u64::from(texture.width) * u64::from(texture.height) * 4;
+            (bytes != texture.rgba.len() as u64).then(|| {
+                let (name, width, height, given) = (&texture.name, texture.width, texture.height, texture.rgba.len());
+                format!("texture \"{name}\" of {width} × {height} pixels has {given} bytes instead of {bytes}")
+            })
+        };
+        let material = |material: &Material| {
+            let used = [material.base_colour_texture, material.emissive_texture];
+            let missing = used
+                .into_iter()
+                .flatten()
+                .find(|&index| index >= self.textures.len())?;
+            let (name, count) = (&material.name, self.textures.len());
+            Some(format!(
+                "material \"{name}\" uses texture {missing} of {count}"
+            ))
+        };
+        let mesh = |mesh: &Mesh| {
+            let (name, count) = (&mesh.name, mesh.positions.len());
+            if mesh.material >= self.materials.len() {
+                return Some(format!(
+                    "mesh \"{name}\" uses material {} of {}",
+                    mesh.material,
+                    self.materials.len()
+                ));
+            }
+            if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
+                return Some(format!(
+                    "mesh \"{name}\" has vertex arrays of different lengths"
+                ));
+            }
+            if !mesh.indices.len().is_multiple_of(3) {
+                return Some(format!(
+                    "mesh \"{name}\" has {} indices, not three per triangle",
+                    mesh.indices.len()
+                ));
+            }
+            let beyond = mesh
+                .indices
+                .iter()
+                .find(|&&index| index as usize >= count)?;
+            Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
+        };
+        let textures = self.textures.iter().find_map(texture);
+        textures
+            .or_else(|| self.materials.iter().find_map(material))
+            .or_else(|| self.meshes.iter().find_map(mesh))
     }
 }
