@@ -1,1 +1,3 @@
 //! physics
+
+pub mod photo_surface;
