@@ -27,6 +27,7 @@ pub mod celerity;
 pub mod composition;
 pub mod event;
 pub mod observer;
+pub mod photo_surface;
 
 pub use aberration::Aberration;
 pub use apparent::{Apparent, Source};
