@@ -1,3 +1,7 @@
 //! Rapidity, the program, as a library: the command line in `main.rs` only calls it, and so do the tests.
 
+pub mod film;
+pub mod gpu;
+pub mod renderers;
 pub mod scene;
+pub mod views;

@@ -34,11 +34,7 @@ pub fn mipmap(texture: &Texture) -> Vec<Level> {
     if texture.width == 0 || texture.height == 0 {
         return Vec::new();
     }
-    let mut levels = vec![Level {
-        width: texture.width,
-        height: texture.height,
-        rgba: texture.rgba.clone(),
-    }];
+    let mut levels = vec![Level { width: texture.width, height: texture.height, rgba: texture.rgba.clone() }];
     let mut picture = Linear::from_srgb(texture);
     while picture.width > 1 || picture.height > 1 {
         picture = picture.half();
@@ -63,42 +59,30 @@ impl Linear {
             .map(|pixel| {
                 let alpha = f32::from(pixel[3]) / 255.0;
                 let weight = alpha + TRANSPARENT_WEIGHT;
-                let [r, g, b] =
-                    [0, 1, 2].map(|channel| linear[usize::from(pixel[channel])] * weight);
+                let [r, g, b] = [0, 1, 2].map(|channel| linear[usize::from(pixel[channel])] * weight);
                 [r, g, b, alpha]
             })
             .collect();
-        Self {
-            width: texture.width as usize,
-            height: texture.height as usize,
-            pixels,
-        }
+        Self { width: texture.width as usize, height: texture.height as usize, pixels }
     }
 
     fn half(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let mut pixels = vec![[0.0; 4]; width * height];
-        pixels
-            .par_chunks_exact_mut(width)
-            .enumerate()
-            .for_each(|(y, row)| {
-                let rows = taps(y, self.height, height);
-                for (x, pixel) in row.iter_mut().enumerate() {
-                    for (source_x, weight_x) in taps(x, self.width, width) {
-                        for (source_y, weight_y) in rows {
-                            let source = self.pixels[source_y * self.width + source_x];
-                            for (sum, value) in pixel.iter_mut().zip(source) {
-                                *sum += weight_x * weight_y * value;
-                            }
+        pixels.par_chunks_exact_mut(width).enumerate().for_each(|(y, row)| {
+            let rows = taps(y, self.height, height);
+            for (x, pixel) in row.iter_mut().enumerate() {
+                for (source_x, weight_x) in taps(x, self.width, width) {
+                    for (source_y, weight_y) in rows {
+                        let source = self.pixels[source_y * self.width + source_x];
+                        for (sum, value) in pixel.iter_mut().zip(source) {
+                            *sum += weight_x * weight_y * value;
                         }
                     }
                 }
-            });
-        Self {
-            width,
-            height,
-            pixels,
-        }
+            }
+        });
+        Self { width, height, pixels }
     }
 
     fn to_srgb(&self) -> Level {
@@ -111,11 +95,7 @@ impl Linear {
                 [r, g, b, alpha].map(|value| (value * 255.0).round() as u8)
             })
             .collect();
-        Level {
-            width: self.width as u32,
-            height: self.height as u32,
-            rgba,
-        }
+        Level { width: self.width as u32, height: self.height as u32, rgba }
     }
 }
 
@@ -130,30 +110,18 @@ fn taps(index: usize, source: usize, target: usize) -> [(usize, f32); 3] {
         [(first, 0.5), (first + 1, 0.5), (first, 0.0)]
     } else {
         // 2m + 1 pixels onto m: the window slides by 1/m of a pixel from one target pixel to the next.
-        [
-            (first, share(target - index)),
-            (first + 1, share(target)),
-            (first + 2, share(index + 1)),
-        ]
+        [(first, share(target - index)), (first + 1, share(target)), (first + 2, share(index + 1))]
     }
 }
 
 /// IEC 61966-2-1.
 fn linear_from_srgb(value: f32) -> f32 {
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
-    }
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// IEC 61966-2-1, the inverse.
 fn srgb_from_linear(value: f32) -> f32 {
-    if value <= 0.003_130_8 {
-        value * 12.92
-    } else {
-        1.055 * value.powf(1.0 / 2.4) - 0.055
-    }
+    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]
@@ -168,14 +136,7 @@ mod tests {
 
     fn texture(width: u32, height: u32, rgba: Vec<u8>) -> Texture {
         assert_eq!(rgba.len(), (width * height * 4) as usize);
-        Texture {
-            name: String::new(),
-            width,
-            height,
-            rgba,
-            wrap: Default::default(),
-            nearest: false,
-        }
+        Texture { name: String::new(), width, height, rgba, wrap: Default::default(), nearest: false }
     }
 
     #[test]
@@ -183,14 +144,7 @@ mod tests {
         // 188 is the sRGB code of linear 0.5 (0.7354 × 255 = 187.5).
         let levels = mipmap(&texture(2, 1, vec![0, 0, 0, 255, 255, 255, 255, 255]));
         assert_eq!(levels.len(), 2);
-        assert_eq!(
-            levels[1],
-            Level {
-                width: 1,
-                height: 1,
-                rgba: vec![188, 188, 188, 255]
-            }
-        );
+        assert_eq!(levels[1], Level { width: 1, height: 1, rgba: vec![188, 188, 188, 255] });
     }
 
     #[test]
@@ -208,17 +162,11 @@ mod tests {
     #[test]
     fn sides_halve_downwards_until_one_pixel() {
         let levels = mipmap(&texture(13, 4, vec![90; 13 * 4 * 4]));
-        let sizes: Vec<_> = levels
-            .iter()
-            .map(|level| (level.width, level.height))
-            .collect();
+        let sizes: Vec<_> = levels.iter().map(|level| (level.width, level.height)).collect();
         assert_eq!(sizes, [(13, 4), (6, 2), (3, 1), (1, 1)]);
         for level in levels {
             assert_eq!(level.rgba.len(), (level.width * level.height * 4) as usize);
-            assert!(
-                level.rgba.iter().all(|&code| code == 90),
-                "a plain colour stays what it is"
-            );
+            assert!(level.rgba.iter().all(|&code| code == 90), "a plain colour stays what it is");
         }
     }
 
@@ -230,19 +178,13 @@ mod tests {
             for index in 0..target {
                 let of_target = taps(index, source, target);
                 let sum: f32 = of_target.iter().map(|tap| tap.1).sum();
-                assert!(
-                    (sum - 1.0).abs() < 1e-6,
-                    "source {source}, target pixel {index}: {sum}"
-                );
+                assert!((sum - 1.0).abs() < 1e-6, "source {source}, target pixel {index}: {sum}");
                 for (pixel, weight) in of_target {
                     weights[pixel] += f64::from(weight);
                 }
             }
             let even = target as f64 / source as f64;
-            assert!(
-                weights.iter().all(|weight| (weight - even).abs() < 1e-6),
-                "source {source}: {weights:?}"
-            );
+            assert!(weights.iter().all(|weight| (weight - even).abs() < 1e-6), "source {source}: {weights:?}");
         }
     }
 
@@ -251,26 +193,15 @@ mod tests {
         let (width, height) = (37, 21);
         // A fixed pattern without symmetry; opaque.
         let rgba: Vec<u8> = (0..width * height)
-            .flat_map(|i| {
-                [
-                    (i * 97 % 256) as u8,
-                    (i * 31 % 251) as u8,
-                    (i * i % 256) as u8,
-                    255,
-                ]
-            })
+            .flat_map(|i| [(i * 97 % 256) as u8, (i * 31 % 251) as u8, (i * i % 256) as u8, 255])
             .collect();
         let levels = mipmap(&texture(width, height, rgba.clone()));
         let last = levels.last().unwrap();
         for channel in 0..3 {
-            let light =
-                |pixel: &[u8]| f64::from(linear_from_srgb(f32::from(pixel[channel]) / 255.0));
+            let light = |pixel: &[u8]| f64::from(linear_from_srgb(f32::from(pixel[channel]) / 255.0));
             let mean = rgba.chunks(4).map(light).sum::<f64>() / f64::from(width * height);
             let expected = f64::from(srgb_from_linear(mean as f32)) * 255.0;
-            assert!(
-                (f64::from(last.rgba[channel]) - expected).abs() < HALF_A_CODE + 1e-3,
-                "channel {channel}"
-            );
+            assert!((f64::from(last.rgba[channel]) - expected).abs() < HALF_A_CODE + 1e-3, "channel {channel}");
         }
     }
 

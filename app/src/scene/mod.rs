@@ -7,6 +7,7 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod lattice;
 pub mod mipmap;
 pub mod refine;
 
@@ -50,10 +51,7 @@ pub struct Start {
 
 impl Default for Start {
     fn default() -> Self {
-        Self {
-            position: DVec3::ZERO,
-            look: DVec3::NEG_Z,
-        }
+        Self { position: DVec3::ZERO, look: DVec3::NEG_Z }
     }
 }
 
@@ -219,44 +217,25 @@ impl Scene {
         };
         let material = |material: &Material| {
             let used = [material.base_colour_texture, material.emissive_texture];
-            let missing = used
-                .into_iter()
-                .flatten()
-                .find(|&index| index >= self.textures.len())?;
+            let missing = used.into_iter().flatten().find(|&index| index >= self.textures.len())?;
             let (name, count) = (&material.name, self.textures.len());
-            Some(format!(
-                "material \"{name}\" uses texture {missing} of {count}"
-            ))
+            Some(format!("material \"{name}\" uses texture {missing} of {count}"))
         };
         let mesh = |mesh: &Mesh| {
             let (name, count) = (&mesh.name, mesh.positions.len());
             if mesh.material >= self.materials.len() {
-                return Some(format!(
-                    "mesh \"{name}\" uses material {} of {}",
-                    mesh.material,
-                    self.materials.len()
-                ));
+                return Some(format!("mesh \"{name}\" uses material {} of {}", mesh.material, self.materials.len()));
             }
             if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
-                return Some(format!(
-                    "mesh \"{name}\" has vertex arrays of different lengths"
-                ));
+                return Some(format!("mesh \"{name}\" has vertex arrays of different lengths"));
             }
             if !mesh.indices.len().is_multiple_of(3) {
-                return Some(format!(
-                    "mesh \"{name}\" has {} indices, not three per triangle",
-                    mesh.indices.len()
-                ));
+                return Some(format!("mesh \"{name}\" has {} indices, not three per triangle", mesh.indices.len()));
             }
-            let beyond = mesh
-                .indices
-                .iter()
-                .find(|&&index| index as usize >= count)?;
+            let beyond = mesh.indices.iter().find(|&&index| index as usize >= count)?;
             Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
         };
         let textures = self.textures.iter().find_map(texture);
-        textures
-            .or_else(|| self.materials.iter().find_map(material))
-            .or_else(|| self.meshes.iter().find_map(mesh))
+        textures.or_else(|| self.materials.iter().find_map(material)).or_else(|| self.meshes.iter().find_map(mesh))
     }
 }

@@ -84,20 +84,13 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         return Err(RefineError::Edge(edge));
     }
     if let Some(fault) = scene.fault() {
-        return Err(RefineError::Damaged {
-            scene: scene.name.clone(),
-            fault,
-        });
+        return Err(RefineError::Damaged { scene: scene.name.clone(), fault });
     }
     let rule = Rule::new(f64::from(edge));
     for mesh in &scene.meshes {
         let enough = STEPS_PER_EDGE * rule.coarsest_step(mesh);
         if edge < enough {
-            return Err(RefineError::TooFine {
-                mesh: mesh.name.clone(),
-                edge,
-                enough,
-            });
+            return Err(RefineError::TooFine { mesh: mesh.name.clone(), edge, enough });
         }
     }
     let limit = limit.max(scene.triangle_count());
@@ -106,24 +99,14 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         let enough = round_lengths_above(edge)
             .find(|&length| Rule::new(f64::from(length)).count(scene, limit).is_some())
             .expect("a length above all edges splits none");
-        return Err(RefineError::TooMany {
-            scene: scene.name.clone(),
-            edge,
-            triangles,
-            limit,
-            enough,
-        });
+        return Err(RefineError::TooMany { scene: scene.name.clone(), edge, triangles, limit, enough });
     }
     Ok(Scene {
         name: scene.name.clone(),
         origin: scene.origin,
         textures: scene.textures.clone(),
         materials: scene.materials.clone(),
-        meshes: scene
-            .meshes
-            .par_iter()
-            .map(|mesh| refine_mesh(mesh, rule))
-            .collect(),
+        meshes: scene.meshes.par_iter().map(|mesh| refine_mesh(mesh, rule)).collect(),
         light: scene.light,
         start: scene.start,
         circuit: scene.circuit.clone(),
@@ -140,10 +123,7 @@ struct Rule {
 
 impl Rule {
     fn new(edge: f64) -> Self {
-        Self {
-            edge,
-            squared: edge * edge,
-        }
+        Self { edge, squared: edge * edge }
     }
 
     /// The same from either end, as differences and sums of two do not depend on their order.
@@ -192,42 +172,26 @@ impl Rule {
         let largest = 3.0_f64.sqrt() / 4.0 * self.squared;
         let bound = |triangle| {
             let share = area(triangle) / largest;
-            if share.is_finite() {
-                share.max(1.0)
-            } else {
-                1.0
-            }
+            if share.is_finite() { share.max(1.0) } else { 1.0 }
         };
-        scene
-            .meshes
-            .iter()
-            .flat_map(triangles)
-            .map(bound)
-            .sum::<f64>() as u64
+        scene.meshes.iter().flat_map(triangles).map(bound).sum::<f64>() as u64
     }
 
     /// Distance to the next f32 at the largest coordinate of a triangle that is to be split; 0 if there is none.
     fn coarsest_step(self, mesh: &Mesh) -> f32 {
-        let split = triangles(mesh)
-            .filter(|&triangle| self.midpoints(triangle).iter().any(Option::is_some));
+        let split = triangles(mesh).filter(|&triangle| self.midpoints(triangle).iter().any(Option::is_some));
         let largest = split
             .flatten()
             .filter(|corner| corner.is_finite())
             .map(|corner| corner.abs().max_element())
             .fold(0.0, f32::max);
-        if f64::from(largest) < self.edge {
-            0.0
-        } else {
-            largest.next_up() - largest
-        }
+        if f64::from(largest) < self.edge { 0.0 } else { largest.next_up() - largest }
     }
 }
 
 /// Each of a mesh's triangles as positions.
 fn triangles(mesh: &Mesh) -> impl Iterator<Item = [Vec3; 3]> {
-    mesh.indices
-        .chunks_exact(3)
-        .map(|corners| [0, 1, 2].map(|corner| mesh.positions[corners[corner] as usize]))
+    mesh.indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|corner| mesh.positions[corners[corner] as usize]))
 }
 
 fn distance_squared(a: Vec3, b: Vec3) -> f64 {
@@ -278,19 +242,14 @@ fn divide<V: Copy>(
         [Some(p), Some(q), None] => thirds(a, p, b, q, c),
         [None, Some(p), Some(q)] => thirds(b, p, c, q, a),
         [Some(q), None, Some(p)] => thirds(c, p, a, q, b),
-        [Some(p), Some(q), Some(r)] => [[a, p, r], [p, b, q], [r, q, c], [p, q, r]]
-            .into_iter()
-            .for_each(child),
+        [Some(p), Some(q), Some(r)] => [[a, p, r], [p, b, q], [r, q, c], [p, q, r]].into_iter().for_each(child),
         _ => {}
     }
 }
 
 /// One mesh, refined triangle by triangle, so that neighbours in space stay neighbours in memory.
 fn refine_mesh(mesh: &Mesh, rule: Rule) -> Mesh {
-    let mut refined = Mesh {
-        indices: Vec::new(),
-        ..mesh.clone()
-    };
+    let mut refined = Mesh { indices: Vec::new(), ..mesh.clone() };
     let mut midpoint_of_edge = HashMap::new();
     let mut stack = Vec::new();
     for corners in mesh.indices.chunks_exact(3) {
@@ -300,9 +259,7 @@ fn refine_mesh(mesh: &Mesh, rule: Rule) -> Mesh {
             let midpoints = [(a, b), (b, c), (c, a)].map(|(a, b)| {
                 let ends = [a, b].map(|end| refined.positions[end as usize]);
                 rule.splits(ends[0], ends[1]).then(|| {
-                    *midpoint_of_edge
-                        .entry((a.min(b), a.max(b)))
-                        .or_insert_with(|| add_midpoint(&mut refined, a, b))
+                    *midpoint_of_edge.entry((a.min(b), a.max(b))).or_insert_with(|| add_midpoint(&mut refined, a, b))
                 })
             });
             if midpoints == [None; 3] {
@@ -323,17 +280,12 @@ fn refine_mesh(mesh: &Mesh, rule: Rule) -> Mesh {
 
 /// Adds the vertex half way between two others.
 fn add_midpoint(mesh: &mut Mesh, a: u32, b: u32) -> u32 {
-    let middle = u32::try_from(mesh.positions.len())
-        .expect("MAX_TRIANGLES keeps vertices countable in 32 bits");
+    let middle = u32::try_from(mesh.positions.len()).expect("MAX_TRIANGLES keeps vertices countable in 32 bits");
     let [a, b] = [a as usize, b as usize];
-    mesh.positions
-        .push(midpoint(mesh.positions[a], mesh.positions[b]));
-    mesh.normals
-        .push((mesh.normals[a] + mesh.normals[b]).normalize_or(mesh.normals[a]));
+    mesh.positions.push(midpoint(mesh.positions[a], mesh.positions[b]));
+    mesh.normals.push((mesh.normals[a] + mesh.normals[b]).normalize_or(mesh.normals[a]));
     mesh.uvs.push(mesh.uvs[a].midpoint(mesh.uvs[b]));
-    mesh.colours.push(std::array::from_fn(|channel| {
-        0.5 * (mesh.colours[a][channel] + mesh.colours[b][channel])
-    }));
+    mesh.colours.push(std::array::from_fn(|channel| 0.5 * (mesh.colours[a][channel] + mesh.colours[b][channel])));
     middle
 }
 
@@ -341,13 +293,7 @@ fn add_midpoint(mesh: &mut Mesh, a: u32, b: u32) -> u32 {
 fn round_lengths_above(length: f32) -> impl Iterator<Item = f32> {
     let exponent = length.log10().floor() as i32;
     (exponent..)
-        .flat_map(|exponent| {
-            [1, 2, 5].map(|digit| {
-                format!("{digit}e{exponent}")
-                    .parse()
-                    .expect("a decimal number")
-            })
-        })
+        .flat_map(|exponent| [1, 2, 5].map(|digit| format!("{digit}e{exponent}").parse().expect("a decimal number")))
         .filter(move |&round| round > length)
 }
 
@@ -391,48 +337,26 @@ mod tests {
     }
 
     fn scene(meshes: Vec<Mesh>) -> Scene {
-        Scene {
-            name: "test".into(),
-            materials: vec![Material::default()],
-            meshes,
-            ..Scene::default()
-        }
+        Scene { name: "test".into(), materials: vec![Material::default()], meshes, ..Scene::default() }
     }
 
     /// A closed box with shared corners.
     fn cuboid(size: Vec3) -> Mesh {
-        let corners =
-            (0..8).map(|i| size * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32));
-        let quads = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        let indices = quads
-            .iter()
-            .flat_map(|q| [q[0], q[1], q[2], q[0], q[2], q[3]])
-            .collect();
+        let corners = (0..8).map(|i| size * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32));
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let indices = quads.iter().flat_map(|q| [q[0], q[1], q[2], q[0], q[2], q[3]]).collect();
         mesh(corners.collect(), indices)
     }
 
     /// The box as twelve meshes that know nothing of each other.
     fn exploded(cuboid: &Mesh) -> Vec<Mesh> {
-        triangles(cuboid)
-            .map(|triangle| mesh(triangle.to_vec(), vec![0, 1, 2]))
-            .collect()
+        triangles(cuboid).map(|triangle| mesh(triangle.to_vec(), vec![0, 1, 2])).collect()
     }
 
     fn longest_edge(scene: &Scene) -> f64 {
         let edges = |[a, b, c]: [Vec3; 3]| [(a, b), (b, c), (c, a)];
-        let lengths = scene
-            .meshes
-            .iter()
-            .flat_map(triangles)
-            .flat_map(edges)
-            .map(|(a, b)| distance_squared(a, b).sqrt());
+        let lengths =
+            scene.meshes.iter().flat_map(triangles).flat_map(edges).map(|(a, b)| distance_squared(a, b).sqrt());
         lengths.fold(0.0, f64::max)
     }
 
@@ -456,20 +380,13 @@ mod tests {
         let edges = directed_edges(scene);
         for ([from, to], count) in &edges {
             assert_eq!(*count, 1);
-            assert_eq!(
-                edges.get(&[*to, *from]),
-                Some(&1),
-                "a crack at {from:?}–{to:?}"
-            );
+            assert_eq!(edges.get(&[*to, *from]), Some(&1), "a crack at {from:?}–{to:?}");
         }
     }
 
     #[test]
     fn one_long_edge_halves_the_triangle() {
-        let triangle = mesh(
-            vec![Vec3::ZERO, Vec3::X * 4.0, Vec3::new(2.0, 1.0, 0.0)],
-            vec![0, 1, 2],
-        );
+        let triangle = mesh(vec![Vec3::ZERO, Vec3::X * 4.0, Vec3::new(2.0, 1.0, 0.0)], vec![0, 1, 2]);
         let refined = refine(&scene(vec![triangle]), 3.0).unwrap();
         assert_eq!(refined.meshes[0].positions[3], Vec3::X * 2.0);
         assert_eq!(refined.meshes[0].indices.len(), 6);
@@ -477,10 +394,7 @@ mod tests {
 
     #[test]
     fn three_long_edges_make_four_triangles() {
-        let triangle = mesh(
-            vec![Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 2.0],
-            vec![0, 1, 2],
-        );
+        let triangle = mesh(vec![Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 2.0], vec![0, 1, 2]);
         let refined = refine(&scene(vec![triangle]), 1.5).unwrap();
         assert_eq!(refined.triangle_count(), 4);
         assert_eq!(refined.vertex_count(), 6, "midpoints are shared");
@@ -498,21 +412,13 @@ mod tests {
     fn no_edge_is_longer_and_area_is_conserved() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         for edge in [0.11_f32, 0.3, 0.77, 2.0] {
-            let positions: Vec<Vec3> = (0..30)
-                .map(|_| Vec3::from_array(random.random::<[f32; 3]>()) * 9.0)
-                .collect();
+            let positions: Vec<Vec3> = (0..30).map(|_| Vec3::from_array(random.random::<[f32; 3]>()) * 9.0).collect();
             let before = scene(vec![mesh(positions, (0..30).collect())]);
             let after = refine(&before, edge).unwrap();
             assert!(longest_edge(&after) <= f64::from(edge));
             let change = total_area(&after) / total_area(&before) - 1.0;
-            assert!(
-                change.abs() < AREA_TOLERANCE,
-                "edge {edge}: area changed by {change}"
-            );
-            assert_eq!(
-                Rule::new(f64::from(edge)).count(&before, MAX_TRIANGLES),
-                Some(after.triangle_count())
-            );
+            assert!(change.abs() < AREA_TOLERANCE, "edge {edge}: area changed by {change}");
+            assert_eq!(Rule::new(f64::from(edge)).count(&before, MAX_TRIANGLES), Some(after.triangle_count()));
         }
     }
 
@@ -538,10 +444,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(2);
         for _ in 0..1000 {
             let [a, b] = [(); 2].map(|()| Vec3::from_array(random.random::<[f32; 3]>()) * 1e3);
-            assert_eq!(
-                midpoint(a, b).to_array().map(f32::to_bits),
-                midpoint(b, a).to_array().map(f32::to_bits)
-            );
+            assert_eq!(midpoint(a, b).to_array().map(f32::to_bits), midpoint(b, a).to_array().map(f32::to_bits));
             let rule = Rule::new(500.0);
             assert_eq!(rule.splits(a, b), rule.splits(b, a));
         }
@@ -564,12 +467,7 @@ mod tests {
         let mut triangle = mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Z], vec![0, 1, 2]);
         triangle.normals = vec![Vec3::X, Vec3::Y, Vec3::NEG_X];
         let refined = refine(&scene(vec![triangle]), 0.1).unwrap();
-        assert!(
-            refined.meshes[0]
-                .normals
-                .iter()
-                .all(|normal| (normal.length() - 1.0).abs() < 1e-5)
-        );
+        assert!(refined.meshes[0].normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5));
     }
 
     #[test]
@@ -583,14 +481,7 @@ mod tests {
 
     #[test]
     fn triangles_without_area_or_numbers_come_to_an_end() {
-        let positions = vec![
-            Vec3::ZERO,
-            Vec3::X * 4.0,
-            Vec3::X * 8.0,
-            Vec3::NAN,
-            Vec3::INFINITY,
-            Vec3::Y,
-        ];
+        let positions = vec![Vec3::ZERO, Vec3::X * 4.0, Vec3::X * 8.0, Vec3::NAN, Vec3::INFINITY, Vec3::Y];
         let indices = vec![0, 1, 2, 0, 0, 2, 1, 1, 1, 0, 2, 3, 0, 4, 5, 3, 4, 3];
         let refined = refine(&scene(vec![mesh(positions, indices)]), 1.0).unwrap();
         for edge in triangles(&refined.meshes[0]).flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]) {
@@ -603,16 +494,9 @@ mod tests {
     fn thread_count_does_not_change_a_bit() {
         let before = scene(exploded(&cuboid(Vec3::new(3.1, 0.7, 11.3))));
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let refined = pool.install(|| refine(&before, 0.4).unwrap());
-            refined
-                .meshes
-                .into_iter()
-                .map(|mesh| (mesh.positions, mesh.indices))
-                .collect::<Vec<_>>()
+            refined.meshes.into_iter().map(|mesh| (mesh.positions, mesh.indices)).collect::<Vec<_>>()
         };
         let one = with(1);
         assert_eq!(one, with(2));
@@ -623,12 +507,7 @@ mod tests {
     fn too_many_triangles_are_refused_with_a_length_that_works() {
         let before = scene(vec![cuboid(Vec3::splat(10.0))]);
         let error = refine_within(&before, 0.01, 1000).unwrap_err();
-        let RefineError::TooMany {
-            triangles, enough, ..
-        } = error
-        else {
-            panic!("{error}")
-        };
+        let RefineError::TooMany { triangles, enough, .. } = error else { panic!("{error}") };
         assert!(triangles > 1000);
         let refined = refine_within(&before, enough, 1000).unwrap();
         assert!(refined.triangle_count() <= 1000);
@@ -636,37 +515,22 @@ mod tests {
 
     #[test]
     fn a_whole_town_at_a_micrometre_is_refused_at_once() {
-        let error = refine(&scene(vec![cuboid(Vec3::splat(1.0))]), 1e-5)
-            .unwrap_err()
-            .to_string();
+        let error = refine(&scene(vec![cuboid(Vec3::splat(1.0))]), 1e-5).unwrap_err().to_string();
         assert!(error.contains("--edge 0.001 or more"), "{error}");
     }
 
     #[test]
     fn edges_below_the_resolution_of_f32_are_refused() {
-        let far = mesh(
-            vec![
-                Vec3::X * 1e6,
-                Vec3::X * 1e6 + Vec3::Y,
-                Vec3::X * 1e6 + Vec3::Z,
-            ],
-            vec![0, 1, 2],
-        );
+        let far = mesh(vec![Vec3::X * 1e6, Vec3::X * 1e6 + Vec3::Y, Vec3::X * 1e6 + Vec3::Z], vec![0, 1, 2]);
         let error = refine(&scene(vec![far.clone()]), 0.5).unwrap_err();
-        assert!(
-            matches!(error, RefineError::TooFine { enough, .. } if enough == 1.0),
-            "{error}"
-        );
+        assert!(matches!(error, RefineError::TooFine { enough, .. } if enough == 1.0), "{error}");
         assert!(refine(&scene(vec![far]), 1.0).is_ok());
     }
 
     #[test]
     fn lengths_that_are_none_are_refused() {
         for edge in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert!(matches!(
-                refine(&scene(Vec::new()), edge),
-                Err(RefineError::Edge(_))
-            ));
+            assert!(matches!(refine(&scene(Vec::new()), edge), Err(RefineError::Edge(_))));
         }
     }
 

@@ -49,20 +49,13 @@ impl<L: Lanes> Offset<L> {
     fn new(plan: &Plan) -> Self {
         let high = plan.offset.as_vec3();
         let low = (plan.offset - high.as_dvec3()).as_vec3();
-        Self {
-            high: high.to_array().map(L::splat),
-            low: low.to_array().map(L::splat),
-        }
+        Self { high: high.to_array().map(L::splat), low: low.to_array().map(L::splat) }
     }
 
     /// d = (p − o_high) − o_low.
     #[inline(always)]
     fn displacement(&self, [x, y, z]: [L; 3]) -> [L; 3] {
-        [
-            x - self.high[0] - self.low[0],
-            y - self.high[1] - self.low[1],
-            z - self.high[2] - self.low[2],
-        ]
+        [x - self.high[0] - self.low[0], y - self.high[1] - self.low[1], z - self.high[2] - self.low[2]]
     }
 }
 
@@ -79,11 +72,7 @@ impl<L: Lanes> Formula<L> for AtRest<L> {
     fn seen(&self, vertex: [L; 3]) -> Seen<L> {
         let position = self.0.displacement(vertex);
         let size = position[0].abs() + position[1].abs() + position[2].abs();
-        Seen {
-            position,
-            doppler: L::splat(1.0),
-            finite: size.below(L::splat(LARGEST)),
-        }
+        Seen { position, doppler: L::splat(1.0), finite: size.below(L::splat(LARGEST)) }
     }
 }
 
@@ -130,11 +119,7 @@ impl<L: Lanes> Boost<L> {
         let apparent_distance = advanced + retarded;
         let [ex, ey, ez] = self.direction;
         Seen {
-            position: [
-                lengthened.mul_add(ex, ax),
-                lengthened.mul_add(ey, ay),
-                lengthened.mul_add(ez, az),
-            ],
+            position: [lengthened.mul_add(ex, ax), lengthened.mul_add(ey, ay), lengthened.mul_add(ez, az)],
             doppler: apparent_distance * (big * inverse),
             finite: (apparent_distance + product).below(L::splat(LARGEST)),
         }
@@ -150,10 +135,7 @@ pub(super) struct LightCone<L> {
 impl<L: Lanes> Formula<L> for LightCone<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
-        Self {
-            offset: Offset::new(plan),
-            boost: Boost::new(plan),
-        }
+        Self { offset: Offset::new(plan), boost: Boost::new(plan) }
     }
 
     #[inline(always)]
@@ -162,11 +144,7 @@ impl<L: Lanes> Formula<L> for LightCone<L> {
         let along = self.boost.along(displacement);
         let [x, y, z] = displacement;
         let [ex, ey, ez] = self.boost.direction;
-        let across = [
-            along.negated_mul_add(ex, x),
-            along.negated_mul_add(ey, y),
-            along.negated_mul_add(ez, z),
-        ];
+        let across = [along.negated_mul_add(ex, x), along.negated_mul_add(ey, y), along.negated_mul_add(ez, z)];
         self.boost.seen(along, across)
     }
 }
@@ -202,19 +180,11 @@ impl<L: Lanes> Formula<L> for ExactAstern<L> {
 /// a × b in f64, rounded to f32 at the end.
 #[inline(always)]
 fn cross_wide<L: Lanes>([ax, ay, az]: [L::Wide; 3], [bx, by, bz]: [L::Wide; 3]) -> [L; 3] {
-    [
-        L::narrow(ay.mul_sub(bz, az * by)),
-        L::narrow(az.mul_sub(bx, ax * bz)),
-        L::narrow(ax.mul_sub(by, ay * bx)),
-    ]
+    [L::narrow(ay.mul_sub(bz, az * by)), L::narrow(az.mul_sub(bx, ax * bz)), L::narrow(ax.mul_sub(by, ay * bx))]
 }
 
 /// a × b.
 #[inline(always)]
 fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
-    [
-        az.negated_mul_add(by, ay * bz),
-        ax.negated_mul_add(bz, az * bx),
-        ay.negated_mul_add(bx, ax * by),
-    ]
+    [az.negated_mul_add(by, ay * bz), ax.negated_mul_add(bz, az * bx), ay.negated_mul_add(bx, ax * by)]
 }

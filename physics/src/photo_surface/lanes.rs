@@ -86,10 +86,7 @@ impl<T: Copy> Portable<T> {
 
     #[inline(always)]
     fn bits(self, f: impl Fn(T) -> bool) -> u32 {
-        self.0
-            .iter()
-            .rev()
-            .fold(0, |bits, &value| bits << 1 | u32::from(f(value)))
+        self.0.iter().rev().fold(0, |bits, &value| bits << 1 | u32::from(f(value)))
     }
 }
 
@@ -139,9 +136,7 @@ impl Lanes for Portable<f32> {
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         if FUSED {
-            Self(std::array::from_fn(|lane| {
-                self.0[lane].mul_add(factor.0[lane], term.0[lane])
-            }))
+            Self(std::array::from_fn(|lane| self.0[lane].mul_add(factor.0[lane], term.0[lane])))
         } else {
             self * factor + term
         }
@@ -164,38 +159,22 @@ impl Lanes for Portable<f32> {
 
     #[inline(always)]
     fn or_at_least(self, least: Self) -> Self {
-        self.zip(
-            least,
-            |value, least| if value > least { value } else { least },
-        )
+        self.zip(least, |value, least| if value > least { value } else { least })
     }
 
     #[inline(always)]
     fn below(self, limit: Self) -> u32 {
-        self.zip(limit, |value, limit| value < limit)
-            .bits(|below| below)
+        self.zip(limit, |value, limit| value < limit).bits(|below| below)
     }
 
     #[inline(always)]
     fn if_negative(self, negative: Self, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| {
-            if self.0[lane] < 0.0 {
-                negative.0[lane]
-            } else {
-                other.0[lane]
-            }
-        }))
+        Self(std::array::from_fn(|lane| if self.0[lane] < 0.0 { negative.0[lane] } else { other.0[lane] }))
     }
 
     #[inline(always)]
     fn keep(self, bits: u32) -> Self {
-        Self(std::array::from_fn(|lane| {
-            if bits >> lane & 1 == 1 {
-                self.0[lane]
-            } else {
-                0.0
-            }
-        }))
+        Self(std::array::from_fn(|lane| if bits >> lane & 1 == 1 { self.0[lane] } else { 0.0 }))
     }
 
     #[inline(always)]
@@ -218,9 +197,7 @@ impl WideLanes for Portable<f64> {
     #[inline(always)]
     fn mul_sub(self, factor: Self, term: Self) -> Self {
         if FUSED {
-            Self(std::array::from_fn(|lane| {
-                self.0[lane].mul_add(factor.0[lane], -term.0[lane])
-            }))
+            Self(std::array::from_fn(|lane| self.0[lane].mul_add(factor.0[lane], -term.0[lane])))
         } else {
             self * factor - term
         }
