@@ -1,5 +1,6 @@
 //! Rapidity, the program, as a library: the command line in `main.rs` only calls it, and so do the tests.
 
+pub mod command;
 pub mod film;
 pub mod gpu;
 pub mod renderers;
