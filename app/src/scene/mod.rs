@@ -10,6 +10,7 @@
 pub mod lattice;
 pub mod mipmap;
 pub mod refine;
+pub mod source;
 
 use glam::{DVec3, Vec2, Vec3};
 
