@@ -7,6 +7,7 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod gltf;
 pub mod lattice;
 pub mod mipmap;
 pub mod refine;
