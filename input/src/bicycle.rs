@@ -94,14 +94,35 @@ impl Line {
 
     fn parse_pulses(text: &str) -> Result<Self, LineError> {
         let fields: Vec<&str> = text.split(',').collect();
-        let [_, sequence, now, wheel, wheel_last, crank, crank_last, steer, brake] = fields[..] else {
-            return Err(LineError::Fields { line: text.to_owned(), found: fields.len(), expected: "9" });
+        let [
+            _,
+            sequence,
+            now,
+            wheel,
+            wheel_last,
+            crank,
+            crank_last,
+            steer,
+            brake,
+        ] = fields[..]
+        else {
+            return Err(LineError::Fields {
+                line: text.to_owned(),
+                found: fields.len(),
+                expected: "9",
+            });
         };
         whole("seq", sequence)?;
         Ok(Self::Pulses {
             now_us: whole("t_us", now)?,
-            wheel: Count { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
-            crank: Count { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
+            wheel: Count {
+                pulses: whole("wheel_count", wheel)?,
+                last_us: whole("wheel_t_us", wheel_last)?,
+            },
+            crank: Count {
+                pulses: whole("crank_count", crank)?,
+                last_us: whole("crank_t_us", crank_last)?,
+            },
             steer: finite("steer_raw", steer)?,
             brake: finite("brake_raw", brake)?,
         })
@@ -119,7 +140,11 @@ fn whole(field: &'static str, text: &str) -> Result<u32, LineError> {
 fn finite(field: &'static str, text: &str) -> Result<f64, LineError> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(LineError::Field { field, text: text.to_owned(), expected: "a number" }),
+        _ => Err(LineError::Field {
+            field,
+            text: text.to_owned(),
+            expected: "a number",
+        }),
     }
 }
 
@@ -132,7 +157,10 @@ struct Counter {
 
 impl Counter {
     fn new(shortest_interval_s: f64, stop_after_s: f64) -> Self {
-        Self { rate: PulseRate::new(shortest_interval_s, stop_after_s), last: None }
+        Self {
+            rate: PulseRate::new(shortest_interval_s, stop_after_s),
+            last: None,
+        }
     }
 
     fn reset(&mut self) {
@@ -163,7 +191,10 @@ impl Counter {
         let interval_s = f64::from(count.last_us.wrapping_sub(last.last_us)) * 1e-6;
         if !self.rate.pulses(pulse_at, pulses, interval_s) {
             // A bounce counts, but the next interval starts at the pulse before it.
-            self.last = Some(Count { last_us: last.last_us, ..count });
+            self.last = Some(Count {
+                last_us: last.last_us,
+                ..count
+            });
         }
     }
 }
@@ -193,8 +224,14 @@ pub struct Bicycle {
 impl Bicycle {
     /// A decoder that has seen nothing yet.
     pub fn new(config: BicycleConfig) -> Self {
-        let wheel = Counter::new(config.metres_per_pulse() / config.fastest_m_s, config.stop_after_s);
-        let crank = Counter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), config.stop_after_s);
+        let wheel = Counter::new(
+            config.metres_per_pulse() / config.fastest_m_s,
+            config.stop_after_s,
+        );
+        let crank = Counter::new(
+            1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn),
+            config.stop_after_s,
+        );
         Self {
             config,
             lines: Lines::default(),
@@ -213,8 +250,12 @@ impl Bicycle {
         match self.speed {
             Speed::Unknown => None,
             Speed::Pulses => Some(self.wheel.rate.rate_hz(at) * self.config.metres_per_pulse()),
-            Speed::Bare { metres_per_second, at: said_at } => {
-                let fading_s = (self.config.stop_after_s - BARE_SPEED_HOLDS_S).max(f64::MIN_POSITIVE);
+            Speed::Bare {
+                metres_per_second,
+                at: said_at,
+            } => {
+                let fading_s =
+                    (self.config.stop_after_s - BARE_SPEED_HOLDS_S).max(f64::MIN_POSITIVE);
                 let left_s = self.config.stop_after_s - seconds_between(said_at, at);
                 Some(metres_per_second * (left_s / fading_s).clamp(0.0, 1.0))
             }
@@ -223,7 +264,8 @@ impl Bicycle {
 
     /// Turns of the crank a second; `None` until a crank has been seen to turn.
     pub fn cadence_hz(&self, at: Nanos) -> Option<f64> {
-        self.has_crank.then(|| self.crank.rate.rate_hz(at) / self.config.pulses_per_crank_turn)
+        self.has_crank
+            .then(|| self.crank.rate.rate_hz(at) / self.config.pulses_per_crank_turn)
     }
 
     /// Angle of the handlebar, radians, positive to the left.
@@ -239,7 +281,13 @@ impl Bicycle {
     /// Takes a line that arrived at `at`.
     fn line(&mut self, at: Nanos, line: Line) -> Result<(), LineError> {
         match line {
-            Line::Pulses { now_us, wheel, crank, steer, brake } => {
+            Line::Pulses {
+                now_us,
+                wheel,
+                crank,
+                steer,
+                brake,
+            } => {
                 self.wheel.update(at, now_us, wheel);
                 self.crank.update(at, now_us, crank);
                 self.has_crank |= self.crank.rate.last_pulse().is_some();
@@ -247,18 +295,23 @@ impl Bicycle {
                 let config = &self.config;
                 self.turn_handlebar((steer - config.steer_straight) * config.steer_rad_per_unit);
                 let config = &self.config;
-                self.pull_brake((brake - config.brake_released) / (config.brake_full - config.brake_released));
+                self.pull_brake(
+                    (brake - config.brake_released) / (config.brake_full - config.brake_released),
+                );
             }
-            Line::Interval { interval_us, age_us, steer, brake } => {
+            Line::Interval {
+                interval_us,
+                age_us,
+                steer,
+                brake,
+            } => {
                 let pulse_at = at.saturating_sub(u64::from(age_us) * 1000);
                 let interval_s = f64::from(interval_us) * 1e-6;
                 // The line repeats the last pulse until there is a new one, which comes a whole interval later; lines
                 // are late by much less.
-                let is_new = self
-                    .wheel
-                    .rate
-                    .last_pulse()
-                    .is_none_or(|last| interval_us > 0 && seconds_between(last, pulse_at) > interval_s / 2.0);
+                let is_new = self.wheel.rate.last_pulse().is_none_or(|last| {
+                    interval_us > 0 && seconds_between(last, pulse_at) > interval_s / 2.0
+                });
                 if is_new {
                     self.wheel.rate.pulses(pulse_at, 1, interval_s);
                 }
@@ -269,7 +322,9 @@ impl Bicycle {
             Line::Bare(number) => {
                 let metres_per_second = match self.config.bare_number {
                     BareNumber::KilometresPerHour => number / 3.6,
-                    BareNumber::WheelTurnsPerMinute => number / 60.0 * self.config.wheel_circumference_m,
+                    BareNumber::WheelTurnsPerMinute => {
+                        number / 60.0 * self.config.wheel_circumference_m
+                    }
                 };
                 if !(0.0..=self.config.fastest_m_s).contains(&metres_per_second) {
                     return Err(LineError::Field {
@@ -278,7 +333,10 @@ impl Bicycle {
                         expected: "a speed from 0 to the fastest that can be ridden",
                     });
                 }
-                self.speed = Speed::Bare { metres_per_second, at };
+                self.speed = Speed::Bare {
+                    metres_per_second,
+                    at,
+                };
             }
         }
         Ok(())
@@ -308,7 +366,9 @@ impl Decoder for Bicycle {
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
         let mut lines = std::mem::take(&mut self.lines);
         lines.push(bytes, |line| {
-            let outcome = line.and_then(Line::parse).and_then(|line| self.line(at, line));
+            let outcome = line
+                .and_then(Line::parse)
+                .and_then(|line| self.line(at, line));
             if let Err(error) = outcome {
                 self.faults.count(error.to_string());
             }
