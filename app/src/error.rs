@@ -3,6 +3,7 @@
 
 use crate::film::FilmError;
 use crate::gpu::GpuError;
+use crate::scene::gltf::GltfError;
 use crate::scene::refine::RefineError;
 use physics::photo_surface::PhotoSurfaceError;
 use std::path::PathBuf;
@@ -17,6 +18,9 @@ pub enum Error {
     /// No film.
     #[error(transparent)]
     Film(#[from] FilmError),
+    /// No scene.
+    #[error(transparent)]
+    Scene(#[from] GltfError),
     /// Too fine.
     #[error(transparent)]
     Refine(#[from] RefineError),

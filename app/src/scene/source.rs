@@ -1,8 +1,9 @@
 //! Where a scene comes from: built in, or a file; refined so that straight edges may bend.
 
-use super::{Scene, lattice::Lattice, refine};
+use super::gltf::{self, GltfError, Stage};
+use super::refine::{RefineError, refine};
+use super::{Scene, lattice::Lattice};
 use crate::command::SceneChoice;
-use crate::error::Error;
 use crate::progress;
 
 /// The seed of the town that everybody sees.
@@ -12,19 +13,42 @@ pub const TOWN_SEED: u64 = 1;
 ///
 /// # Errors
 /// What is wrong with the file, and where.
-pub fn load(choice: &SceneChoice) -> Result<Scene, Error> {
+pub fn load(choice: &SceneChoice) -> Result<Scene, GltfError> {
     match choice {
-        _ => Ok(Lattice::default().build()),
+        SceneChoice::Town => {
+            let spinner = progress::spinner("building the old town");
+            let scene = Lattice::default().build();
+            spinner.finish_and_clear();
+            Ok(scene)
+        }
+        SceneChoice::Lattice => Ok(Lattice::default().build()),
+        SceneChoice::File(path) => {
+            let bar = progress::bar(path.display().to_string(), 0);
+            let scene = gltf::load(path, |progress| {
+                let stage = match progress.stage {
+                    Stage::Pictures => "pictures",
+                    Stage::Meshes => "meshes",
+                };
+                bar.set_message(format!("{}: {stage}", path.display()));
+                bar.set_length(progress.total as u64);
+                bar.set_position(progress.done as u64);
+            })?;
+            bar.finish_and_clear();
+            for notice in &scene.notices {
+                eprintln!("{}: {notice}", path.display());
+            }
+            Ok(scene)
+        }
     }
 }
 
 /// Cuts triangles until no edge is longer than `edge` metres.
 ///
 /// # Errors
-/// [`refine::RefineError`] if that would make too many.
-pub fn refined(scene: &Scene, edge: f64) -> Result<Scene, Error> {
+/// [`RefineError`] if that would make too many.
+pub fn refined(scene: &Scene, edge: f64) -> Result<Scene, RefineError> {
     let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
-    let refined = refine::refine(scene, edge as f32)?;
+    let refined = refine(scene, edge as f32)?;
     spinner.finish_and_clear();
     Ok(refined)
 }
