@@ -15,6 +15,10 @@ use super::vertices::Sphere;
 /// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 9.6°.
 const LEAST_DOPPLER: f64 = 1.0 / 6.0;
 
+/// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
+pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 =
+    (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
+
 /// Where the light is received: a point of the world and the velocity of whoever looks from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
@@ -53,7 +57,7 @@ pub(super) enum Form {
     AtRest,
     /// The light-cone form in f32.
     LightCone,
-    /// The light-cone form with the part across the motion taken in f64.
+    /// The light-cone form with the part across the motion in f64 for vertices in the rear cone.
     ExactAstern,
 }
 

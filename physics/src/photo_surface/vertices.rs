@@ -14,7 +14,7 @@ use super::PhotoSurfaceError;
 pub const CHUNK: usize = 8192;
 
 /// Vertices in a line.
-pub(super) const LINE: usize = 16;
+pub(super) const LINE: usize = 32;
 
 /// Sixteen values of one coordinate, aligned to a cache line.
 #[derive(Clone, Copy, Debug)]
