@@ -15,6 +15,10 @@ use super::vertices::Sphere;
 /// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 9.6°.
 const LEAST_DOPPLER: f64 = 1.0 / 6.0;
 
+/// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
+pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 =
+    (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
+
 /// Where the light is received: a point of the world and the velocity of whoever looks from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
@@ -53,7 +57,7 @@ pub(super) enum Form {
     AtRest,
     /// The light-cone form in f32.
     LightCone,
-    /// The light-cone form with the part across the motion taken in f64.
+    /// The light-cone form with the part across the motion in f64 for vertices in the rear cone.
     ExactAstern,
 }
 
@@ -78,7 +82,11 @@ impl Plan {
             let scaled = eye.celerity / scale;
             (scale * scaled.length(), scaled.normalize())
         };
-        Self { offset: eye.position - origin, direction, kappa: speed.hypot(1.0) + speed }
+        Self {
+            offset: eye.position - origin,
+            direction,
+            kappa: speed.hypot(1.0) + speed,
+        }
     }
 
     /// The cheapest formula that is accurate everywhere in `sphere`.
@@ -99,7 +107,11 @@ impl Plan {
         let across = centre.cross(self.direction).length();
         let cosine = (1.0 - LEAST_DOPPLER * LEAST_DOPPLER).sqrt();
         let tip_is_nearest = astern * cosine + across * LEAST_DOPPLER < 0.0;
-        let distance = if tip_is_nearest { centre.length() } else { across * cosine - astern * LEAST_DOPPLER };
+        let distance = if tip_is_nearest {
+            centre.length()
+        } else {
+            across * cosine - astern * LEAST_DOPPLER
+        };
         distance <= sphere.radius
     }
 }
@@ -112,11 +124,17 @@ mod tests {
     use super::*;
 
     fn moving_along_x(celerity: f64) -> Plan {
-        Plan::new(&Eye::new(DVec3::ZERO, DVec3::X * celerity).unwrap(), DVec3::ZERO)
+        Plan::new(
+            &Eye::new(DVec3::ZERO, DVec3::X * celerity).unwrap(),
+            DVec3::ZERO,
+        )
     }
 
     fn sphere(x: f64, y: f64, radius: f64) -> Sphere {
-        Sphere { centre: DVec3::new(x, y, 0.0), radius }
+        Sphere {
+            centre: DVec3::new(x, y, 0.0),
+            radius,
+        }
     }
 
     #[test]
@@ -130,19 +148,49 @@ mod tests {
     fn only_what_touches_the_rear_cone_is_taken_exactly() {
         let plan = moving_along_x(100.0);
         assert_eq!(plan.form(&sphere(10.0, 0.0, 9.0)), Form::LightCone, "ahead");
-        assert_eq!(plan.form(&sphere(10.0, 0.0, 11.0)), Form::ExactAstern, "around the eye");
-        assert_eq!(plan.form(&sphere(-10.0, 0.0, 0.0)), Form::ExactAstern, "dead astern");
+        assert_eq!(
+            plan.form(&sphere(10.0, 0.0, 11.0)),
+            Form::ExactAstern,
+            "around the eye"
+        );
+        assert_eq!(
+            plan.form(&sphere(-10.0, 0.0, 0.0)),
+            Form::ExactAstern,
+            "dead astern"
+        );
         let edge = 10.0 * LEAST_DOPPLER.asin().tan();
-        assert_eq!(plan.form(&sphere(-10.0, edge * 0.999, 0.0)), Form::ExactAstern, "inside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge * 1.001, 0.0)), Form::LightCone, "outside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 1.9)), Form::LightCone, "beside the cone");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 2.1)), Form::ExactAstern, "reaching into the cone");
+        assert_eq!(
+            plan.form(&sphere(-10.0, edge * 0.999, 0.0)),
+            Form::ExactAstern,
+            "inside the edge"
+        );
+        assert_eq!(
+            plan.form(&sphere(-10.0, edge * 1.001, 0.0)),
+            Form::LightCone,
+            "outside the edge"
+        );
+        assert_eq!(
+            plan.form(&sphere(-10.0, edge + 2.0, 1.9)),
+            Form::LightCone,
+            "beside the cone"
+        );
+        assert_eq!(
+            plan.form(&sphere(-10.0, edge + 2.0, 2.1)),
+            Form::ExactAstern,
+            "reaching into the cone"
+        );
     }
 
     #[test]
     fn slow_eyes_and_resting_eyes_take_the_cheap_forms() {
-        assert_eq!(moving_along_x(2.9).form(&sphere(-10.0, 0.0, 1.0)), Form::LightCone);
-        assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), Form::AtRest);
+        assert_eq!(
+            moving_along_x(2.9).form(&sphere(-10.0, 0.0, 1.0)),
+            Form::LightCone
+        );
+        assert_eq!(
+            moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)),
+            Form::AtRest
+        );
     }
 
     #[test]

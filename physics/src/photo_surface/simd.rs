@@ -39,7 +39,10 @@ impl Instructions {
 
     /// The widest that this processor has.
     pub fn fastest() -> Self {
-        Self::ALL.into_iter().rfind(|instructions| instructions.are_available()).unwrap_or(Self::Portable)
+        Self::ALL
+            .into_iter()
+            .rfind(|instructions| instructions.are_available())
+            .unwrap_or(Self::Portable)
     }
 
     /// Transforms a chunk; returns how many of its results are not finite.
@@ -75,7 +78,14 @@ pub(super) fn aligned<const N: usize>(
         // SAFETY: both types are 64 bytes of possibly uninitialised values.
         unsafe { lines.align_to_mut() }.1
     }
-    if streams.iter_mut().all(|lines| cast(lines).len() == lines.len()) { Ok(streams.map(cast)) } else { Err(streams) }
+    if streams
+        .iter_mut()
+        .all(|lines| cast(lines).len() == lines.len())
+    {
+        Ok(streams.map(cast))
+    } else {
+        Err(streams)
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -86,15 +96,16 @@ mod x86 {
 
     use super::super::chunk::Chunk;
     use super::super::lanes::{AlignedLine, Lanes, WideLanes};
+    use super::super::twice::Twice;
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn avx2(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<F32x8>()
+        chunk.transform::<Twice<F32x8>>()
     }
 
     #[target_feature(enable = "avx512f,avx2,fma")]
     pub(super) fn avx512(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<F32x16>()
+        chunk.transform::<Twice<F32x16>>()
     }
 
     #[derive(Clone, Copy)]
@@ -172,7 +183,10 @@ mod x86 {
 
             #[inline(always)]
             fn stream(self, target: &mut AlignedLine, first: usize) {
-                assert!(first.is_multiple_of($count), "a register is streamed to where it is aligned");
+                assert!(
+                    first.is_multiple_of($count),
+                    "a register is streamed to where it is aligned"
+                );
                 let target = &mut target.0[first..first + $count];
                 // SAFETY: as many values fit there as the register holds, and since the line is aligned to 64
                 // bytes and `first` is a multiple of the register's width, the address is aligned to it.
@@ -245,13 +259,13 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn keep(self, bits: u32) -> Self {
+        fn replaced(self, bits: u32, other: Self) -> Self {
             // SAFETY: as above.
             Self(unsafe {
                 let lane_bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
                 let chosen = _mm256_and_si256(_mm256_set1_epi32(bits.cast_signed()), lane_bits);
-                let kept = _mm256_cmpeq_epi32(chosen, lane_bits);
-                _mm256_and_ps(self.0, _mm256_castsi256_ps(kept))
+                let replaced = _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, lane_bits));
+                _mm256_blendv_ps(self.0, other.0, replaced)
             })
         }
 
@@ -259,7 +273,10 @@ mod x86 {
         fn widen(self) -> F64x8 {
             // SAFETY: as above.
             F64x8(unsafe {
-                [_mm256_cvtps_pd(_mm256_castps256_ps128(self.0)), _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0))]
+                [
+                    _mm256_cvtps_pd(_mm256_castps256_ps128(self.0)),
+                    _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0)),
+                ]
             })
         }
 
@@ -307,9 +324,9 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn keep(self, bits: u32) -> Self {
+        fn replaced(self, bits: u32, other: Self) -> Self {
             // SAFETY: as above.
-            Self(unsafe { _mm512_maskz_mov_ps(bits as __mmask16, self.0) })
+            Self(unsafe { _mm512_mask_blend_ps(bits as __mmask16, self.0, other.0) })
         }
 
         #[inline(always)]
@@ -317,7 +334,10 @@ mod x86 {
             // SAFETY: as above.
             F64x16(unsafe {
                 let upper = _mm512_extractf64x4_pd::<1>(_mm512_castps_pd(self.0));
-                [_mm512_cvtps_pd(_mm512_castps512_ps256(self.0)), _mm512_cvtps_pd(_mm256_castpd_ps(upper))]
+                [
+                    _mm512_cvtps_pd(_mm512_castps512_ps256(self.0)),
+                    _mm512_cvtps_pd(_mm256_castpd_ps(upper)),
+                ]
             })
         }
 

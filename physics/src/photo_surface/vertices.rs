@@ -14,7 +14,7 @@ use super::PhotoSurfaceError;
 pub const CHUNK: usize = 8192;
 
 /// Vertices in a line.
-pub(super) const LINE: usize = 16;
+pub(super) const LINE: usize = 32;
 
 /// Sixteen values of one coordinate, aligned to a cache line.
 #[derive(Clone, Copy, Debug)]
@@ -61,24 +61,41 @@ impl Vertices {
     /// assert_eq!(vertices.not_finite(), [2]);
     /// # Ok::<(), physics::photo_surface::PhotoSurfaceError>(())
     /// ```
-    pub fn from_world(origin: DVec3, positions: impl IntoIterator<Item = DVec3>) -> Result<Self, PhotoSurfaceError> {
-        Self::from_offsets(origin, positions.into_iter().map(|p| (p - origin).as_vec3()))
+    pub fn from_world(
+        origin: DVec3,
+        positions: impl IntoIterator<Item = DVec3>,
+    ) -> Result<Self, PhotoSurfaceError> {
+        Self::from_offsets(
+            origin,
+            positions.into_iter().map(|p| (p - origin).as_vec3()),
+        )
     }
 
     /// Takes positions relative to `origin` (world axes, metres) as they are.
     ///
     /// # Errors
     /// [`PhotoSurfaceError::Origin`] if `origin` is not finite.
-    pub fn from_offsets(origin: DVec3, offsets: impl IntoIterator<Item = Vec3>) -> Result<Self, PhotoSurfaceError> {
+    pub fn from_offsets(
+        origin: DVec3,
+        offsets: impl IntoIterator<Item = Vec3>,
+    ) -> Result<Self, PhotoSurfaceError> {
         if !origin.is_finite() {
             return Err(PhotoSurfaceError::Origin { origin });
         }
-        let mut vertices =
-            Self { origin, count: 0, streams: [const { Vec::new() }; 3], spheres: Vec::new(), not_finite: Vec::new() };
+        let mut vertices = Self {
+            origin,
+            count: 0,
+            streams: [const { Vec::new() }; 3],
+            spheres: Vec::new(),
+            not_finite: Vec::new(),
+        };
         for offset in offsets {
             vertices.push(offset);
         }
-        vertices.spheres = (0..vertices.count).step_by(CHUNK).map(|first| vertices.bounding_sphere(first)).collect();
+        vertices.spheres = (0..vertices.count)
+            .step_by(CHUNK)
+            .map(|first| vertices.bounding_sphere(first))
+            .collect();
         Ok(vertices)
     }
 
@@ -100,21 +117,34 @@ impl Vertices {
 
     /// The sphere about the middle of the box around the chunk's finite vertices.
     fn bounding_sphere(&self, first: usize) -> Sphere {
-        let finite =
-            || (first..self.count.min(first + CHUNK)).map(|index| self.offset(index)).filter(|p| p.is_finite());
+        let finite = || {
+            (first..self.count.min(first + CHUNK))
+                .map(|index| self.offset(index))
+                .filter(|p| p.is_finite())
+        };
         let mut finite_offsets = finite();
         let Some(seed) = finite_offsets.next() else {
-            return Sphere { centre: DVec3::ZERO, radius: 0.0 };
+            return Sphere {
+                centre: DVec3::ZERO,
+                radius: 0.0,
+            };
         };
-        let (low, high) = finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) =
+            finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
         let centre = (low + high) / 2.0;
-        let radius = finite().map(|p| p.distance_squared(centre)).fold(0.0, f64::max).sqrt();
+        let radius = finite()
+            .map(|p| p.distance_squared(centre))
+            .fold(0.0, f64::max)
+            .sqrt();
         Sphere { centre, radius }
     }
 
     /// Position of a vertex relative to the origin, in metres.
     fn offset(&self, index: usize) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])))
+        DVec3::from_array(
+            [0, 1, 2]
+                .map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])),
+        )
     }
 
     /// Number of vertices, those that are not finite included.
