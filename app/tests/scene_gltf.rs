@@ -3,11 +3,7 @@
 //! A wrong loader would show mirrored parts inside out, lose millimetres far from the origin, turn textures the wrong way round, or
 //! panic on a length that lies. Files are built here, byte by byte, so that each says one thing.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests, too, may fail the test"
-)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -59,10 +55,7 @@ impl File {
 
     fn accessor(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
         let view = self.view(bytes);
-        self.push(
-            "accessors",
-            json!({ "bufferView": view, "componentType": component, "type": kind, "count": count }),
-        )
+        self.push("accessors", json!({ "bufferView": view, "componentType": component, "type": kind, "count": count }))
     }
 
     fn floats(&mut self, kind: &str, values: &[f32]) -> usize {
@@ -71,18 +64,12 @@ impl File {
             "VEC3" => 3,
             _ => 4,
         };
-        let bytes: Vec<u8> = values
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         self.accessor(&bytes, 5126, kind, values.len() / width)
     }
 
     fn indices(&mut self, indices: &[u16]) {
-        let bytes: Vec<u8> = indices
-            .iter()
-            .flat_map(|index| index.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
         let accessor = self.accessor(&bytes, 5123, "SCALAR", indices.len());
         self.primitive()["indices"] = json!(accessor);
     }
@@ -104,10 +91,7 @@ impl File {
     /// Adds a texture with a 2 × 1 picture, red and half transparent green.
     fn texture(&mut self, sampler: Value) -> usize {
         let view = self.view(&png(2, 1, &[255, 0, 0, 255, 0, 255, 0, 128]));
-        let image = self.push(
-            "images",
-            json!({ "bufferView": view, "mimeType": "image/png", "name": "flag" }),
-        );
+        let image = self.push("images", json!({ "bufferView": view, "mimeType": "image/png", "name": "flag" }));
         let sampler = self.push("samplers", sampler);
         self.push("textures", json!({ "source": image, "sampler": sampler }))
     }
@@ -130,17 +114,8 @@ impl File {
         blob.resize(blob.len().next_multiple_of(4), 0);
         let length = 12 + 8 + text.len() + 8 + blob.len();
         let word = |value: usize| (value as u32).to_le_bytes();
-        let parts: [&[u8]; 9] = [
-            b"glTF",
-            &word(2),
-            &word(length),
-            &word(text.len()),
-            b"JSON",
-            &text,
-            &word(blob.len()),
-            b"BIN\0",
-            &blob,
-        ];
+        let parts: [&[u8]; 9] =
+            [b"glTF", &word(2), &word(length), &word(text.len()), b"JSON", &text, &word(blob.len()), b"BIN\0", &blob];
         parts.concat()
     }
 
@@ -184,8 +159,7 @@ fn load_bytes(bytes: &[u8]) -> Result<Scene, GltfError> {
 
 fn face_normal(scene: &Scene, triangle: usize) -> Vec3 {
     let mesh = &scene.meshes[0];
-    let [a, b, c] =
-        [0, 1, 2].map(|corner| mesh.positions[mesh.indices[3 * triangle + corner] as usize]);
+    let [a, b, c] = [0, 1, 2].map(|corner| mesh.positions[mesh.indices[3 * triangle + corner] as usize]);
     (b - a).cross(c - a).normalize()
 }
 
@@ -196,11 +170,7 @@ fn a_triangle_comes_in_as_it_is() {
     assert_eq!(scene.name, "scene");
     assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y]);
     assert_eq!(mesh.indices, [0, 1, 2]);
-    assert_eq!(
-        mesh.normals,
-        [Vec3::Z; 3],
-        "without normals, triangles are flat"
-    );
+    assert_eq!(mesh.normals, [Vec3::Z; 3], "without normals, triangles are flat");
     assert_eq!(mesh.colours, [[1.0; 4]; 3]);
     assert_eq!(mesh.name, "node 0");
     assert!(mesh.solid);
@@ -213,21 +183,14 @@ fn a_triangle_comes_in_as_it_is() {
 fn strips_and_fans_keep_their_winding() {
     for (mode, indices) in [(5, [0, 1, 2, 3]), (6, [0, 1, 3, 2])] {
         let mut file = File::triangle();
-        let square = file.floats(
-            "VEC3",
-            &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0],
-        );
+        let square = file.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
         file.attribute("POSITION", square);
         file.indices(&indices);
         file.primitive()["mode"] = json!(mode);
         let scene = file.scene();
         assert_eq!(scene.triangle_count(), 2);
         for triangle in 0..2 {
-            assert_eq!(
-                face_normal(&scene, triangle),
-                Vec3::Z,
-                "mode {mode}, triangle {triangle}"
-            );
+            assert_eq!(face_normal(&scene, triangle), Vec3::Z, "mode {mode}, triangle {triangle}");
         }
     }
 }
@@ -238,11 +201,7 @@ fn incomplete_triangles_are_left_out_and_named() {
     file.indices(&[0, 1, 2, 0, 1]);
     let scene = file.scene();
     assert_eq!(scene.triangle_count(), 1);
-    assert!(
-        scene.notices[0].contains("incomplete triangle"),
-        "{:?}",
-        scene.notices
-    );
+    assert!(scene.notices[0].contains("incomplete triangle"), "{:?}", scene.notices);
 }
 
 #[test]
@@ -255,16 +214,9 @@ fn transforms_compose_from_child_to_root() {
         { "rotation": [0, half, 0, half], "scale": [2, 2, 2], "mesh": 0 },
     ]);
     let scene = file.scene();
-    let expected = [
-        Vec3::new(10.0, 0.0, 0.0),
-        Vec3::new(10.0, 0.0, -4.0),
-        Vec3::new(10.0, 2.0, 0.0),
-    ];
+    let expected = [Vec3::new(10.0, 0.0, 0.0), Vec3::new(10.0, 0.0, -4.0), Vec3::new(10.0, 2.0, 0.0)];
     for (position, expected) in scene.meshes[0].positions.iter().zip(expected) {
-        assert!(
-            position.distance(expected) < 1e-5,
-            "{position} is not {expected}"
-        );
+        assert!(position.distance(expected) < 1e-5, "{position} is not {expected}");
     }
     assert!(scene.meshes[0].normals[0].distance(Vec3::X) < 1e-6);
 }
@@ -274,24 +226,12 @@ fn a_matrix_is_read_by_columns() {
     let mut file = File::triangle();
     file.json["nodes"][0]["matrix"] = json!([0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]);
     let positions = &file.scene().meshes[0].positions;
-    assert_eq!(
-        *positions,
-        [
-            Vec3::new(5.0, 6.0, 7.0),
-            Vec3::new(5.0, 8.0, 7.0),
-            Vec3::new(4.0, 6.0, 7.0)
-        ]
-    );
+    assert_eq!(*positions, [Vec3::new(5.0, 6.0, 7.0), Vec3::new(5.0, 8.0, 7.0), Vec3::new(4.0, 6.0, 7.0)]);
 }
 
 #[test]
 fn mirrored_nodes_are_not_inside_out() {
-    for scale in [
-        [-1.0, 1.0, 1.0],
-        [1.0, -3.0, 1.0],
-        [2.0, 1.0, -0.5],
-        [-1.0, -2.0, -3.0],
-    ] {
+    for scale in [[-1.0, 1.0, 1.0], [1.0, -3.0, 1.0], [2.0, 1.0, -0.5], [-1.0, -2.0, -3.0]] {
         let mut file = File::triangle();
         file.json["nodes"][0]["scale"] = json!(scale);
         let scene = file.scene();
@@ -333,15 +273,9 @@ fn far_worlds_keep_their_millimetres() {
     let scene = file.scene();
     let world = |position: Vec3| scene.origin + position.as_dvec3();
     let first = world(scene.meshes[0].positions[0]);
-    assert!(
-        first.distance(DVec3::new(1_000_000.126, -2_000_000.25, 3e9)) < 1e-6,
-        "{first}"
-    );
+    assert!(first.distance(DVec3::new(1_000_000.126, -2_000_000.25, 3e9)) < 1e-6, "{first}");
     let start = scene.start.position;
-    assert!(
-        start.distance(first) < 10.0,
-        "a visitor starts where the scene is, not at {start}"
-    );
+    assert!(start.distance(first) < 10.0, "a visitor starts where the scene is, not at {start}");
 }
 
 #[test]
@@ -356,25 +290,13 @@ fn integers_become_numbers() {
     let mut file = File::triangle();
     // Quantised positions as they are, normalised coordinates and colours as fractions.
     let positions = file.accessor(&[0, 0, 0, 0, 9, 0, 0, 0, 0, 254, 0, 0], 5120, "VEC3", 3);
-    let view = file.json["accessors"][positions]["bufferView"]
-        .as_u64()
-        .unwrap() as usize;
+    let view = file.json["accessors"][positions]["bufferView"].as_u64().unwrap() as usize;
     file.json["bufferViews"][view]["byteStride"] = json!(4);
     file.attribute("POSITION", positions);
-    let uvs = file.accessor(
-        &[0, 0, 255, 255, 255, 127, 0, 0, 0, 0, 0, 0],
-        5123,
-        "VEC2",
-        3,
-    );
+    let uvs = file.accessor(&[0, 0, 255, 255, 255, 127, 0, 0, 0, 0, 0, 0], 5123, "VEC2", 3);
     file.json["accessors"][uvs]["normalized"] = json!(true);
     file.attribute("TEXCOORD_0", uvs);
-    let colours = file.accessor(
-        &[255, 0, 51, 102, 0, 255, 0, 0, 0, 0, 0, 255],
-        5121,
-        "VEC4",
-        3,
-    );
+    let colours = file.accessor(&[255, 0, 51, 102, 0, 255, 0, 0, 0, 0, 0, 255], 5121, "VEC4", 3);
     file.attribute("COLOR_0", colours);
     file.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
     file.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
@@ -404,24 +326,11 @@ fn sparse_accessors_replace_elements() {
         "indices": { "bufferView": indices, "componentType": 5121 },
         "values": { "bufferView": values },
     });
-    assert_eq!(
-        file.scene().meshes[0].positions,
-        [Vec3::ZERO, Vec3::new(7.0, 8.0, 9.0), Vec3::Y]
-    );
-    file.json["accessors"][0]
-        .as_object_mut()
-        .unwrap()
-        .remove("bufferView");
-    assert_eq!(
-        file.scene().meshes[0].positions,
-        [Vec3::ZERO, Vec3::new(7.0, 8.0, 9.0), Vec3::ZERO]
-    );
+    assert_eq!(file.scene().meshes[0].positions, [Vec3::ZERO, Vec3::new(7.0, 8.0, 9.0), Vec3::Y]);
+    file.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    assert_eq!(file.scene().meshes[0].positions, [Vec3::ZERO, Vec3::new(7.0, 8.0, 9.0), Vec3::ZERO]);
     file.json["accessors"][0]["count"] = json!(1);
-    assert!(
-        file.error().contains("replaces element 1 of 1"),
-        "{}",
-        file.error()
-    );
+    assert!(file.error().contains("replaces element 1 of 1"), "{}", file.error());
 }
 
 #[test]
@@ -447,10 +356,7 @@ fn materials_carry_what_is_drawn() {
     assert!(material.unlit && material.double_sided);
     assert!(!scene.meshes[0].solid, "leaves do not stop a bicycle");
     let texture = &scene.textures[0];
-    assert_eq!(
-        (texture.width, texture.height, texture.name.as_str()),
-        (2, 1, "flag")
-    );
+    assert_eq!((texture.width, texture.height, texture.name.as_str()), (2, 1, "flag"));
     assert_eq!(texture.rgba, [255, 0, 0, 255, 0, 255, 0, 128]);
     assert_eq!(texture.wrap, [Wrap::Clamp, Wrap::Mirror]);
     assert!(texture.nearest);
@@ -465,21 +371,11 @@ fn textures_of_one_picture_and_sampling_become_one() {
     let clamped = file.push("samplers", json!({ "wrapS": 33071 }));
     let other = file.push("textures", json!({ "source": 0, "sampler": clamped }));
     for texture in [first, same, other] {
-        file.material(
-            json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }),
-        );
+        file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     }
     let scene = file.scene();
-    let used: Vec<_> = scene
-        .materials
-        .iter()
-        .map(|material| material.base_colour_texture)
-        .collect();
-    assert_eq!(
-        used,
-        [Some(0), Some(0), Some(1)],
-        "texture {unused} is drawn by nothing"
-    );
+    let used: Vec<_> = scene.materials.iter().map(|material| material.base_colour_texture).collect();
+    assert_eq!(used, [Some(0), Some(0), Some(1)], "texture {unused} is drawn by nothing");
     assert_eq!(scene.textures.len(), 2);
 }
 
@@ -490,14 +386,13 @@ fn texture_transforms_are_baked() {
     file.attribute("TEXCOORD_1", uvs);
     let texture = file.texture(json!({}));
     // A quarter turn counter-clockwise, with v downwards: u runs up.
-    let transform = json!({ "offset": [0.5, 0.25], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 3], "texCoord": 1 });
+    let transform =
+        json!({ "offset": [0.5, 0.25], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 3], "texCoord": 1 });
     let extensions = json!({ "KHR_texture_transform": transform });
-    file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }));
-    let expected = [
-        Vec2::new(0.5, 0.25),
-        Vec2::new(0.5, -1.75),
-        Vec2::new(3.5, 0.25),
-    ];
+    file.material(
+        json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }),
+    );
+    let expected = [Vec2::new(0.5, 0.25), Vec2::new(0.5, -1.75), Vec2::new(3.5, 0.25)];
     for (uv, expected) in file.scene().meshes[0].uvs.iter().zip(expected) {
         assert!(uv.distance(expected) < 1e-6, "{uv} is not {expected}");
     }
@@ -507,10 +402,8 @@ fn texture_transforms_are_baked() {
 fn what_is_not_drawn_is_named() {
     let mut file = File::triangle();
     file.json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_unlit"]);
-    file.json["cameras"] =
-        json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
-    file.json["animations"] =
-        json!([{ "channels": [], "samplers": [] }, { "channels": [], "samplers": [] }]);
+    file.json["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
+    file.json["animations"] = json!([{ "channels": [], "samplers": [] }, { "channels": [], "samplers": [] }]);
     file.json["skins"] = json!([{ "joints": [0] }]);
     file.primitive()["targets"] = json!([{}]);
     file.json["meshes"][0]["primitives"]
@@ -518,18 +411,10 @@ fn what_is_not_drawn_is_named() {
         .unwrap()
         .push(json!({ "attributes": { "POSITION": 0 }, "mode": 1 }));
     let notices = file.scene().notices;
-    for expected in [
-        "KHR_lights_punctual",
-        "cameras",
-        "animations stand still (2)",
-        "skins",
-        "morph",
-        "points and lines",
-    ] {
-        assert!(
-            notices.iter().any(|notice| notice.contains(expected)),
-            "{expected} is not in {notices:?}"
-        );
+    for expected in
+        ["KHR_lights_punctual", "cameras", "animations stand still (2)", "skins", "morph", "points and lines"]
+    {
+        assert!(notices.iter().any(|notice| notice.contains(expected)), "{expected} is not in {notices:?}");
     }
     assert_eq!(notices.len(), 6, "{notices:?}");
 }
@@ -537,13 +422,9 @@ fn what_is_not_drawn_is_named() {
 #[test]
 fn a_camera_says_where_to_start() {
     let mut file = File::triangle();
-    file.json["cameras"] =
-        json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
+    file.json["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
     let half = 0.5_f64.sqrt();
-    file.push(
-        "nodes",
-        json!({ "camera": 0, "translation": [3, 1.5, 4], "rotation": [0, half, 0, half] }),
-    );
+    file.push("nodes", json!({ "camera": 0, "translation": [3, 1.5, 4], "rotation": [0, half, 0, half] }));
     file.json["scenes"][0]["nodes"] = json!([0, 1]);
     let start = file.scene().start;
     assert_eq!(start.position, DVec3::new(3.0, 1.5, 4.0));
@@ -553,10 +434,7 @@ fn a_camera_says_where_to_start() {
 #[test]
 fn vertices_that_are_nowhere_are_counted() {
     let mut file = File::triangle();
-    let positions = file.floats(
-        "VEC3",
-        &[0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0, 0.0, f32::INFINITY, 0.0],
-    );
+    let positions = file.floats("VEC3", &[0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0, 0.0, f32::INFINITY, 0.0]);
     file.attribute("POSITION", positions);
     let notices = file.scene().notices;
     assert!(notices[0].contains("not finite): 2"), "{notices:?}");
@@ -577,15 +455,10 @@ fn buffers_and_pictures_beside_or_within_a_gltf_are_read() {
     let beside = load(&path, |_| {}).unwrap();
     assert_eq!(beside.textures[0].rgba, [9; 8]);
 
-    file.json["buffers"][0]["uri"] = json!(format!(
-        "data:application/octet-stream;base64,{}",
-        base64::encode(&file.blob)
-    ));
+    file.json["buffers"][0]["uri"] =
+        json!(format!("data:application/octet-stream;base64,{}", base64::encode(&file.blob)));
     let path = write(&folder, "scene.gltf", file.json.to_string().as_bytes());
-    assert_eq!(
-        load(&path, |_| {}).unwrap().meshes[0].positions,
-        beside.meshes[0].positions
-    );
+    assert_eq!(load(&path, |_| {}).unwrap().meshes[0].positions, beside.meshes[0].positions);
 }
 
 #[test]
@@ -595,11 +468,7 @@ fn a_missing_picture_is_a_notice() {
     file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     file.json["images"][0] = json!({ "uri": "nowhere.png" });
     let scene = file.scene();
-    assert!(
-        scene.notices[0].contains("nowhere.png"),
-        "{:?}",
-        scene.notices
-    );
+    assert!(scene.notices[0].contains("nowhere.png"), "{:?}", scene.notices);
     assert_eq!(scene.materials[0].base_colour_texture, None);
 }
 
@@ -614,11 +483,7 @@ fn progress_ends_with_everything_done() {
         seen.lock().unwrap().push(progress);
     })
     .unwrap();
-    let expected = [Stage::Pictures, Stage::Meshes].map(|stage| Progress {
-        stage,
-        done: 1,
-        total: 1,
-    });
+    let expected = [Stage::Pictures, Stage::Meshes].map(|stage| Progress { stage, done: 1, total: 1 });
     assert_eq!(seen.into_inner().unwrap(), expected);
 }
 
@@ -627,52 +492,20 @@ fn files_that_are_no_scenes_are_refused_with_advice() {
     let folder = TempDir::new().unwrap();
     let refused = |path: &Path, words: &str| {
         let error = load(path, |_| {}).unwrap_err().to_string();
-        assert!(
-            error.contains(words) && error.contains(&*path.to_string_lossy()),
-            "{error}"
-        );
+        assert!(error.contains(words) && error.contains(&*path.to_string_lossy()), "{error}");
     };
     refused(&folder.path().join("nowhere.glb"), "check the name");
     refused(folder.path(), "is not a file");
     refused(&write(&folder, "empty.glb", b""), "is empty");
-    refused(
-        &write(&folder, "text.gltf", b"once upon a time"),
-        "neither a .glb nor JSON",
-    );
-    refused(
-        &write(&folder, "cut.gltf", b"{ \"asset\": { \"version\": "),
-        "not glTF 2.0",
-    );
-    refused(
-        &write(&folder, "other.gltf", b"{ \"name\": 1 }"),
-        "missing field `asset`",
-    );
-    refused(
-        &write(
-            &folder,
-            "old.gltf",
-            b"{ \"asset\": { \"version\": \"1.0\" }, \"nodes\": {} }",
-        ),
-        "version is 1.0",
-    );
-    refused(
-        &write(
-            &folder,
-            "bare.gltf",
-            b"{ \"asset\": { \"version\": \"2.0\" } }",
-        ),
-        "nothing to draw",
-    );
+    refused(&write(&folder, "text.gltf", b"once upon a time"), "neither a .glb nor JSON");
+    refused(&write(&folder, "cut.gltf", b"{ \"asset\": { \"version\": "), "not glTF 2.0");
+    refused(&write(&folder, "other.gltf", b"{ \"name\": 1 }"), "missing field `asset`");
+    refused(&write(&folder, "old.gltf", b"{ \"asset\": { \"version\": \"1.0\" }, \"nodes\": {} }"), "version is 1.0");
+    refused(&write(&folder, "bare.gltf", b"{ \"asset\": { \"version\": \"2.0\" } }"), "nothing to draw");
     let whole = File::triangle().glb();
-    refused(
-        &write(&folder, "short.glb", &whole[..whole.len() - 8]),
-        "cut short",
-    );
+    refused(&write(&folder, "short.glb", &whole[..whole.len() - 8]), "cut short");
     refused(&write(&folder, "magic.glb", b"glTF"), "cut short");
-    refused(
-        &write(&folder, "v1.glb", b"glTF\x01\0\0\0\x0c\0\0\0"),
-        "version 1",
-    );
+    refused(&write(&folder, "v1.glb", b"glTF\x01\0\0\0\x0c\0\0\0"), "version 1");
 }
 
 #[test]
@@ -681,112 +514,34 @@ fn contradictions_are_named_with_their_place() {
         let mut file = File::triangle();
         change(&mut file);
         let error = file.error();
-        assert!(
-            words.iter().all(|word| error.contains(word)),
-            "{words:?} are not in: {error}"
-        );
+        assert!(words.iter().all(|word| error.contains(word)), "{words:?} are not in: {error}");
     };
-    refused(
-        |file| file.json["nodes"][0]["mesh"] = json!(5),
-        &["nodes[0].mesh", "no number 5 among 1"],
-    );
-    refused(
-        |file| file.json["scene"] = json!(3),
-        &["at scene", "no number 3"],
-    );
-    refused(
-        |file| file.json["scenes"][0]["nodes"] = json!([9]),
-        &["nodes[9]"],
-    );
-    refused(
-        |file| file.json["nodes"][0]["children"] = json!([0]),
-        &["nodes[0]", "its own ancestor"],
-    );
-    refused(
-        |file| file.json["scenes"][0]["nodes"] = json!([0, 0]),
-        &["nodes[0]", "two parents"],
-    );
-    refused(
-        |file| file.primitive()["attributes"] = json!({}),
-        &["meshes[0].primitives[0]", "POSITION is missing"],
-    );
-    refused(
-        |file| file.primitive()["attributes"]["POSITION"] = json!(77),
-        &["no number 77"],
-    );
-    refused(
-        |file| file.primitive()["material"] = json!(0),
-        &["material", "no number 0 among 0"],
-    );
+    refused(|file| file.json["nodes"][0]["mesh"] = json!(5), &["nodes[0].mesh", "no number 5 among 1"]);
+    refused(|file| file.json["scene"] = json!(3), &["at scene", "no number 3"]);
+    refused(|file| file.json["scenes"][0]["nodes"] = json!([9]), &["nodes[9]"]);
+    refused(|file| file.json["nodes"][0]["children"] = json!([0]), &["nodes[0]", "its own ancestor"]);
+    refused(|file| file.json["scenes"][0]["nodes"] = json!([0, 0]), &["nodes[0]", "two parents"]);
+    refused(|file| file.primitive()["attributes"] = json!({}), &["meshes[0].primitives[0]", "POSITION is missing"]);
+    refused(|file| file.primitive()["attributes"]["POSITION"] = json!(77), &["no number 77"]);
+    refused(|file| file.primitive()["material"] = json!(0), &["material", "no number 0 among 0"]);
     refused(|file| file.primitive()["mode"] = json!(7), &["mode"]);
-    refused(
-        |file| file.indices(&[0, 1, 3]),
-        &["indices", "vertex 3 of 3"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["count"] = json!(4),
-        &["accessors[0]", "4 elements"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["count"] = json!(0),
-        &["accessors[0]", "no elements"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["count"] = json!(u64::MAX),
-        &["accessors[0]", "too large"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["byteOffset"] = json!(u64::MAX),
-        &["accessors[0]"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["type"] = json!("VEC2"),
-        &["accessors[0]", "Vec2"],
-    );
-    refused(
-        |file| file.json["accessors"][0]["componentType"] = json!(1),
-        &["accessors[0]", "unknown"],
-    );
-    refused(
-        |file| file.json["bufferViews"][0]["byteLength"] = json!(999),
-        &["bufferViews[0]", "999 bytes"],
-    );
-    refused(
-        |file| file.json["bufferViews"][0]["byteOffset"] = json!(u64::MAX),
-        &["bufferViews[0]"],
-    );
-    refused(
-        |file| file.json["bufferViews"][0]["byteStride"] = json!(8),
-        &["accessors[0]", "every 8 bytes"],
-    );
-    refused(
-        |file| file.json["bufferViews"][0]["buffer"] = json!(1),
-        &["bufferViews[0]", "no number 1"],
-    );
-    refused(
-        |file| file.json["buffers"][0]["byteLength"] = json!(1000),
-        &["buffers[0]", "cut short"],
-    );
-    refused(
-        |file| file.json["buffers"][0]["uri"] = json!("data:text/plain,abc"),
-        &["buffers[0]", "base64"],
-    );
-    refused(
-        |file| file.json["buffers"][0]["uri"] = json!("https://example.org/a.bin"),
-        &["buffers[0]", "beside"],
-    );
-    refused(
-        |file| file.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-        &["KHR_draco"],
-    );
-    refused(
-        |file| file.primitive()["mode"] = json!(0),
-        &["nothing to draw"],
-    );
-    refused(
-        |file| file.json["scenes"][0]["extras"] = json!({ "rapidity": { "sun": 1 } }),
-        &["extras.rapidity", "sun"],
-    );
+    refused(|file| file.indices(&[0, 1, 3]), &["indices", "vertex 3 of 3"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(4), &["accessors[0]", "4 elements"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(0), &["accessors[0]", "no elements"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(u64::MAX), &["accessors[0]", "too large"]);
+    refused(|file| file.json["accessors"][0]["byteOffset"] = json!(u64::MAX), &["accessors[0]"]);
+    refused(|file| file.json["accessors"][0]["type"] = json!("VEC2"), &["accessors[0]", "Vec2"]);
+    refused(|file| file.json["accessors"][0]["componentType"] = json!(1), &["accessors[0]", "unknown"]);
+    refused(|file| file.json["bufferViews"][0]["byteLength"] = json!(999), &["bufferViews[0]", "999 bytes"]);
+    refused(|file| file.json["bufferViews"][0]["byteOffset"] = json!(u64::MAX), &["bufferViews[0]"]);
+    refused(|file| file.json["bufferViews"][0]["byteStride"] = json!(8), &["accessors[0]", "every 8 bytes"]);
+    refused(|file| file.json["bufferViews"][0]["buffer"] = json!(1), &["bufferViews[0]", "no number 1"]);
+    refused(|file| file.json["buffers"][0]["byteLength"] = json!(1000), &["buffers[0]", "cut short"]);
+    refused(|file| file.json["buffers"][0]["uri"] = json!("data:text/plain,abc"), &["buffers[0]", "base64"]);
+    refused(|file| file.json["buffers"][0]["uri"] = json!("https://example.org/a.bin"), &["buffers[0]", "beside"]);
+    refused(|file| file.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]), &["KHR_draco"]);
+    refused(|file| file.primitive()["mode"] = json!(0), &["nothing to draw"]);
+    refused(|file| file.json["scenes"][0]["extras"] = json!({ "rapidity": { "sun": 1 } }), &["extras.rapidity", "sun"]);
     refused(
         |file| {
             let normals = file.floats("VEC3", &[0.0, 1.0, 0.0]);
@@ -827,9 +582,7 @@ fn a_picture_bomb_is_refused_before_it_is_decoded() {
 /// The checksum of PNG chunks (ISO 3309).
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg())
-        })
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
     })
 }
 
@@ -846,7 +599,9 @@ fn rich_file() -> File {
     file.primitive()["mode"] = json!(5);
     let texture = file.texture(json!({ "wrapS": 33071 }));
     let extensions = json!({ "KHR_texture_transform": { "scale": [2, 2] } });
-    file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }));
+    file.material(
+        json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }),
+    );
     let (indices, values) = (file.view(&[1, 2]), file.view(&[0; 24]));
     file.json["accessors"][0]["sparse"] = json!({
         "count": 2,
@@ -857,8 +612,7 @@ fn rich_file() -> File {
         { "translation": [1, 2, 3], "children": [1], "extras": { "rapidity": { "solid": false } } },
         { "rotation": [0, 0, 0, 1], "scale": [1, 1, -1], "mesh": 0 },
     ]);
-    file.json["scenes"][0]["extras"] =
-        json!({ "rapidity": { "origin": [0, 0, 0], "circuit": [[1, 2, 3]] } });
+    file.json["scenes"][0]["extras"] = json!({ "rapidity": { "origin": [0, 0, 0], "circuit": [[1, 2, 3]] } });
     file
 }
 
@@ -895,37 +649,16 @@ fn broken_bytes_never_panic() {
 fn files_cut_anywhere_are_refused() {
     let whole = rich_file().glb();
     for length in 0..whole.len() {
-        assert!(
-            !survive(&whole[..length]),
-            "{length} of {} bytes were taken for a scene",
-            whole.len()
-        );
+        assert!(!survive(&whole[..length]), "{length} of {} bytes were taken for a scene", whole.len());
     }
 }
 
 #[test]
 fn lying_numbers_never_panic() {
     let mut random = ChaCha8Rng::seed_from_u64(4);
-    let lies = [
-        json!(-1),
-        json!(0),
-        json!(1),
-        json!(3),
-        json!(255),
-        json!(65536),
-        json!(u32::MAX),
-        json!(u64::MAX),
-    ];
-    let more = [
-        json!(1e300),
-        json!(-0.5),
-        json!(null),
-        json!([]),
-        json!({}),
-        json!("x"),
-        json!([1e300, 0, 0]),
-        json!([0]),
-    ];
+    let lies = [json!(-1), json!(0), json!(1), json!(3), json!(255), json!(65536), json!(u32::MAX), json!(u64::MAX)];
+    let more =
+        [json!(1e300), json!(-0.5), json!(null), json!([]), json!({}), json!("x"), json!([1e300, 0, 0]), json!([0])];
     let lies: Vec<Value> = lies.into_iter().chain(more).collect();
     let mut loaded = 0;
     for _ in 0..BROKEN_FILES {
@@ -936,10 +669,7 @@ fn lying_numbers_never_panic() {
         }
         loaded += usize::from(survive(&file.glb()));
     }
-    assert!(
-        loaded > 0 && loaded < BROKEN_FILES,
-        "{loaded} of {BROKEN_FILES} were taken for scenes"
-    );
+    assert!(loaded > 0 && loaded < BROKEN_FILES, "{loaded} of {BROKEN_FILES} were taken for scenes");
 }
 
 /// Replaces a random value somewhere in a JSON tree.

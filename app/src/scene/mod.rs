@@ -7,6 +7,7 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod export;
 pub mod gltf;
 pub mod lattice;
 pub mod mipmap;
@@ -20,7 +21,7 @@ use glam::{DVec3, Vec2, Vec3};
 pub const MAX_TRIANGLES: usize = 50_000_000;
 
 /// A world at rest: geometry, materials, light, and a place to start from.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// What to call it in titles and messages.
     pub name: String,
@@ -61,7 +62,7 @@ impl Default for Start {
 ///
 /// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// From the file's node and mesh, for messages.
     pub name: String,
@@ -82,7 +83,7 @@ pub struct Mesh {
 }
 
 /// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// From the file, for messages.
     pub name: String,
@@ -130,7 +131,7 @@ pub enum Alpha {
 }
 
 /// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// From the file, for messages.
     pub name: String,

@@ -33,9 +33,7 @@ impl Purpose {
     fn allows(self, element: Type, component: ComponentType) -> bool {
         match self {
             Self::Vectors(vector) => element == vector && component != ComponentType::U32,
-            Self::Colours => {
-                matches!(element, Type::Vec3 | Type::Vec4) && component != ComponentType::U32
-            }
+            Self::Colours => matches!(element, Type::Vec3 | Type::Vec4) && component != ComponentType::U32,
             Self::Indices => {
                 use ComponentType::{U8, U16, U32};
                 element == Type::Scalar && matches!(component, U8 | U16 | U32)
@@ -46,10 +44,7 @@ impl Purpose {
 
 /// Number of elements that an accessor claims to have: at least one, and not more than any scene may have.
 pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<usize, GltfError> {
-    let count = document
-        .item(&document.json.accessors, index, place)?
-        .count
-        .0;
+    let count = document.item(&document.json.accessors, index, place)?.count.0;
     if count == 0 {
         return Err(document.damaged(&format!("accessors[{index}]"), "it has no elements"));
     }
@@ -57,12 +52,7 @@ pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<us
     usize::try_from(count)
         .ok()
         .filter(|&count| count <= limit)
-        .ok_or_else(|| {
-            document.too_large(
-                &format!("accessors[{index}]"),
-                format!("{count} elements, above {limit}"),
-            )
-        })
+        .ok_or_else(|| document.too_large(&format!("accessors[{index}]"), format!("{count} elements, above {limit}")))
 }
 
 /// Reads an accessor.
@@ -82,10 +72,7 @@ pub(super) fn read<T: Copy>(
         return Err(document.damaged(&place, "its type is unknown"));
     };
     if !purpose.allows(element, component) {
-        return Err(document.damaged(
-            &place,
-            format!("{element:?} of {component:?} does not belong there"),
-        ));
+        return Err(document.damaged(&place, format!("{element:?} of {component:?} does not belong there")));
     }
     let width = element.multiplicity();
     let normalized = match purpose {
@@ -99,15 +86,9 @@ pub(super) fn read<T: Copy>(
     let mut values = match accessor.buffer_view {
         Some(view) => {
             let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-            let layout = Layout {
-                offset,
-                count,
-                size: width * component.size(),
-            };
+            let layout = Layout { offset, count, size: width * component.size() };
             let elements = layout.elements(document, view.value(), &place)?;
-            elements
-                .flat_map(|element| element.chunks_exact(component.size()).map(&decode))
-                .collect()
+            elements.flat_map(|element| element.chunks_exact(component.size()).map(&decode)).collect()
         }
         None => vec![convert(0.0); count * width],
     };
@@ -115,38 +96,22 @@ pub(super) fn read<T: Copy>(
     // Replacements.
     if let Some(sparse) = &accessor.sparse {
         let place = format!("{place}.sparse");
-        let replaced = usize::try_from(sparse.count.0)
-            .ok()
-            .filter(|&replaced| replaced <= count);
-        let replaced = replaced
-            .ok_or_else(|| document.damaged(&place, "it replaces more elements than there are"))?;
-        let Checked::Valid(json::accessor::IndexComponentType(number)) =
-            sparse.indices.component_type
-        else {
+        let replaced = usize::try_from(sparse.count.0).ok().filter(|&replaced| replaced <= count);
+        let replaced = replaced.ok_or_else(|| document.damaged(&place, "it replaces more elements than there are"))?;
+        let Checked::Valid(json::accessor::IndexComponentType(number)) = sparse.indices.component_type else {
             return Err(document.damaged(&place, "the type of its indices is unknown"));
         };
-        let indices = Layout {
-            offset: sparse.indices.byte_offset.0,
-            count: replaced,
-            size: number.size(),
-        };
-        let with = Layout {
-            offset: sparse.values.byte_offset.0,
-            count: replaced,
-            size: width * component.size(),
-        };
+        let indices = Layout { offset: sparse.indices.byte_offset.0, count: replaced, size: number.size() };
+        let with = Layout { offset: sparse.values.byte_offset.0, count: replaced, size: width * component.size() };
         let indices = indices.elements(document, sparse.indices.buffer_view.value(), &place)?;
         let with = with.elements(document, sparse.values.buffer_view.value(), &place)?;
         for (index, element) in indices.zip(with) {
             let index = self::decode(index, number, false) as usize;
             if index >= count {
-                return Err(
-                    document.damaged(&place, format!("it replaces element {index} of {count}"))
-                );
+                return Err(document.damaged(&place, format!("it replaces element {index} of {count}")));
             }
-            for (value, bytes) in values[index * width..][..width]
-                .iter_mut()
-                .zip(element.chunks_exact(component.size()))
+            for (value, bytes) in
+                values[index * width..][..width].iter_mut().zip(element.chunks_exact(component.size()))
             {
                 *value = decode(bytes);
             }
@@ -175,23 +140,16 @@ impl Layout {
         let (count, size) = (self.count, self.size);
         let stride = stride.unwrap_or(size);
         if stride < size {
-            return Err(document.damaged(
-                place,
-                format!("elements of {size} bytes follow each other every {stride} bytes"),
-            ));
+            return Err(
+                document.damaged(place, format!("elements of {size} bytes follow each other every {stride} bytes"))
+            );
         }
         let length = (stride as u64).checked_mul((count as u64).saturating_sub(1));
-        let length =
-            length.and_then(|length| length.checked_add(if count == 0 { 0 } else { size as u64 }));
-        let bytes = length
-            .and_then(|length| range(bytes, self.offset, length))
-            .ok_or_else(|| {
-                let (offset, there) = (self.offset, bytes.len());
-                document.damaged(
-                    place,
-                    format!("{count} elements from byte {offset} on, in a view of {there} bytes"),
-                )
-            })?;
+        let length = length.and_then(|length| length.checked_add(if count == 0 { 0 } else { size as u64 }));
+        let bytes = length.and_then(|length| range(bytes, self.offset, length)).ok_or_else(|| {
+            let (offset, there) = (self.offset, bytes.len());
+            document.damaged(place, format!("{count} elements from byte {offset} on, in a view of {there} bytes"))
+        })?;
         Ok((0..count).map(move |index| &bytes[index * stride..][..size]))
     }
 }
@@ -207,9 +165,5 @@ fn decode(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
         ComponentType::U32 => return f64::from(u32::from_le_bytes([0, 1, 2, 3].map(byte))),
         ComponentType::F32 => return f64::from(f32::from_le_bytes([0, 1, 2, 3].map(byte))),
     };
-    if normalized {
-        (value / largest).max(-1.0)
-    } else {
-        value
-    }
+    if normalized { (value / largest).max(-1.0) } else { value }
 }

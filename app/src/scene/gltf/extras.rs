@@ -2,7 +2,7 @@
 
 use ::gltf::json::Extras;
 use glam::{DVec3, Vec3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 use crate::scene::{Lighting, Start};
@@ -21,23 +21,26 @@ pub(in crate::scene) struct SceneExtras {
 }
 
 /// `extras.rapidity` of a glTF node.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(in crate::scene) struct NodeExtras {
     pub(in crate::scene) solid: Option<bool>,
 }
 
 /// The same as JSON: plain numbers.
-#[derive(Default, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct SceneJson {
+    #[serde(skip_serializing_if = "Option::is_none")]
     origin: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     light: Option<LightJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<StartJson>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     circuit: Vec<[f64; 3]>,
 }
 
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct LightJson {
     sun_direction: [f32; 3],
@@ -49,7 +52,7 @@ struct LightJson {
     shadows: bool,
 }
 
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StartJson {
     position: [f64; 3],
@@ -57,7 +60,7 @@ struct StartJson {
 }
 
 /// Extras may hold anything of anybody; only this key is ours.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 struct Ours<T> {
     rapidity: T,
 }
@@ -67,9 +70,9 @@ fn read<T: for<'a> Deserialize<'a> + Default>(extras: &Extras) -> Result<T, Stri
         return Ok(T::default());
     };
     match serde_json::from_str::<serde_json::Value>(text) {
-        Ok(value) if value.get("rapidity").is_some() => serde_json::from_str::<Ours<T>>(text)
-            .map(|ours| ours.rapidity)
-            .map_err(|error| error.to_string()),
+        Ok(value) if value.get("rapidity").is_some() => {
+            serde_json::from_str::<Ours<T>>(text).map(|ours| ours.rapidity).map_err(|error| error.to_string())
+        }
         _ => Ok(T::default()),
     }
 }
@@ -78,6 +81,10 @@ impl NodeExtras {
     pub(super) fn read(extras: &Extras) -> Result<Self, String> {
         read(extras)
     }
+
+    pub(in crate::scene) fn to_json(&self) -> serde_json::Value {
+        serde_json::json!({ "rapidity": self })
+    }
 }
 
 impl SceneExtras {
@@ -85,30 +92,16 @@ impl SceneExtras {
         let json: SceneJson = read(extras)?;
         let unit = |vector: DVec3, name: &str| {
             let off = (vector.length_squared() - 1.0).abs();
-            let unit = if off <= UNIT_TOLERANCE {
-                Some(vector)
-            } else {
-                vector.try_normalize()
-            };
+            let unit = if off <= UNIT_TOLERANCE { Some(vector) } else { vector.try_normalize() };
             unit.ok_or_else(|| format!("{name} is no direction"))
         };
         let light = json.light.map(|light| {
-            let colours = [
-                light.sun,
-                light.sky,
-                light.ground,
-                light.zenith,
-                light.horizon,
-            ];
+            let colours = [light.sun, light.sky, light.ground, light.zenith, light.horizon];
             if !colours.as_flattened().iter().all(|value| value.is_finite()) {
                 return Err("a colour of light is beyond all numbers".to_owned());
             }
             Ok(Lighting {
-                sun_direction: unit(
-                    Vec3::from_array(light.sun_direction).as_dvec3(),
-                    "light.sunDirection",
-                )?
-                .as_vec3(),
+                sun_direction: unit(Vec3::from_array(light.sun_direction).as_dvec3(), "light.sunDirection")?.as_vec3(),
                 sun: light.sun,
                 sky: light.sky,
                 ground: light.ground,
@@ -119,16 +112,24 @@ impl SceneExtras {
         });
         let start = json.start.map(|start| {
             let look = unit(DVec3::from_array(start.look), "start.look")?;
-            Ok::<_, String>(Start {
-                position: DVec3::from_array(start.position),
-                look,
-            })
+            Ok::<_, String>(Start { position: DVec3::from_array(start.position), look })
         });
-        Ok(Self {
-            origin: json.origin,
-            light: light.transpose()?,
-            start: start.transpose()?,
-            circuit: json.circuit,
-        })
+        Ok(Self { origin: json.origin, light: light.transpose()?, start: start.transpose()?, circuit: json.circuit })
+    }
+
+    pub(in crate::scene) fn to_json(&self) -> serde_json::Value {
+        let light = self.light.map(|light| LightJson {
+            sun_direction: light.sun_direction.to_array(),
+            sun: light.sun,
+            sky: light.sky,
+            ground: light.ground,
+            zenith: light.zenith,
+            horizon: light.horizon,
+            shadows: light.shadows,
+        });
+        let start =
+            self.start.map(|start| StartJson { position: start.position.to_array(), look: start.look.to_array() });
+        let json = SceneJson { origin: self.origin, light, start, circuit: self.circuit.clone() };
+        serde_json::json!({ "rapidity": json })
     }
 }

@@ -21,22 +21,12 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    const FIRST: Self = Self {
-        set: 0,
-        linear: Mat2::IDENTITY,
-        offset: Vec2::ZERO,
-    };
+    const FIRST: Self = Self { set: 0, linear: Mat2::IDENTITY, offset: Vec2::ZERO };
 
     fn of(texture: &json::texture::Info) -> Self {
-        let transform = texture
-            .extensions
-            .as_ref()
-            .and_then(|extensions| extensions.texture_transform.as_ref());
+        let transform = texture.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
         let Some(transform) = transform else {
-            return Self {
-                set: texture.tex_coord,
-                ..Self::FIRST
-            };
+            return Self { set: texture.tex_coord, ..Self::FIRST };
         };
         // v points down, so a counter-clockwise turn by φ takes u to (cos φ, −sin φ).
         let turn = Mat2::from_angle(-transform.rotation.0);
@@ -67,22 +57,14 @@ pub(super) fn materials(
         channels.push(channel);
     }
     if uses_default(document) {
-        materials.push(Material {
-            name: "default".into(),
-            ..Material::default()
-        });
+        materials.push(Material { name: "default".into(), ..Material::default() });
         channels.push(Channel::FIRST);
     }
     Ok((materials, channels))
 }
 
 fn uses_default(document: &Document) -> bool {
-    document
-        .json
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.primitives)
-        .any(|primitive| primitive.material.is_none())
+    document.json.meshes.iter().flat_map(|mesh| &mesh.primitives).any(|primitive| primitive.material.is_none())
 }
 
 fn read(
@@ -97,26 +79,14 @@ fn read(
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
     let Checked::Valid(mode) = material.alpha_mode else {
-        return Err(document.damaged(
-            &format!("{place}.alphaMode"),
-            "it is none of OPAQUE, MASK, BLEND",
-        ));
+        return Err(document.damaged(&format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND"));
     };
     let read = Material {
-        name: material
-            .name
-            .clone()
-            .unwrap_or_else(|| format!("material {index}")),
+        name: material.name.clone().unwrap_or_else(|| format!("material {index}")),
         base_colour: surface.base_color_factor.0,
-        base_colour_texture: surface
-            .base_color_texture
-            .as_ref()
-            .map(|texture| texture.index.value()),
+        base_colour_texture: surface.base_color_texture.as_ref().map(|texture| texture.index.value()),
         emissive: material.emissive_factor.0.map(|factor| factor * strength),
-        emissive_texture: material
-            .emissive_texture
-            .as_ref()
-            .map(|texture| texture.index.value()),
+        emissive_texture: material.emissive_texture.as_ref().map(|texture| texture.index.value()),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         double_sided: material.double_sided,
         alpha: match mode {
@@ -129,27 +99,17 @@ fn read(
     if !numbers.copied().all(f32::is_finite) {
         return Err(document.damaged(&place, "its colours are beyond all numbers"));
     }
-    let channels: Vec<Channel> = [&surface.base_color_texture, &material.emissive_texture]
-        .into_iter()
-        .flatten()
-        .map(Channel::of)
-        .collect();
+    let channels: Vec<Channel> =
+        [&surface.base_color_texture, &material.emissive_texture].into_iter().flatten().map(Channel::of).collect();
     if let [base, emissive] = channels[..]
         && base != emissive
     {
-        notices.add(format!(
-            "the emissive map of material \"{}\" is drawn where its base colour is",
-            read.name
-        ));
+        notices.add(format!("the emissive map of material \"{}\" is drawn where its base colour is", read.name));
     }
     Ok((read, channels.first().copied().unwrap_or(Channel::FIRST)))
 }
 
 /// The file's textures that any material draws.
 pub(super) fn textures_used(materials: &[Material]) -> HashSet<usize> {
-    materials
-        .iter()
-        .flat_map(|material| [material.base_colour_texture, material.emissive_texture])
-        .flatten()
-        .collect()
+    materials.iter().flat_map(|material| [material.base_colour_texture, material.emissive_texture]).flatten().collect()
 }

@@ -67,9 +67,7 @@ pub enum GltfError {
         fault: String,
     },
     /// The file cannot be shown without something that this program lacks.
-    #[error(
-        "{path} requires the extension {name}, which this program does not know; export the scene without it"
-    )]
+    #[error("{path} requires the extension {name}, which this program does not know; export the scene without it")]
     Extension {
         /// The scene.
         path: PathBuf,
@@ -87,9 +85,7 @@ pub enum GltfError {
         fault: String,
     },
     /// More than this program takes.
-    #[error(
-        "{path} is too large at {place}: {fault}; export a smaller part or a coarser version of the scene"
-    )]
+    #[error("{path} is too large at {place}: {fault}; export a smaller part or a coarser version of the scene")]
     TooLarge {
         /// The scene.
         path: PathBuf,
@@ -99,9 +95,7 @@ pub enum GltfError {
         fault: String,
     },
     /// No triangles.
-    #[error(
-        "{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}"
-    )]
+    #[error("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}")]
     Nothing {
         /// The scene.
         path: PathBuf,
@@ -162,55 +156,32 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
             vacant.insert(Primitive::read(&document, key, &channels, &mut notices)?);
         }
     }
-    if primitives
-        .values()
-        .all(|primitive| primitive.indices.is_empty())
-    {
-        let found = if document.json.meshes.is_empty() {
-            "nodes"
-        } else {
-            "points and lines"
-        };
-        return Err(GltfError::Nothing {
-            path: document.path,
-            found,
-        });
+    if primitives.values().all(|primitive| primitive.indices.is_empty()) {
+        let found = if document.json.meshes.is_empty() { "nodes" } else { "points and lines" };
+        return Err(GltfError::Nothing { path: document.path, found });
     }
     let textures = picture::textures(&document, &mut materials, &mut notices, &progress)?;
 
     // Choose the origin, then place the primitives relative to it.
     let mut bounds = Bounds::default();
     for instance in &instances {
-        bounds.add(
-            &primitives[&(instance.mesh, instance.primitive)],
-            instance.placement.transform,
-        );
+        bounds.add(&primitives[&(instance.mesh, instance.primitive)], instance.placement.transform);
     }
-    let origin = extras
-        .origin
-        .map_or_else(|| bounds.origin(), DVec3::from_array);
+    let origin = extras.origin.map_or_else(|| bounds.origin(), DVec3::from_array);
     let (done, total) = (AtomicUsize::new(0), instances.len());
     let placed: Vec<(Mesh, usize)> = instances
         .par_iter()
         .map(|instance| {
             let primitive = &primitives[&(instance.mesh, instance.primitive)];
-            let placed =
-                primitive.place(instance.name.clone(), instance.placement.transform, origin);
-            progress(Progress {
-                stage: Stage::Meshes,
-                done: done.fetch_add(1, Ordering::Relaxed) + 1,
-                total,
-            });
+            let placed = primitive.place(instance.name.clone(), instance.placement.transform, origin);
+            progress(Progress { stage: Stage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
             placed
         })
         .collect();
     let mut meshes = Vec::with_capacity(placed.len());
     for ((mut mesh, not_finite), instance) in placed.into_iter().zip(&instances) {
         if not_finite > 0 {
-            notices.add(format!(
-                "mesh \"{}\" has vertices that are nowhere (not finite): {not_finite}",
-                mesh.name
-            ));
+            notices.add(format!("mesh \"{}\" has vertices that are nowhere (not finite): {not_finite}", mesh.name));
         }
         let opaque = materials[mesh.material].alpha == super::Alpha::Opaque;
         mesh.solid = instance.placement.solid.unwrap_or(opaque);
@@ -266,18 +237,11 @@ fn instances<'a>(
             };
             corners += predicted;
             if corners > 3 * MAX_TRIANGLES as u64 || instances.len() == MAX_MESHES {
-                let fault = format!(
-                    "more than {MAX_TRIANGLES} triangles or {MAX_MESHES} meshes with all instances"
-                );
+                let fault = format!("more than {MAX_TRIANGLES} triangles or {MAX_MESHES} meshes with all instances");
                 return Err(document.too_large(&place, fault));
             }
             let name = instance_name(document, placement.node, mesh_index, index);
-            instances.push(Instance {
-                placement,
-                mesh: mesh_index,
-                primitive: index,
-                name,
-            });
+            instances.push(Instance { placement, mesh: mesh_index, primitive: index, name });
         }
     }
     Ok(instances)
@@ -293,71 +257,33 @@ fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize
         (None, Some(mesh)) => format!("node {node} / {mesh}"),
         (None, None) => format!("node {node}"),
     };
-    if document.json.meshes[mesh].primitives.len() > 1 {
-        format!("{name} #{primitive}")
-    } else {
-        name
-    }
+    if document.json.meshes[mesh].primitives.len() > 1 { format!("{name} #{primitive}") } else { name }
 }
 
 fn start_at(camera: DAffine3) -> Start {
     let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
-    Start {
-        position: camera.translation,
-        look,
-    }
+    Start { position: camera.translation, look }
 }
 
 /// Extensions that are drawn.
-const EXTENSIONS: [&str; 4] = [
-    "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-];
+const EXTENSIONS: [&str; 4] =
+    ["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
 
 fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
     let json = &document.json;
-    for name in json
-        .extensions_used
-        .iter()
-        .filter(|name| !EXTENSIONS.contains(&name.as_str()))
-    {
+    for name in json.extensions_used.iter().filter(|name| !EXTENSIONS.contains(&name.as_str())) {
         notices.add(format!("the extension {name} is not drawn"));
     }
-    let mut count =
-        |number: usize, sentence: &str| (0..number).for_each(|_| notices.add(sentence.into()));
+    let mut count = |number: usize, sentence: &str| (0..number).for_each(|_| notices.add(sentence.into()));
     count(json.animations.len(), "animations stand still");
     count(json.skins.len(), "skins stay in their rest position");
-    count(
-        json.cameras.len(),
-        "cameras only say where to start: lenses are not used",
-    );
-    let morphs = json
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.primitives)
-        .filter(|primitive| primitive.targets.is_some());
+    count(json.cameras.len(), "cameras only say where to start: lenses are not used");
+    let morphs = json.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|primitive| primitive.targets.is_some());
     count(morphs.count(), "morph targets are not applied");
     let materials = || json.materials.iter();
-    count(
-        materials()
-            .filter(|material| material.normal_texture.is_some())
-            .count(),
-        "normal maps are not drawn",
-    );
-    count(
-        materials()
-            .filter(|material| material.occlusion_texture.is_some())
-            .count(),
-        "occlusion maps are not drawn",
-    );
-    let metallic = materials().filter(|material| {
-        material
-            .pbr_metallic_roughness
-            .metallic_roughness_texture
-            .is_some()
-    });
+    count(materials().filter(|material| material.normal_texture.is_some()).count(), "normal maps are not drawn");
+    count(materials().filter(|material| material.occlusion_texture.is_some()).count(), "occlusion maps are not drawn");
+    let metallic = materials().filter(|material| material.pbr_metallic_roughness.metallic_roughness_texture.is_some());
     count(metallic.count(), "metallic-roughness maps are not drawn");
 }
 
@@ -370,10 +296,7 @@ struct Notices {
 
 impl Notices {
     fn add(&mut self, sentence: String) {
-        let place = *self
-            .place_of
-            .entry(sentence.clone())
-            .or_insert(self.sentences.len());
+        let place = *self.place_of.entry(sentence.clone()).or_insert(self.sentences.len());
         match self.sentences.get_mut(place) {
             Some((_, count)) => *count += 1,
             None => self.sentences.push((sentence, 1)),
@@ -382,11 +305,7 @@ impl Notices {
 
     fn into_sentences(self) -> Vec<String> {
         let sentence = |(sentence, count)| {
-            if count > 1 {
-                format!("{sentence} ({count})")
-            } else {
-                sentence
-            }
+            if count > 1 { format!("{sentence} ({count})") } else { sentence }
         };
         self.sentences.into_iter().map(sentence).collect()
     }

@@ -32,20 +32,12 @@ pub(super) fn placements(
 ) -> Result<Vec<Placement>, GltfError> {
     let nodes = &document.json.nodes;
     let roots = match scene {
-        Some(scene) => document.json.scenes[scene]
-            .nodes
-            .iter()
-            .map(|node| node.value())
-            .collect(),
+        Some(scene) => document.json.scenes[scene].nodes.iter().map(|node| node.value()).collect(),
         None => orphans(document),
     };
     let mut reached = vec![false; nodes.len()];
     let mut placements = Vec::new();
-    let mut stack: Vec<_> = roots
-        .into_iter()
-        .rev()
-        .map(|root| (root, DAffine3::IDENTITY))
-        .collect();
+    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY)).collect();
     while let Some((index, parent)) = stack.pop() {
         let place = format!("nodes[{index}]");
         let node = document.item(nodes, index, &place)?;
@@ -55,8 +47,7 @@ pub(super) fn placements(
         let transform = parent * local(&document.transforms[index], &place, notices);
         if node.mesh.is_some() || node.camera.is_some() {
             let extras = NodeExtras::read(&node.extras);
-            let extras = extras
-                .map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
+            let extras = extras.map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
             let mesh = node.mesh.map(|mesh| mesh.value());
             placements.push(Placement {
                 node: index,
@@ -82,35 +73,24 @@ fn orphans(document: &Document) -> Vec<usize> {
         }
     }
     let orphans: Vec<usize> = (0..nodes.len()).filter(|&node| orphan[node]).collect();
-    if orphans.is_empty() && !nodes.is_empty() {
-        vec![0]
-    } else {
-        orphans
-    }
+    if orphans.is_empty() && !nodes.is_empty() { vec![0] } else { orphans }
 }
 
 fn local(transform: &Transform, place: &str, notices: &mut Notices) -> DAffine3 {
     if let Some(matrix) = &transform.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(matrix));
     }
-    let rotation = transform
-        .rotation
-        .map_or(DQuat::IDENTITY, DQuat::from_array);
+    let rotation = transform.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let length = rotation.length();
     let rotation = if length.is_normal() {
         rotation / length
     } else {
-        notices.add(format!(
-            "{place} has a rotation without direction, which is left out"
-        ));
+        notices.add(format!("{place} has a rotation without direction, which is left out"));
         DQuat::IDENTITY
     };
     let scale = DVec3::from_array(transform.scale.unwrap_or([1.0; 3]));
     let translation = DVec3::from_array(transform.translation.unwrap_or_default());
-    DAffine3 {
-        matrix3: DMat3::from_quat(rotation) * DMat3::from_diagonal(scale),
-        translation,
-    }
+    DAffine3 { matrix3: DMat3::from_quat(rotation) * DMat3::from_diagonal(scale), translation }
 }
 
 /// The box round all finite vertices, in the file's frame.
@@ -121,10 +101,7 @@ pub(super) struct Bounds {
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self {
-            least: DVec3::INFINITY,
-            most: DVec3::NEG_INFINITY,
-        }
+        Self { least: DVec3::INFINITY, most: DVec3::NEG_INFINITY }
     }
 }
 
@@ -160,9 +137,6 @@ impl Bounds {
         }
         let middle = 0.5 * self.least + 0.5 * self.most;
         let size = (self.most - self.least).max_element();
-        Start {
-            position: DVec3::new(middle.x, self.least.y, self.most.z + size),
-            ..Start::default()
-        }
+        Start { position: DVec3::new(middle.x, self.least.y, self.most.z + size), ..Start::default() }
     }
 }

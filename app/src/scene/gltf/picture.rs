@@ -46,37 +46,19 @@ pub(super) fn textures(
         }
         let image = document.item(&document.json.images, source, &format!("{place}.source"))?;
         let sampler = match texture.sampler {
-            Some(sampler) => document.item(
-                &document.json.samplers,
-                sampler.value(),
-                &format!("{place}.sampler"),
-            )?,
+            Some(sampler) => document.item(&document.json.samplers, sampler.value(), &format!("{place}.sampler"))?,
             None => &Sampler::default(),
         };
         let wrap = |mode| match mode {
             Checked::Valid(WrappingMode::Repeat) => Ok(Wrap::Repeat),
             Checked::Valid(WrappingMode::MirroredRepeat) => Ok(Wrap::Mirror),
             Checked::Valid(WrappingMode::ClampToEdge) => Ok(Wrap::Clamp),
-            Checked::Invalid => {
-                Err(document.damaged(&place, "its sampler repeats in a way that does not exist"))
-            }
+            Checked::Invalid => Err(document.damaged(&place, "its sampler repeats in a way that does not exist")),
         };
         let wrap = [wrap(sampler.wrap_s)?, wrap(sampler.wrap_t)?];
         let nearest = sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest));
-        let name = texture
-            .name
-            .clone()
-            .or_else(|| image.name.clone())
-            .unwrap_or_else(|| format!("picture {source}"));
-        looks.insert(
-            index,
-            Look {
-                source,
-                name,
-                wrap,
-                nearest,
-            },
-        );
+        let name = texture.name.clone().or_else(|| image.name.clone()).unwrap_or_else(|| format!("picture {source}"));
+        looks.insert(index, Look { source, name, wrap, nearest });
     }
 
     // Each picture once.
@@ -91,34 +73,21 @@ pub(super) fn textures(
                 encoded.push(picture);
             }
             Err(GltfError::Read { path, error }) => {
-                notices.add(format!(
-                    "the picture {} is missing and not drawn ({error})",
-                    path.display()
-                ));
+                notices.add(format!("the picture {} is missing and not drawn ({error})", path.display()));
             }
             Err(error) => return Err(error),
         }
         if bytes > MAX_BYTES {
-            return Err(document.too_large(
-                &place,
-                format!("pictures of more than {MAX_BYTES} bytes in all"),
-            ));
+            return Err(document.too_large(&place, format!("pictures of more than {MAX_BYTES} bytes in all")));
         }
     }
     let (done, total) = (AtomicUsize::new(0), encoded.len());
     let decode = |picture: &Encoded| {
         let pixels = picture.decode(document)?;
-        progress(Progress {
-            stage: Stage::Pictures,
-            done: done.fetch_add(1, Ordering::Relaxed) + 1,
-            total,
-        });
+        progress(Progress { stage: Stage::Pictures, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
         Ok((picture.source, pixels))
     };
-    let pictures: BTreeMap<usize, RgbaImage> = encoded
-        .par_iter()
-        .map(decode)
-        .collect::<Result<_, GltfError>>()?;
+    let pictures: BTreeMap<usize, RgbaImage> = encoded.par_iter().map(decode).collect::<Result<_, GltfError>>()?;
 
     // Textures, and where the file's indices have gone.
     let mut textures: Vec<Texture> = Vec::new();
@@ -133,28 +102,13 @@ pub(super) fn textures(
             .or_insert(textures.len());
         if place == textures.len() {
             let (width, height) = picture.dimensions();
-            let Look {
-                name,
-                wrap,
-                nearest,
-                ..
-            } = look;
-            textures.push(Texture {
-                name,
-                width,
-                height,
-                rgba: picture.as_raw().clone(),
-                wrap,
-                nearest,
-            });
+            let Look { name, wrap, nearest, .. } = look;
+            textures.push(Texture { name, width, height, rgba: picture.as_raw().clone(), wrap, nearest });
         }
         place_of_index.insert(index, place);
     }
     for material in materials {
-        for texture in [
-            &mut material.base_colour_texture,
-            &mut material.emissive_texture,
-        ] {
+        for texture in [&mut material.base_colour_texture, &mut material.emissive_texture] {
             *texture = texture.and_then(|index| place_of_index.get(&index).copied());
         }
     }
@@ -197,18 +151,10 @@ impl Encoded {
         let size = ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions();
         let (width, height) = size.map_err(|error| document.damaged(place, error.to_string()))?;
         if width.max(height) > MAX_SIDE || width.min(height) == 0 {
-            let fault = format!(
-                "a picture of {width} × {height} pixels, where sides of 1 to {MAX_SIDE} are possible"
-            );
+            let fault = format!("a picture of {width} × {height} pixels, where sides of 1 to {MAX_SIDE} are possible");
             return Err(document.too_large(place, fault));
         }
-        Ok(Self {
-            source,
-            bytes,
-            format,
-            width,
-            height,
-        })
+        Ok(Self { source, bytes, format, width, height })
     }
 
     fn decoded_bytes(&self) -> u64 {
@@ -220,9 +166,8 @@ impl Encoded {
         let mut limits = image::Limits::default();
         limits.max_alloc = Some(4 * self.decoded_bytes() + (1 << 20)); // 16 bits a channel, and the decoder's own buffers
         reader.limits(limits);
-        let damaged = |error: image::ImageError| {
-            document.damaged(&format!("images[{}]", self.source), error.to_string())
-        };
+        let damaged =
+            |error: image::ImageError| document.damaged(&format!("images[{}]", self.source), error.to_string());
         Ok(reader.decode().map_err(damaged)?.into_rgba8())
     }
 }

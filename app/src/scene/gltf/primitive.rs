@@ -45,32 +45,19 @@ pub(super) fn corners(
     };
     let vertices = accessor::count(document, positions(document, primitive, place)?, place)? as u64;
     let entries = match primitive.indices {
-        Some(indices) => {
-            accessor::count(document, indices.value(), &format!("{place}.indices"))? as u64
-        }
+        Some(indices) => accessor::count(document, indices.value(), &format!("{place}.indices"))? as u64,
         None => vertices,
     };
-    Ok(Some(vertices.max(if strip {
-        3 * entries
-    } else {
-        entries
-    })))
+    Ok(Some(vertices.max(if strip { 3 * entries } else { entries })))
 }
 
-fn positions(
-    document: &Document,
-    primitive: &json::mesh::Primitive,
-    place: &str,
-) -> Result<usize, GltfError> {
+fn positions(document: &Document, primitive: &json::mesh::Primitive, place: &str) -> Result<usize, GltfError> {
     let missing = || document.damaged(&format!("{place}.attributes"), "POSITION is missing");
     attribute(primitive, Semantic::Positions).ok_or_else(missing)
 }
 
 fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<usize> {
-    primitive
-        .attributes
-        .get(&Checked::Valid(semantic))
-        .map(|index| index.value())
+    primitive.attributes.get(&Checked::Valid(semantic)).map(|index| index.value())
 }
 
 impl Primitive {
@@ -85,11 +72,7 @@ impl Primitive {
         let primitive = &document.json.meshes[mesh].primitives[index];
         let material = primitive.material.map(|material| material.value());
         if let Some(material) = material {
-            document.item(
-                &document.json.materials,
-                material,
-                &format!("{place}.material"),
-            )?;
+            document.item(&document.json.materials, material, &format!("{place}.material"))?;
         }
         let material = material.unwrap_or(document.json.materials.len()); // the default one is the last
         let channel = channels[material];
@@ -98,65 +81,33 @@ impl Primitive {
         let index = positions(document, primitive, &place)?;
         let vectors = |index, name: &str| {
             let place = format!("{place}.attributes.{name}");
-            accessor::read(
-                document,
-                index,
-                &place,
-                Purpose::Vectors(Type::Vec3),
-                |value| value as f32,
-            )
-            .map(|numbers| {
-                numbers
-                    .values
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .copied()
-                    .map(Vec3::from_array)
-                    .collect::<Vec<_>>()
-            })
+            accessor::read(document, index, &place, Purpose::Vectors(Type::Vec3), |value| value as f32)
+                .map(|numbers| numbers.values.as_chunks().0.iter().copied().map(Vec3::from_array).collect::<Vec<_>>())
         };
         let positions = vectors(index, "POSITION")?;
         let count = positions.len();
-        let normals = attribute(primitive, Semantic::Normals)
-            .map(|index| vectors(index, "NORMAL"))
-            .transpose()?;
+        let normals = attribute(primitive, Semantic::Normals).map(|index| vectors(index, "NORMAL")).transpose()?;
         let uvs = match attribute(primitive, Semantic::TexCoords(channel.set)) {
             Some(index) => {
                 let place = format!("{place}.attributes.TEXCOORD_{}", channel.set);
                 let purpose = Purpose::Vectors(Type::Vec2);
-                let numbers =
-                    accessor::read(document, index, &place, purpose, |value| value as f32)?;
-                numbers
-                    .values
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .map(|&uv| channel.apply(Vec2::from_array(uv)))
-                    .collect()
+                let numbers = accessor::read(document, index, &place, purpose, |value| value as f32)?;
+                numbers.values.as_chunks().0.iter().map(|&uv| channel.apply(Vec2::from_array(uv))).collect()
             }
             None => vec![Vec2::ZERO; count],
         };
         let colours = match attribute(primitive, Semantic::Colors(0)) {
             Some(index) => {
                 let place = format!("{place}.attributes.COLOR_0");
-                let numbers = accessor::read(document, index, &place, Purpose::Colours, |value| {
-                    value as f32
-                })?;
+                let numbers = accessor::read(document, index, &place, Purpose::Colours, |value| value as f32)?;
                 let colour = |c: &[f32]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)];
-                numbers
-                    .values
-                    .chunks_exact(numbers.width)
-                    .map(colour)
-                    .collect()
+                numbers.values.chunks_exact(numbers.width).map(colour).collect()
             }
             None => vec![[1.0; 4]; count],
         };
-        for (name, length) in [
-            ("NORMAL", normals.as_ref().map_or(count, Vec::len)),
-            ("TEXCOORD", uvs.len()),
-            ("COLOR_0", colours.len()),
-        ] {
+        for (name, length) in
+            [("NORMAL", normals.as_ref().map_or(count, Vec::len)), ("TEXCOORD", uvs.len()), ("COLOR_0", colours.len())]
+        {
             if length != count {
                 let fault = format!("{length} entries for {count} positions");
                 return Err(document.damaged(&format!("{place}.attributes.{name}"), fault));
@@ -167,36 +118,21 @@ impl Primitive {
         let corners = match primitive.indices {
             Some(index) => {
                 let place = format!("{place}.indices");
-                accessor::read(document, index.value(), &place, Purpose::Indices, |value| {
-                    value as u32
-                })?
-                .values
+                accessor::read(document, index.value(), &place, Purpose::Indices, |value| value as u32)?.values
             }
             None => (0..count as u32).collect(),
         };
         if let Some(beyond) = corners.iter().find(|&&corner| corner as usize >= count) {
-            return Err(document.damaged(
-                &format!("{place}.indices"),
-                format!("vertex {beyond} of {count}"),
-            ));
+            return Err(document.damaged(&format!("{place}.indices"), format!("vertex {beyond} of {count}")));
         }
         let indices = match primitive.mode {
             Checked::Valid(Mode::TriangleStrip) => strip(&corners),
             Checked::Valid(Mode::TriangleFan) => fan(&corners),
             _ => corners,
         };
-        let mut read = Self {
-            positions,
-            indices,
-            normals: Vec::new(),
-            uvs,
-            colours,
-            material,
-        };
+        let mut read = Self { positions, indices, normals: Vec::new(), uvs, colours, material };
         if !read.indices.len().is_multiple_of(3) {
-            notices.add(format!(
-                "{place} ends in an incomplete triangle, which is left out"
-            ));
+            notices.add(format!("{place} ends in an incomplete triangle, which is left out"));
             read.indices.truncate(read.indices.len() / 3 * 3);
         }
         match normals {
@@ -209,10 +145,7 @@ impl Primitive {
     /// Gives each triangle its own vertices and its own normal, as glTF demands where a file has no normals.
     fn flatten(&mut self) {
         fn spread<T: Copy>(values: &mut Vec<T>, indices: &[u32]) {
-            *values = indices
-                .iter()
-                .map(|&index| values[index as usize])
-                .collect();
+            *values = indices.iter().map(|&index| values[index as usize]).collect();
         }
         spread(&mut self.positions, &self.indices);
         spread(&mut self.uvs, &self.indices);
@@ -222,78 +155,36 @@ impl Primitive {
             let [a, b, c] = [a, b, c].map(|corner| corner.as_dvec3());
             [(b - a).cross(c - a).normalize_or_zero().as_vec3(); 3]
         };
-        self.normals = self
-            .positions
-            .as_chunks()
-            .0
-            .iter()
-            .flat_map(normal)
-            .collect();
+        self.normals = self.positions.as_chunks().0.iter().flat_map(normal).collect();
     }
 
     /// The mesh in the world, relative to `origin`, and how many of its vertices are not finite.
     ///
     /// A mirroring transform turns triangles round, so their winding is turned back. Normals transform by the inverse transpose, which is
     /// the cofactor matrix but for length and the determinant's sign, and exists for flat transforms too.
-    pub(super) fn place(
-        &self,
-        name: String,
-        mut transform: DAffine3,
-        origin: DVec3,
-    ) -> (Mesh, usize) {
+    pub(super) fn place(&self, name: String, mut transform: DAffine3, origin: DVec3) -> (Mesh, usize) {
         transform.translation -= origin;
         let linear = transform.matrix3;
-        let [x, y, z] =
-            [linear.x_axis, linear.y_axis, linear.z_axis].map(|axis| axis / largest(linear));
+        let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis].map(|axis| axis / largest(linear));
         let mirror = x.dot(y.cross(z)) < 0.0;
         let sign = if mirror { -1.0 } else { 1.0 };
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-        let positions: Vec<Vec3> = self
-            .positions
-            .iter()
-            .map(|position| transform.transform_point3(position.as_dvec3()).as_vec3())
-            .collect();
-        let normals = self
-            .normals
-            .iter()
-            .map(|normal| unit(cofactors * normal.as_dvec3()))
-            .collect();
+        let positions: Vec<Vec3> =
+            self.positions.iter().map(|position| transform.transform_point3(position.as_dvec3()).as_vec3()).collect();
+        let normals = self.normals.iter().map(|normal| unit(cofactors * normal.as_dvec3())).collect();
         let mut indices = self.indices.clone();
         if mirror {
-            indices
-                .as_chunks_mut::<3>()
-                .0
-                .iter_mut()
-                .for_each(|triangle| triangle.swap(1, 2));
+            indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
-        let not_finite = positions
-            .iter()
-            .filter(|position| !position.is_finite())
-            .count();
+        let not_finite = positions.iter().filter(|position| !position.is_finite()).count();
         let (uvs, colours) = (self.uvs.clone(), self.colours.clone());
-        (
-            Mesh {
-                name,
-                material: self.material,
-                positions,
-                normals,
-                uvs,
-                colours,
-                indices,
-                solid: true,
-            },
-            not_finite,
-        )
+        (Mesh { name, material: self.material, positions, normals, uvs, colours, indices, solid: true }, not_finite)
     }
 }
 
 /// The largest component, by which to divide so that products neither overflow nor vanish; 1 where that is impossible.
 fn largest(matrix: DMat3) -> f64 {
-    let largest = matrix
-        .to_cols_array()
-        .into_iter()
-        .map(f64::abs)
-        .fold(0.0, f64::max);
+    let largest = matrix.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
     if largest.is_normal() { largest } else { 1.0 }
 }
 
@@ -309,11 +200,7 @@ fn unit(normal: DVec3) -> Vec3 {
 /// Each vertex makes a triangle with the two before it; every other one is turned round.
 fn strip(corners: &[u32]) -> Vec<u32> {
     let triangle = |(index, corner): (usize, &[u32])| {
-        if index % 2 == 0 {
-            [corner[0], corner[1], corner[2]]
-        } else {
-            [corner[0], corner[2], corner[1]]
-        }
+        if index % 2 == 0 { [corner[0], corner[1], corner[2]] } else { [corner[0], corner[2], corner[1]] }
     };
     corners.windows(3).enumerate().flat_map(triangle).collect()
 }
@@ -321,10 +208,5 @@ fn strip(corners: &[u32]) -> Vec<u32> {
 /// Each vertex makes a triangle with the one before it and the first (glTF 2.0, 3.7.2.1: the first comes last).
 fn fan(corners: &[u32]) -> Vec<u32> {
     let first = corners.first().copied().unwrap_or_default();
-    corners
-        .get(1..)
-        .unwrap_or_default()
-        .windows(2)
-        .flat_map(|pair| [pair[0], pair[1], first])
-        .collect()
+    corners.get(1..).unwrap_or_default().windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
 }
