@@ -7,6 +7,8 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod town;
+
 use glam::{DVec3, Vec2, Vec3};
 
 /// A world at rest: geometry, materials, light, and a place to start from.
