@@ -13,6 +13,7 @@ pub mod lattice;
 pub mod mipmap;
 pub mod refine;
 pub mod source;
+pub mod town;
 
 use glam::{DVec3, Vec2, Vec3};
 
