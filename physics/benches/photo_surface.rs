@@ -41,11 +41,7 @@ fn town(count: usize) -> Vertices {
         let (tile, within) = ((index / CHUNK) as f32, (index % CHUNK) as f32);
         let column = tile % tiles + (within / row).fract();
         let line = (tile / tiles).floor() + within / CHUNK as f32;
-        Vec3::new(
-            40.0 * (column - tiles / 2.0),
-            10.0 * (0.618 * within).fract(),
-            40.0 * (line - tiles / 2.0),
-        )
+        Vec3::new(40.0 * (column - tiles / 2.0), 10.0 * (0.618 * within).fract(), 40.0 * (line - tiles / 2.0))
     });
     Vertices::from_offsets(DVec3::ZERO, offsets).unwrap()
 }
@@ -72,10 +68,7 @@ struct Memory {
 
 impl Memory {
     fn new(count: usize) -> Self {
-        Self {
-            input: [(); 3].map(|()| Stream::new(count)),
-            output: [(); 4].map(|()| Stream::new(count)),
-        }
+        Self { input: [(); 3].map(|()| Stream::new(count)), output: [(); 4].map(|()| Stream::new(count)) }
     }
 }
 
@@ -83,31 +76,21 @@ impl Memory {
 enum Work {
     CopyCached,
     CopyStreamed,
-    Kernel {
-        instructions: Instructions,
-        stores: Stores,
-        celerity: f64,
-    },
+    Kernel { instructions: Instructions, stores: Stores, celerity: f64 },
 }
 
 /// One repetition.
 fn run(work: Work, vertices: &Vertices, memory: &mut Memory, doppler: bool, threads: usize) {
     let Memory { input, output } = memory;
     match work {
-        Work::Kernel {
-            instructions,
-            stores,
-            celerity,
-        } => {
+        Work::Kernel { instructions, stores, celerity } => {
             let eye = Eye::new(DVec3::new(0.3, 1.7, 0.1), DVec3::X * celerity).unwrap();
             let [x, y, z, d] = output.each_mut().map(Stream::values);
             let mut surface = Surface::new(vertices, [x, y, z]).unwrap();
             if doppler {
                 surface = surface.with_doppler(d).unwrap();
             }
-            let kernel = Kernel::with_instructions(instructions)
-                .unwrap()
-                .with_stores(stores);
+            let kernel = Kernel::with_instructions(instructions).unwrap().with_stores(stores);
             black_box(kernel.transform(&eye, vec![surface]));
         }
         Work::CopyCached | Work::CopyStreamed => {
@@ -172,10 +155,7 @@ fn time(cold: bool, mut repetition: impl FnMut()) -> f64 {
     let mut flush = vec![0_u8; if cold { FLUSH_BYTES } else { 0 }];
     let (mut spent, mut repetitions) = (Duration::ZERO, 0);
     while spent < SPAN {
-        flush
-            .iter_mut()
-            .step_by(64)
-            .for_each(|byte| *byte = byte.wrapping_add(1));
+        flush.iter_mut().step_by(64).for_each(|byte| *byte = byte.wrapping_add(1));
         black_box(&mut flush);
         let start = Instant::now();
         repetition();
@@ -192,25 +172,14 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 fn kernels() -> Vec<Work> {
     let mut works = Vec::new();
-    for instructions in Instructions::ALL
-        .into_iter()
-        .filter(|instructions| instructions.are_available())
-    {
+    for instructions in Instructions::ALL.into_iter().filter(|instructions| instructions.are_available()) {
         for celerity in CELERITIES {
-            works.push(Work::Kernel {
-                instructions,
-                stores: Stores::Automatic,
-                celerity,
-            });
+            works.push(Work::Kernel { instructions, stores: Stores::Automatic, celerity });
         }
     }
     let instructions = Instructions::fastest();
     for stores in [Stores::Cached, Stores::Streamed] {
-        works.push(Work::Kernel {
-            instructions,
-            stores,
-            celerity: CELERITIES[1],
-        });
+        works.push(Work::Kernel { instructions, stores, celerity: CELERITIES[1] });
     }
     works
 }
@@ -225,14 +194,8 @@ fn print_shares() {
         let vertices = town(count);
         let mut memory = Memory::new(count);
         let cold = count > SIZES[0];
-        for (threads, doppler) in THREADS
-            .into_iter()
-            .flat_map(|threads| [(threads, false), (threads, true)])
-        {
-            let pool = ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
+        for (threads, doppler) in THREADS.into_iter().flat_map(|threads| [(threads, false), (threads, true)]) {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut works = vec![Work::CopyCached, Work::CopyStreamed];
             works.extend(kernels());
             let rounds: Vec<Vec<f64>> = pool.install(|| {
@@ -240,9 +203,7 @@ fn print_shares() {
                     .map(|_| {
                         works
                             .iter()
-                            .map(|&work| {
-                                time(cold, || run(work, &vertices, &mut memory, doppler, threads))
-                            })
+                            .map(|&work| time(cold, || run(work, &vertices, &mut memory, doppler, threads)))
                             .collect()
                     })
                     .collect()
@@ -250,18 +211,9 @@ fn print_shares() {
             let column = |index: usize| median(rounds.iter().map(|round| round[index]).collect());
             let best_copy = if column(0) < column(1) { 0 } else { 1 };
             for (index, work) in works.iter().enumerate() {
-                let share = median(
-                    rounds
-                        .iter()
-                        .map(|round| round[best_copy] / round[index])
-                        .collect(),
-                );
+                let share = median(rounds.iter().map(|round| round[best_copy] / round[index]).collect());
                 let label = match work {
-                    Work::Kernel {
-                        instructions,
-                        stores,
-                        celerity,
-                    } => {
+                    Work::Kernel { instructions, stores, celerity } => {
                         format!("{instructions:?}, {stores:?}, u = {celerity}")
                     }
                     copy => format!("{copy:?}"),
@@ -278,19 +230,13 @@ fn print_shares() {
 
 fn criterion_figures(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("photo_surface");
-    group
-        .sample_size(20)
-        .warm_up_time(SPAN * 200)
-        .measurement_time(SPAN * 1000);
+    group.sample_size(20).warm_up_time(SPAN * 200).measurement_time(SPAN * 1000);
     for count in SIZES {
         let vertices = town(count);
         let mut memory = Memory::new(count);
         group.throughput(Throughput::Bytes(28 * count as u64));
         for threads in THREADS {
-            let pool = ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let kernel = Work::Kernel {
                 instructions: Instructions::fastest(),
                 stores: Stores::Automatic,

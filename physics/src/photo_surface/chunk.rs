@@ -122,11 +122,7 @@ fn transform_line<L: Lanes, F: Formula<L>, T: Target>(
 ) -> u32 {
     let mut finite = 0;
     for first in (0..LINE).step_by(L::COUNT) {
-        let vertex = [
-            L::load(&in_x.0[first..]),
-            L::load(&in_y.0[first..]),
-            L::load(&in_z.0[first..]),
-        ];
+        let vertex = [L::load(&in_x.0[first..]), L::load(&in_y.0[first..]), L::load(&in_z.0[first..])];
         let mut seen = formula.seen(vertex);
         if seen.finite != L::ALL {
             seen = seen.collapsed();

@@ -40,11 +40,7 @@ impl<L: Lanes> Seen<L> {
         let zero = L::splat(0.0);
         let [x, y, z] = self.position;
         Self {
-            position: [
-                zero.replaced(self.finite, x),
-                zero.replaced(self.finite, y),
-                zero.replaced(self.finite, z),
-            ],
+            position: [zero.replaced(self.finite, x), zero.replaced(self.finite, y), zero.replaced(self.finite, z)],
             doppler: zero.replaced(self.finite, self.doppler),
             finite: self.finite,
         }
@@ -67,21 +63,14 @@ impl<L: Lanes> Offset<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
         let high = plan.offset.as_vec3();
-        let low = (plan.offset - high.as_dvec3()).as_vec3();
-        Self {
-            high: each!(L::splat, high.to_array()),
-            low: each!(L::splat, low.to_array()),
-        }
+        let low = (plan.offset - high.as_dvec3() + plan.offset_rest).as_vec3();
+        Self { high: each!(L::splat, high.to_array()), low: each!(L::splat, low.to_array()) }
     }
 
     /// d = (p − o_high) − o_low.
     #[inline(always)]
     fn displacement(&self, [x, y, z]: [L; 3]) -> [L; 3] {
-        [
-            x - self.high[0] - self.low[0],
-            y - self.high[1] - self.low[1],
-            z - self.high[2] - self.low[2],
-        ]
+        [x - self.high[0] - self.low[0], y - self.high[1] - self.low[1], z - self.high[2] - self.low[2]]
     }
 }
 
@@ -98,11 +87,7 @@ impl<L: Lanes> Formula<L> for AtRest<L> {
     fn seen(&self, vertex: [L; 3]) -> Seen<L> {
         let position = self.0.displacement(vertex);
         let size = position[0].abs() + position[1].abs() + position[2].abs();
-        Seen {
-            position,
-            doppler: L::splat(1.0),
-            finite: size.below(L::splat(LARGEST)),
-        }
+        Seen { position, doppler: L::splat(1.0), finite: size.below(L::splat(LARGEST)) }
     }
 }
 
@@ -149,11 +134,7 @@ impl<L: Lanes> Boost<L> {
         let apparent_distance = advanced + retarded;
         let [ex, ey, ez] = self.direction;
         Seen {
-            position: [
-                lengthened.mul_add(ex, ax),
-                lengthened.mul_add(ey, ay),
-                lengthened.mul_add(ez, az),
-            ],
+            position: [lengthened.mul_add(ex, ax), lengthened.mul_add(ey, ay), lengthened.mul_add(ez, az)],
             doppler: apparent_distance * (big * inverse),
             finite: (apparent_distance + product).below(L::splat(LARGEST)),
         }
@@ -174,11 +155,7 @@ impl<L: Lanes> LightCone<L> {
         let along = self.boost.along(displacement);
         let [x, y, z] = displacement;
         let [ex, ey, ez] = self.boost.direction;
-        let across = [
-            along.negated_mul_add(ex, x),
-            along.negated_mul_add(ey, y),
-            along.negated_mul_add(ez, z),
-        ];
+        let across = [along.negated_mul_add(ex, x), along.negated_mul_add(ey, y), along.negated_mul_add(ez, z)];
         (along, across)
     }
 }
@@ -186,10 +163,7 @@ impl<L: Lanes> LightCone<L> {
 impl<L: Lanes> Formula<L> for LightCone<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
-        Self {
-            offset: Offset::new(plan),
-            boost: Boost::new(plan),
-        }
+        Self { offset: Offset::new(plan), boost: Boost::new(plan) }
     }
 
     #[inline(always)]
@@ -203,6 +177,7 @@ impl<L: Lanes> Formula<L> for LightCone<L> {
 pub(super) struct ExactAstern<L: Lanes> {
     light_cone: LightCone<L>,
     offset: [L::Wide; 3],
+    offset_rest: [L::Wide; 3],
     direction: [L::Wide; 3],
 }
 
@@ -211,9 +186,7 @@ impl<L: Lanes> ExactAstern<L> {
     #[inline(always)]
     fn astern(along: L, across: [L; 3]) -> u32 {
         let steepness = L::splat(REAR_CONE_COTANGENT_SQUARED);
-        length_squared(across)
-            .mul_add(steepness, along * along.abs())
-            .below(L::splat(0.0))
+        length_squared(across).mul_add(steepness, along * along.abs()).below(L::splat(0.0))
     }
 
     /// d⊥ = e × (d × e), with d and d × e in f64.
@@ -221,7 +194,9 @@ impl<L: Lanes> ExactAstern<L> {
     fn across(&self, vertex: [L; 3]) -> [L; 3] {
         let [x, y, z] = each!(L::widen, vertex);
         let [ox, oy, oz] = self.offset;
-        let moment = cross_wide::<L>([x - ox, y - oy, z - oz], self.direction);
+        let [rx, ry, rz] = self.offset_rest;
+        let displacement = [x - ox - rx, y - oy - ry, z - oz - rz];
+        let moment = cross_wide::<L>(displacement, self.direction);
         cross(self.light_cone.boost.direction, moment)
     }
 }
@@ -232,6 +207,7 @@ impl<L: Lanes> Formula<L> for ExactAstern<L> {
         Self {
             light_cone: LightCone::new(plan),
             offset: each!(L::Wide::splat, plan.offset.to_array()),
+            offset_rest: each!(L::Wide::splat, plan.offset_rest.to_array()),
             direction: each!(L::Wide::splat, plan.direction.to_array()),
         }
     }
@@ -242,11 +218,7 @@ impl<L: Lanes> Formula<L> for ExactAstern<L> {
         let astern = Self::astern(along, across);
         if astern != 0 {
             let ([x, y, z], [exact_x, exact_y, exact_z]) = (across, self.across(vertex));
-            across = [
-                x.replaced(astern, exact_x),
-                y.replaced(astern, exact_y),
-                z.replaced(astern, exact_z),
-            ];
+            across = [x.replaced(astern, exact_x), y.replaced(astern, exact_y), z.replaced(astern, exact_z)];
         }
         self.light_cone.boost.seen(along, across)
     }
@@ -261,19 +233,11 @@ fn length_squared<L: Lanes>([x, y, z]: [L; 3]) -> L {
 /// a × b in f64, rounded to f32 at the end.
 #[inline(always)]
 fn cross_wide<L: Lanes>([ax, ay, az]: [L::Wide; 3], [bx, by, bz]: [L::Wide; 3]) -> [L; 3] {
-    [
-        L::narrow(ay.mul_sub(bz, az * by)),
-        L::narrow(az.mul_sub(bx, ax * bz)),
-        L::narrow(ax.mul_sub(by, ay * bx)),
-    ]
+    [L::narrow(ay.mul_sub(bz, az * by)), L::narrow(az.mul_sub(bx, ax * bz)), L::narrow(ax.mul_sub(by, ay * bx))]
 }
 
 /// a × b.
 #[inline(always)]
 fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
-    [
-        az.negated_mul_add(by, ay * bz),
-        ax.negated_mul_add(bz, az * bx),
-        ay.negated_mul_add(bx, ax * by),
-    ]
+    [az.negated_mul_add(by, ay * bz), ax.negated_mul_add(bz, az * bx), ay.negated_mul_add(bx, ax * by)]
 }

@@ -96,10 +96,7 @@ impl<T: Copy> Portable<T> {
 
     #[inline(always)]
     fn bits(self, f: impl Fn(T) -> bool) -> u32 {
-        self.0
-            .iter()
-            .rev()
-            .fold(0, |bits, &value| bits << 1 | u32::from(f(value)))
+        self.0.iter().rev().fold(0, |bits, &value| bits << 1 | u32::from(f(value)))
     }
 }
 
@@ -149,9 +146,7 @@ impl Lanes for Portable<f32> {
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         if FUSED {
-            Self(std::array::from_fn(|lane| {
-                self.0[lane].mul_add(factor.0[lane], term.0[lane])
-            }))
+            Self(std::array::from_fn(|lane| self.0[lane].mul_add(factor.0[lane], term.0[lane])))
         } else {
             self * factor + term
         }
@@ -174,38 +169,22 @@ impl Lanes for Portable<f32> {
 
     #[inline(always)]
     fn or_at_least(self, least: Self) -> Self {
-        self.zip(
-            least,
-            |value, least| if value > least { value } else { least },
-        )
+        self.zip(least, |value, least| if value > least { value } else { least })
     }
 
     #[inline(always)]
     fn below(self, limit: Self) -> u32 {
-        self.zip(limit, |value, limit| value < limit)
-            .bits(|below| below)
+        self.zip(limit, |value, limit| value < limit).bits(|below| below)
     }
 
     #[inline(always)]
     fn if_negative(self, negative: Self, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| {
-            if self.0[lane] < 0.0 {
-                negative.0[lane]
-            } else {
-                other.0[lane]
-            }
-        }))
+        Self(std::array::from_fn(|lane| if self.0[lane] < 0.0 { negative.0[lane] } else { other.0[lane] }))
     }
 
     #[inline(always)]
     fn replaced(self, bits: u32, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| {
-            if bits >> lane & 1 == 1 {
-                other.0[lane]
-            } else {
-                self.0[lane]
-            }
-        }))
+        Self(std::array::from_fn(|lane| if bits >> lane & 1 == 1 { other.0[lane] } else { self.0[lane] }))
     }
 
     #[inline(always)]
@@ -228,9 +207,7 @@ impl WideLanes for Portable<f64> {
     #[inline(always)]
     fn mul_sub(self, factor: Self, term: Self) -> Self {
         if FUSED {
-            Self(std::array::from_fn(|lane| {
-                self.0[lane].mul_add(factor.0[lane], -term.0[lane])
-            }))
+            Self(std::array::from_fn(|lane| self.0[lane].mul_add(factor.0[lane], -term.0[lane])))
         } else {
             self * factor - term
         }

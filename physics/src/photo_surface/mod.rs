@@ -70,9 +70,7 @@ pub enum PhotoSurfaceError {
         celerity: DVec3,
     },
     /// The vertices have no origin.
-    #[error(
-        "the vertices' origin {origin} m must be finite: take a point near the middle of the mesh"
-    )]
+    #[error("the vertices' origin {origin} m must be finite: take a point near the middle of the mesh")]
     Origin {
         /// As given; world frame, metres.
         origin: DVec3,
@@ -142,10 +140,7 @@ pub struct Kernel {
 
 impl Default for Kernel {
     fn default() -> Self {
-        Self {
-            instructions: Instructions::fastest(),
-            stores: Stores::default(),
-        }
+        Self { instructions: Instructions::fastest(), stores: Stores::default() }
     }
 }
 
@@ -156,10 +151,7 @@ impl Kernel {
     /// [`PhotoSurfaceError::Instructions`] if this processor does not have them.
     pub fn with_instructions(instructions: Instructions) -> Result<Self, PhotoSurfaceError> {
         if instructions.are_available() {
-            Ok(Self {
-                instructions,
-                stores: Stores::default(),
-            })
+            Ok(Self { instructions, stores: Stores::default() })
         } else {
             Err(PhotoSurfaceError::Instructions { instructions })
         }
@@ -182,14 +174,8 @@ impl Kernel {
     /// pure boost; metres. *Equation*: the light-cone form of x' = d + u (r + u·d/(1+γ)), D = γ + u·n
     /// (Weiskopf 2001, 5.1), with d the displacement from the eye to the vertex.
     pub fn transform(&self, eye: &Eye, surfaces: Vec<Surface<'_>>) -> Stats {
-        let vertices: usize = surfaces
-            .iter()
-            .map(|surface| surface.vertices().len())
-            .sum();
-        let not_finite_inputs = surfaces
-            .iter()
-            .map(|surface| surface.vertices().not_finite().len())
-            .sum();
+        let vertices: usize = surfaces.iter().map(|surface| surface.vertices().len()).sum();
+        let not_finite_inputs = surfaces.iter().map(|surface| surface.vertices().not_finite().len()).sum();
         let bytes: usize = surfaces.iter().map(Surface::output_bytes).sum();
         let streaming = match self.stores {
             Stores::Automatic => bytes > STREAMED_ABOVE_BYTES,
@@ -197,23 +183,13 @@ impl Kernel {
             Stores::Streamed => true,
         };
 
-        let chunks = surfaces
-            .into_iter()
-            .flat_map(|surface| surface.into_chunks(eye, streaming));
+        let chunks = surfaces.into_iter().flat_map(|surface| surface.into_chunks(eye, streaming));
         let transform = |chunk: Chunk<'_>| self.instructions.transform(chunk);
         let not_finite: usize = if vertices < SERIAL_BELOW {
             chunks.map(transform).sum()
         } else {
-            chunks
-                .collect::<Vec<_>>()
-                .into_par_iter()
-                .map(transform)
-                .sum()
+            chunks.collect::<Vec<_>>().into_par_iter().map(transform).sum()
         };
-        Stats {
-            vertices,
-            not_finite_inputs,
-            not_finite_results: not_finite - not_finite_inputs,
-        }
+        Stats { vertices, not_finite_inputs, not_finite_results: not_finite - not_finite_inputs }
     }
 }

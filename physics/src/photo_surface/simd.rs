@@ -39,10 +39,7 @@ impl Instructions {
 
     /// The widest that this processor has.
     pub fn fastest() -> Self {
-        Self::ALL
-            .into_iter()
-            .rfind(|instructions| instructions.are_available())
-            .unwrap_or(Self::Portable)
+        Self::ALL.into_iter().rfind(|instructions| instructions.are_available()).unwrap_or(Self::Portable)
     }
 
     /// Transforms a chunk; returns how many of its results are not finite.
@@ -78,14 +75,7 @@ pub(super) fn aligned<const N: usize>(
         // SAFETY: both types are 64 bytes of possibly uninitialised values.
         unsafe { lines.align_to_mut() }.1
     }
-    if streams
-        .iter_mut()
-        .all(|lines| cast(lines).len() == lines.len())
-    {
-        Ok(streams.map(cast))
-    } else {
-        Err(streams)
-    }
+    if streams.iter_mut().all(|lines| cast(lines).len() == lines.len()) { Ok(streams.map(cast)) } else { Err(streams) }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -183,10 +173,7 @@ mod x86 {
 
             #[inline(always)]
             fn stream(self, target: &mut AlignedLine, first: usize) {
-                assert!(
-                    first.is_multiple_of($count),
-                    "a register is streamed to where it is aligned"
-                );
+                assert!(first.is_multiple_of($count), "a register is streamed to where it is aligned");
                 let target = &mut target.0[first..first + $count];
                 // SAFETY: as many values fit there as the register holds, and since the line is aligned to 64
                 // bytes and `first` is a multiple of the register's width, the address is aligned to it.
@@ -273,10 +260,7 @@ mod x86 {
         fn widen(self) -> F64x8 {
             // SAFETY: as above.
             F64x8(unsafe {
-                [
-                    _mm256_cvtps_pd(_mm256_castps256_ps128(self.0)),
-                    _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0)),
-                ]
+                [_mm256_cvtps_pd(_mm256_castps256_ps128(self.0)), _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0))]
             })
         }
 
@@ -334,10 +318,7 @@ mod x86 {
             // SAFETY: as above.
             F64x16(unsafe {
                 let upper = _mm512_extractf64x4_pd::<1>(_mm512_castps_pd(self.0));
-                [
-                    _mm512_cvtps_pd(_mm512_castps512_ps256(self.0)),
-                    _mm512_cvtps_pd(_mm256_castpd_ps(upper)),
-                ]
+                [_mm512_cvtps_pd(_mm512_castps512_ps256(self.0)), _mm512_cvtps_pd(_mm256_castpd_ps(upper))]
             })
         }
 

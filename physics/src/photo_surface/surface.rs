@@ -24,10 +24,7 @@ impl<'a> Surface<'a> {
     ///
     /// # Errors
     /// [`PhotoSurfaceError::OutputLength`] if a stream does not hold one value a vertex.
-    pub fn new(
-        vertices: &'a Vertices,
-        position: [&'a mut [f32]; 3],
-    ) -> Result<Self, PhotoSurfaceError> {
+    pub fn new(vertices: &'a Vertices, position: [&'a mut [f32]; 3]) -> Result<Self, PhotoSurfaceError> {
         Self::in_write_only(vertices, position.map(simd::write_only))
     }
 
@@ -42,11 +39,7 @@ impl<'a> Surface<'a> {
         for (stream, values) in ["x", "y", "z"].into_iter().zip(&position) {
             check_length(vertices, stream, values)?;
         }
-        Ok(Self {
-            vertices,
-            position,
-            doppler: &mut [],
-        })
+        Ok(Self { vertices, position, doppler: &mut [] })
     }
 
     /// Asks for the Doppler factor D of every vertex, too.
@@ -61,10 +54,7 @@ impl<'a> Surface<'a> {
     ///
     /// # Errors
     /// As [`Surface::with_doppler`].
-    pub fn with_write_only_doppler(
-        self,
-        doppler: &'a mut [MaybeUninit<f32>],
-    ) -> Result<Self, PhotoSurfaceError> {
+    pub fn with_write_only_doppler(self, doppler: &'a mut [MaybeUninit<f32>]) -> Result<Self, PhotoSurfaceError> {
         check_length(self.vertices, "doppler", doppler)?;
         Ok(Self { doppler, ..self })
     }
@@ -81,38 +71,23 @@ impl<'a> Surface<'a> {
 
     /// Cuts the work into chunks, each with the formula it needs.
     pub(super) fn into_chunks(self, eye: &Eye, streaming: bool) -> impl Iterator<Item = Chunk<'a>> {
-        let Self {
-            vertices,
-            position: [x, y, z],
-            doppler,
-        } = self;
+        let Self { vertices, position: [x, y, z], doppler } = self;
         let plan = Plan::new(eye, vertices.origin());
         let [in_x, in_y, in_z] = vertices.streams().map(|stream| stream.chunks(CHUNK / LINE));
-        let position = x
-            .chunks_mut(CHUNK)
-            .zip(y.chunks_mut(CHUNK))
-            .zip(z.chunks_mut(CHUNK));
+        let position = x.chunks_mut(CHUNK).zip(y.chunks_mut(CHUNK)).zip(z.chunks_mut(CHUNK));
         // An iterator of Doppler chunks that goes on with empty ones if D is not wanted.
-        let doppler = doppler
-            .chunks_mut(CHUNK)
-            .chain(std::iter::repeat_with(<&mut [_]>::default));
+        let doppler = doppler.chunks_mut(CHUNK).chain(std::iter::repeat_with(<&mut [_]>::default));
         let input = in_x.zip(in_y).zip(in_z);
-        vertices
-            .spheres()
-            .iter()
-            .zip(input)
-            .zip(position)
-            .zip(doppler)
-            .map(
-                move |(((sphere, ((in_x, in_y), in_z)), ((x, y), z)), doppler)| Chunk {
-                    plan,
-                    form: plan.form(sphere),
-                    input: [in_x, in_y, in_z],
-                    position: [x, y, z],
-                    doppler,
-                    streaming,
-                },
-            )
+        vertices.spheres().iter().zip(input).zip(position).zip(doppler).map(
+            move |(((sphere, ((in_x, in_y), in_z)), ((x, y), z)), doppler)| Chunk {
+                plan,
+                form: plan.form(sphere),
+                input: [in_x, in_y, in_z],
+                position: [x, y, z],
+                doppler,
+                streaming,
+            },
+        )
     }
 }
 
@@ -124,10 +99,6 @@ fn check_length(
     if values.len() == vertices.len() {
         Ok(())
     } else {
-        Err(PhotoSurfaceError::OutputLength {
-            stream,
-            length: values.len(),
-            vertices: vertices.len(),
-        })
+        Err(PhotoSurfaceError::OutputLength { stream, length: values.len(), vertices: vertices.len() })
     }
 }

@@ -60,18 +60,12 @@ impl<L: Lanes> Lanes for Twice<L> {
 
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(
-            self.0.mul_add(factor.0, term.0),
-            self.1.mul_add(factor.1, term.1),
-        )
+        Self(self.0.mul_add(factor.0, term.0), self.1.mul_add(factor.1, term.1))
     }
 
     #[inline(always)]
     fn negated_mul_add(self, factor: Self, term: Self) -> Self {
-        Self(
-            self.0.negated_mul_add(factor.0, term.0),
-            self.1.negated_mul_add(factor.1, term.1),
-        )
+        Self(self.0.negated_mul_add(factor.0, term.0), self.1.negated_mul_add(factor.1, term.1))
     }
 
     #[inline(always)]
@@ -96,18 +90,12 @@ impl<L: Lanes> Lanes for Twice<L> {
 
     #[inline(always)]
     fn if_negative(self, negative: Self, other: Self) -> Self {
-        Self(
-            self.0.if_negative(negative.0, other.0),
-            self.1.if_negative(negative.1, other.1),
-        )
+        Self(self.0.if_negative(negative.0, other.0), self.1.if_negative(negative.1, other.1))
     }
 
     #[inline(always)]
     fn replaced(self, bits: u32, other: Self) -> Self {
-        Self(
-            self.0.replaced(bits, other.0),
-            self.1.replaced(bits >> L::COUNT, other.1),
-        )
+        Self(self.0.replaced(bits, other.0), self.1.replaced(bits >> L::COUNT, other.1))
     }
 
     #[inline(always)]
@@ -129,9 +117,6 @@ impl<W: WideLanes> WideLanes for Twice<W> {
 
     #[inline(always)]
     fn mul_sub(self, factor: Self, term: Self) -> Self {
-        Self(
-            self.0.mul_sub(factor.0, term.0),
-            self.1.mul_sub(factor.1, term.1),
-        )
+        Self(self.0.mul_sub(factor.0, term.0), self.1.mul_sub(factor.1, term.1))
     }
 }

@@ -61,41 +61,24 @@ impl Vertices {
     /// assert_eq!(vertices.not_finite(), [2]);
     /// # Ok::<(), physics::photo_surface::PhotoSurfaceError>(())
     /// ```
-    pub fn from_world(
-        origin: DVec3,
-        positions: impl IntoIterator<Item = DVec3>,
-    ) -> Result<Self, PhotoSurfaceError> {
-        Self::from_offsets(
-            origin,
-            positions.into_iter().map(|p| (p - origin).as_vec3()),
-        )
+    pub fn from_world(origin: DVec3, positions: impl IntoIterator<Item = DVec3>) -> Result<Self, PhotoSurfaceError> {
+        Self::from_offsets(origin, positions.into_iter().map(|p| (p - origin).as_vec3()))
     }
 
     /// Takes positions relative to `origin` (world axes, metres) as they are.
     ///
     /// # Errors
     /// [`PhotoSurfaceError::Origin`] if `origin` is not finite.
-    pub fn from_offsets(
-        origin: DVec3,
-        offsets: impl IntoIterator<Item = Vec3>,
-    ) -> Result<Self, PhotoSurfaceError> {
+    pub fn from_offsets(origin: DVec3, offsets: impl IntoIterator<Item = Vec3>) -> Result<Self, PhotoSurfaceError> {
         if !origin.is_finite() {
             return Err(PhotoSurfaceError::Origin { origin });
         }
-        let mut vertices = Self {
-            origin,
-            count: 0,
-            streams: [const { Vec::new() }; 3],
-            spheres: Vec::new(),
-            not_finite: Vec::new(),
-        };
+        let mut vertices =
+            Self { origin, count: 0, streams: [const { Vec::new() }; 3], spheres: Vec::new(), not_finite: Vec::new() };
         for offset in offsets {
             vertices.push(offset);
         }
-        vertices.spheres = (0..vertices.count)
-            .step_by(CHUNK)
-            .map(|first| vertices.bounding_sphere(first))
-            .collect();
+        vertices.spheres = (0..vertices.count).step_by(CHUNK).map(|first| vertices.bounding_sphere(first)).collect();
         Ok(vertices)
     }
 
@@ -117,34 +100,21 @@ impl Vertices {
 
     /// The sphere about the middle of the box around the chunk's finite vertices.
     fn bounding_sphere(&self, first: usize) -> Sphere {
-        let finite = || {
-            (first..self.count.min(first + CHUNK))
-                .map(|index| self.offset(index))
-                .filter(|p| p.is_finite())
-        };
+        let finite =
+            || (first..self.count.min(first + CHUNK)).map(|index| self.offset(index)).filter(|p| p.is_finite());
         let mut finite_offsets = finite();
         let Some(seed) = finite_offsets.next() else {
-            return Sphere {
-                centre: DVec3::ZERO,
-                radius: 0.0,
-            };
+            return Sphere { centre: DVec3::ZERO, radius: 0.0 };
         };
-        let (low, high) =
-            finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) = finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
         let centre = (low + high) / 2.0;
-        let radius = finite()
-            .map(|p| p.distance_squared(centre))
-            .fold(0.0, f64::max)
-            .sqrt();
+        let radius = finite().map(|p| p.distance_squared(centre)).fold(0.0, f64::max).sqrt();
         Sphere { centre, radius }
     }
 
     /// Position of a vertex relative to the origin, in metres.
     fn offset(&self, index: usize) -> DVec3 {
-        DVec3::from_array(
-            [0, 1, 2]
-                .map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])),
-        )
+        DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])))
     }
 
     /// Number of vertices, those that are not finite included.
@@ -174,5 +144,32 @@ impl Vertices {
 
     pub(super) fn spheres(&self) -> &[Sphere] {
         &self.spheres
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A sphere that missed a vertex would leave it to the form that loses directions astern.
+
+    use super::*;
+
+    #[test]
+    fn every_finite_vertex_lies_in_its_chunks_sphere() {
+        let count = 2 * CHUNK + 5;
+        let vertices = Vertices::from_offsets(
+            DVec3::ZERO,
+            (0..count).map(|index| match index {
+                7 => Vec3::NAN,
+                _ => Vec3::new((0.1 * index as f32).sin(), index as f32, -3.0),
+            }),
+        )
+        .unwrap();
+        assert_eq!(vertices.spheres().len(), 3);
+        for index in (0..count).filter(|&index| index != 7) {
+            let sphere = vertices.spheres()[index / CHUNK];
+            let distance = vertices.offset(index).distance(sphere.centre);
+            assert!(distance <= sphere.radius * (1.0 + f64::EPSILON), "vertex {index}");
+            assert!(sphere.radius < CHUNK as f64, "no larger than it must be");
+        }
     }
 }
