@@ -11,8 +11,11 @@ pub mod check;
 pub mod collision;
 pub mod export;
 pub mod gltf;
+pub mod lattice;
 pub mod mipmap;
 pub mod refine;
+pub mod source;
+pub mod town;
 
 use glam::{DVec3, Vec2, Vec3};
 
