@@ -9,11 +9,12 @@
 //! [`Vertices`] keeps a mesh as three f32 streams about an f64 origin. Once a frame the eye's velocity becomes
 //! a plan in f64: κ = γ + |u| and the direction of motion. Every chunk of 8192 vertices then gets the cheapest
 //! formula that is accurate everywhere in its bounding sphere: a mere shift for an eye at rest, the light-cone form in
-//! f32, or, where the chunk reaches into the cone of 9.6° astern, the same with one cross product in f64.
+//! f32, or, where the chunk reaches into the cone of 14.5° astern, the same with one cross product in f64.
 //! Registers are as wide as the processor has them, chunks are spread over the threads of the rayon pool.
 //!
 //! # What can be relied on
-//! - Directions are within 7e-7 rad of exact for γ ≤ 1e9, at distances of 1e-3 to 1e6 m (`tests/photo_surface_accuracy.rs`).
+//! - Directions are within 7e-7 rad of exact for γ ≤ 1e9 at distances of 1e-3 to 1e6 m, and within 4e-4 rad for γ ≤ 1e12
+//!   (`tests/photo_surface_accuracy.rs`).
 //! - The output of an eye at rest is p − o, rounded, and D = 1 exactly.
 //! - The bits do not depend on the number of threads, on how a mesh's output is aligned, or on whether AVX2 or AVX-512
 //!   computed it; [`Instructions::Portable`] may differ in the last bits on processors without fused operations.

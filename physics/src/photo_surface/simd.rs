@@ -1,8 +1,8 @@
 //! Everything that needs `unsafe`: x86 vector registers, stores past the caches, and write-only memory.
 //!
-//! The register types implement [`Lanes`] by one instruction an operation. They are safe to use because they
-//! are private to the kernel and only [`avx2`] and [`avx512`] name them: every method is inlined into one of
-//! these two, which are entered after the processor was asked (see [`Instructions`]).
+//! The register types implement `Lanes` by one instruction an operation. They are safe to use because they
+//! are private to the kernel and only `x86::avx2` and `x86::avx512` name them: every method is inlined into one
+//! of these two, which are entered after the processor was asked (see [`Instructions`]).
 
 use std::mem::MaybeUninit;
 
