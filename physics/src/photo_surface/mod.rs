@@ -9,8 +9,9 @@
 //! [`Vertices`] keeps a mesh as three f32 streams about an f64 origin. Once a frame the eye's velocity becomes
 //! a plan in f64: κ = γ + |u| and the direction of motion. Every chunk of 8192 vertices then gets the cheapest
 //! formula that is accurate everywhere in its bounding sphere: a mere shift for an eye at rest, the light-cone form in
-//! f32, or, where the chunk reaches into the cone of 14.5° astern, the same with one cross product in f64.
-//! Registers are as wide as the processor has them, chunks are spread over the threads of the rayon pool.
+//! f32, or, where the chunk reaches into the cone of 14.5° astern, the same with one cross product in f64 for
+//! those that lie there. Registers are as wide as the processor has them, and the threads of the rayon pool share
+//! the chunks of all meshes.
 //!
 //! # What can be relied on
 //! - Directions are within 7e-7 rad of exact for γ ≤ 1e9 at distances of 1e-3 to 1e6 m, and within 4e-4 rad for γ ≤ 1e12
@@ -19,9 +20,10 @@
 //! - The bits do not depend on the number of threads, on how a mesh's output is aligned, or on whether AVX2 or AVX-512
 //!   computed it; [`Instructions::Portable`] may differ in the last bits on processors without fused operations.
 //! - Output memory is only written, never read, so that it may be a mapped GPU buffer.
-//! - A vertex without a finite result, because its coordinates are not finite or it is further than 1e19 m
-//!   away, is written as zeros, with D = 0, and counted in [`Stats`]. A vertex exactly at the eye is zeros,
-//!   with D = 0, too, since it has no direction. D > 0 for every other vertex.
+//! - A vertex without a finite result, because its coordinates are not finite, or it is or appears further away
+//!   than 5e18 m, is written as zeros with D = 0, and counted in [`Stats`].
+//! - A vertex at a moving eye has no direction: it is written as zeros with D = 0. Nearer than 1e-18 m D is not
+//!   reliable; everywhere else D > 0.
 //!
 //! # Example
 //! ```
@@ -40,7 +42,7 @@
 //! ```
 
 mod chunk;
-mod kernel;
+mod formula;
 mod lanes;
 mod plan;
 mod simd;
@@ -171,8 +173,8 @@ impl Kernel {
 
     /// Writes the photo-surface of all meshes of a frame, in one parallel call on the current rayon pool.
     ///
-    /// *Frames*: vertices in the world frame; apparent positions relative to the eye, in its rest frame, on the world's axes after a
-    /// pure boost; metres. *Equation*: the light-cone form of x' = d + u (r + u·d/(1+γ)), D = γ + u·n
+    /// *Frames*: vertices in the world frame; apparent positions relative to the eye, in its rest frame, on the
+    /// world's axes after a pure boost; metres. *Equation*: the light-cone form of x' = d + u (r + u·d/(1+γ)), D = γ + u·n
     /// (Weiskopf 2001, 5.1), with d the displacement from the eye to the vertex.
     pub fn transform(&self, eye: &Eye, surfaces: Vec<Surface<'_>>) -> Stats {
         let vertices: usize = surfaces.iter().map(|surface| surface.vertices().len()).sum();
