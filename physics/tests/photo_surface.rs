@@ -207,12 +207,12 @@ fn streamed_lines_hold_the_same_bits_where_they_are_aligned() {
 #[test]
 fn meshes_of_a_frame_are_written_each_to_its_own_place() {
     let eye = moving(DVec3::new(0.0, 0.0, -3.0));
-    let meshes = [town(50_000), Vertices::from_world(DVec3::X, []).unwrap(), town(7), town(CHUNK)];
+    let meshes = [town(80_000), Vertices::from_world(DVec3::X, []).unwrap(), town(7), town(CHUNK)];
     let mut memory = meshes.each_ref().map(|mesh| [(); 3].map(|()| vec![UNTOUCHED; mesh.len()]));
     let surfaces =
         meshes.iter().zip(&mut memory).map(|(mesh, [x, y, z])| Surface::new(mesh, [x, y, z]).unwrap()).collect();
     let stats = Kernel::default().transform(&eye, surfaces);
-    assert_eq!(stats.vertices, 50_007 + CHUNK);
+    assert_eq!(stats.vertices, 80_007 + CHUNK);
     for (mesh, written) in meshes.iter().zip(memory) {
         assert_eq!(written, see(Kernel::default(), mesh, &eye).position);
     }
