@@ -128,8 +128,9 @@ pub enum Stores {
     Streamed,
 }
 
-/// Fewer vertices than this are done before another thread is awake: that takes 20 to 100 µs, a vertex 1 ns.
-const SERIAL_BELOW: usize = 8 * CHUNK;
+/// Fewer vertices than this are done before help arrives: another thread is awake after 50 to 100 µs, and a vertex
+/// takes 1 ns. Two threads broke even at 80,000 to 100,000 vertices.
+const SERIAL_BELOW: usize = 10 * CHUNK;
 
 /// More bytes of results than this leave the second-level cache before they are read.
 const STREAMED_ABOVE_BYTES: usize = 1 << 20;

@@ -72,7 +72,7 @@ pub(super) fn aligned<const N: usize>(
     mut streams: [&mut [OutputLine]; N],
 ) -> Result<[&mut [AlignedLine]; N], [&mut [OutputLine]; N]> {
     fn cast(lines: &mut [OutputLine]) -> &mut [AlignedLine] {
-        // SAFETY: both types are 64 bytes of possibly uninitialised values.
+        // SAFETY: both types are as many values, none of which need be initialised.
         unsafe { lines.align_to_mut() }.1
     }
     if streams.iter_mut().all(|lines| cast(lines).len() == lines.len()) { Ok(streams.map(cast)) } else { Err(streams) }
