@@ -95,6 +95,19 @@ fn what_is_written_is_read_back_to_the_bit() {
 }
 
 #[test]
+fn any_emission_is_read_back_exactly() {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let mut scene = scene(DVec3::ZERO);
+    scene.materials.extend((0..500).map(|_| Material {
+        name: "lamp".into(),
+        emissive: [(); 3].map(|()| 10_f32.powf(random.random_range(-3.0..6.0))),
+        ..Material::default()
+    }));
+    let (_folder, path) = written(&scene);
+    assert_eq!(load(&path, |_| {}).unwrap().materials, scene.materials);
+}
+
+#[test]
 fn defaults_are_read_back_too() {
     let plain = Scene {
         name: String::new(),

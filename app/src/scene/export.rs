@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::gltf::extras::{NodeExtras, SceneExtras};
-use super::{Alpha, Material, Mesh, Scene, Texture, Wrap};
+use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
 const FLOAT: u32 = 5126;
@@ -43,13 +43,8 @@ pub enum ExportError {
         scene: String,
     },
     /// The scene breaks a promise of its types.
-    #[error("scene \"{scene}\" is damaged: {fault}")]
-    Damaged {
-        /// Name of the scene.
-        scene: String,
-        /// What is wrong.
-        fault: String,
-    },
+    #[error(transparent)]
+    Damaged(#[from] SceneFault),
     /// glTF has no word for this value.
     #[error("glTF cannot express {what} of \"{name}\": {fault}")]
     Value {
@@ -77,9 +72,7 @@ pub enum ExportError {
 /// # Errors
 /// [`ExportError`]; values that are not finite, or base colours outside 0…1, are among them.
 pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
-    if let Some(fault) = scene.fault() {
-        return Err(ExportError::Damaged { scene: scene.name.clone(), fault });
-    }
+    scene.validate()?;
     check_values(scene)?;
     let mut file = File::default();
     file.textures(&scene.textures)?;
