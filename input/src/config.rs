@@ -22,11 +22,7 @@ fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {
-        Err(ConfigError {
-            key,
-            value: value.to_string(),
-            expected: "a positive, finite number",
-        })
+        Err(ConfigError { key, value: value.to_string(), expected: "a positive, finite number" })
     }
 }
 
@@ -35,11 +31,7 @@ fn not_zero(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if value.is_finite() && value != 0.0 {
         Ok(())
     } else {
-        Err(ConfigError {
-            key,
-            value: value.to_string(),
-            expected: "a finite number other than zero",
-        })
+        Err(ConfigError { key, value: value.to_string(), expected: "a finite number other than zero" })
     }
 }
 
@@ -159,16 +151,9 @@ impl BicycleConfig {
         positive("bicycle.four_field_brake_full", self.four_field_brake_full)?;
         if !self.steer_straight.is_finite() {
             let value = self.steer_straight.to_string();
-            return Err(ConfigError {
-                key: "bicycle.steer_straight",
-                value,
-                expected: "a finite number",
-            });
+            return Err(ConfigError { key: "bicycle.steer_straight", value, expected: "a finite number" });
         }
-        not_zero(
-            "bicycle.brake_full - bicycle.brake_released",
-            self.brake_full - self.brake_released,
-        )
+        not_zero("bicycle.brake_full - bicycle.brake_released", self.brake_full - self.brake_released)
     }
 }
 
@@ -241,23 +226,14 @@ impl AxisTable {
 
     /// The six controls from the device's six axes.
     pub fn controls(self, axes: [f64; 6]) -> [f64; 6] {
-        self.0
-            .map(|entry| axes[usize::from(entry.unsigned_abs()) - 1] * f64::from(entry.signum()))
+        self.0.map(|entry| axes[usize::from(entry.unsigned_abs()) - 1] * f64::from(entry.signum()))
     }
 
     fn check(self, key: &'static str) -> Result<(), ConfigError> {
-        if self
-            .0
-            .iter()
-            .all(|entry| (1..=6).contains(&entry.unsigned_abs()))
-        {
+        if self.0.iter().all(|entry| (1..=6).contains(&entry.unsigned_abs())) {
             Ok(())
         } else {
-            Err(ConfigError {
-                key,
-                value: format!("{:?}", self.0),
-                expected: "six axis numbers, each ±1 to ±6",
-            })
+            Err(ConfigError { key, value: format!("{:?}", self.0), expected: "six axis numbers, each ±1 to ±6" })
         }
     }
 }
@@ -272,14 +248,8 @@ mod tests {
         let raw = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
         // What spacenavd makes of it: x, −z, −y, for shifts and turns.
         let daemon = [10.0, -30.0, -20.0, 40.0, -60.0, -50.0];
-        assert_eq!(
-            AxisTable::RAW.controls(raw),
-            AxisTable::SPACENAVD.controls(daemon)
-        );
-        assert_eq!(
-            AxisTable::RAW.controls(raw),
-            [10.0, -30.0, 20.0, 40.0, -60.0, 50.0]
-        );
+        assert_eq!(AxisTable::RAW.controls(raw), AxisTable::SPACENAVD.controls(daemon));
+        assert_eq!(AxisTable::RAW.controls(raw), [10.0, -30.0, 20.0, 40.0, -60.0, 50.0]);
     }
 
     #[test]
@@ -291,10 +261,7 @@ mod tests {
     fn a_setting_that_cannot_be_used_is_named() {
         let mut config = DeskConfig::default();
         config.bicycle.wheel_circumference_m = 0.0;
-        assert_eq!(
-            config.check().unwrap_err().key,
-            "bicycle.wheel_circumference_m"
-        );
+        assert_eq!(config.check().unwrap_err().key, "bicycle.wheel_circumference_m");
         let mut config = DeskConfig::default();
         config.rider.lateral_m_s2 = f64::NAN;
         assert_eq!(config.check().unwrap_err().key, "rider.lateral_m_s2");

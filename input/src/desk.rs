@@ -94,22 +94,12 @@ impl Desk {
             self.space_mouse.deflection(at),
             self.spacenavd.deflection(),
         ];
-        let deflection = |axis: usize| {
-            deflections
-                .iter()
-                .map(|device| device[axis])
-                .sum::<f64>()
-                .clamp(-1.0, 1.0)
-        };
+        let deflection = |axis: usize| deflections.iter().map(|device| device[axis]).sum::<f64>().clamp(-1.0, 1.0);
         Controls {
             wheel_speed,
             cadence_hz: self.bicycle.cadence_hz(at),
             steer_rad,
-            brake: self
-                .bicycle
-                .brake()
-                .max(self.keyboard.brake(at))
-                .max(self.gamepad.brake()),
+            brake: self.bicycle.brake().max(self.keyboard.brake(at)).max(self.gamepad.brake()),
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             actions: self.actions.take(),

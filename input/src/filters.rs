@@ -44,12 +44,7 @@ pub struct OneEuro {
 impl OneEuro {
     /// A filter that has seen nothing yet.
     pub fn new(minimum_cutoff_hz: f64, speed_coefficient: f64, derivative_cutoff_hz: f64) -> Self {
-        Self {
-            minimum_cutoff_hz,
-            speed_coefficient,
-            derivative_cutoff_hz,
-            state: None,
-        }
+        Self { minimum_cutoff_hz, speed_coefficient, derivative_cutoff_hz, state: None }
     }
 
     /// Takes the next value, `interval_s` seconds after the one before, and gives the filtered one. An interval that is
@@ -63,8 +58,7 @@ impl OneEuro {
             return filtered;
         }
         let share = |cutoff_hz: f64| 1.0 / (1.0 + 1.0 / (TAU * cutoff_hz * interval_s));
-        let speed =
-            speed + share(self.derivative_cutoff_hz) * ((value - filtered) / interval_s - speed);
+        let speed = speed + share(self.derivative_cutoff_hz) * ((value - filtered) / interval_s - speed);
         let cutoff_hz = self.minimum_cutoff_hz + self.speed_coefficient * speed.abs();
         let filtered = filtered + share(cutoff_hz) * (value - filtered);
         self.state = Some((filtered, speed));
@@ -83,16 +77,10 @@ mod tests {
     #[test]
     fn one_euro_gives_its_authors_numbers() {
         let mut filter = OneEuro::new(1.0, 0.1, 1.0);
-        for (noisy, expected) in [
-            (-0.038_509_9, -0.038_509_9),
-            (-0.028_066_4, -0.037_987_2),
-            (0.048_622, -0.033_442_7),
-        ] {
+        for (noisy, expected) in [(-0.038_509_9, -0.038_509_9), (-0.028_066_4, -0.037_987_2), (0.048_622, -0.033_442_7)]
+        {
             let filtered = filter.filter(noisy, 1.0 / 120.0);
-            assert!(
-                (filtered - expected).abs() < PUBLISHED,
-                "{filtered} for {expected}"
-            );
+            assert!((filtered - expected).abs() < PUBLISHED, "{filtered} for {expected}");
         }
     }
 

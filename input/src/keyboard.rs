@@ -200,15 +200,7 @@ impl Keyboard {
     fn aim(&mut self, at: Nanos) {
         let held = self.held;
         let lean = |ramp: &mut Ramp, target: f64| {
-            ramp.aim(
-                at,
-                target,
-                if target == 0.0 {
-                    RELEASE_RATE
-                } else {
-                    PRESS_RATE
-                },
-            );
+            ramp.aim(at, target, if target == 0.0 { RELEASE_RATE } else { PRESS_RATE });
         };
 
         // Fly and drive.
@@ -222,34 +214,18 @@ impl Keyboard {
             held.between(&[Key::Right], &[Key::Left]),
             held.between(&[Key::E], &[Key::Q]),
         ];
-        self.thrust
-            .iter_mut()
-            .zip(thrust)
-            .for_each(|(ramp, target)| lean(ramp, target));
-        self.turn
-            .iter_mut()
-            .zip(turn)
-            .for_each(|(ramp, target)| lean(ramp, target));
+        self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
+        self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
 
         // Ride.
-        lean(
-            &mut self.steer,
-            held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]),
-        );
+        lean(&mut self.steer, held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]));
         lean(&mut self.brake, held.between(&[], &[Key::Space]));
         let rider = &self.rider;
         let forward = held.between(&[Key::S, Key::Down], &[Key::W, Key::Up]);
         let (speed, rate) = if held.any(&[Key::Space]) {
             (0.0, rider.brake_m_s2)
         } else if forward > 0.0 {
-            (
-                if held.any(&[Key::Shift]) {
-                    rider.sprint_m_s
-                } else {
-                    rider.cruise_m_s
-                },
-                rider.pedal_m_s2,
-            )
+            (if held.any(&[Key::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
         } else if forward < 0.0 {
             // First to a stop, then backward.
             (-rider.reverse_m_s, rider.pedal_m_s2)
@@ -280,9 +256,7 @@ impl Decoder for Keyboard {
                         actions.push(action);
                     }
                 }
-                _ => self
-                    .faults
-                    .count(format!("key event {code:02x} {state:02x}")),
+                _ => self.faults.count(format!("key event {code:02x} {state:02x}")),
             }
         }
         if !rest.is_empty() {
@@ -340,15 +314,9 @@ mod tests {
     fn opposite_keys_cancel() {
         let (mut keys, mut actions) = keyboard();
         keys.bytes(0, &encode(Key::A, true), &mut actions);
-        assert_eq!(
-            (keys.steer(SECOND), keys.deflection(SECOND)[0]),
-            (1.0, -1.0)
-        );
+        assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
         keys.bytes(SECOND, &encode(Key::D, true), &mut actions);
-        assert_eq!(
-            (keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]),
-            (0.0, 0.0)
-        );
+        assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
     }
 
     #[test]
@@ -359,14 +327,7 @@ mod tests {
         }
         keys.reset(SECOND);
         let later = 30 * SECOND;
-        assert_eq!(
-            (
-                keys.steer(later),
-                keys.brake(later),
-                keys.wheel_speed(later)
-            ),
-            (0.0, 0.0, Some(0.0))
-        );
+        assert_eq!((keys.steer(later), keys.brake(later), keys.wheel_speed(later)), (0.0, 0.0, Some(0.0)));
         assert_eq!(keys.deflection(later), [0.0; 6]);
     }
 

@@ -63,9 +63,7 @@ impl PulseRate {
             return false;
         }
         self.last_pulse = Some(at);
-        self.rate_hz = self
-            .filter
-            .filter(self.median.filter(1.0 / interval_each_s), interval_s);
+        self.rate_hz = self.filter.filter(self.median.filter(1.0 / interval_each_s), interval_s);
         true
     }
 
@@ -76,14 +74,8 @@ impl PulseRate {
 
     /// Pulses a second at the time `at`.
     pub fn rate_hz(&self, at: Nanos) -> f64 {
-        let silence_s = self
-            .last_pulse
-            .map_or(f64::INFINITY, |last| seconds_between(last, at));
-        if silence_s > self.stop_after_s {
-            0.0
-        } else {
-            self.rate_hz.min(1.0 / silence_s)
-        }
+        let silence_s = self.last_pulse.map_or(f64::INFINITY, |last| seconds_between(last, at));
+        if silence_s > self.stop_after_s { 0.0 } else { self.rate_hz.min(1.0 / silence_s) }
     }
 }
 

@@ -19,21 +19,12 @@ impl Ramp {
     pub fn value(&self, at: Nanos) -> f64 {
         let way = self.target - self.from;
         let reach = self.rate * seconds_between(self.since, at);
-        if way.abs() <= reach {
-            self.target
-        } else {
-            self.from + reach.copysign(way)
-        }
+        if way.abs() <= reach { self.target } else { self.from + reach.copysign(way) }
     }
 
     /// From `at` on, moves towards `target` by `rate` a second.
     pub fn aim(&mut self, at: Nanos, target: f64, rate: f64) {
-        *self = Self {
-            from: self.value(at),
-            since: at,
-            target,
-            rate,
-        };
+        *self = Self { from: self.value(at), since: at, target, rate };
     }
 }
 

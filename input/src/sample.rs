@@ -59,14 +59,8 @@ pub enum Source {
 
 impl Source {
     /// Every source, in the order of the listing.
-    pub const ALL: [Self; 6] = [
-        Self::Keyboard,
-        Self::Gamepad,
-        Self::SpaceMouse,
-        Self::Spacenavd,
-        Self::Bicycle,
-        Self::Settings,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Keyboard, Self::Gamepad, Self::SpaceMouse, Self::Spacenavd, Self::Bicycle, Self::Settings];
 
     /// The name in recordings and messages.
     pub fn name(self) -> &'static str {
@@ -112,29 +106,17 @@ pub struct Sample {
 impl Sample {
     /// A device that has just been opened.
     pub fn opened(at: Nanos, source: Source) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Opened,
-        }
+        Self { at, source, signal: Signal::Opened }
     }
 
     /// Bytes from a device.
     pub fn bytes(at: Nanos, source: Source, bytes: impl Into<Box<[u8]>>) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Bytes(bytes.into()),
-        }
+        Self { at, source, signal: Signal::Bytes(bytes.into()) }
     }
 
     /// A device that has gone. For the keyboard: the window lost the focus.
     pub fn closed(at: Nanos, source: Source) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Closed,
-        }
+        Self { at, source, signal: Signal::Closed }
     }
 
     /// A key of the window pressed or released.

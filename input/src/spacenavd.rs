@@ -36,12 +36,7 @@ pub struct Spacenavd {
 impl Spacenavd {
     /// A decoder at rest.
     pub fn new(table: AxisTable) -> Self {
-        Self {
-            table,
-            partial: Vec::new(),
-            axes: [0; 6],
-            faults: Faults::default(),
-        }
+        Self { table, partial: Vec::new(), axes: [0; 6], faults: Faults::default() }
     }
 
     /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
@@ -58,9 +53,7 @@ impl Spacenavd {
                 }
             }
             kind if PASSED_OVER.contains(&kind) || kind >> 16 == REPLY => {}
-            kind => self
-                .faults
-                .count(format!("an event of unknown kind {kind}")),
+            kind => self.faults.count(format!("an event of unknown kind {kind}")),
         }
     }
 }
@@ -105,10 +98,7 @@ mod tests {
     );
 
     fn captured() -> Vec<u8> {
-        (0..CAPTURED.len())
-            .step_by(2)
-            .map(|at| u8::from_str_radix(&CAPTURED[at..at + 2], 16).unwrap())
-            .collect()
+        (0..CAPTURED.len()).step_by(2).map(|at| u8::from_str_radix(&CAPTURED[at..at + 2], 16).unwrap()).collect()
     }
 
     #[test]
@@ -116,8 +106,7 @@ mod tests {
         let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes, [100, -50, -25, 7, -8, -300]);
-        let expected =
-            [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
+        let expected = [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
         for (control, expected) in daemon.deflection().iter().zip(expected) {
             assert!((control - expected).abs() < 1e-15);
         }
@@ -131,18 +120,14 @@ mod tests {
     #[test]
     fn events_do_not_depend_on_the_cut() {
         for size in 1..=70 {
-            let (mut daemon, mut actions) =
-                (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+            let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
             let mut seen = Vec::new();
             for chunk in captured().chunks(size) {
                 daemon.bytes(0, chunk, &mut actions);
                 seen.push(daemon.axes);
             }
             assert_eq!(actions.take(), [Action::TogglePause], "cut at {size}");
-            assert!(
-                size > 32 || seen.contains(&[100, -50, -25, 7, -8, -300]),
-                "cut at {size}"
-            );
+            assert!(size > 32 || seen.contains(&[100, -50, -25, 7, -8, -300]), "cut at {size}");
             assert_eq!(daemon.axes, [0; 6]);
         }
     }

@@ -102,25 +102,12 @@ impl Devices {
     pub fn open(config: &DevicesConfig, clock: Clock) -> Result<Self, DevicesError> {
         let (stop, stopped) = bounded(0);
         let brake = Arc::new(BrakeSlot::default());
-        let mut devices = Self {
-            clock,
-            lanes: Vec::new(),
-            brake: brake.clone(),
-            stop: Some(stop),
-        };
+        let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
         if let Some(path) = &config.bicycle {
-            devices.start(
-                Source::Bicycle,
-                SerialPort::new(path, config.baud, brake),
-                &stopped,
-            )?;
+            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), &stopped)?;
         }
         if config.space_mouse {
-            devices.start(
-                Source::SpaceMouse,
-                PuckPort::new(config.spacenavd_socket.clone()),
-                &stopped,
-            )?;
+            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), &stopped)?;
         }
         #[cfg(target_os = "linux")]
         if config.gamepad {
@@ -129,25 +116,13 @@ impl Devices {
         Ok(devices)
     }
 
-    fn start(
-        &mut self,
-        source: Source,
-        port: impl Port + 'static,
-        stopped: &Receiver<()>,
-    ) -> Result<(), DevicesError> {
+    fn start(&mut self, source: Source, port: impl Port + 'static, stopped: &Receiver<()>) -> Result<(), DevicesError> {
         let (feed, samples, live) = Feed::new(source, self.clock, QUEUE, stopped.clone());
         let thread = thread::Builder::new()
             .name(source.name().to_owned())
             .spawn(move || feed.run(port))
-            .map_err(|cause| DevicesError::Thread {
-                source_device: source,
-                cause,
-            })?;
-        self.lanes.push(Lane {
-            samples,
-            live,
-            thread,
-        });
+            .map_err(|cause| DevicesError::Thread { source_device: source, cause })?;
+        self.lanes.push(Lane { samples, live, thread });
         Ok(())
     }
 
@@ -171,10 +146,7 @@ impl Devices {
     /// How the devices are.
     pub fn status(&self) -> Vec<Status> {
         let now = self.clock.now();
-        self.lanes
-            .iter()
-            .map(|lane| feed::status(&lane.live, now))
-            .collect()
+        self.lanes.iter().map(|lane| feed::status(&lane.live, now)).collect()
     }
 }
 

@@ -49,11 +49,7 @@ pub(super) struct SerialPort {
 
 impl SerialPort {
     pub(super) fn new(path: &str, baud: u32, brake: Arc<BrakeSlot>) -> Self {
-        Self {
-            path: path.to_owned(),
-            baud,
-            brake,
-        }
+        Self { path: path.to_owned(), baud, brake }
     }
 }
 
@@ -72,17 +68,8 @@ impl Port for SerialPort {
                 _ => format!("{path} cannot be opened as a serial port: {error}"),
             }
         })?;
-        let place = Place {
-            source: Source::Bicycle,
-            name: "bicycle".to_owned(),
-            path: self.path.clone(),
-        };
-        let wire = Wire {
-            port,
-            brake: self.brake.clone(),
-            sequence: 0,
-            last_command: None,
-        };
+        let place = Place { source: Source::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
+        let wire = Wire { port, brake: self.brake.clone(), sequence: 0, last_command: None };
         Ok((place, Box::new(wire)))
     }
 }
@@ -98,20 +85,13 @@ struct Wire {
 impl Wire {
     /// Sends the newest brake command, unless one has just been sent.
     fn command(&mut self) -> io::Result<()> {
-        if self
-            .last_command
-            .is_some_and(|last| last.elapsed() < COMMAND_EVERY)
-        {
+        if self.last_command.is_some_and(|last| last.elapsed() < COMMAND_EVERY) {
             return Ok(());
         }
         let Some(brake) = self.brake.take() else {
             return Ok(());
         };
-        let line = BrakeCommand {
-            sequence: self.sequence,
-            brake,
-        }
-        .to_line();
+        let line = BrakeCommand { sequence: self.sequence, brake }.to_line();
         self.sequence = self.sequence.wrapping_add(1);
         self.last_command = Some(Instant::now());
         // A box that does not listen misses a command; the checksum tells it of half a one.
@@ -137,12 +117,7 @@ impl Connection for Wire {
 /// Takes what will pass for no error.
 pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     match outcome {
-        Err(error)
-            if matches!(
-                error.kind(),
-                ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted
-            ) =>
-        {
+        Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
             Ok(())
         }
         outcome => outcome,
@@ -160,9 +135,9 @@ pub(super) fn ports() -> Vec<(String, String)> {
         .into_iter()
         .map(|port| {
             let name = match port.port_type {
-                serialport::SerialPortType::UsbPort(usb) => usb
-                    .product
-                    .unwrap_or_else(|| format!("USB {:04x}:{:04x}", usb.vid, usb.pid)),
+                serialport::SerialPortType::UsbPort(usb) => {
+                    usb.product.unwrap_or_else(|| format!("USB {:04x}:{:04x}", usb.vid, usb.pid))
+                }
                 _ => "serial port".to_owned(),
             };
             (port.port_name, name)

@@ -34,18 +34,8 @@ impl Daemon {
                 }
                 _ => format!("spacenavd cannot be reached at {place}: {error}"),
             })?;
-        let place = Place {
-            source: Source::Spacenavd,
-            name: "SpaceMouse through spacenavd".to_owned(),
-            path: place,
-        };
-        Ok((
-            place,
-            Box::new(Self {
-                stream,
-                partial: Vec::new(),
-            }),
-        ))
+        let place = Place { source: Source::Spacenavd, name: "SpaceMouse through spacenavd".to_owned(), path: place };
+        Ok((place, Box::new(Self { stream, partial: Vec::new() })))
     }
 }
 

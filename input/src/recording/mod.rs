@@ -166,10 +166,6 @@ pub enum RecordingError {
 
 impl RecordingError {
     fn io(path: &Path, action: &'static str, cause: io::Error) -> Self {
-        Self::Io {
-            path: path.to_owned(),
-            action,
-            cause,
-        }
+        Self::Io { path: path.to_owned(), action, cause }
     }
 }

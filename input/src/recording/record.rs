@@ -67,11 +67,7 @@ impl FrameRecord {
         ];
         vectors.into_iter().flat_map(|(name, vector)| {
             vector.iter().enumerate().map(move |(index, &number)| {
-                let name = if vector.len() > 1 {
-                    format!("{name}[{index}]")
-                } else {
-                    name.to_owned()
-                };
+                let name = if vector.len() > 1 { format!("{name}[{index}]") } else { name.to_owned() };
                 (name, number)
             })
         })
@@ -89,27 +85,16 @@ impl FrameRecord {
             ("at", self.at, replayed.at),
             ("steps", self.steps, replayed.steps),
         ];
-        if let Some((field, ours, theirs)) =
-            counts.into_iter().find(|(_, ours, theirs)| ours != theirs)
-        {
+        if let Some((field, ours, theirs)) = counts.into_iter().find(|(_, ours, theirs)| ours != theirs) {
             let (recorded, replayed) = (ours.to_string(), theirs.to_string());
-            return Some(Difference {
-                field: field.to_owned(),
-                recorded,
-                replayed,
-            });
+            return Some(Difference { field: field.to_owned(), recorded, replayed });
         }
-        self.numbers()
-            .zip(replayed.numbers())
-            .find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits())
-            .map(|((field, ours), (_, theirs))| {
+        self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
+            |((field, ours), (_, theirs))| {
                 let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
-                Difference {
-                    field,
-                    recorded,
-                    replayed,
-                }
-            })
+                Difference { field, recorded, replayed }
+            },
+        )
     }
 }
 
@@ -151,12 +136,7 @@ impl From<&Sample> for SampleRecord {
             Signal::Bytes(bytes) => (Kind::Bytes, bytes),
             Signal::Closed => (Kind::Closed, &[]),
         };
-        Self {
-            at: sample.at,
-            source: sample.source,
-            kind,
-            bytes: hex(bytes),
-        }
+        Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
     }
 }
 
@@ -169,11 +149,7 @@ impl TryFrom<SampleRecord> for Sample {
             Kind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
             Kind::Closed => Signal::Closed,
         };
-        Ok(Self {
-            at: record.at,
-            source: record.source,
-            signal,
-        })
+        Ok(Self { at: record.at, source: record.source, signal })
     }
 }
 
@@ -183,21 +159,12 @@ pub(super) fn hex(bytes: &[u8]) -> String {
 }
 
 fn unhex(text: &str) -> Result<Box<[u8]>, String> {
-    let digits: Option<Vec<u8>> = text
-        .chars()
-        .map(|digit| {
-            digit
-                .to_digit(16)
-                .and_then(|digit| u8::try_from(digit).ok())
-        })
-        .collect();
+    let digits: Option<Vec<u8>> =
+        text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
     match digits {
-        Some(digits) if digits.len().is_multiple_of(2) => Ok(digits
-            .as_chunks()
-            .0
-            .iter()
-            .map(|[high, low]| high << 4 | low)
-            .collect()),
+        Some(digits) if digits.len().is_multiple_of(2) => {
+            Ok(digits.as_chunks().0.iter().map(|[high, low]| high << 4 | low).collect())
+        }
         _ => Err(format!("{text:?} is not a row of hexadecimal bytes")),
     }
 }
@@ -240,12 +207,7 @@ mod tests {
     use serde_json::Value;
 
     fn frame() -> FrameRecord {
-        FrameRecord {
-            frame: 3,
-            position: [0.1, -0.0, 1e-300],
-            orientation: [0.0, 0.0, 0.0, 1.0],
-            ..Default::default()
-        }
+        FrameRecord { frame: 3, position: [0.1, -0.0, 1e-300], orientation: [0.0, 0.0, 0.0, 1.0], ..Default::default() }
     }
 
     /// Calls `each` with the record changed in one number, for every number in it.
@@ -261,10 +223,7 @@ mod tests {
                 for (index, element) in elements.iter().enumerate() {
                     let mut changed = value.clone();
                     changed[key][index] = nudge(element);
-                    each(
-                        format!("{key}[{index}]"),
-                        serde_json::from_value(changed).unwrap(),
-                    );
+                    each(format!("{key}[{index}]"), serde_json::from_value(changed).unwrap());
                 }
             } else {
                 changed[key] = nudge(field);
@@ -293,10 +252,7 @@ mod tests {
         let mut changed = frame();
         changed.position[1] = 0.0;
         let difference = frame().first_difference(&changed).unwrap();
-        assert_eq!(
-            (difference.recorded.as_str(), difference.replayed.as_str()),
-            ("-0.0", "0.0")
-        );
+        assert_eq!((difference.recorded.as_str(), difference.replayed.as_str()), ("-0.0", "0.0"));
     }
 
     #[test]
@@ -305,10 +261,7 @@ mod tests {
         record.position = [f64::MIN_POSITIVE / 3.0, -0.0, 1.0 / 3.0];
         record.celerity = [1e12 + 1.0 / 1024.0, f64::MAX, f64::EPSILON];
         let text = serde_json::to_string(&record).unwrap();
-        assert_eq!(
-            record.first_difference(&serde_json::from_str(&text).unwrap()),
-            None
-        );
+        assert_eq!(record.first_difference(&serde_json::from_str(&text).unwrap()), None);
     }
 
     #[test]

@@ -19,9 +19,7 @@ use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
 use super::record::{ControlsRecord, FrameRecord, SampleRecord, Topic};
-use super::{
-    Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION,
-};
+use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
 use crate::controls::Controls;
 use crate::sample::{Nanos, Sample};
 
@@ -54,23 +52,13 @@ impl Recorder {
     /// # Errors
     /// If the file exists already, or the system does not let us create or write it.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
-        let file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(path)
-            .map_err(|cause| match cause.kind() {
-                io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory {
-                    path: path.to_owned(),
-                },
-                io::ErrorKind::AlreadyExists => RecordingError::Exists {
-                    path: path.to_owned(),
-                },
-                _ => RecordingError::io(path, "create", cause),
-            })?;
+        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
+            io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
+            io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
+            _ => RecordingError::io(path, "create", cause),
+        })?;
         let failed = |error| failure(path, error);
-        let file_to_sync = file
-            .try_clone()
-            .map_err(|cause| failed(McapError::Io(cause)))?;
+        let file_to_sync = file.try_clone().map_err(|cause| failed(McapError::Io(cause)))?;
         let mut writer = Writer::new(file, header).map_err(failed)?;
         let (queue, messages) = bounded(QUEUE);
         let thread = thread::Builder::new()
@@ -82,11 +70,7 @@ impl Recorder {
                 Ok(())
             })
             .map_err(|cause| RecordingError::io(path, "start the thread that writes", cause))?;
-        Ok(Self {
-            path: path.to_owned(),
-            queue: Some(queue),
-            thread: Some(thread),
-        })
+        Ok(Self { path: path.to_owned(), queue: Some(queue), thread: Some(thread) })
     }
 
     /// Records a sample.
@@ -101,17 +85,8 @@ impl Recorder {
     ///
     /// # Errors
     /// As for [`sample`](Self::sample).
-    pub fn controls(
-        &mut self,
-        frame: u64,
-        at: Nanos,
-        controls: &Controls,
-    ) -> Result<(), RecordingError> {
-        self.push(Message::Controls(ControlsRecord {
-            frame,
-            at,
-            controls: controls.clone(),
-        }))
+    pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
+        self.push(Message::Controls(ControlsRecord { frame, at, controls: controls.clone() }))
     }
 
     /// Records the observer after a frame.
@@ -120,11 +95,7 @@ impl Recorder {
     /// If a number is not finite; else as for [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
         if let Some((field, value)) = record.not_finite() {
-            return Err(RecordingError::NotFinite {
-                frame: record.frame,
-                field,
-                value,
-            });
+            return Err(RecordingError::NotFinite { frame: record.frame, field, value });
         }
         self.push(Message::Frame(record.clone()))
     }
@@ -139,9 +110,7 @@ impl Recorder {
 
     fn push(&mut self, message: Message) -> Result<(), RecordingError> {
         let Some(queue) = &self.queue else {
-            return Err(RecordingError::Stopped {
-                path: self.path.clone(),
-            });
+            return Err(RecordingError::Stopped { path: self.path.clone() });
         };
         match queue.try_send(message) {
             Ok(()) => Ok(()),
@@ -149,15 +118,11 @@ impl Recorder {
                 // Leave the thread to its disk.
                 self.queue = None;
                 self.thread = None;
-                Err(RecordingError::TooSlow {
-                    path: self.path.clone(),
-                })
+                Err(RecordingError::TooSlow { path: self.path.clone() })
             }
             Err(TrySendError::Disconnected(_)) => {
                 self.close()?;
-                Err(RecordingError::Stopped {
-                    path: self.path.clone(),
-                })
+                Err(RecordingError::Stopped { path: self.path.clone() })
             }
         }
     }
@@ -170,10 +135,7 @@ impl Recorder {
         };
         match thread.join() {
             Ok(outcome) => outcome.map_err(|error| failure(&self.path, error)),
-            Err(_) => Err(failure(
-                &self.path,
-                McapError::Io(io::Error::other("the thread that writes has died")),
-            )),
+            Err(_) => Err(failure(&self.path, McapError::Io(io::Error::other("the thread that writes has died")))),
         }
     }
 }
@@ -194,11 +156,7 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
 }
 
 /// Writes the messages until the queue is closed, and flushes now and then.
-fn write_until_closed(
-    messages: &Receiver<Message>,
-    writer: &mut Writer,
-    file: &File,
-) -> Result<(), McapError> {
+fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer, file: &File) -> Result<(), McapError> {
     let mut flushed = Instant::now();
     let mut waiting = false;
     loop {
@@ -241,16 +199,10 @@ impl Writer {
         let header = serde_json::to_string(header).map_err(io::Error::other)?;
         let metadata = BTreeMap::from([
             (KEY_VERSION.to_owned(), VERSION.to_owned()),
-            (
-                KEY_CHECKSUM.to_owned(),
-                format!("{:08x}", crc32fast::hash(header.as_bytes())),
-            ),
+            (KEY_CHECKSUM.to_owned(), format!("{:08x}", crc32fast::hash(header.as_bytes()))),
             (KEY_HEADER.to_owned(), header),
         ]);
-        mcap.write_metadata(&Metadata {
-            name: METADATA.to_owned(),
-            metadata,
-        })?;
+        mcap.write_metadata(&Metadata { name: METADATA.to_owned(), metadata })?;
 
         let mut channels = [0; Topic::ALL.len()];
         for (channel, topic) in channels.iter_mut().zip(Topic::ALL) {
@@ -259,18 +211,12 @@ impl Writer {
             *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
         }
         mcap.flush()?;
-        Ok(Self {
-            mcap,
-            channels,
-            sequence: 0,
-        })
+        Ok(Self { mcap, channels, sequence: 0 })
     }
 
     fn write(&mut self, message: &Message) -> Result<(), McapError> {
         match message {
-            Message::Sample(sample) => {
-                self.put(Topic::Samples, sample.at, &SampleRecord::from(sample))
-            }
+            Message::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
             Message::Controls(record) => self.put(Topic::Controls, record.at, record),
             Message::Frame(record) => self.put(Topic::Frames, record.at, record),
         }
@@ -279,14 +225,50 @@ impl Writer {
     fn put(&mut self, topic: Topic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
         let text = serde_json::to_vec(record).map_err(io::Error::other)?;
         let channel_id = self.channels[topic as usize];
-        let header = MessageHeader {
-            channel_id,
-            sequence: self.sequence,
-            log_time: at,
-            publish_time: at,
-        };
+        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: at, publish_time: at };
         self.mcap.write_to_known_channel(&header, &text)?;
         self.sequence = self.sequence.wrapping_add(1);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A recorder that cannot write must say so once, with the cause, and must never stop the ride.
+    use super::*;
+    use crate::sample::Source;
+
+    fn recorder(queue: Sender<Message>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
+        Recorder { path: PathBuf::from("ride.mcap"), queue: Some(queue), thread }
+    }
+
+    #[test]
+    fn a_stalled_disk_ends_the_recording_not_the_ride() {
+        let (queue, _never_read) = bounded(1);
+        let mut recorder = recorder(queue, None);
+        let sample = Sample::opened(0, Source::Bicycle);
+        recorder.sample(&sample).unwrap();
+        assert!(matches!(recorder.sample(&sample), Err(RecordingError::TooSlow { .. })));
+        assert!(matches!(recorder.sample(&sample), Err(RecordingError::Stopped { .. })));
+    }
+
+    #[test]
+    fn a_failed_write_is_told_with_its_cause() {
+        let (queue, messages) = bounded(1);
+        drop(messages);
+        let thread = thread::spawn(|| Err(McapError::Io(io::Error::other("no space left"))));
+        let mut recorder = recorder(queue, Some(thread));
+        let error = recorder.sample(&Sample::opened(0, Source::Bicycle)).unwrap_err();
+        assert_eq!(error.to_string(), "cannot write ride.mcap: no space left");
+        assert!(recorder.finish().is_ok());
+    }
+
+    #[test]
+    fn a_number_that_json_cannot_carry_is_named() {
+        let (queue, _messages) = bounded(1);
+        let mut record = FrameRecord { frame: 7, ..Default::default() };
+        record.celerity[1] = f64::NAN;
+        let error = recorder(queue, None).frame(&record).unwrap_err();
+        assert_eq!(error.to_string(), "frame 7 cannot be recorded: celerity[1] is NaN");
     }
 }
