@@ -1,7 +1,8 @@
 //! Actions: things that happen once, at a press, and the decoder of those that the interface sends.
 //!
-//! Buttons of any device and the program's own panels end in the same list. What a panel sends is a small JSON
-//! text (`"step"`, `{"time_scale":0.5}`) that passes through the recording like any other device's bytes.
+//! Buttons of any device and the program's own panels end in the same list. What a panel sends is a
+//! small JSON text (`"step"`, `{"time_scale":0.5}`) that passes through the recording like any
+//! other device's bytes.
 
 use serde::{Deserialize, Serialize};
 

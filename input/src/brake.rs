@@ -1,7 +1,8 @@
 //! What the program tells the bicycle: how strongly to brake.
 //!
-//! The ergometer's brake is driven from the lever and from what the simulation feels (B 5.6.1). The line is
-//! `K1,<seq>,<brake 0..1>*HH`, sealed like those that come in; the box may check `seq` for lost ones.
+//! The ergometer's brake is driven from the lever and from what the simulation feels (B 5.6.1). The
+//! line is `K1,<seq>,<brake 0..1>*HH`, sealed like those that come in; the box may check `seq` for
+//! lost ones.
 
 use crate::line::{LineError, sealed, unseal};
 
@@ -15,7 +16,8 @@ pub struct BrakeCommand {
 }
 
 impl BrakeCommand {
-    /// The line, with its line feed. The brake is clamped to 0 to 1 and given to a thousandth; what is not a number brakes not.
+    /// The line, with its line feed. The brake is clamped to 0 to 1 and given to a thousandth; what
+    /// is not a number brakes not.
     pub fn to_line(self) -> String {
         let brake = if self.brake.is_nan() { 0.0 } else { self.brake.clamp(0.0, 1.0) };
         sealed(&format!("K1,{},{brake:.3}", self.sequence))

@@ -17,12 +17,12 @@ pub struct ConfigError {
     pub expected: &'static str,
 }
 
-/// Fails unless the value is finite and positive.
+/// Fails unless the value is positive and of a size that leaves room for arithmetic.
 fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
-    if value.is_finite() && value > 0.0 {
+    if (1e-6..=1e6).contains(&value) {
         Ok(())
     } else {
-        Err(ConfigError { key, value: value.to_string(), expected: "a positive, finite number" })
+        Err(ConfigError { key, value: value.to_string(), expected: "a positive number from 1e-6 to 1e6" })
     }
 }
 
@@ -100,7 +100,8 @@ pub struct BicycleConfig {
     pub stop_after_s: f64,
     /// Reading of the steering sensor straight ahead.
     pub steer_straight: f64,
-    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
+    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the
+    /// right.
     pub steer_rad_per_unit: f64,
     /// Reading of the brake sensor with the lever released.
     pub brake_released: f64,
@@ -115,7 +116,8 @@ pub struct BicycleConfig {
 }
 
 impl Default for BicycleConfig {
-    /// A 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees of travel.
+    /// A 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees
+    /// of travel.
     fn default() -> Self {
         Self {
             wheel_circumference_m: 2.1,
@@ -213,15 +215,16 @@ impl RiderConfig {
 
 /// Which axis of a device drives which control, and with which sign.
 ///
-/// Six entries: thrust right, up, backward; turn nose up, nose left, roll left. Each is the number of the device's axis, 1
-/// to 6, negative where it counts the other way.
+/// Six entries: thrust right, up, backward; turn nose up, nose left, roll left. Each is the number
+/// of the device's axis, 1 to 6, negative where it counts the other way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AxisTable(pub [i8; 6]);
 
 impl AxisTable {
     /// Raw HID: x right, y towards the user, z down, and the turns about them.
     pub const RAW: Self = Self([1, -3, 2, 4, -6, 5]);
-    /// spacenavd as it is installed: x right, y up, z away from the user, and the same signs for the turns.
+    /// spacenavd as it is installed: x right, y up, z away from the user, and the same signs for
+    /// the turns.
     pub const SPACENAVD: Self = Self([1, 2, -3, 4, 5, -6]);
 
     /// The six controls from the device's six axes.
@@ -240,7 +243,8 @@ impl AxisTable {
 
 #[cfg(test)]
 mod tests {
-    //! Both back ends must turn one push into one control, and no setting may smuggle in a division by zero.
+    //! Both back ends must turn one push into one control, and no setting may smuggle in a division
+    //! by zero.
     use super::*;
 
     #[test]
@@ -265,6 +269,10 @@ mod tests {
         let mut config = DeskConfig::default();
         config.rider.lateral_m_s2 = f64::NAN;
         assert_eq!(config.check().unwrap_err().key, "rider.lateral_m_s2");
+        let mut config = DeskConfig::default();
+        config.bicycle.fastest_m_s = 1e300;
+        let error = config.check().unwrap_err().to_string();
+        assert!(error.starts_with("bicycle.fastest_m_s is 1") && error.ends_with("from 1e-6 to 1e6"), "{error}");
         let mut config = DeskConfig::default();
         config.bicycle.brake_full = config.bicycle.brake_released;
         assert!(config.check().is_err());

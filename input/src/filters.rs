@@ -1,7 +1,8 @@
 //! Filters for noisy measurements.
 //!
-//! [`MedianOfThree`] removes single outliers (a bouncing contact, a lost pulse); [`OneEuro`] then smooths, strongly while
-//! the signal rests and weakly while it moves, so that slow jitter goes and quick motion is not late.
+//! [`MedianOfThree`] removes single outliers (a bouncing contact, a lost pulse); [`OneEuro`] then
+//! smooths, strongly while the signal rests and weakly while it moves, so that slow jitter goes and
+//! quick motion is not late.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,8 @@ pub struct MedianOfThree {
 }
 
 impl MedianOfThree {
-    /// Takes a value and gives the median. Until three are there: the smallest, which is safe for a speed.
+    /// Takes a value and gives the median. Until three are there: the smallest, which is safe for a
+    /// speed.
     pub fn filter(&mut self, value: f64) -> f64 {
         let median = match (self.earlier, self.last) {
             (Some(a), Some(b)) => a.min(b).max(value.min(a.max(b))),
@@ -28,8 +30,9 @@ impl MedianOfThree {
 
 /// Low-pass whose cutoff grows with the speed of the signal.
 ///
-/// *Equation*: x̂ ← x̂ + α (x − x̂), α = 1/(1 + τ/Δt), τ = 1/(2π f), f = f_min + b |dx̂/dt|, where the derivative is taken from
-/// the last filtered value and itself low-passed at a fixed cutoff. Casiez, Roussel, Vogel, CHI 2012.
+/// *Equation*: x̂ ← x̂ + α (x − x̂), α = 1/(1 + τ/Δt), τ = 1/(2π f), f = f_min + b |dx̂/dt|, where
+/// the derivative is taken from the last filtered value and itself low-passed at a fixed cutoff.
+/// Casiez, Roussel, Vogel, CHI 2012.
 #[derive(Clone, Debug)]
 pub struct OneEuro {
     /// Cutoff at rest, Hz.
@@ -47,8 +50,8 @@ impl OneEuro {
         Self { minimum_cutoff_hz, speed_coefficient, derivative_cutoff_hz, state: None }
     }
 
-    /// Takes the next value, `interval_s` seconds after the one before, and gives the filtered one. An interval that is
-    /// not positive repeats the last result.
+    /// Takes the next value, `interval_s` seconds after the one before, and gives the filtered one.
+    /// An interval that is not positive repeats the last result.
     pub fn filter(&mut self, value: f64, interval_s: f64) -> f64 {
         let Some((filtered, speed)) = self.state else {
             self.state = Some((value, 0.0));
@@ -68,7 +71,8 @@ impl OneEuro {
 
 #[cfg(test)]
 mod tests {
-    //! The One Euro filter must give its authors' numbers; a filter that differentiates raw values misses the third.
+    //! The One Euro filter must give its authors' numbers; a filter that differentiates raw values
+    //! misses the third.
     use super::*;
 
     /// The published numbers carry seven decimals.

@@ -1,6 +1,7 @@
 //! A gamepad or joystick.
 //!
-//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not depend on the system:
+//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not
+//! depend on the system:
 //!
 //! | first byte | then, little-endian | meaning |
 //! |---|---|---|
@@ -15,7 +16,8 @@
 //! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
 //! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
 //!
-//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and the left one takes a picture.
+//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and
+//! the left one takes a picture.
 
 use crate::action::Action;
 use crate::decoder::{Actions, Decoder, Faults};
@@ -289,7 +291,8 @@ impl Decoder for Gamepad {
 
 #[cfg(test)]
 mod tests {
-    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go with it.
+    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go
+    //! with it.
     use super::*;
 
     fn pad(items: &[Item]) -> (Gamepad, Vec<Action>) {

@@ -1,7 +1,8 @@
 //! Keys of the window: riding, driving and flying without any device.
 //!
-//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every system) and 1 for
-//! pressed, 0 for released. Several may follow one another in a sample. What keys want moves on ramps, as legs and hands do.
+//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
+//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample. What keys
+//! want moves on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
 //! |---|---|---|
@@ -13,8 +14,8 @@
 //! | R, F | | thrust up, down |
 //! | Q, E | | roll left, right |
 //!
-//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace goes back to the
-//! start, C takes a picture, V records, H and F1 show the help.
+//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the
+//! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::config::RiderConfig;
@@ -272,7 +273,8 @@ impl Decoder for Keyboard {
 
 #[cfg(test)]
 mod tests {
-    //! A key that is held must lead smoothly to its control and a released one back; the order of asking may not matter.
+    //! A key that is held must lead smoothly to its control and a released one back; the order of
+    //! asking may not matter.
     use super::*;
     use crate::sample::SECOND;
 

@@ -1,8 +1,8 @@
 //! Text lines from a byte stream, and their checksum.
 //!
-//! A serial port hands over bytes cut anywhere, with noise in between. [`Lines`] puts lines together, bounded in length;
-//! [`sealed`] and [`unseal`] add and check the checksum `*HH`: all bytes before the asterisk, combined by exclusive or,
-//! as two hexadecimal digits, as in NMEA 0183.
+//! A serial port hands over bytes cut anywhere, with noise in between. [`Lines`] puts lines
+//! together, bounded in length; [`sealed`] and [`unseal`] add and check the checksum `*HH`: all
+//! bytes before the asterisk, combined by exclusive or, as two hexadecimal digits, as in NMEA 0183.
 
 use thiserror::Error;
 
@@ -69,7 +69,8 @@ impl Lines {
         *self = Self::default();
     }
 
-    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are passed over.
+    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are
+    /// passed over.
     pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<&str, LineError>)) {
         for &byte in bytes {
             if byte == b'\n' || byte == b'\r' {
@@ -125,7 +126,8 @@ pub fn unseal(line: &str) -> Result<&str, LineError> {
 
 #[cfg(test)]
 mod tests {
-    //! However the bytes are cut, the same lines must come out; a flipped bit must not pass the checksum.
+    //! However the bytes are cut, the same lines must come out; a flipped bit must not pass the
+    //! checksum.
     use super::*;
 
     fn lines(chunks: &[&[u8]]) -> Vec<Result<String, LineError>> {

@@ -1,8 +1,9 @@
 //! How fast something turns, from the times at which it passed a sensor.
 //!
-//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the age of the last pulse
-//! needs ours. Between pulses the estimate is capped by what the silence still allows (had it turned faster, the next
-//! pulse would be here already), so it decays by itself, and after a while of silence it is zero.
+//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the
+//! age of the last pulse needs ours. Between pulses the estimate is capped by what the silence
+//! still allows (had it turned faster, the next pulse would be here already), so it decays by
+//! itself, and after a while of silence it is zero.
 
 use crate::filters::{MedianOfThree, OneEuro};
 use crate::sample::{Nanos, seconds_between};
@@ -45,8 +46,9 @@ impl PulseRate {
         *self = Self::new(self.shortest_interval_s, self.stop_after_s);
     }
 
-    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last one before them. Says
-    /// whether they were believed: a bounce is not, and leaves everything as it was.
+    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last
+    /// one before them. Says whether they were believed: a bounce is not, and leaves everything as
+    /// it was.
     pub fn pulses(&mut self, at: Nanos, count: u32, interval_s: f64) -> bool {
         let Some(last) = self.last_pulse else {
             self.last_pulse = Some(at);
@@ -81,8 +83,8 @@ impl PulseRate {
 
 #[cfg(test)]
 mod tests {
-    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last jerk, and neither a
-    //! bouncing contact nor a clock that wrapped may show as speed.
+    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last
+    //! jerk, and neither a bouncing contact nor a clock that wrapped may show as speed.
     use super::*;
     use crate::sample::SECOND;
 

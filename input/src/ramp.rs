@@ -1,7 +1,7 @@
 //! A value that moves towards its target at a steady rate, as a key makes it.
 //!
-//! A key is down or up, a leg is not. The value between is a function of the time of the last change and the time of
-//! asking only, so it does not matter how often one asks.
+//! A key is down or up, a leg is not. The value between is a function of the time of the last
+//! change and the time of asking only, so it does not matter how often one asks.
 
 use crate::sample::{Nanos, seconds_between};
 

@@ -1,8 +1,9 @@
 //! What a device said, and when.
 //!
-//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp, and which
-//! device spoke. Whatever is decoded from samples is a pure function of them, so a recording of samples and
-//! frame times replays to the same bits. Even the switches of the interface pass as samples ([`Source::Settings`]).
+//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp,
+//! and which device spoke. Whatever is decoded from samples is a pure function of them, so a
+//! recording of samples and frame times replays to the same bits. Even the switches of the
+//! interface pass as samples ([`Source::Settings`]).
 
 use std::fmt;
 use std::time::Instant;
@@ -18,7 +19,8 @@ pub type Nanos = u64;
 /// One second in [`Nanos`].
 pub const SECOND: Nanos = 1_000_000_000;
 
-/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two threads may be.
+/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two
+/// threads may be.
 pub fn seconds_between(earlier: Nanos, later: Nanos) -> f64 {
     later.saturating_sub(earlier) as f64 * 1e-9
 }

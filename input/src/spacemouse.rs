@@ -1,11 +1,12 @@
 //! A SpaceMouse as raw HID reports.
 //!
-//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350 at full deflection.
-//! Report 1 carries the shifts, and on newer devices the turns as well; on older ones these come in report 2. Which kind it is
-//! shows in the length of report 1, not in the product's number: firmware differs. Report 3 holds the buttons.
+//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350
+//! at full deflection. Report 1 carries the shifts, and on newer devices the turns as well; on
+//! older ones these come in report 2. Which kind it is shows in the length of report 1, not in the
+//! product's number: firmware differs. Report 3 holds the buttons.
 //!
-//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. Should these be lost, flight must not go on for ever: after
-//! half a second of silence the cap counts as released.
+//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. Should these be
+//! lost, flight must not go on for ever: after half a second of silence the cap counts as released.
 
 use crate::action::Action;
 use crate::config::AxisTable;

@@ -1,11 +1,12 @@
 //! A SpaceMouse through the spacenavd daemon's socket.
 //!
-//! Events are eight 32-bit integers in the machine's order (every machine we run on is little-endian): word 0 says what it is
-//! (0 motion, 1 press, 2 release, others passed over); a motion's words 1 to 6 are three shifts and three turns, ±500 at full
-//! deflection; a button's word 1 is its number. The stream may be cut anywhere.
+//! Events are eight 32-bit integers in the machine's order (every machine we run on is
+//! little-endian): word 0 says what it is (0 motion, 1 press, 2 release, others passed over); a
+//! motion's words 1 to 6 are three shifts and three turns, ±500 at full deflection; a button's word
+//! 1 is its number. The stream may be cut anywhere.
 //!
-//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent for seconds:
-//! silence means nothing here.
+//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent
+//! for seconds: silence means nothing here.
 
 use crate::config::AxisTable;
 use crate::decoder::{Actions, Decoder, Faults};

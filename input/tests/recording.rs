@@ -1,8 +1,8 @@
-//! Recordings: what is written must be read back to the last bit, by us and by others; of a damaged file everything
-//! before the damage must be given, nothing after it, and nothing false.
+//! Recordings: what is written must be read back to the last bit, by us and by others; of a damaged
+//! file everything before the damage must be given, nothing after it, and nothing false.
 //!
-//! A wrong program would replay a ride that never was, refuse a ride because its last second is missing, or fall
-//! over a hostile file.
+//! A wrong program would replay a ride that never was, refuse a ride because its last second is
+//! missing, or fall over a hostile file.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
@@ -92,7 +92,8 @@ fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
     (entries, None)
 }
 
-/// Everything that can be read of these bytes. The tests do this thousands of times: in memory, where the system offers it.
+/// Everything that can be read of these bytes. The tests do this thousands of times: in memory,
+/// where the system offers it.
 fn read_bytes(bytes: &[u8]) -> (Vec<Entry>, Option<RecordingError>) {
     let memory = Path::new("/dev/shm");
     let directory = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }.unwrap();
@@ -148,7 +149,8 @@ fn samples_out_of_order_stay_in_the_order_of_the_desk() {
     assert_eq!(read(&path).0, entries);
 }
 
-/// The specification's own library, as an independent reader: Foxglove finds channels, schemas and times where it looks.
+/// The specification's own library, as an independent reader: Foxglove finds channels, schemas and
+/// times where it looks.
 #[test]
 fn others_read_it_too() {
     let (_directory, path) = place();
@@ -367,7 +369,8 @@ fn is_sound(controls: &Controls) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever devices send, controls stay in their ranges, and a recording of it gives the same controls again.
+    /// Whatever devices send, controls stay in their ranges, and a recording of it gives the same
+    /// controls again.
     #[test]
     fn any_noise_gives_sound_controls_and_the_same_again(samples in proptest::collection::vec(any_sample(), 1..60)) {
         let (_directory, path) = place();

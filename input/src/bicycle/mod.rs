@@ -1,16 +1,21 @@
 //! The instrumented bicycle: lines of text to wheel speed, cadence, handlebar and brake.
 //!
-//! The sensors' box should send when pulses happened, not a speed it made up: only so is a slow wheel measured as well as a
-//! fast one. Three kinds of line are understood, and may be mixed:
+//! The sensors' box should send when pulses happened, not a speed it made up: only so is a slow
+//! wheel measured as well as a fast one. Three kinds of line are understood, and may be mixed:
 //!
 //! | line | from |
 //! |---|---|
-//! | `B1,seq,t_us,wheel_count,wheel_t_us,crank_count,crank_t_us,steer,brake*HH` | our own boxes: counts and times of the last pulses on the box's clock, readings of the converters, checksum |
-//! | `interval_us,age_us,steer,brake` | simple sketches: the last interval, how long ago it ended, steering −1 to 1, brake |
+//! | `B1,seq,t_us,wheel_count,wheel_t_us,crank_count,crank_t_us,steer,brake*HH` | our own boxes |
+//! | `interval_us,age_us,steer,brake` | simple sketches |
 //! | `23.4` | anything that knows its speed ([`BareNumber`]) |
 //!
-//! Counts and microseconds are 32 bits and wrap. Since counts are cumulative, a lost line loses nothing. A line that cannot be
-//! understood is counted and skipped; the state of before stands. In silence the wheel runs down and stops.
+//! A `B1` line gives counts and times of the last pulses on the box's clock, the readings of the
+//! converters as they are, and a checksum. Four fields give the last interval, how long ago it
+//! ended, steering from −1 to 1 and the brake.
+//!
+//! Counts and microseconds are 32 bits and wrap. Since counts are cumulative, a lost line loses
+//! nothing. A line that cannot be understood is counted and skipped; the state of before stands. In
+//! silence the wheel runs down and stops.
 
 mod protocol;
 
@@ -60,7 +65,8 @@ impl Counter {
             self.rate.reset();
             return;
         }
-        // A pulse between reading the clock and sending the line has a negative age: take it for new.
+        // A pulse between reading the clock and sending the line has a negative age: take it for
+        // new.
         let age_us = match now_us.wrapping_sub(count.last_us) {
             age_us if age_us > u32::MAX / 2 => 0,
             age_us => age_us,
@@ -158,8 +164,8 @@ impl Bicycle {
             Line::Interval { interval_us, age_us, steer, brake } => {
                 let pulse_at = at.saturating_sub(u64::from(age_us) * 1000);
                 let interval_s = f64::from(interval_us) * 1e-6;
-                // The line repeats the last pulse until there is a new one, which comes a whole interval later; lines
-                // are late by much less.
+                // The line repeats the last pulse until there is a new one, which comes a whole
+                // interval later; lines are late by much less.
                 let is_new = self
                     .wheel
                     .rate
@@ -229,8 +235,8 @@ impl Decoder for Bicycle {
 
 #[cfg(test)]
 mod tests {
-    //! A wheel of known speed must read that speed in each of the three languages, across wrapping counters and lost
-    //! lines; a broken line must leave no trace but its count.
+    //! A wheel of known speed must read that speed in each of the three languages, across wrapping
+    //! counters and lost lines; a broken line must leave no trace but its count.
     use super::*;
     use crate::line::sealed;
     use crate::sample::SECOND;
@@ -250,8 +256,9 @@ mod tests {
         sealed(&format!("B1,{sequence},{now_us},{},{},{},{},{steer},{brake}", wheel.0, wheel.1, crank.0, crank.1))
     }
 
-    /// Rides for four seconds at four turns a second (8.4 m/s) and one of the crank, a line every 20 ms, beginning at
-    /// these readings of the box's clock and counter. Lines for which `lose` says so are lost.
+    /// Rides for four seconds at four turns a second (8.4 m/s) and one of the crank, a line every
+    /// 20 ms, beginning at these readings of the box's clock and counter. Lines for which `lose`
+    /// says so are lost.
     fn ride(first_us: u32, first_count: u32, lose: impl Fn(u32) -> bool) -> Bicycle {
         let mut bicycle = bicycle();
         for n in (0..=200_u32).filter(|&n| !lose(n)) {

@@ -1,4 +1,5 @@
-//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue behind it.
+//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue
+//! behind it.
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -32,7 +33,8 @@ pub(super) struct Place {
 
 /// An open device.
 pub(super) trait Connection {
-    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none if none came.
+    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none
+    /// if none came.
     ///
     /// # Errors
     /// If the device is gone.

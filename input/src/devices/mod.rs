@@ -1,13 +1,14 @@
 //! Live devices, each read by a thread of its own.
 //!
-//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first quickly and then every two
-//! seconds; so devices may be plugged and unplugged at any time. What it reads goes, stamped with the ride's clock, into
-//! a bounded queue that the frame loop drains ([`Devices::drain`]). Should the loop stall, a full queue drops its *oldest* sample: no
-//! thread ever waits, the newest state is never lost, and what was dropped is counted. Each device has its own queue, so one that
-//! floods hurts only itself.
+//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first
+//! quickly and then every two seconds; so devices may be plugged and unplugged at any time. What it
+//! reads goes, stamped with the ride's clock, into a bounded queue that the frame loop drains
+//! ([`Devices::drain`]). Should the loop stall, a full queue drops its *oldest* sample: no thread
+//! ever waits, the newest state is never lost, and what was dropped is counted. Each device has its
+//! own queue, so one that floods hurts only itself.
 //!
-//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence what to do about it.
-//! A keyboard's samples come from the window, not from here.
+//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence
+//! what to do about it. A keyboard's samples come from the window, not from here.
 
 mod feed;
 #[cfg(target_os = "linux")]
@@ -137,8 +138,8 @@ impl Devices {
         samples
     }
 
-    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest is sent, and at most
-    /// fifty a second.
+    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest
+    /// is sent, and at most fifty a second.
     pub fn brake(&self, brake: f64) {
         self.brake.set(brake);
     }

@@ -87,7 +87,8 @@ impl Port for PuckPort {
     }
 }
 
-/// Opens every interface that may be it: a wireless receiver has several, and only time tells which one it is.
+/// Opens every interface that may be it: a wireless receiver has several, and only time tells which
+/// one it is.
 fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
     let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
     let mut interfaces = Vec::new();

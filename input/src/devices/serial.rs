@@ -55,7 +55,8 @@ impl SerialPort {
 
 impl Port for SerialPort {
     fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
-        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets many a board.
+        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets
+        // many a board.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
             let path = &self.path;
             match error.kind() {
@@ -88,14 +89,27 @@ impl Wire {
         if self.last_command.is_some_and(|last| last.elapsed() < COMMAND_EVERY) {
             return Ok(());
         }
-        let Some(brake) = self.brake.take() else {
-            return Ok(());
-        };
+        match self.brake.take() {
+            Some(brake) => self.send(brake),
+            None => Ok(()),
+        }
+    }
+
+    fn send(&mut self, brake: f64) -> io::Result<()> {
         let line = BrakeCommand { sequence: self.sequence, brake }.to_line();
         self.sequence = self.sequence.wrapping_add(1);
         self.last_command = Some(Instant::now());
         // A box that does not listen misses a command; the checksum tells it of half a one.
         passing(self.port.write_all(line.as_bytes()))
+    }
+}
+
+impl Drop for Wire {
+    /// Nobody is left to brake for.
+    fn drop(&mut self) {
+        if self.last_command.is_some() {
+            let _ = self.send(0.0);
+        }
     }
 }
 

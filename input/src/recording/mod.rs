@@ -6,13 +6,15 @@
 //! | `/controls` | every frame | what the desk made of them |
 //! | `/observer` | every frame | where and how fast the observer was afterwards |
 //!
-//! A replay feeds the raw bytes to a desk, asks it at the recorded frame times, and must get the recorded observer to the
-//! last bit: [`FrameRecord::first_difference`]. Messages are JSON with a JSON schema; numbers keep every bit (the shortest text that
-//! reads back the same). Log times are nanoseconds since the ride began. Messages of all channels are numbered as one
-//! sequence, so that a lost one shows.
+//! A replay feeds the raw bytes to a desk, asks it at the recorded frame times, and must get the
+//! recorded observer to the last bit: [`FrameRecord::first_difference`]. Messages are JSON with a
+//! JSON schema; numbers keep every bit (the shortest text that reads back the same). Log times are
+//! nanoseconds since the ride began. Messages of all channels are numbered as one sequence, so that
+//! a lost one shows.
 //!
-//! The first record is a metadata record that holds the [`Header`] with a checksum; then follow chunks of at most half a second, each whole and
-//! with its own checksum. A crash therefore loses at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
+//! The first record is a metadata record that holds the [`Header`] with a checksum; then follow
+//! chunks of at most half a second, each whole and with its own checksum. A crash therefore loses
+//! at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
 
 mod reader;
 mod record;
@@ -65,7 +67,8 @@ pub struct Header {
     pub step_s: f64,
     /// How the devices are read.
     pub desk: DeskConfig,
-    /// Whatever else decides the ride, by name: the seed of a built-in scene, the place of the start.
+    /// Whatever else decides the ride, by name: the seed of a built-in scene, the place of the
+    /// start.
     pub settings: BTreeMap<String, String>,
 }
 

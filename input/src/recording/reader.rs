@@ -1,8 +1,9 @@
 //! Reading a recording, also one that is damaged or still being written.
 //!
-//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before anything in
-//! it is believed, messages must follow each other without a gap, and the data as a whole has a checksum at its end. At the first
-//! thing that is wrong the reader says what and where, and stops; everything it gave before is good.
+//! The file is read once from front to back, a chunk at a time. A chunk is checked against its
+//! checksum before anything in it is believed, messages must follow each other without a gap, and
+//! the data as a whole has a checksum at its end. At the first thing that is wrong the reader says
+//! what and where, and stops; everything it gave before is good.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
@@ -26,7 +27,8 @@ pub enum Entry {
     Frame(FrameRecord),
 }
 
-/// A recording that is being read: its header, and an iterator over its entries in the order in which they were made.
+/// A recording that is being read: its header, and an iterator over its entries in the order in
+/// which they were made.
 ///
 /// The last item is an error if the file does not end as it should; all before it may be used.
 #[derive(Debug)]
@@ -44,7 +46,8 @@ impl Recording {
     /// Opens a recording and reads its header.
     ///
     /// # Errors
-    /// If it cannot be opened, is no recording of this program or of another format, or is damaged within the header.
+    /// If it cannot be opened, is no recording of this program or of another format, or is damaged
+    /// within the header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let (records, header) = Records::open(path)?;
         Ok(Self { records, header, channels: BTreeMap::new(), sequence: 0, entries: VecDeque::new(), end: None })

@@ -8,9 +8,10 @@ use crate::sample::{Nanos, Sample, Signal, Source};
 /// The observer after a frame's steps.
 ///
 /// # Frames, units
-/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the physics. The celerity is
-/// in units of the speed of light. The orientation is the quaternion (x, y, z, w) that takes the pilot's axes to the
-/// axes of the comoving frame that is a pure boost of the world's.
+/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the
+/// physics. The celerity is in units of the speed of light. The orientation is the quaternion (x,
+/// y, z, w) that takes the pilot's axes to the axes of the comoving frame that is a pure boost of
+/// the world's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameRecord {
@@ -201,8 +202,8 @@ impl Topic {
 
 #[cfg(test)]
 mod tests {
-    //! Every field must take part in the comparison, and be known to the schema: one that is not would differ unseen, or
-    //! would not be plotted.
+    //! Every field must take part in the comparison, and be known to the schema: one that is not
+    //! would differ unseen, or would not be plotted.
     use super::*;
     use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Writing a recording while the ride goes on.
 //!
-//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON and writes. Every half
-//! second it closes the chunk and hands it to the disk. A queue that is full means that the disk has stalled for many seconds:
-//! since a recording with a gap would not replay, recording then stops with an error instead of losing something or of
-//! stopping the ride.
+//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON
+//! and writes. Every half second it closes the chunk and hands it to the disk. A queue that is full
+//! means that the disk has stalled for many seconds: since a recording with a gap would not replay,
+//! recording then stops with an error instead of losing something or of stopping the ride.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -37,8 +37,8 @@ enum Message {
 
 /// A recording that is being made.
 ///
-/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the controls and the
-/// observer of the frame.
+/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the
+/// controls and the observer of the frame.
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
@@ -141,7 +141,8 @@ impl Recorder {
 }
 
 impl Drop for Recorder {
-    /// Finishes the file; who wants to know whether that went well calls [`finish`](Recorder::finish).
+    /// Finishes the file; who wants to know whether that went well calls
+    /// [`finish`](Recorder::finish).
     fn drop(&mut self) {
         let _ = self.close();
     }
@@ -186,8 +187,8 @@ struct Writer {
 }
 
 impl Writer {
-    /// Writes everything that comes before the first message. Chunks are put together in memory and written whole, so
-    /// that the file never holds half of one that looks complete.
+    /// Writes everything that comes before the first message. Chunks are put together in memory and
+    /// written whole, so that the file never holds half of one that looks complete.
     fn new(file: File, header: &Header) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)

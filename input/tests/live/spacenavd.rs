@@ -1,18 +1,15 @@
 //! A SpaceMouse through a real socket, served by the test as spacenavd serves it.
 //!
-//! The push must arrive however the stream is cut, a cap held still must stay pushed, and a daemon that dies must
-//! let go of it. A wrong program would fly on for ever, or lose its place in the stream.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-#![cfg(unix)]
-
-mod common;
+//! The push must arrive however the stream is cut, a cap held still must stay pushed, and a daemon
+//! that dies must let go of it. A wrong program would fly on for ever, or lose its place in the
+//! stream.
 
 use std::io::Write;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
 use std::time::Duration;
 
-use common::Loop;
+use crate::frames::Loop;
 use input::devices::State;
 use input::{Action, Controls, DevicesConfig, SECOND, Source};
 

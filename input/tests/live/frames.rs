@@ -1,4 +1,4 @@
-//! What the tests of live devices share.
+//! A frame loop for the tests of live devices.
 
 use std::time::{Duration, Instant};
 
