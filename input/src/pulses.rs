@@ -50,6 +50,10 @@ impl PulseRate {
     /// one before them. Says whether they were believed: a bounce is not, and leaves everything as
     /// it was.
     pub fn pulses(&mut self, at: Nanos, count: u32, interval_s: f64) -> bool {
+        let interval_each_s = interval_s / f64::from(count);
+        if interval_each_s < self.shortest_interval_s {
+            return false;
+        }
         let Some(last) = self.last_pulse else {
             self.last_pulse = Some(at);
             return true;
@@ -59,10 +63,6 @@ impl PulseRate {
             self.reset();
             self.last_pulse = Some(at);
             return true;
-        }
-        let interval_each_s = interval_s / f64::from(count);
-        if interval_each_s < self.shortest_interval_s {
-            return false;
         }
         self.last_pulse = Some(at);
         self.rate_hz = self.filter.filter(self.median.filter(1.0 / interval_each_s), interval_s);

@@ -230,7 +230,11 @@ fn of_a_file_cut_anywhere_everything_before_the_cut_is_read() {
             None => assert_eq!(found.len(), entries.len(), "cut at {length}"),
             Some(RecordingError::Empty { .. }) => assert_eq!(length, 0),
             Some(RecordingError::NotMcap { .. }) => assert!(length < 8),
-            Some(RecordingError::CutOff { offset, .. }) => assert!(offset as usize <= length),
+            Some(RecordingError::CutOff { offset, .. }) => {
+                // The record that is missing or incomplete.
+                let begins = records(&bytes).map(|(begins, _, _)| begins).filter(|&begins| begins <= length).last();
+                assert_eq!(Some(offset as usize), begins, "cut at {length}");
+            }
             Some(other) => panic!("cut at {length}: {other}"),
         }
     }
@@ -260,17 +264,54 @@ fn places(bytes: &[u8]) -> impl Iterator<Item = usize> {
     (0..data_end).chain((data_end..bytes.len()).step_by(50))
 }
 
+/// Every outermost record: where it begins, of what kind it is, where it ends.
+fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
+    let mut begins = 8;
+    std::iter::from_fn(move || {
+        let header = bytes.get(begins..begins + 9)?;
+        let length = u64::from_le_bytes(header[1..].try_into().unwrap());
+        let record = (begins, header[0], begins + 9 + length as usize);
+        begins = record.2;
+        Some(record)
+    })
+}
+
 /// Where the record that ends the data itself ends.
 fn data_end(bytes: &[u8]) -> usize {
-    let mut offset = 8;
-    loop {
-        let length = u64::from_le_bytes(bytes[offset + 1..offset + 9].try_into().unwrap()) as usize;
-        let kind = bytes[offset];
-        offset += 9 + length;
-        if kind == 0x0f {
-            return offset;
-        }
-    }
+    records(bytes).find(|(_, kind, _)| *kind == 0x0f).unwrap().2
+}
+
+/// A recording that was cut off has no checksum over the whole, so a lost chunk must show by itself.
+#[test]
+fn a_chunk_that_is_missing_is_noticed() {
+    let (_directory, path) = place();
+    // Three megabytes, in chunks of about one.
+    let loud = |at| Entry::Sample(Sample::bytes(at, Source::Bicycle, vec![0; 4000]));
+    let entries: Vec<_> = (0..375).map(loud).collect();
+    record(&path, &entries);
+    let bytes = fs::read(&path).unwrap();
+    let chunks: Vec<_> = records(&bytes).filter(|(_, kind, _)| *kind == 6).collect();
+    // The first holds the channels only.
+    let [_, _, lost, kept, ..] = chunks[..] else { panic!("{} chunks", chunks.len()) };
+    let holed = [&bytes[..lost.0], &bytes[lost.2..kept.2]].concat();
+    let (found, error) = read_bytes(&holed);
+    assert_eq!(found, entries[..found.len()]);
+    assert!(!found.is_empty() && found.len() < entries.len());
+    let text = error.unwrap().to_string();
+    assert!(text.contains("some are missing"), "{text}");
+}
+
+/// A wrong speed of light must not wait for the end of the ride to be noticed.
+#[test]
+fn a_changed_header_is_refused_at_once() {
+    let (bytes, _) = short_ride();
+    let place_of_scene = bytes.windows(6).position(|text| text == b"\"town\"").unwrap();
+    let mut changed = bytes;
+    changed[place_of_scene + 1] = b'd';
+    let (_directory, path) = place();
+    fs::write(&path, changed).unwrap();
+    let text = Recording::open(&path).unwrap_err().to_string();
+    assert!(text.contains("`header` does not match its checksum"), "{text}");
 }
 
 #[test]

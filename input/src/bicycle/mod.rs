@@ -302,13 +302,17 @@ mod tests {
     }
 
     #[test]
-    fn a_bouncing_contact_is_no_speed() {
+    fn a_contact_that_bounces_at_every_turn_reads_the_true_speed() {
         let mut bicycle = bicycle();
-        for (n, wheel) in [(0, 0), (1, 250_000), (2, 500_000), (3, 505_000), (4, 750_000)] {
-            let line = pulses(n, wheel, (n, wheel), (0, 0), 512, 0);
-            feed(&mut bicycle, u64::from(wheel) * 1000, &line);
+        for turn in 0..12_u32 {
+            for (bounce, late_us) in [(0, 0), (1, 5000)] {
+                let pulse_us = turn * 250_000 + late_us;
+                let line = pulses(0, pulse_us, (2 * turn + bounce, pulse_us), (0, 0), 512, 0);
+                feed(&mut bicycle, u64::from(pulse_us) * 1000, &line);
+            }
         }
-        assert!((bicycle.wheel_speed(SECOND * 3 / 4).unwrap() - 8.4).abs() < ROUNDING);
+        let speed = bicycle.wheel_speed(11 * SECOND / 4).unwrap();
+        assert!((speed - 8.4).abs() < ROUNDING, "{speed}");
     }
 
     #[test]
@@ -345,6 +349,22 @@ mod tests {
         assert!((speed - 8.4).abs() < ROUNDING, "{speed}");
         assert_eq!((bicycle.steer_rad(), bicycle.brake()), (-0.3, 0.25));
         assert_eq!(bicycle.wheel_speed(9 * SECOND), Some(0.0));
+    }
+
+    #[test]
+    fn an_interval_that_four_fields_repeat_counts_once() {
+        let mut bicycle = bicycle();
+        for pulse in 0..8_u64 {
+            feed(&mut bicycle, pulse * SECOND / 4, "250000,0,0,0\n");
+        }
+        // One false pulse, told five times; once, it is an outlier.
+        for line in 0..5_u64 {
+            let age_us = line * 20_000;
+            let at = 7 * SECOND / 4 + (100_000 + age_us) * 1000;
+            feed(&mut bicycle, at, &format!("100000,{age_us},0,0\n"));
+            let speed = bicycle.wheel_speed(at).unwrap();
+            assert!((speed - 8.4).abs() < ROUNDING, "{speed}");
+        }
     }
 
     #[test]
