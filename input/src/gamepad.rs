@@ -366,6 +366,16 @@ mod tests {
     }
 
     #[test]
+    fn a_new_description_lets_go_of_what_it_does_not_name() {
+        let left = event(codes::KEY, codes::LEFT_SHOULDER, 1);
+        let right = event(codes::KEY, codes::RIGHT_SHOULDER, 1);
+        let (mut pad, _) = pad(&[left, right]);
+        assert_eq!(pad.deflection()[5], 0.0);
+        feed(&mut pad, &[Item::Gamepad, right], &mut Actions::default());
+        assert_eq!(pad.deflection()[5], -1.0);
+    }
+
+    #[test]
     fn nonsense_is_counted_and_bounded() {
         let (mut pad, _) = pad(&[
             Item::Axis { code: 64, value: 0, least: 0, most: 1 },

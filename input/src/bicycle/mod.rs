@@ -357,10 +357,10 @@ mod tests {
         for pulse in 0..8_u64 {
             feed(&mut bicycle, pulse * SECOND / 4, "250000,0,0,0\n");
         }
-        // One false pulse, told five times; once, it is an outlier.
+        // One false pulse, told five times, each time later; once, it is an outlier.
         for line in 0..5_u64 {
             let age_us = line * 20_000;
-            let at = 7 * SECOND / 4 + (100_000 + age_us) * 1000;
+            let at = 7 * SECOND / 4 + (100_000 + age_us + 1500 * line) * 1000;
             feed(&mut bicycle, at, &format!("100000,{age_us},0,0\n"));
             let speed = bicycle.wheel_speed(at).unwrap();
             assert!((speed - 8.4).abs() < ROUNDING, "{speed}");
