@@ -149,6 +149,22 @@ fn samples_out_of_order_stay_in_the_order_of_the_desk() {
     assert_eq!(read(&path).0, entries);
 }
 
+/// A ride of an hour that somebody wants to keep, while it goes on.
+#[test]
+fn what_came_before_the_file_is_written_first_however_much() {
+    let (_directory, path) = place();
+    let press = |at| Entry::Sample(Sample::key(at, Key::W, at % 2 == 0));
+    let past: Vec<_> = (0..50_000).map(press).collect();
+    let mut recorder = Recorder::create(&path, &header()).unwrap();
+    recorder.past(past.clone()).unwrap();
+    (50_000..50_100).for_each(|at| put(&mut recorder, &press(at)));
+    recorder.finish().unwrap();
+    let (found, error) = read(&path);
+    assert!(error.is_none(), "{error:?}");
+    assert_eq!(found.len(), 50_100);
+    assert_eq!(found[..50_000], past);
+}
+
 /// The specification's own library, as an independent reader: Foxglove finds channels, schemas and
 /// times where it looks.
 #[test]

@@ -29,8 +29,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use reader::{Entry, Recording};
-pub use record::{ControlsRecord, Difference, FrameRecord};
+pub use reader::Recording;
+pub use record::{ControlsRecord, Difference, Entry, FrameRecord};
 pub use writer::Recorder;
 
 use crate::action::VehicleKind;

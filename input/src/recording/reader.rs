@@ -10,22 +10,10 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
-use super::record::{ControlsRecord, FrameRecord, SampleRecord, Topic};
+use super::record::{Entry, SampleRecord, Topic};
 use super::records::{Record, Records};
 use super::wire::{Fields, opcode};
 use super::{Header, RecordingError};
-use crate::sample::Sample;
-
-/// One message of a recording.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Entry {
-    /// A device said something.
-    Sample(Sample),
-    /// What the desk made of it.
-    Controls(ControlsRecord),
-    /// Where the observer was after the frame.
-    Frame(FrameRecord),
-}
 
 /// A recording that is being read: its header, and an iterator over its entries in the order in
 /// which they were made.

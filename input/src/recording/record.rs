@@ -1,5 +1,7 @@
 //! What is written for a frame and a sample, and the JSON schemas that describe it.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::controls::Controls;
@@ -53,8 +55,8 @@ pub struct Difference {
 }
 
 impl FrameRecord {
-    /// Every real number by name.
-    fn numbers(&self) -> impl Iterator<Item = (String, f64)> {
+    /// Every real number, with its place.
+    fn numbers(&self) -> impl Iterator<Item = (Place, f64)> {
         let vectors: [(&str, &[f64]); 9] = [
             ("proper_time", std::slice::from_ref(&self.proper_time)),
             ("ct", std::slice::from_ref(&self.ct)),
@@ -66,17 +68,16 @@ impl FrameRecord {
             ("road", std::slice::from_ref(&self.road)),
             ("odometer", std::slice::from_ref(&self.odometer)),
         ];
-        vectors.into_iter().flat_map(|(name, vector)| {
-            vector.iter().enumerate().map(move |(index, &number)| {
-                let name = if vector.len() > 1 { format!("{name}[{index}]") } else { name.to_owned() };
-                (name, number)
-            })
+        vectors.into_iter().flat_map(|(field, vector)| {
+            let place = move |index| Place { field, index: (vector.len() > 1).then_some(index) };
+            vector.iter().enumerate().map(move |(index, &number)| (place(index), number))
         })
     }
 
     /// The first number that JSON cannot carry.
     pub(super) fn not_finite(&self) -> Option<(String, f64)> {
-        self.numbers().find(|(_, number)| !number.is_finite())
+        let found = self.numbers().find(|(_, number)| !number.is_finite());
+        found.map(|(place, number)| (place.to_string(), number))
     }
 
     /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
@@ -91,11 +92,27 @@ impl FrameRecord {
             return Some(Difference { field: field.to_owned(), recorded, replayed });
         }
         self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
-            |((field, ours), (_, theirs))| {
+            |((place, ours), (_, theirs))| {
                 let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
-                Difference { field, recorded, replayed }
+                Difference { field: place.to_string(), recorded, replayed }
             },
         )
+    }
+}
+
+/// A number's place in a frame record.
+#[derive(Clone, Copy)]
+struct Place {
+    field: &'static str,
+    index: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.index {
+            Some(index) => write!(formatter, "{}[{index}]", self.field),
+            None => formatter.write_str(self.field),
+        }
     }
 }
 
@@ -109,6 +126,17 @@ pub struct ControlsRecord {
     /// Its answer.
     #[serde(flatten)]
     pub controls: Controls,
+}
+
+/// One message of a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// A device said something.
+    Sample(Sample),
+    /// What the desk made of it.
+    Controls(ControlsRecord),
+    /// Where the observer was after the frame.
+    Frame(FrameRecord),
 }
 
 /// What happened, as it is written.

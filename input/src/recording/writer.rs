@@ -18,7 +18,7 @@ use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
-use super::record::{ControlsRecord, FrameRecord, SampleRecord, Topic};
+use super::record::{ControlsRecord, Entry, FrameRecord, SampleRecord, Topic};
 use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
 use crate::controls::Controls;
 use crate::sample::{Nanos, Sample};
@@ -30,9 +30,8 @@ const QUEUE: usize = 32_768;
 
 /// What is put into the queue.
 enum Message {
-    Sample(Sample),
-    Controls(ControlsRecord),
-    Frame(FrameRecord),
+    One(Entry),
+    Many(Vec<Entry>),
 }
 
 /// A recording that is being made.
@@ -57,18 +56,11 @@ impl Recorder {
             io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
             _ => RecordingError::io(path, "create", cause),
         })?;
-        let failed = |error| failure(path, error);
-        let file_to_sync = file.try_clone().map_err(|cause| failed(McapError::Io(cause)))?;
-        let mut writer = Writer::new(file, header).map_err(failed)?;
+        let mut writer = Writer::new(file, header).map_err(|error| failure(path, error))?;
         let (queue, messages) = bounded(QUEUE);
         let thread = thread::Builder::new()
             .name("recorder".to_owned())
-            .spawn(move || {
-                write_until_closed(&messages, &mut writer, &file_to_sync)?;
-                writer.mcap.finish()?;
-                file_to_sync.sync_all()?;
-                Ok(())
-            })
+            .spawn(move || write_until_closed(&messages, &mut writer))
             .map_err(|cause| RecordingError::io(path, "start the thread that writes", cause))?;
         Ok(Self { path: path.to_owned(), queue: Some(queue), thread: Some(thread) })
     }
@@ -78,7 +70,7 @@ impl Recorder {
     /// # Errors
     /// If writing has failed, or does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Message::Sample(sample.clone()))
+        self.push(Message::One(Entry::Sample(sample.clone())))
     }
 
     /// Records what the desk said for a frame.
@@ -86,7 +78,7 @@ impl Recorder {
     /// # Errors
     /// As for [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Message::Controls(ControlsRecord { frame, at, controls: controls.clone() }))
+        self.push(Message::One(Entry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
     }
 
     /// Records the observer after a frame.
@@ -94,10 +86,21 @@ impl Recorder {
     /// # Errors
     /// If a number is not finite; else as for [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
-        if let Some((field, value)) = record.not_finite() {
-            return Err(RecordingError::NotFinite { frame: record.frame, field, value });
+        check(record)?;
+        self.push(Message::One(Entry::Frame(record.clone())))
+    }
+
+    /// Records what happened before the file was created, however much; to be called first.
+    ///
+    /// # Errors
+    /// As for [`frame`](Self::frame).
+    pub fn past(&mut self, entries: Vec<Entry>) -> Result<(), RecordingError> {
+        for entry in &entries {
+            if let Entry::Frame(record) = entry {
+                check(record)?;
+            }
         }
-        self.push(Message::Frame(record.clone()))
+        self.push(Message::Many(entries))
     }
 
     /// Writes what still waits, the index and the end of the file.
@@ -148,6 +151,14 @@ impl Drop for Recorder {
     }
 }
 
+/// That every number can be read back.
+fn check(record: &FrameRecord) -> Result<(), RecordingError> {
+    match record.not_finite() {
+        Some((field, value)) => Err(RecordingError::NotFinite { frame: record.frame, field, value }),
+        None => Ok(()),
+    }
+}
+
 fn failure(path: &Path, error: McapError) -> RecordingError {
     let cause = match error {
         McapError::Io(cause) => cause,
@@ -157,24 +168,13 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
 }
 
 /// Writes the messages until the queue is closed, and flushes now and then.
-fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer, file: &File) -> Result<(), McapError> {
-    let mut flushed = Instant::now();
-    let mut waiting = false;
+fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer) -> Result<(), McapError> {
     loop {
-        match messages.recv_timeout(FLUSH_EVERY.saturating_sub(flushed.elapsed())) {
-            Ok(message) => {
-                writer.write(&message)?;
-                waiting = true;
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Ok(()),
-        }
-        if flushed.elapsed() >= FLUSH_EVERY {
-            if std::mem::take(&mut waiting) {
-                writer.mcap.flush()?;
-                file.sync_data()?;
-            }
-            flushed = Instant::now();
+        match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
+            Ok(Message::One(entry)) => writer.write(&entry)?,
+            Ok(Message::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
+            Err(RecvTimeoutError::Timeout) => writer.flush()?,
+            Err(RecvTimeoutError::Disconnected) => return writer.finish(),
         }
     }
 }
@@ -182,8 +182,12 @@ fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer, file: &
 /// The file, and the numbers of its channels.
 struct Writer {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
+    /// The same file, to see it onto the disk.
+    file: File,
     channels: [u16; Topic::ALL.len()],
     sequence: u32,
+    flushed: Instant,
+    is_flushed: bool,
 }
 
 impl Writer {
@@ -195,7 +199,7 @@ impl Writer {
             .library(format!("{PROFILE} {}", env!("CARGO_PKG_VERSION")))
             .compression(None)
             .disable_seeking(true)
-            .create(NoSeek::new(BufWriter::new(file)))?;
+            .create(NoSeek::new(BufWriter::new(file.try_clone()?)))?;
 
         let header = serde_json::to_string(header).map_err(io::Error::other)?;
         let metadata = BTreeMap::from([
@@ -212,15 +216,35 @@ impl Writer {
             *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
         }
         mcap.flush()?;
-        Ok(Self { mcap, channels, sequence: 0 })
+        Ok(Self { mcap, file, channels, sequence: 0, flushed: Instant::now(), is_flushed: true })
     }
 
-    fn write(&mut self, message: &Message) -> Result<(), McapError> {
-        match message {
-            Message::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
-            Message::Controls(record) => self.put(Topic::Controls, record.at, record),
-            Message::Frame(record) => self.put(Topic::Frames, record.at, record),
+    /// Writes an entry, and hands the chunk to the disk if it is time.
+    fn write(&mut self, entry: &Entry) -> Result<(), McapError> {
+        match entry {
+            Entry::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
+            Entry::Controls(record) => self.put(Topic::Controls, record.at, record),
+            Entry::Frame(record) => self.put(Topic::Frames, record.at, record),
+        }?;
+        self.is_flushed = false;
+        if self.flushed.elapsed() < FLUSH_EVERY { Ok(()) } else { self.flush() }
+    }
+
+    /// Closes the chunk, if there is one, and hands it to the disk.
+    fn flush(&mut self) -> Result<(), McapError> {
+        if !std::mem::replace(&mut self.is_flushed, true) {
+            self.mcap.flush()?;
+            self.file.sync_data()?;
         }
+        self.flushed = Instant::now();
+        Ok(())
+    }
+
+    /// Writes the index and the end of the file.
+    fn finish(&mut self) -> Result<(), McapError> {
+        self.mcap.finish()?;
+        self.file.sync_all()?;
+        Ok(())
     }
 
     fn put(&mut self, topic: Topic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
