@@ -32,16 +32,33 @@ const WALK_M_S: f64 = 1.5;
 
 /// The controls of a bicycle during one step.
 pub(super) struct Bicycle<'a> {
-    pub(super) settings: &'a BicycleSettings,
-    pub(super) world: World,
-    pub(super) wishes: &'a Wishes,
+    settings: &'a BicycleSettings,
+    world: World,
+    wishes: &'a Wishes,
     /// Where the ground leads.
-    pub(super) course: Course,
+    course: Course,
     /// Whether a wall keeps it from going where it points.
-    pub(super) blocked: bool,
+    blocked: bool,
+    /// Time constant of the answer to the pedals. It is chosen once a step: a kink within would cost the integrator its order.
+    response_s: f64,
 }
 
-impl Bicycle<'_> {
+impl<'a> Bicycle<'a> {
+    /// The controls of a step that begins with the forward celerity `u`.
+    pub(super) fn new(
+        settings: &'a BicycleSettings,
+        world: World,
+        wishes: &'a Wishes,
+        course: Course,
+        blocked: bool,
+        u: f64,
+    ) -> Self {
+        let wanted = world.celerity(wishes.wheel_speed_m_s);
+        let driving = (wanted - u) * wanted > 0.0;
+        let response_s = if driving { settings.pedal_response_s } else { settings.coast_response_s };
+        Self { settings, world, wishes, course, blocked, response_s }
+    }
+
     /// Forward proper acceleration in rapidity per second of own time, at the forward celerity `u`.
     fn forward_per_s(&self, u: f64) -> f64 {
         let gamma = u.hypot(1.0);
@@ -56,10 +73,7 @@ impl Bicycle<'_> {
 
     /// du/dτ that the pedals want.
     fn pedals_per_s(&self, u: f64) -> f64 {
-        let wanted = self.world.celerity(self.wishes.wheel_speed_m_s);
-        let driving = (wanted - u) * wanted > 0.0;
-        let response = if driving { self.settings.pedal_response_s } else { self.settings.coast_response_s };
-        (wanted - u) / response
+        (self.world.celerity(self.wishes.wheel_speed_m_s) - u) / self.response_s
     }
 
     /// dψ/dτ in radians per second.

@@ -67,7 +67,7 @@ pub const RAPIDITY_CAP: f64 = 27.0;
 /// Longer steps are cut, seconds of own time.
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
 /// More pieces than this are not computed for one step.
-const MOST_PIECES: usize = 64;
+const MOST_PIECES: f64 = 64.0;
 /// More strides than this are not computed between walls for one piece of a step.
 const MOST_STRIDES: usize = 64;
 
@@ -175,7 +175,7 @@ impl Vehicle {
     /// Moves on by `own_s` seconds of the vehicle's own time.
     ///
     /// Whatever the controls hold, the state stays finite: what is not a number counts as let go, and a step that cannot be integrated is not taken
-    /// ([`Vehicle::notices`]). A step longer than a 240th of a second is cut into such, at most 64.
+    /// ([`Vehicle::notices`]). A step longer than a 240th of a second is cut into such; no more than 64 of them are taken.
     pub fn step(&mut self, own_s: f64, controls: &Controls, surroundings: &dyn Surroundings) {
         self.notices.clear();
         let wishes = Wishes::new(controls);
@@ -187,7 +187,8 @@ impl Vehicle {
         }
         /// A quotient this little above a whole number is that number.
         const ROUNDING: f64 = 1e-9;
-        let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().clamp(1.0, MOST_PIECES as f64);
+        let own_s = own_s.min(MOST_PIECES * LONGEST_STEP_S);
+        let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().max(1.0);
         for _ in 0..pieces as usize {
             match self.kind {
                 VehicleKind::Fly => self.fly(own_s / pieces, &wishes),
@@ -250,9 +251,9 @@ impl Vehicle {
             self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, Some(course)));
         } else {
             let course = if backward { course.reversed() } else { course };
-            let control =
-                Bicycle { settings: &settings.bicycle, world: self.world, wishes, course, blocked: self.blocked };
-            self.resistance = control.resistance(self.forward());
+            let forward = self.forward();
+            let control = Bicycle::new(&settings.bicycle, self.world, wishes, course, self.blocked, forward);
+            self.resistance = control.resistance(forward);
             self.integrate(own_s, &control);
         }
         self.constrain();
@@ -267,7 +268,10 @@ impl Vehicle {
             IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
         };
         match taken {
-            Ok(state) => self.state = state,
+            Ok(state) => {
+                self.state = state;
+                self.odometer.own_s += own_s;
+            }
             Err(_) => self.tell(Notice::NotIntegrated),
         }
         let capped = self.state.celerity.capped(RAPIDITY_CAP);
@@ -286,27 +290,23 @@ impl Vehicle {
         }
     }
 
-    /// Takes away what is too fast into the wall. A car slides; the frame of a bicycle is turned along the wall, no faster than a rider can follow.
+    /// Takes away what is too fast into the wall. A car slides along it; the frame of a bicycle has to be turned first, and turns as it rolls.
     fn keep_clear(&mut self, wall: Option<Wall>, own_s: f64) {
-        self.blocked = false;
-        let Some(wall) = wall else { return };
         let celerity = self.state.celerity.vector();
-        self.blocked = walls::excess(&wall, celerity, self.world) > 0.0;
-        if !self.blocked {
-            return;
-        }
+        let wall = wall.filter(|wall| walls::excess(wall, celerity, self.world) > 0.0);
+        self.blocked = wall.is_some();
+        let Some(wall) = wall else { return };
         let slid = walls::slid(&wall, celerity, self.world);
-        let celerity = if self.kind == VehicleKind::Bicycle {
-            let backward = self.forward() < 0.0;
-            let motion = celerity.normalize_or_zero();
-            let motion = turned_towards(motion, slid, FASTEST_DEFLECTION_RAD_S * own_s);
-            let nose = if backward { -motion } else { motion };
-            self.state.orientation = upright(nose);
+        let kept = if self.kind == VehicleKind::Bicycle {
+            let rolled_m = self.world.metres_per_own_second(slid.length()) * own_s;
+            let angle_rad = (rolled_m / walls::DEFLECTION_RADIUS_M).min(walls::FASTEST_DEFLECTION_RAD_S * own_s);
+            let motion = turned_towards(celerity, slid, angle_rad);
+            self.state.orientation = upright(if self.forward() < 0.0 { -motion } else { motion });
             motion * walls::limited_along(&wall, motion, slid.length(), self.world)
         } else {
             slid
         };
-        self.state.celerity = Celerity::new(celerity).unwrap_or(Celerity::ZERO);
+        self.state.celerity = Celerity::new(kept).unwrap_or(Celerity::ZERO);
     }
 
     /// Adds a stride to the odometer.
@@ -315,7 +315,6 @@ impl Vehicle {
         let odometer = &mut self.odometer;
         odometer.road_m += (self.state.position - before.position).length();
         odometer.own_m += 0.5 * (beta(before) + beta(&self.state)) * self.world.metres(own_s);
-        odometer.own_s += own_s;
         odometer.world_s += self.world.seconds(self.state.ct - before.ct);
     }
 
@@ -349,12 +348,10 @@ impl Vehicle {
     }
 }
 
-/// A wall turns a bicycle along no faster than this, radians per second of own time.
-const FASTEST_DEFLECTION_RAD_S: f64 = 3.0;
-
-/// The unit vector `from`, turned towards `to` by `angle_rad` or until it is there.
+/// The unit vector along `from`, turned towards `to` by `angle_rad` or until it is there.
 fn turned_towards(from: DVec3, to: DVec3, angle_rad: f64) -> DVec3 {
-    let (Some(from), Some(to)) = (from.try_normalize(), to.try_normalize()) else { return from };
+    let from = from.normalize_or_zero();
+    let Some(to) = to.try_normalize() else { return from };
     let Some(across) = (to - from * from.dot(to)).try_normalize() else { return from };
     let angle_rad = angle_rad.min(from.angle_between(to));
     from * angle_rad.cos() + across * angle_rad.sin()

@@ -23,6 +23,10 @@ const REACH_M: f64 = 3.0;
 const STRIDE_M: f64 = 0.15;
 /// Shortest stride, metres: one who begins inside a wall gets out.
 const SHORTEST_STRIDE_M: f64 = 0.01;
+/// A bicycle that rolls into a wall is turned along it in a bend of at least this radius, metres,
+pub(super) const DEFLECTION_RADIUS_M: f64 = 0.5;
+/// and no faster than a rider can follow, radians per second of own time.
+pub(super) const FASTEST_DEFLECTION_RAD_S: f64 = 3.0;
 /// Distances are known to about this, metres.
 const ROUNDING_M: f64 = 1e-6;
 
