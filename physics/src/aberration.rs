@@ -1,7 +1,8 @@
 //! Aberration and Doppler factor: where in the sky light is seen, and by how much its frequency is raised.
 //!
-//! A direction is a null vector without its length, so aberration is the image of a point one metre away, by the light-cone form that the
-//! apparent position uses too: exact ahead, astern and 1e-12 rad from astern at every γ, with no angle, no `acos` and no difference.
+//! A direction is a null vector without its length, so aberration is the image of a point one metre away, by the
+//! light-cone form that the apparent position uses too: exact ahead, astern and 1e-12 rad from astern at every γ, with
+//! no angle, no `acos` and no difference.
 
 use glam::DVec3;
 
@@ -33,8 +34,8 @@ impl Aberration {
 
     /// The direction n' in which the observer sees light that in the world comes from `n`, and the Doppler factor.
     ///
-    /// *Frames, units:* both directions point from the observer to the source; `n` in world axes, of any finite length but zero, n' of length 1
-    /// in the axes of the pure boost. A zero `n` has no direction: n' is zero and D = γ.
+    /// *Frames, units:* both directions point from the observer to the source; `n` in world axes, of any finite length
+    /// but zero, n' of length 1 in the axes of the pure boost. A zero `n` has no direction: n' is zero and D = γ.
     ///
     /// *Equation:* D = γ + u·n for a unit n; across the motion n'⊥ = n⊥ / D (W 4.2, B 2.3).
     ///
@@ -44,7 +45,8 @@ impl Aberration {
         (image.direction(), image.doppler)
     }
 
-    /// The direction n in the world of light that the observer sees in `n'`, and the Doppler factor D = ν_observed / ν_world.
+    /// The direction n in the world of light that the observer sees in `n'`, and the Doppler factor D = ν_observed /
+    /// ν_world.
     ///
     /// The reverse of [`Aberration::observer_from_world`], with the same properties.
     pub fn world_from_observer(&self, n: DVec3) -> (DVec3, f64) {

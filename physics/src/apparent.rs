@@ -1,9 +1,11 @@
-//! Where a point appears: the place in the observer's frame from which its light comes, and the light's age and colour shift.
+//! Where a point appears: the place in the observer's frame from which its light comes, and the light's age and colour
+//! shift.
 //!
-//! Light that arrives now left the source at a retarded event on the observer's past light cone. For a point at rest in the world that event is
-//! (−r, d), d being the displacement and r its length; [`crate::aberration`] says how the boost of it is computed. A source in uniform motion
-//! has its retarded event found in the world first, at 106 bits, so that a source as fast as the observer keeps all its digits; from there on
-//! it is a point at rest. The points of an object, each taken to its apparent position, make up its photo-surface (W 5.1).
+//! Light that arrives now left the source at a retarded event on the observer's past light cone. For a point at rest in
+//! the world that event is (−r, d), d being the displacement and r its length; [`crate::aberration`] says how the boost
+//! of it is computed. A source in uniform motion has its retarded event found in the world first, at 106 bits, so that
+//! a source as fast as the observer keeps all its digits; from there on it is a point at rest. The points of an object,
+//! each taken to its apparent position, make up its photo-surface (W 5.1).
 
 use glam::DVec3;
 
@@ -23,7 +25,8 @@ pub struct Source {
 /// What an observer sees of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apparent {
-    /// Apparent position relative to the observer, in the axes of the pure boost into his frame, metres. The light seen left it.
+    /// Apparent position relative to the observer, in the axes of the pure boost into his frame, metres. The light
+    /// seen left it.
     pub position: DVec3,
     /// Doppler factor D = ν_observed / ν_emitted.
     pub doppler: f64,
@@ -37,7 +40,8 @@ pub struct Apparent {
 ///
 /// *Equation:* the image of d = point − observer, [`Aberration`](crate::aberration::Aberration); emitted at ct − r.
 ///
-/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12 (`tests/high_precision.rs`). Coordinates up to 1e150 m.
+/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12 (`tests/high_precision.rs`).
+/// Coordinates up to 1e150 m.
 ///
 /// # Example
 ///
@@ -59,9 +63,10 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
 ///
 /// *Frames:* source and observer in the world.
 ///
-/// *Equation:* let d₀ be the displacement to where the source is at the observer's time. The light left it a proper time l of the source's clock
-/// before, with l² + 2 l (u·d₀) − d₀² = 0, at d = d₀ − l u (B 2.22, in celerity). Of the two forms of the positive root the one without a
-/// difference is taken. D is that of the observer at d over that of the source at d.
+/// *Equation:* let d₀ be the displacement to where the source is at the observer's time. The light left it a proper
+/// time l of the source's clock before, with l² + 2 l (u·d₀) − d₀² = 0, at d = d₀ − l u (B 2.22, in celerity). Of the
+/// two forms of the positive root the one without a difference is taken. D is that of the observer at d over that of
+/// the source at d.
 ///
 /// *Accuracy:* as [`at_rest`] (`tests/high_precision.rs`).
 pub fn moving(observer: &Observer, source: &Source) -> Apparent {

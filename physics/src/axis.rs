@@ -1,8 +1,10 @@
-//! The axis of a boost: how any vector splits into a part along the motion and a part across it, and what the boost does to light.
+//! The axis of a boost: how any vector splits into a part along the motion and a part across it, and what the boost
+//! does to light.
 //!
-//! A boost multiplies the light-cone coordinate t + h by e^(−η), t − h by e^η, and leaves the part across alone. In these coordinates nothing
-//! cancels, provided the split itself does not: the direction of motion is therefore held to about 106 bits, and the part across is formed as
-//! e × (d × e), which keeps its relative precision however close d is to the axis.
+//! A boost multiplies the light-cone coordinate t + h by e^(−η), t − h by e^η, and leaves the part across alone. In
+//! these coordinates nothing cancels, provided the split itself does not: the direction of motion is therefore held to
+//! about 106 bits, and the part across is formed as e × (d × e), which keeps its relative precision however close d is
+//! to the axis.
 
 use glam::DVec3;
 
@@ -70,12 +72,14 @@ impl Axis {
     ///
     /// *Frames:* `displacement` from the observer to the point, world axes; the image in the axes of the pure boost.
     ///
-    /// *Equation:* the light that arrives now left the point r ago, and (−r, d) boosts to (−|x'|, x'). With h the part along, a = r + h and
-    /// c = r − h are the light-cone coordinates: x' = d⊥ + (κ a − c / κ) e / 2, |x'| = (κ a + c / κ) / 2, the vector form of
-    /// tan θ'/2 = e^(−η) tan θ/2. Of a and c the smaller is |d⊥|² over the larger. (W 4.1, 5.1; B 2.2.)
+    /// *Equation:* the light that arrives now left the point r ago, and (−r, d) boosts to (−|x'|, x'). With h the part
+    /// along, a = r + h and c = r − h are the light-cone coordinates: x' = d⊥ + (κ a − c / κ) e / 2, |x'| = (κ a +
+    /// c / κ) / 2, the vector form of tan θ'/2 = e^(−η) tan θ/2. Of a and c the smaller is |d⊥|² over the larger.
+    /// (W 4.1, 5.1; B 2.2.)
     ///
-    /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every direction and γ to 1e12
-    /// (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is zero and D = γ.
+    /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every
+    /// direction and γ to 1e12 (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
+    /// zero and D = γ.
     pub(crate) fn image(&self, displacement: DoubleDoubleVec3) -> Image {
         let scale = power_of_two_below(displacement.high.abs().max_element());
         if scale == 0.0 {

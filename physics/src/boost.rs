@@ -33,8 +33,9 @@ impl Boost {
 
     /// Transforms a four-vector.
     ///
-    /// *Equation:* t' = γ t − w h, h' = γ h − w t (W 4.1), written with γ = w + 1/κ as t' = t/κ + w (t − h), h' = h/κ − w (t − h). The only
-    /// difference left, t − h, is taken at 106 bits, so what error there is comes from the f64 components of the input and the result.
+    /// *Equation:* t' = γ t − w h, h' = γ h − w t (W 4.1), written with γ = w + 1/κ as t' = t/κ + w (t − h), h' = h/κ −
+    /// w (t − h). The only difference left, t − h, is taken at 106 bits, so what error there is comes from the f64
+    /// components of the input and the result.
     pub fn apply(self, vector: FourVector) -> FourVector {
         let Axis { direction, magnitude, kappa } = self.0;
         if magnitude == 0.0 {

@@ -1,7 +1,8 @@
 //! Velocity as celerity, u = γβ, and as β for reading and showing.
 //!
-//! The speed of light is an asymptote for β but not for u, so no value of u needs a clamp and γ = √(1 + |u|²) is exact to rounding at every
-//! speed. β carries only what is left of 1 − β: from γ of about 5e7 on, it cannot tell one celerity from another.
+//! The speed of light is an asymptote for β but not for u, so no value of u needs a clamp and γ = √(1 + |u|²) is exact
+//! to rounding at every speed. β carries only what is left of 1 − β: from γ of about 5e7 on, it cannot tell one
+//! celerity from another.
 
 use std::ops::Neg;
 
@@ -30,7 +31,8 @@ impl Celerity {
     /// Rest.
     pub const ZERO: Self = Self(DVec3::ZERO);
 
-    /// The largest magnitude accepted, a rapidity of 173. Two celerities within it compose to one whose square is still finite.
+    /// The largest magnitude accepted, a rapidity of 173. Two celerities within it compose to one whose square is still
+    /// finite.
     pub const LIMIT: f64 = 1e75;
 
     /// Takes u = γβ.
@@ -62,7 +64,6 @@ impl Celerity {
 
     /// A celerity known by construction to be finite and within the limit's square.
     pub(crate) fn from_finite(vector: DVec3) -> Self {
-        debug_assert!(vector.is_finite());
         Self(vector)
     }
 
@@ -92,7 +93,8 @@ impl Celerity {
         unit_vector(self.0)
     }
 
-    /// β = u/γ. Where that rounds to the speed of light or beyond, the next shorter vector, so that |β| < 1 always holds.
+    /// β = u/γ. Where that rounds to the speed of light or beyond, the next shorter vector, so that |β| < 1 always
+    /// holds.
     pub fn beta(self) -> Beta {
         /// Two units in the last place: more than the rounding of γ and of the quotient together.
         const SHORTER: f64 = 1.0 - 2.0 * f64::EPSILON;

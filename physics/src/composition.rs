@@ -1,9 +1,10 @@
 //! One boost after another: a head that moves within a vehicle that moves through the world (W 6.3).
 //!
-//! Two boosts in different directions make a boost and a rotation, Wigner's. As spinors a boost is (1 + t·σ) up to a factor, t = u/(1 + γ), and
-//! the product (1 + t₁·σ)(1 + t₂·σ) = 1 + t₁·t₂ + (t₁ + t₂)·σ + i (t₁ × t₂)·σ shows the rotation's quaternion: (1 + t₁·t₂, ± t₁ × t₂).
-//! Opposite directions make 1 + t₁·t₂ and the sum of the celerities cancel at large γ. Below, each is written by 1 ± cos θ, both of which are
-//! half the square of a sum or difference of the two unit vectors, held to 106 bits: sums of like signs only.
+//! Two boosts in different directions make a boost and a rotation, Wigner's. As spinors a boost is (1 + t·σ) up to a
+//! factor, t = u/(1 + γ), and the product (1 + t₁·σ)(1 + t₂·σ) = 1 + t₁·t₂ + (t₁ + t₂)·σ + i (t₁ × t₂)·σ shows the
+//! rotation's quaternion: (1 + t₁·t₂, ± t₁ × t₂). Opposite directions make 1 + t₁·t₂ and the sum of the celerities
+//! cancel at large γ. Below, each is written by 1 ± cos θ, both of which are half the square of a sum or difference of
+//! the two unit vectors, held to 106 bits: sums of like signs only.
 
 use glam::{DQuat, DVec3};
 
@@ -19,10 +20,11 @@ pub struct Composition {
     pub wigner: DQuat,
 }
 
-/// Composes the celerity of a head, measured in the vehicle's frame (a pure boost of the world's), with the vehicle's in the world.
+/// Composes the celerity of a head, measured in the vehicle's frame (a pure boost of the world's), with the vehicle's
+/// in the world.
 ///
-/// *Equation:* with e₁, w₁, γ₁, κ₁ of the vehicle and e₂, … of the head, θ between them: u·e₁ = w₁γ₂ + γ₁w₂ cos θ, u across e₁ = w₂ (e₂ across
-/// e₁); the quaternion is the normalised ((1 + γ₁)(1 + γ₂) + w₁w₂ cos θ, u₁ × u₂).
+/// *Equation:* with e₁, w₁, γ₁, κ₁ of the vehicle and e₂, … of the head, θ between them: u·e₁ = w₁γ₂ + γ₁w₂ cos θ, u
+/// across e₁ = w₂ (e₂ across e₁); the quaternion is the normalised ((1 + γ₁)(1 + γ₂) + w₁w₂ cos θ, u₁ × u₂).
 ///
 /// # Example
 ///

@@ -1,9 +1,9 @@
 //! Numbers of about 106 bits, as an unevaluated sum of two f64.
 //!
-//! Where a boost multiplies a small difference of large inputs by γ, the inputs' own 53 bits suffice but an intermediate's do not. The few such
-//! intermediates are carried as `high + low`, with |low| at most half a unit in the last place of `high`. The error-free sum is Knuth's, the
-//! error-free product uses the fused multiply-add; see T. J. Dekker, "A floating-point technique for extending the available precision",
-//! Numer. Math. 18 (1971).
+//! Where a boost multiplies a small difference of large inputs by γ, the inputs' own 53 bits suffice but an
+//! intermediate's do not. The few such intermediates are carried as `high + low`, with |low| at most half a unit in the
+//! last place of `high`. The error-free sum is Knuth's, the error-free product uses the fused multiply-add; see T. J.
+//! Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -151,7 +151,8 @@ impl DoubleDoubleVec3 {
         self.map(|component| component / divisor)
     }
 
-    /// `self × other`, rounded to f64 only at the end: each component keeps its own relative precision where the two are nearly parallel.
+    /// `self × other`, rounded to f64 only at the end: each component keeps its own relative precision where the two
+    /// are nearly parallel.
     ///
     /// The leading part is Kahan's difference of products; the low words enter to first order.
     pub(crate) fn cross(self, other: Self) -> DVec3 {

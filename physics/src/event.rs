@@ -1,7 +1,7 @@
 //! Events, and the four-vectors between them.
 //!
-//! An event is a place and a time and has no length; the difference of two events is a four-vector and has one. Keeping the types apart lets
-//! the compiler refuse the boost of an absolute position.
+//! An event is a place and a time and has no length; the difference of two events is a four-vector and has one. Keeping
+//! the types apart lets the compiler refuse the boost of an absolute position.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -36,7 +36,8 @@ pub struct FourVector {
 }
 
 impl FourVector {
-    /// The scalar product, signature (+, −, −, −): t₁ t₂ − r₁·r₂. Rounded only once, so that it is exact to the last bit for null vectors too.
+    /// The scalar product, signature (+, −, −, −): t₁ t₂ − r₁·r₂. Rounded only once, so that it is exact to the last
+    /// bit for null vectors too.
     pub fn dot(self, other: Self) -> f64 {
         let times = DoubleDouble::product(self.t, other.t);
         (times - DoubleDoubleVec3::from(self.r).dot(other.r.into())).rounded()

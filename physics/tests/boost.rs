@@ -1,5 +1,5 @@
-//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the twin who stays, let null
-//! vectors leave the light cone, or turn the head's axes the wrong way round a curve.
+//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the twin
+//! who stays, let null vectors leave the light cone, or turn the head's axes the wrong way round a curve.
 
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
