@@ -18,6 +18,7 @@ pub mod progress;
 pub mod render;
 pub mod renderers;
 pub mod ride;
+pub mod probe;
 pub mod scene;
 pub mod simulation;
 pub mod vehicle;
