@@ -5,9 +5,19 @@
 
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4};
 use physics::Celerity;
+use physics::photo_surface::Eye;
 
 /// Metres in front of the eye, at rest, nearer than which nothing is drawn.
 const NEAR_M: f64 = 0.02;
+
+/// Where an eye is, how it moves, and where it looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gaze {
+    /// Place and celerity, world axes.
+    pub eye: Eye,
+    /// From eye axes (x right, y up, −z ahead) to the observer's.
+    pub observer_from_eye: DQuat,
+}
 
 /// A camera with square pixels and a flat picture (Kooima's special case of a screen straight ahead).
 #[derive(Clone, Copy, Debug, PartialEq)]

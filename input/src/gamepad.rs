@@ -4,7 +4,7 @@
 //!
 //! | first byte | then, little-endian | meaning |
 //! |---|---|---|
-//! | `G` or `J` | | it is a gamepad, or a joystick |
+//! | `G` or `J` | | it is a gamepad, or a joystick; nothing is held but what follows |
 //! | `A` | code u16, value i32, least i32, most i32 | an axis: where it is, how far it goes |
 //! | `E` | type u16, code u16, value i32 | an event |
 //!
@@ -284,8 +284,11 @@ impl Gamepad {
 
     fn item(&mut self, item: Item, actions: &mut Actions) {
         match item {
-            Item::Gamepad => self.is_joystick = false,
-            Item::Joystick => self.is_joystick = true,
+            // A description begins: what is held is said next.
+            Item::Gamepad | Item::Joystick => {
+                self.is_joystick = item == Item::Joystick;
+                self.held.clear();
+            }
             Item::Axis {
                 code,
                 value,

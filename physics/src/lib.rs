@@ -28,7 +28,9 @@ pub mod boost;
 pub mod celerity;
 pub mod composition;
 pub mod event;
+pub mod eyes;
 pub mod observer;
+pub mod perceived;
 pub mod photo_surface;
 pub mod worldline;
 

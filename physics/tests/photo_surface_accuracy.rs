@@ -123,7 +123,8 @@ fn worst(seed: u64, cases: usize, gamma: (f64, f64), origin_distance: f64) -> [f
         let distance = log_uniform(&mut random, 1e-3, 1e6);
         let d = distance * direction(&mut random, ahead);
         let origin = origin_distance * unit(&mut random);
-        let offset = (unit(&mut random) * distance * random.random_range(0.0..2.0)).as_vec3();
+        let from_origin = distance * log_uniform(&mut random, 1e-3, 1e3);
+        let offset = (from_origin * unit(&mut random)).as_vec3();
         // Put the eye where the vertex lies in the direction chosen, as well as f64 can.
         let eye = origin + (offset.as_dvec3() - d);
 

@@ -8,24 +8,12 @@ pub mod polygon;
 pub mod resolve;
 pub mod target;
 
-/// What of relativity is drawn. More effects come with the renderers that show them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What relativity does to the picture. More effects come with the renderers that show them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Effects {
-    /// The plain world, as if light were infinitely fast: for comparison.
+    /// Nothing: the plain picture, as if light were infinitely fast, for comparison.
     None,
-    /// Aberration and light-travel time.
+    /// Aberration and light-travel time: where things are seen.
     #[default]
     Geometry,
-}
-
-impl std::str::FromStr for Effects {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "none" => Ok(Self::None),
-            "geometry" => Ok(Self::Geometry),
-            _ => Err(format!("`{text}` is no effect; choose `none` or `geometry`")),
-        }
-    }
 }

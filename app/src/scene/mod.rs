@@ -7,9 +7,13 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod export;
+pub mod gltf;
 pub mod lattice;
 pub mod mipmap;
 pub mod refine;
+pub mod source;
+pub mod town;
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -18,7 +22,7 @@ use glam::{DVec3, Vec2, Vec3};
 pub const MAX_TRIANGLES: usize = 50_000_000;
 
 /// A world at rest: geometry, materials, light, and a place to start from.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// What to call it in titles and messages.
     pub name: String,
@@ -59,7 +63,7 @@ impl Default for Start {
 ///
 /// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// From the file's node and mesh, for messages.
     pub name: String,
@@ -80,7 +84,7 @@ pub struct Mesh {
 }
 
 /// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// From the file, for messages.
     pub name: String,
@@ -128,7 +132,7 @@ pub enum Alpha {
 }
 
 /// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// From the file, for messages.
     pub name: String,

@@ -116,21 +116,21 @@ fn transform_lines<L: Lanes, F: Formula<L>, T: Target>(
 #[inline(always)]
 fn transform_line<L: Lanes, F: Formula<L>, T: Target>(
     formula: &F,
-    input: [&Line; 3],
-    position: [&mut T; 3],
+    [in_x, in_y, in_z]: [&Line; 3],
+    [x, y, z]: [&mut T; 3],
     mut doppler: Option<&mut T>,
 ) -> u32 {
-    let [x, y, z] = position;
     let mut finite = 0;
     for first in (0..LINE).step_by(L::COUNT) {
-        let mut seen = formula.seen(input.map(|line| L::load(&line.0[first..])));
+        let vertex = [L::load(&in_x.0[first..]), L::load(&in_y.0[first..]), L::load(&in_z.0[first..])];
+        let mut seen = formula.seen(vertex);
         if seen.finite != L::ALL {
-            seen.position = seen.position.map(|coordinate| coordinate.keep(seen.finite));
-            seen.doppler = seen.doppler.keep(seen.finite);
+            seen = seen.collapsed();
         }
-        x.put(first, seen.position[0]);
-        y.put(first, seen.position[1]);
-        z.put(first, seen.position[2]);
+        let [to_x, to_y, to_z] = seen.position;
+        x.put(first, to_x);
+        y.put(first, to_y);
+        z.put(first, to_z);
         if let Some(doppler) = &mut doppler {
             doppler.put(first, seen.doppler);
         }

@@ -11,10 +11,11 @@
 //! ```
 //!
 //! Neither r + |h| nor q / big cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
-//! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64.
+//! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for
+//! vertices that lie there: neighbours in a mesh mostly are neighbours in space, so that few do.
 
-use super::lanes::{Lanes, WideLanes};
-use super::plan::Plan;
+use super::lanes::{Lanes, WideLanes, each};
+use super::plan::{Plan, REAR_CONE_COTANGENT_SQUARED};
 
 /// Above this a length or a squared length counts as not finite: the next operation might overflow.
 const LARGEST: f32 = 1e38;
@@ -30,6 +31,20 @@ pub(super) struct Seen<L> {
     pub(super) doppler: L,
     /// Set where the numbers above are finite.
     pub(super) finite: u32,
+}
+
+impl<L: Lanes> Seen<L> {
+    /// The same with zeros where it is not finite.
+    #[inline(always)]
+    pub(super) fn collapsed(self) -> Self {
+        let zero = L::splat(0.0);
+        let [x, y, z] = self.position;
+        Self {
+            position: [zero.replaced(self.finite, x), zero.replaced(self.finite, y), zero.replaced(self.finite, z)],
+            doppler: zero.replaced(self.finite, self.doppler),
+            finite: self.finite,
+        }
+    }
 }
 
 /// One of the formulas, its constants spread over registers.
@@ -48,8 +63,8 @@ impl<L: Lanes> Offset<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
         let high = plan.offset.as_vec3();
-        let low = (plan.offset - high.as_dvec3()).as_vec3();
-        Self { high: high.to_array().map(L::splat), low: low.to_array().map(L::splat) }
+        let low = (plan.offset - high.as_dvec3() + plan.offset_rest).as_vec3();
+        Self { high: each!(L::splat, high.to_array()), low: each!(L::splat, low.to_array()) }
     }
 
     /// d = (p − o_high) − o_low.
@@ -87,7 +102,7 @@ impl<L: Lanes> Boost<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
         Self {
-            direction: plan.direction.as_vec3().to_array().map(L::splat),
+            direction: each!(L::splat, plan.direction.as_vec3().to_array()),
             half_kappa: L::splat((plan.kappa / 2.0) as f32),
             half_over_kappa: L::splat((0.5 / plan.kappa) as f32),
         }
@@ -104,7 +119,7 @@ impl<L: Lanes> Boost<L> {
     #[inline(always)]
     fn seen(&self, along: L, across: [L; 3]) -> Seen<L> {
         let [ax, ay, az] = across;
-        let across_squared = az.mul_add(az, ay.mul_add(ay, ax * ax));
+        let across_squared = length_squared(across);
         let distance = along.mul_add(along, across_squared).sqrt();
 
         // One division serves both q / big and 1 / r.
@@ -132,6 +147,19 @@ pub(super) struct LightCone<L> {
     boost: Boost<L>,
 }
 
+impl<L: Lanes> LightCone<L> {
+    /// h and d⊥ = d − h e.
+    #[inline(always)]
+    fn along_and_across(&self, vertex: [L; 3]) -> (L, [L; 3]) {
+        let displacement = self.offset.displacement(vertex);
+        let along = self.boost.along(displacement);
+        let [x, y, z] = displacement;
+        let [ex, ey, ez] = self.boost.direction;
+        let across = [along.negated_mul_add(ex, x), along.negated_mul_add(ey, y), along.negated_mul_add(ez, z)];
+        (along, across)
+    }
+}
+
 impl<L: Lanes> Formula<L> for LightCone<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
@@ -140,41 +168,66 @@ impl<L: Lanes> Formula<L> for LightCone<L> {
 
     #[inline(always)]
     fn seen(&self, vertex: [L; 3]) -> Seen<L> {
-        let displacement = self.offset.displacement(vertex);
-        let along = self.boost.along(displacement);
-        let [x, y, z] = displacement;
-        let [ex, ey, ez] = self.boost.direction;
-        let across = [along.negated_mul_add(ex, x), along.negated_mul_add(ey, y), along.negated_mul_add(ez, z)];
+        let (along, across) = self.along_and_across(vertex);
         self.boost.seen(along, across)
     }
 }
 
-/// The light-cone form with d and d × e in f64, accurate in every direction.
+/// The light-cone form, accurate in every direction.
 pub(super) struct ExactAstern<L: Lanes> {
+    light_cone: LightCone<L>,
     offset: [L::Wide; 3],
+    offset_rest: [L::Wide; 3],
     direction: [L::Wide; 3],
-    boost: Boost<L>,
+}
+
+impl<L: Lanes> ExactAstern<L> {
+    /// A bit for every vertex in the rear cone.
+    #[inline(always)]
+    fn astern(along: L, across: [L; 3]) -> u32 {
+        let steepness = L::splat(REAR_CONE_COTANGENT_SQUARED);
+        length_squared(across).mul_add(steepness, along * along.abs()).below(L::splat(0.0))
+    }
+
+    /// d⊥ = e × (d × e), with d and d × e in f64.
+    #[inline(always)]
+    fn across(&self, vertex: [L; 3]) -> [L; 3] {
+        let [x, y, z] = each!(L::widen, vertex);
+        let [ox, oy, oz] = self.offset;
+        let [rx, ry, rz] = self.offset_rest;
+        let displacement = [x - ox - rx, y - oy - ry, z - oz - rz];
+        let moment = cross_wide::<L>(displacement, self.direction);
+        cross(self.light_cone.boost.direction, moment)
+    }
 }
 
 impl<L: Lanes> Formula<L> for ExactAstern<L> {
     #[inline(always)]
     fn new(plan: &Plan) -> Self {
         Self {
-            offset: plan.offset.to_array().map(L::Wide::splat),
-            direction: plan.direction.to_array().map(L::Wide::splat),
-            boost: Boost::new(plan),
+            light_cone: LightCone::new(plan),
+            offset: each!(L::Wide::splat, plan.offset.to_array()),
+            offset_rest: each!(L::Wide::splat, plan.offset_rest.to_array()),
+            direction: each!(L::Wide::splat, plan.direction.to_array()),
         }
     }
 
     #[inline(always)]
-    fn seen(&self, [x, y, z]: [L; 3]) -> Seen<L> {
-        let [ox, oy, oz] = self.offset;
-        let wide = [x.widen() - ox, y.widen() - oy, z.widen() - oz];
-        let moment = cross_wide::<L>(wide, self.direction);
-        let across = cross(self.boost.direction, moment);
-        let along = self.boost.along(wide.map(L::narrow));
-        self.boost.seen(along, across)
+    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+        let (along, mut across) = self.light_cone.along_and_across(vertex);
+        let astern = Self::astern(along, across);
+        if astern != 0 {
+            let ([x, y, z], [exact_x, exact_y, exact_z]) = (across, self.across(vertex));
+            across = [x.replaced(astern, exact_x), y.replaced(astern, exact_y), z.replaced(astern, exact_z)];
+        }
+        self.light_cone.boost.seen(along, across)
     }
+}
+
+/// |a|².
+#[inline(always)]
+fn length_squared<L: Lanes>([x, y, z]: [L; 3]) -> L {
+    z.mul_add(z, y.mul_add(y, x * x))
 }
 
 /// a × b in f64, rounded to f32 at the end.

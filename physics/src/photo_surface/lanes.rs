@@ -49,8 +49,8 @@ pub(super) trait Lanes:
     fn below(self, limit: Self) -> u32;
     /// `negative` where self is below zero, else `other`.
     fn if_negative(self, negative: Self, other: Self) -> Self;
-    /// Zero where the bit is not set.
-    fn keep(self, bits: u32) -> Self;
+    /// `other` where the bit is set.
+    fn replaced(self, bits: u32, other: Self) -> Self;
 
     fn widen(self) -> Self::Wide;
     fn narrow(wide: Self::Wide) -> Self;
@@ -62,6 +62,16 @@ pub(super) trait WideLanes: Copy + Sub<Output = Self> + Mul<Output = Self> {
     /// self · factor − term.
     fn mul_sub(self, factor: Self, term: Self) -> Self;
 }
+
+/// An operation on each coordinate. No function can do this: one that is handed over is compiled on its own first,
+/// without the instructions that its caller has enabled, and registers then travel through memory.
+macro_rules! each {
+    ($operation:expr, $coordinates:expr) => {{
+        let [x, y, z] = $coordinates;
+        [$operation(x), $operation(y), $operation(z)]
+    }};
+}
+pub(super) use each;
 
 /// Whether a fused multiply-add is an instruction wherever this build runs.
 const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
@@ -173,8 +183,8 @@ impl Lanes for Portable<f32> {
     }
 
     #[inline(always)]
-    fn keep(self, bits: u32) -> Self {
-        Self(std::array::from_fn(|lane| if bits >> lane & 1 == 1 { self.0[lane] } else { 0.0 }))
+    fn replaced(self, bits: u32, other: Self) -> Self {
+        Self(std::array::from_fn(|lane| if bits >> lane & 1 == 1 { other.0[lane] } else { self.0[lane] }))
     }
 
     #[inline(always)]

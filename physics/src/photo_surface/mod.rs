@@ -44,6 +44,7 @@ mod lanes;
 mod plan;
 mod simd;
 mod surface;
+mod twice;
 mod vertices;
 
 use glam::DVec3;

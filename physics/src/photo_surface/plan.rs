@@ -15,6 +15,9 @@ use super::vertices::Sphere;
 /// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 9.6°.
 const LEAST_DOPPLER: f64 = 1.0 / 6.0;
 
+/// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
+pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
+
 /// Where the light is received: a point of the world and the velocity of whoever looks from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
@@ -53,7 +56,7 @@ pub(super) enum Form {
     AtRest,
     /// The light-cone form in f32.
     LightCone,
-    /// The light-cone form with the part across the motion taken in f64.
+    /// The light-cone form with the part across the motion in f64 for vertices in the rear cone.
     ExactAstern,
 }
 
@@ -62,6 +65,8 @@ pub(super) enum Form {
 pub(super) struct Plan {
     /// The eye's position relative to the mesh's origin.
     pub(super) offset: DVec3,
+    /// What `offset` was rounded by: it counts where the eye is near a vertex and both are far from the origin.
+    pub(super) offset_rest: DVec3,
     /// e = u/|u|, zero at rest.
     pub(super) direction: DVec3,
     /// κ = γ + |u|.
@@ -78,7 +83,8 @@ impl Plan {
             let scaled = eye.celerity / scale;
             (scale * scaled.length(), scaled.normalize())
         };
-        Self { offset: eye.position - origin, direction, kappa: speed.hypot(1.0) + speed }
+        let (offset, offset_rest) = exact_difference(eye.position, origin);
+        Self { offset, offset_rest, direction, kappa: speed.hypot(1.0) + speed }
     }
 
     /// The cheapest formula that is accurate everywhere in `sphere`.
@@ -102,6 +108,13 @@ impl Plan {
         let distance = if tip_is_nearest { centre.length() } else { across * cosine - astern * LEAST_DOPPLER };
         distance <= sphere.radius
     }
+}
+
+/// a − b and what its rounding lost (Knuth's two-sum).
+fn exact_difference(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+    let difference = a - b;
+    let of_b = difference - a;
+    (difference, (a - (difference - of_b)) - (b + of_b))
 }
 
 #[cfg(test)]

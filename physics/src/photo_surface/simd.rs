@@ -86,15 +86,16 @@ mod x86 {
 
     use super::super::chunk::Chunk;
     use super::super::lanes::{AlignedLine, Lanes, WideLanes};
+    use super::super::twice::Twice;
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn avx2(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<F32x8>()
+        chunk.transform::<Twice<F32x8>>()
     }
 
     #[target_feature(enable = "avx512f,avx2,fma")]
     pub(super) fn avx512(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<F32x16>()
+        chunk.transform::<Twice<F32x16>>()
     }
 
     #[derive(Clone, Copy)]
@@ -245,13 +246,13 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn keep(self, bits: u32) -> Self {
+        fn replaced(self, bits: u32, other: Self) -> Self {
             // SAFETY: as above.
             Self(unsafe {
                 let lane_bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
                 let chosen = _mm256_and_si256(_mm256_set1_epi32(bits.cast_signed()), lane_bits);
-                let kept = _mm256_cmpeq_epi32(chosen, lane_bits);
-                _mm256_and_ps(self.0, _mm256_castsi256_ps(kept))
+                let replaced = _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, lane_bits));
+                _mm256_blendv_ps(self.0, other.0, replaced)
             })
         }
 
@@ -307,9 +308,9 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn keep(self, bits: u32) -> Self {
+        fn replaced(self, bits: u32, other: Self) -> Self {
             // SAFETY: as above.
-            Self(unsafe { _mm512_maskz_mov_ps(bits as __mmask16, self.0) })
+            Self(unsafe { _mm512_mask_blend_ps(bits as __mmask16, self.0, other.0) })
         }
 
         #[inline(always)]

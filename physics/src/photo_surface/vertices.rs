@@ -14,7 +14,7 @@ use super::PhotoSurfaceError;
 pub const CHUNK: usize = 8192;
 
 /// Vertices in a line.
-pub(super) const LINE: usize = 16;
+pub(super) const LINE: usize = 32;
 
 /// Sixteen values of one coordinate, aligned to a cache line.
 #[derive(Clone, Copy, Debug)]
@@ -144,5 +144,32 @@ impl Vertices {
 
     pub(super) fn spheres(&self) -> &[Sphere] {
         &self.spheres
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A sphere that missed a vertex would leave it to the form that loses directions astern.
+
+    use super::*;
+
+    #[test]
+    fn every_finite_vertex_lies_in_its_chunks_sphere() {
+        let count = 2 * CHUNK + 5;
+        let vertices = Vertices::from_offsets(
+            DVec3::ZERO,
+            (0..count).map(|index| match index {
+                7 => Vec3::NAN,
+                _ => Vec3::new((0.1 * index as f32).sin(), index as f32, -3.0),
+            }),
+        )
+        .unwrap();
+        assert_eq!(vertices.spheres().len(), 3);
+        for index in (0..count).filter(|&index| index != 7) {
+            let sphere = vertices.spheres()[index / CHUNK];
+            let distance = vertices.offset(index).distance(sphere.centre);
+            assert!(distance <= sphere.radius * (1.0 + f64::EPSILON), "vertex {index}");
+            assert!(sphere.radius < CHUNK as f64, "no larger than it must be");
+        }
     }
 }

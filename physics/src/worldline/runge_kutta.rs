@@ -44,15 +44,18 @@ impl Rates {
         sum
     }
 
-    /// The state that these rates lead to in a proper time `span`; `clock` is by how much its own clock moves on.
-    pub(super) fn applied(&self, state: &State, span: f64, clock: f64) -> Result<State, WorldlineError> {
-        let increment = Increment {
+    /// The state that these rates lead to in a proper time `span`.
+    pub(super) fn applied(&self, state: &State, span: f64) -> Result<State, WorldlineError> {
+        state.advanced(span, &self.increment(state, span))
+    }
+
+    fn increment(&self, state: &State, span: f64) -> Increment {
+        Increment {
             ct: span * self.ct,
             position: span * self.position,
             celerity: state.celerity.vector() + span * self.celerity,
             orientation: state.orientation + self.orientation * span,
-        };
-        state.advanced(clock, &increment)
+        }
     }
 }
 
@@ -66,6 +69,7 @@ pub(super) struct Tableau<const N: usize> {
 
 impl<const N: usize> Tableau<N> {
     /// The rates at all stages, the first of them given.
+    #[inline]
     pub(super) fn rates(
         &self,
         state: &State,
@@ -75,8 +79,8 @@ impl<const N: usize> Tableau<N> {
     ) -> Result<[Rates; N], WorldlineError> {
         let mut rates = [first; N];
         for stage in 1..N {
-            let mean = Rates::weighted(&self.stages[stage], &rates);
-            let at = mean.applied(state, step, step * self.nodes[stage])?;
+            let increment = Rates::weighted(&self.stages[stage], &rates).increment(state, step);
+            let at = state.staged(step * self.nodes[stage], &increment)?;
             rates[stage] = Rates::of(&at, control)?;
         }
         Ok(rates)

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::WorldlineError;
-use crate::double_double::DoubleDouble;
+use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 use crate::{Celerity, Event, Observer};
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
@@ -61,26 +61,44 @@ impl State {
 
     /// The state after a step, if it is finite.
     pub(super) fn advanced(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
-        let overflow = WorldlineError::Overflow { proper_time: self.proper_time, step };
-        let celerity = Celerity::new(increment.celerity).map_err(|_| overflow)?;
-        let orientation = unit_quaternion(increment.orientation).ok_or(overflow)?;
-        let (proper_time, lost_proper_time) = sum(self.proper_time, self.remainder.proper_time, step);
-        let (ct, lost_ct) = sum(self.ct, self.remainder.ct, increment.ct);
-        let [x, y, z] = [0, 1, 2].map(|i| sum(self.position[i], self.remainder.position[i], increment.position[i]));
-        let position = DVec3::new(x.0, y.0, z.0);
-        if !(proper_time.is_finite() && ct.is_finite() && position.is_finite()) {
-            return Err(overflow);
+        let lost = self.remainder;
+        let proper_time = DoubleDouble::sum(self.proper_time, step + lost.proper_time);
+        let ct = DoubleDouble::sum(self.ct, increment.ct + lost.ct);
+        let position = DoubleDoubleVec3::sum(self.position, increment.position + lost.position);
+        let end = Self {
+            proper_time: proper_time.high,
+            ct: ct.high,
+            position: position.high,
+            remainder: Remainder { proper_time: proper_time.low, ct: ct.low, position: position.low },
+            ..self.turned(step, increment)?
+        };
+        if end.proper_time.is_finite() && end.ct.is_finite() && end.position.is_finite() {
+            Ok(end)
+        } else {
+            Err(self.overflow(step))
         }
-        let lost_position = DVec3::new(x.1, y.1, z.1);
-        let remainder = Remainder { proper_time: lost_proper_time, ct: lost_ct, position: lost_position };
-        Ok(Self { proper_time, ct, position, celerity, orientation, remainder })
     }
-}
 
-/// `total` plus an increment and what earlier sums lost, and what this sum loses.
-fn sum(total: f64, lost: f64, increment: f64) -> (f64, f64) {
-    let sum = DoubleDouble::sum(total, increment + lost);
-    (sum.high, sum.low)
+    /// A state within a step, only to ask a control and take rates there.
+    pub(super) fn staged(&self, span: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        Ok(Self {
+            proper_time: self.proper_time + span,
+            ct: self.ct + increment.ct,
+            position: self.position + increment.position,
+            ..self.turned(span, increment)?
+        })
+    }
+
+    /// This state with the increment's celerity and orientation.
+    fn turned(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        let celerity = Celerity::new(increment.celerity).map_err(|_| self.overflow(step))?;
+        let orientation = unit_quaternion(increment.orientation).ok_or_else(|| self.overflow(step))?;
+        Ok(Self { celerity, orientation, ..*self })
+    }
+
+    fn overflow(&self, step: f64) -> WorldlineError {
+        WorldlineError::Overflow { proper_time: self.proper_time, step }
+    }
 }
 
 /// The quaternion at length 1; untouched, to the bit, where it is that long already.
