@@ -202,6 +202,8 @@ impl Writer {
             .create(NoSeek::new(BufWriter::new(file.try_clone()?)))?;
 
         let header = serde_json::to_string(header).map_err(io::Error::other)?;
+        // A number that is not finite is written as none, and would be missed only at the replay.
+        serde_json::from_str::<Header>(&header).map_err(io::Error::other)?;
         let metadata = BTreeMap::from([
             (KEY_VERSION.to_owned(), VERSION.to_owned()),
             (KEY_CHECKSUM.to_owned(), format!("{:08x}", crc32fast::hash(header.as_bytes()))),
