@@ -385,6 +385,7 @@ fn a_header_that_cannot_be_read_back_is_refused_before_the_ride() {
     let nonsense = Header { step_s: f64::NAN, ..header() };
     let text = Recorder::create(&path, &nonsense).unwrap_err().to_string();
     assert!(text.starts_with("cannot write") && text.contains("null"), "{text}");
+    assert!(!path.exists(), "the name must stay free");
 }
 
 #[test]
