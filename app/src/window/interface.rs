@@ -57,8 +57,10 @@ impl Interface {
         let screen =
             ScreenDescriptor { size_in_pixels: [size.width, size.height], pixels_per_point: output.pixels_per_point };
 
-        for (id, delta) in &output.textures_delta.set {
-            self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+        for (id, deltas) in &output.textures_delta.set {
+            for delta in deltas {
+                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+            }
         }
         let uploads = self.renderer.update_buffers(&gpu.device, &gpu.queue, encoder, &shapes, &screen);
         gpu.queue.submit(uploads);

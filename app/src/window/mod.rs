@@ -22,7 +22,9 @@ use crate::renderers::resolve::Resolver;
 use crate::renderers::target::{Format, Radiance};
 use crate::scene::Scene;
 use input::{Action, Sample, Source};
+pub use hud::Readings;
 use interface::Interface;
+pub use panel::Ride as RidePanel;
 use panel::Settings;
 use std::sync::Arc;
 use winit::application::ApplicationHandler;
@@ -52,7 +54,7 @@ pub fn run(options: &RideOptions, scene: Scene, live: Live) -> Result<(), Error>
     events.set_control_flow(ControlFlow::Poll);
     let mut application = Application { options: options.clone(), waiting: Some((scene, live)), open: None, failed: None };
     events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
-    let finished = application.open.map_or(Ok(()), |open| open.ride.live.finish());
+    let finished = application.open.map_or(Ok(()), |mut open| open.ride.live.finish());
     application.failed.map_or(finished, Err)
 }
 
@@ -242,7 +244,7 @@ impl Open {
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
-                    let told = photo::take(&self.gpu, &self.radiance, &self.resolver);
+                    let told = photo::take(&self.gpu, &self.radiance).unwrap_or_else(|error| error.to_string());
                     self.ride.live.tell(told);
                 }
                 _ => {}

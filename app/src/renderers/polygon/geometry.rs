@@ -74,6 +74,8 @@ impl Geometry {
             }
         }
         let buffer = |label, contents: &[u8], usage| {
+            // A scene without surfaces still has a sky, and an empty buffer cannot be bound.
+            let contents = if contents.is_empty() { &[0; size_of::<Attributes>()] } else { contents };
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
         Self {

@@ -175,6 +175,20 @@ impl Builder {
         self.metric(surface, tint * 0.6, &[p(low.x, low.z), p(high.x, low.z), p(high.x, high.z), p(low.x, high.z)]);
     }
 
+    /// A thin rod with three sides from one point to another.
+    pub(super) fn rod(&mut self, surface: Surface, tint: Tint, from: Vec3, to: Vec3, thickness: f32) {
+        let axis = (to - from).normalize_or(Vec3::Y);
+        let (side, up) = axis.any_orthonormal_pair();
+        let edge = |k: u32| {
+            let c = circle(k as f32 / 3.0) * thickness * 0.6;
+            side * c.x + up * c.y
+        };
+        for k in 0..3 {
+            let (a, b) = (edge(k), edge(k + 1));
+            self.facing(surface, tint, &[from + a, from + b, to + b, to + a], a + b);
+        }
+    }
+
     /// A body of revolution about the frame's upright axis through (radius, height) pairs from bottom to top.
     pub(super) fn turned(&mut self, surface: Surface, tint: Tint, frame: &Frame, sides: u32, profile: &[(f32, f32)]) {
         let tile = surface.tile();

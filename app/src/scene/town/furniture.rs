@@ -35,7 +35,7 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
     } else if number.is_multiple_of(2) {
         lamp(builder, &frame.at(dice.random_range(0.3..0.7) * house.width, 2.7, 0.0), house.jetty);
     }
-    if dice.random_bool(0.5) {
+    if dice.random_bool(0.42) {
         for &x in &house.windows {
             nature::flower_box(builder, &frame.at(x, house.ground_floor + 0.72, house.jetty), 1.15, dice);
         }
@@ -56,24 +56,16 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
 /// A lantern on a bracket; `frame` lies on the wall.
 fn lamp(builder: &mut Builder, frame: &Frame, jetty: f32) {
     let out = jetty + 0.45;
-    builder.beam(Surface::Iron, Vec3::ONE, frame, vec3(-0.02, -0.02, 0.0), vec3(0.02, 0.02, out));
-    let p = |y: f32, z: f32| frame.point(0.0, y, z);
-    for side in [1.0, -1.0] {
-        builder.facing(
-            Surface::Iron,
-            Vec3::ONE,
-            &[p(-0.45, 0.0), p(0.0, 0.4), p(0.0, 0.34), p(-0.37, 0.0)],
-            frame.right * side,
-        );
-    }
+    builder.rod(Surface::Iron, Vec3::ONE, frame.origin, frame.point(0.0, 0.0, out), 0.045);
+    builder.rod(Surface::Iron, Vec3::ONE, frame.point(0.0, -0.4, 0.0), frame.point(0.0, 0.0, 0.42), 0.035);
     lantern(builder, &frame.at(0.0, -0.52, out - 0.03));
 }
 
 /// The lantern itself, hanging from its top at 0.5 m above `frame`.
 fn lantern(builder: &mut Builder, frame: &Frame) {
     builder.prism(Surface::Lantern, Vec3::ONE, frame, 4, [0.10, 0.17], [0.04, 0.36]);
-    builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.23, 0.05], [0.36, 0.52]);
-    builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.04, 0.12], [-0.04, 0.04]);
+    builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.23, 0.0], [0.36, 0.54]);
+    builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.10, 0.0], [0.04, -0.04]);
 }
 
 /// A lamp post with two lanterns.
@@ -85,7 +77,7 @@ pub(super) fn lamp_post(builder: &mut Builder, frame: &Frame) {
         6,
         &[(0.2, 0.0), (0.17, 0.25), (0.07, 0.5), (0.05, 3.3), (0.09, 3.4), (0.03, 3.75), (0.0, 3.9)],
     );
-    builder.beam(Surface::Iron, Vec3::ONE, frame, vec3(-0.6, 3.28, -0.02), vec3(0.6, 3.32, 0.02));
+    builder.rod(Surface::Iron, Vec3::ONE, frame.point(-0.6, 3.3, 0.0), frame.point(0.6, 3.3, 0.0), 0.045);
     for x in [-0.55, 0.55] {
         lantern(builder, &frame.at(x, 2.78, 0.0));
     }
@@ -94,7 +86,9 @@ pub(super) fn lamp_post(builder: &mut Builder, frame: &Frame) {
 /// A guild sign on a bracket, square to the wall that `frame` lies on.
 fn sign(builder: &mut Builder, frame: &Frame, kind: i32, jetty: f32) {
     let y = -0.35;
-    builder.beam(Surface::Iron, Vec3::ONE, frame, vec3(-0.02, y + 0.02, 0.0), vec3(0.02, y + 0.06, 0.95 + 0.3 * jetty));
+    let end = frame.point(0.0, y + 0.04, 0.95 + 0.3 * jetty);
+    builder.rod(Surface::Iron, Vec3::ONE, frame.point(0.0, y + 0.04, 0.0), end, 0.045);
+    builder.rod(Surface::Iron, Vec3::ONE, frame.point(0.0, y + 0.4, 0.0), frame.point(0.0, y + 0.04, 0.6), 0.03);
     let [u, v] = [(kind % 4) as f32 / 4.0, (kind / 4) as f32 / 4.0];
     let (near, far) = (0.28, 0.92);
     for side in [1.0_f32, -1.0] {

@@ -22,7 +22,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         let face = frame.rotated(turn).at(0.0, -0.1, half);
         arch.face(builder, Surface::Rubble, stone, &face);
         // A ring of dressed stone about the opening, and slits above it.
-        let ring = Arch { wall: [-2.7, 2.7], top: 5.35, middle: 0.0, half: 2.2, spring: 2.5, depth: 0.12 };
+        let ring = Arch { wall: [-2.7, 2.7], top: 5.35, middle: 0.0, half: 2.25, spring: 2.5, depth: 0.12 };
         ring.face(builder, Surface::Ashlar, Vec3::ONE, &face.at(0.0, 0.0, 0.12));
         ring.vault(builder, Surface::Ashlar, Vec3::ONE, &face.at(0.0, 0.0, 0.12));
         for (a, b) in [(-2.7, -2.7), (2.7, 2.7)] {
@@ -91,15 +91,8 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         builder.facing(Surface::Tiles, tint, &slope, frame.out * side + Vec3::Y);
         let hip = [p(side * x, low, -z), p(side * x, low, z), p(side * ridge, ROOF, 0.0)];
         builder.facing(Surface::Tiles, tint, &hip, frame.right * side + Vec3::Y);
-        for at in [side * ridge] {
-            builder.turned(
-                Surface::Gold,
-                Vec3::ONE,
-                &frame.at(at, STONE + TOP + ROOF - 0.1, 0.0),
-                6,
-                &[(0.05, 0.0), (0.16, 0.35), (0.03, 0.6), (0.0, 1.5)],
-            );
-        }
+        let ball = frame.at(side * ridge, STONE + TOP + ROOF - 0.1, 0.0);
+        builder.turned(Surface::Gold, Vec3::ONE, &ball, 6, &[(0.05, 0.0), (0.16, 0.35), (0.03, 0.6), (0.0, 1.5)]);
     }
     builder.metric(Surface::Planks, Vec3::splat(0.5), &[p(-x, low, -z), p(x, low, -z), p(x, low, z), p(-x, low, z)]);
 }

@@ -166,6 +166,7 @@ impl Builders {
                 overhang: [0.22, 0.38, 0.15],
                 hips: [hip, None],
                 surface: Surface::Tiles,
+                near: true,
                 tint: roof_colour,
             };
             gable(
@@ -193,6 +194,7 @@ impl Builders {
                 overhang: [0.42, 0.12, 0.12],
                 hips: [None, None],
                 surface: Surface::Tiles,
+                near: true,
                 tint: roof_colour,
             };
             let [right_end, left_end] = roof.ridge();

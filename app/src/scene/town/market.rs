@@ -85,18 +85,20 @@ fn crate_of(builder: &mut Builder, frame: &Frame, kind: f32) {
 
 /// A barrel on its end.
 pub(super) fn barrel(builder: &mut Builder, frame: &Frame) {
-    let staves = [(0.27, 0.0), (0.34, 0.3), (0.34, 0.6), (0.27, 0.9), (0.24, 0.88), (0.0, 0.87)];
-    builder.turned(Surface::Planks, vec3(1.2, 0.95, 0.75), frame, 8, &staves);
+    let staves = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
+    builder.turned(Surface::Planks, vec3(1.2, 0.95, 0.75), frame, 7, &staves);
     for y in [0.17, 0.7] {
-        builder.turned(Surface::Iron, Vec3::ONE, frame, 8, &[(0.325, y), (0.335, y + 0.06)]);
+        builder.turned(Surface::Iron, Vec3::ONE, frame, 7, &[(0.315, y), (0.325, y + 0.06)]);
     }
 }
 
 /// A bench with a back.
 pub(super) fn bench(builder: &mut Builder, frame: &Frame) {
     for x in [-0.75, 0.75] {
-        builder.block(Surface::Iron, Vec3::ONE, frame, vec3(x - 0.03, 0.0, -0.2), vec3(x + 0.03, 0.42, 0.2));
-        builder.block(Surface::Iron, Vec3::ONE, frame, vec3(x - 0.03, 0.42, -0.24), vec3(x + 0.03, 0.88, -0.2));
+        for (foot, top) in [((0.0, 0.18), (0.44, 0.15)), ((0.0, -0.24), (0.88, -0.18))] {
+            let (from, to) = (frame.point(x, foot.0, foot.1), frame.point(x, top.0, top.1));
+            builder.rod(Surface::Iron, Vec3::ONE, from, to, 0.06);
+        }
     }
     let plank = vec3(1.25, 0.95, 0.7);
     builder.beam(Surface::Planks, plank, frame, vec3(-0.95, 0.42, -0.2), vec3(0.95, 0.47, 0.22));

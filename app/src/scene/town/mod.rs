@@ -67,7 +67,7 @@ pub fn build(seed: u64) -> Scene {
                 }
                 Use::TownHall => town_hall::build(&mut builder, &Frame::facing(on_ground(a), out), a.distance(b)),
                 Use::Church => {
-                    church::build(&mut builder, &Frame::facing(on_ground((a + b) / 2.0), out), a.distance(b))
+                    church::build(&mut builder, &Frame::facing(on_ground((a + b) / 2.0), out), a.distance(b));
                 }
                 Use::Gate => {}
             }
@@ -137,5 +137,10 @@ fn furnish_square(builder: &mut Builder, dice: &mut ChaCha8Rng) {
 
 /// A clear late morning: the sun stands in the south-east.
 fn daylight() -> Lighting {
-    Lighting { sun_direction: Vec3::new(0.42, 0.78, 0.46).normalize(), ..Lighting::default() }
+    Lighting {
+        sun_direction: Vec3::new(0.36, 0.88, 0.44).normalize(),
+        sky: [0.34, 0.39, 0.47],
+        ground: [0.20, 0.18, 0.155],
+        ..Lighting::default()
+    }
 }

@@ -57,8 +57,6 @@ pub(super) struct Station {
     pub(super) ahead: Vec2,
     /// Distance of the house fronts to the left and right.
     pub(super) width: [f32; 2],
-    /// Distance ridden from the first station.
-    pub(super) along: f32,
 }
 
 impl Station {
@@ -280,7 +278,7 @@ fn way() -> Vec<Station> {
             let index = along.partition_point(|&s| s <= wanted) - 1;
             let s = &fine[index];
             let ahead = (place(&fine[(index + 1) % fine.len()]) - place(s)).normalize_or(Vec2::NEG_Y);
-            Station { at: place(s), ahead, width: [s[2], s[3]], along: wanted }
+            Station { at: place(s), ahead, width: [s[2], s[3]] }
         })
         .collect();
     // Directions from the neighbours, so that they belong to the points themselves.

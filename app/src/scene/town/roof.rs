@@ -20,6 +20,8 @@ pub(super) struct Roof {
     /// Share of the gable's height from which a hip leans back, at the first gable and at the other.
     pub(super) hips: [Option<f32>; 2],
     pub(super) surface: Surface,
+    /// Whether it is seen from so near that underside and edges matter.
+    pub(super) near: bool,
     pub(super) tint: Tint,
 }
 
@@ -78,6 +80,9 @@ impl Roof {
         }
         let drop = Vec3::Y * THICKNESS;
         builder.metric(self.surface, self.tint, &top);
+        if !self.near {
+            return;
+        }
         let below: Vec<_> = top.iter().rev().map(|&corner| (corner - drop, 0.5)).collect();
         builder.lit(Surface::Planks, Vec3::splat(0.8), &below);
         let high = top.iter().map(|corner| corner.y).fold(f32::MIN, f32::max);
@@ -125,7 +130,6 @@ pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: us
         let top = height + rise;
         let roof = [p(x, eaves, 0.18), p(x, eaves, reach(eaves)), p(0.0, top, reach(top)), p(0.0, top, 0.18)];
         builder.facing(Surface::Tiles, tint, &roof, Vec3::Y);
-        builder.facing(Surface::Planks, planks * 0.5, &roof.map(|corner| corner - Vec3::Y * 0.03), Vec3::NEG_Y);
     }
 }
 

@@ -65,6 +65,7 @@ fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
         overhang: [0.3, 0.3, 0.3],
         hips: [None, dice.random_bool(0.5).then_some(0.5)],
         surface: Surface::Tiles,
+        near: false,
         tint: roof_tint(dice),
     };
     roof.build(builder);

@@ -35,8 +35,7 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
     let mut strip = |surface, a: f32, b: f32, ha: f32, hb: f32, la: f32, lb: f32| {
         strips.push(Strip { surface, across: [a, b], height: [ha, hb], light: [la, lb] });
     };
-    strip(Surface::Slabs, -left - UNDER, -left, step, step, 0.5, 0.5);
-    strip(Surface::Slabs, -left, -l - KERB, step, step, 0.5, 0.95);
+    strip(Surface::Slabs, -left - UNDER, -l - KERB, step, step, 0.0, 0.95);
     strip(Surface::Ashlar, -l - KERB, -l, step, step, 0.9, 0.9);
     strip(Surface::Ashlar, -l, -l, step, gutter, 0.75, 0.6);
     strip(Surface::Cobbles, -l, -l + 0.4, gutter, 0.0, 0.72, 0.96);
@@ -45,8 +44,7 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
     strip(Surface::Cobbles, r - 0.4, r, 0.0, gutter, 0.96, 0.72);
     strip(Surface::Ashlar, r, r, gutter, step, 0.6, 0.75);
     strip(Surface::Ashlar, r, r + KERB, step, step, 0.9, 0.9);
-    strip(Surface::Slabs, r + KERB, right, step, step, 0.95, 0.5);
-    strip(Surface::Slabs, right, right + UNDER, step, step, 0.5, 0.5);
+    strip(Surface::Slabs, r + KERB, right + UNDER, step, step, 0.95, 0.0);
     strips
 }
 

@@ -49,15 +49,12 @@ pub(super) enum Surface {
 /// How a surface comes to be.
 struct Recipe {
     name: String,
-    /// Metres that one repetition of the picture covers.
-    tile: Vec2,
     /// Who paints the picture, if it has one.
     picture: Option<Box<dyn Fn(u32) -> Canvas + Send + Sync>>,
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
     alpha: Alpha,
     double_sided: bool,
-    solid: bool,
 }
 
 impl Surface {
@@ -121,13 +118,11 @@ impl Surface {
         };
         let plain = Recipe {
             name: format!("{self:?}").to_lowercase(),
-            tile,
             picture: None,
             base_colour: [1.0; 4],
             wrap: [Wrap::Repeat; 2],
             alpha: Alpha::Opaque,
             double_sided: false,
-            solid: self.solid(),
         };
         let clamped = [Wrap::Clamp; 2];
         let cut_out = Recipe { alpha: Alpha::Mask(0.5), wrap: clamped, ..plain_like(&plain) };

@@ -82,6 +82,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
         overhang: [0.35, 0.0, 0.0],
         hips: [None, None],
         surface: Surface::Tiles,
+        near: true,
         tint,
     };
     roof.build(builder);
