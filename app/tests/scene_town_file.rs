@@ -9,6 +9,7 @@ use rapidity::scene::export::write_glb;
 use rapidity::scene::gltf::load;
 use rapidity::scene::refine::refine;
 use rapidity::scene::town;
+use rapidity::vehicle::Surroundings;
 use tempfile::TempDir;
 
 #[test]
