@@ -1,6 +1,6 @@
 //! What stands and hangs along the streets: doorsteps, lamps, signs, flower boxes, barrels.
 
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec3, vec2};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -16,13 +16,7 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
     let frame = &house.frame;
     for &(x, cell) in &house.bays {
         if cell == openings::DOOR {
-            builder.block(
-                Surface::Slabs,
-                Vec3::ONE,
-                &frame.at(x, 0.0, 0.0),
-                vec3(-0.75, -0.1, -0.1),
-                vec3(0.75, 0.24, 0.32),
-            );
+            doorstep(builder, &frame.at(x, 0.0, 0.0));
         }
     }
     let shop = house.bays.iter().find(|(_, cell)| *cell == openings::SHOP);
@@ -32,7 +26,7 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
         let side = if x > house.width / 2.0 { 1.1 } else { -1.1 };
         let place = (x + side).clamp(0.4, house.width - 0.4);
         sign(builder, &frame.at(place, 3.0, 0.0), dice.random_range(0..8), house.jetty);
-    } else if number.is_multiple_of(2) {
+    } else if number.is_multiple_of(3) {
         lamp(builder, &frame.at(dice.random_range(0.3..0.7) * house.width, 2.7, 0.0), house.jetty);
     }
     if dice.random_bool(0.42) {
@@ -50,6 +44,21 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
             }
             _ => market::bench(builder, &frame.at(x, 0.05, 0.28)),
         }
+    }
+}
+
+/// A stone step before a door; `frame` lies at the foot of the wall.
+fn doorstep(builder: &mut Builder, frame: &Frame) {
+    let (half, low, high, out) = (0.75, -0.1, 0.24, 0.32);
+    let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
+    let faces = [
+        [p(-half, low, out), p(half, low, out), p(half, high, out), p(-half, high, out)],
+        [p(-half, high, out), p(half, high, out), p(half, high, 0.0), p(-half, high, 0.0)],
+        [p(half, low, out), p(half, low, 0.0), p(half, high, 0.0), p(half, high, out)],
+        [p(-half, low, 0.0), p(-half, low, out), p(-half, high, out), p(-half, high, 0.0)],
+    ];
+    for face in faces {
+        builder.metric(Surface::Slabs, Vec3::ONE, &face);
     }
 }
 

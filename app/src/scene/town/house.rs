@@ -131,7 +131,8 @@ impl Builders {
         // Party walls and the back.
         let back =
             |side: usize, y: f32| frame.point(if side == 0 { 0.0 } else { width } + lean[side] * depth, y, -depth);
-        for &(bottom, top, juts) in &levels {
+        let storeys_in_line = levels.chunk_by(|a, b| a.2 == b.2);
+        for (bottom, top, juts) in storeys_in_line.map(|level| (level[0].0, level[level.len() - 1].1, level[0].2)) {
             for (side, x) in [0.0, width].into_iter().enumerate() {
                 let corners =
                     [back(side, bottom), frame.point(x, bottom, juts), frame.point(x, top, juts), back(side, top)];
@@ -166,7 +167,7 @@ impl Builders {
                 overhang: [0.22, 0.38, 0.15],
                 hips: [hip, None],
                 surface: Surface::Tiles,
-                near: true,
+                near: Some((frame.origin, frame.out, 3.0)),
                 tint: roof_colour,
             };
             gable(
@@ -194,7 +195,7 @@ impl Builders {
                 overhang: [0.42, 0.12, 0.12],
                 hips: [None, None],
                 surface: Surface::Tiles,
-                near: true,
+                near: Some((frame.origin, frame.out, 3.0)),
                 tint: roof_colour,
             };
             let [right_end, left_end] = roof.ridge();
@@ -209,7 +210,9 @@ impl Builders {
                 dormer(builder, &frame.at(x, height + 0.1 + inset * slope, juts - inset), slope, front, roof_colour);
             }
             let x = width * dice.random_range(0.15..0.85);
-            chimney(builder, &frame.at(x, height + roof.height - 1.3, juts - span * 0.56), 2.3, Vec3::splat(0.9));
+            if dice.random_bool(0.7) {
+                chimney(builder, &frame.at(x, height + roof.height - 1.3, juts - span * 0.56), 2.3, Vec3::splat(0.9));
+            }
         }
         let middles = plan.iter().enumerate().map(|(k, &cell)| ((k as f32 + 0.5) * bay, cell)).collect();
         House { frame, width, bays: middles, jetty: levels[1].2, ground_floor: first, windows }

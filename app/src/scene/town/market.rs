@@ -85,11 +85,8 @@ fn crate_of(builder: &mut Builder, frame: &Frame, kind: f32) {
 
 /// A barrel on its end.
 pub(super) fn barrel(builder: &mut Builder, frame: &Frame) {
-    let staves = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
-    builder.turned(Surface::Planks, vec3(1.2, 0.95, 0.75), frame, 7, &staves);
-    for y in [0.17, 0.7] {
-        builder.turned(Surface::Iron, Vec3::ONE, frame, 7, &[(0.315, y), (0.325, y + 0.06)]);
-    }
+    let outline = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
+    builder.turned(Surface::Staves, Vec3::ONE, frame, 7, &outline);
 }
 
 /// A bench with a back.

@@ -120,7 +120,7 @@ fn furnish_square(builder: &mut Builder, dice: &mut ChaCha8Rng) {
     }
     for (x, z) in [(14.5, -15.5), (14.0, 16.5), (14.8, 21.5), (-19.5, 20.5)] {
         let frame = place(x, z, 0.0);
-        nature::tree(builder, &frame, dice.random_range(8.0..10.5), dice);
+        nature::tree(builder, &frame, dice.random_range(8.5..10.5), 36, dice);
         masonry::basin(builder, surface::Surface::Ashlar, &frame, 8, [1.0, 0.8], [0.0, 0.42]);
     }
     for (x, z, turns) in [(12.4, -15.5, 0.75), (12.0, 16.5, 0.75), (-1.0, 4.6, 0.3)] {

@@ -38,6 +38,7 @@ pub(super) enum Surface {
     Clock,
     Lancet,
     Portal,
+    Staves,
     Bark,
     Leaves,
     Flowers,
@@ -63,7 +64,7 @@ impl Surface {
         use Surface::*;
         let mut all = vec![
             Cobbles, Setts, Slabs, Ashlar, Rubble, Plaster, Tiles, Slate, Planks, Paint, Iron, Gold, Lantern, Water,
-            Awning, Produce, Signs, Clock, Lancet, Portal, Bark, Leaves, Flowers, Ivy, Grass, Hills,
+            Awning, Produce, Signs, Clock, Lancet, Portal, Staves, Bark, Leaves, Flowers, Ivy, Grass, Hills,
         ];
         all.extend((0..timber::FRONTS.len()).map(Front));
         all.extend((0..openings::GROUND_FLOORS.len()).map(GroundFloor));
@@ -88,6 +89,7 @@ impl Surface {
             Surface::Slate => vec2(3.0, 3.0),
             Surface::Planks | Surface::Bark => vec2(2.0, 2.0),
             Surface::Water => vec2(3.0, 3.0),
+            Surface::Staves => vec2(0.72, 0.925),
             Surface::Grass => vec2(9.0, 9.0),
             Surface::Hills => vec2(60.0, 60.0),
             _ => Vec2::ONE,
@@ -168,6 +170,7 @@ impl Surface {
                 wrap: clamped,
                 ..plain
             },
+            Surface::Staves => Recipe { picture: square(256, masonry::staves), ..plain },
             Surface::Bark => Recipe { picture: square(256, nature::bark), ..plain },
             Surface::Leaves => Recipe { picture: square(512, nature::leaves), double_sided: true, ..cut_out },
             Surface::Flowers => Recipe { picture: square(512, nature::flowers), double_sided: true, ..cut_out },

@@ -82,7 +82,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
         overhang: [0.35, 0.0, 0.0],
         hips: [None, None],
         surface: Surface::Tiles,
-        near: true,
+        near: Some((frame.origin, frame.out, 4.0)),
         tint,
     };
     roof.build(builder);

@@ -204,9 +204,7 @@ pub(in crate::scene::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Ca
     canvas.halo(board, 0.05, 0.35);
     canvas.fill(board, |p| {
         let d = board.distance(p);
-        let scroll = (p.x - x).abs() < 0.8
-            && (p.y - 2.75).abs() < 0.05
-            && noise(p * vec2(16.0, 12.0), ENDLESS, seed + 14) > -0.1;
+        let scroll = (p.x - x).abs() < 0.8 && lettering(vec2((p.x - x) / 0.115, (p.y - 2.69) / 0.13), seed + 14);
         let gilt = if scroll { vec3(0.80, 0.66, 0.36) } else { style.door };
         (d, gilt * (0.8 + 0.2 * smoothstep(0.0, 0.03, -d)))
     });
@@ -217,6 +215,20 @@ pub(in crate::scene::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Ca
     let x = middle(BARE);
     window(&mut canvas, &paned(Area::new(x - 0.27, 1.45, 0.54, 0.62), false, None, 2, 2), seed + 17);
     canvas
+}
+
+/// Whether a point lies on a stroke of an unreadable inscription in letters of unit height.
+fn lettering(p: Vec2, seed: u32) -> bool {
+    let letter = p.x.floor() as i32;
+    let q = vec2(p.x - p.x.floor(), p.y);
+    let has = |stroke: i32| chance(letter, stroke, seed) < 0.55;
+    if !(0.0..1.0).contains(&q.y) || q.x > 0.78 || chance(letter, 9, seed) < 0.12 {
+        return false;
+    }
+    let foot = q.y < 0.16;
+    let top = q.y > 0.84;
+    let middle = (q.y - 0.5).abs() < 0.08;
+    q.x < 0.2 || (q.x > 0.58 && has(1)) || (top && has(2)) || (foot && has(3)) || (middle && has(4))
 }
 
 /// A door of boards and panels in a stone surround.
