@@ -4,7 +4,7 @@ use glam::{Vec3, vec3};
 
 use super::builder::{Builder, Frame};
 use super::masonry::{disc, panel};
-use super::paint::openings::{LANCET, PORTAL};
+use super::paint::tracery::{LANCET, PORTAL};
 use super::roof::Roof;
 use super::surface::Surface;
 

@@ -8,18 +8,18 @@ use super::builder::{Builder, Corner, Frame};
 use super::house::House;
 use super::market;
 use super::nature;
-use super::paint::openings;
+use super::paint::ground_floors;
 use super::surface::Surface;
 
 /// Furnishes the front of a house, the `number`th of its row.
 pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice: &mut ChaCha8Rng) {
     let frame = &house.frame;
     for &(x, cell) in &house.bays {
-        if cell == openings::DOOR {
+        if cell == ground_floors::DOOR {
             doorstep(builder, &frame.at(x, 0.0, 0.0));
         }
     }
-    let shop = house.bays.iter().find(|(_, cell)| *cell == openings::SHOP);
+    let shop = house.bays.iter().find(|(_, cell)| *cell == ground_floors::SHOP);
     if let Some(&(x, _)) = shop
         && dice.random_bool(0.8)
     {
@@ -34,7 +34,7 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
             nature::flower_box(builder, &frame.at(x, house.ground_floor + 0.72, house.jetty), 1.15, dice);
         }
     }
-    let bare = house.bays.iter().find(|(_, cell)| *cell == openings::BARE);
+    let bare = house.bays.iter().find(|(_, cell)| *cell == ground_floors::BARE);
     if let Some(&(x, _)) = bare {
         match dice.random_range(0..3) {
             0 => nature::ivy(builder, &frame.at(0.0, 0.0, 0.0), x - 1.1, 2.2, house.ground_floor - 0.1),

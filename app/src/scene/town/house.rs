@@ -8,7 +8,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::builder::{Builder, Corner, Frame, Tint};
-use super::paint::{openings, timber};
+use super::paint::{ground_floors, timber};
 use super::plan::{Lot, ground};
 use super::roof::{Roof, chimney, clip, dormer};
 use super::surface::Surface;
@@ -52,7 +52,7 @@ impl Builders {
         // Choose what it is made of.
         let pick = |dice: &mut ChaCha8Rng, count: usize, last: usize| (last + dice.random_range(1..count)) % count;
         let front = pick(dice, timber::HOUSE_FRONTS, self.last_front);
-        let ground_floor = pick(dice, openings::GROUND_FLOORS.len(), self.last_ground_floor);
+        let ground_floor = pick(dice, ground_floors::GROUND_FLOORS.len(), self.last_ground_floor);
         (self.last_front, self.last_ground_floor) = (front, ground_floor);
         let timbered = timber::FRONTS[front].is_timbered();
         let tint = Vec3::splat(dice.random_range(0.90..1.04))
@@ -239,7 +239,7 @@ fn depth_of(lot: &Lot, width: f32, direction: Vec2) -> f32 {
 
 /// What the bays of a ground floor are: always a door, otherwise windows and shops.
 fn ground_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
-    use openings::{ARCH, BARE, DOOR, GROUND_WINDOWS, SHOP};
+    use ground_floors::{ARCH, BARE, DOOR, GROUND_WINDOWS, SHOP};
     let mut cells: Vec<usize> = (0..bays)
         .map(|_| match dice.random_range(0..10) {
             0..3 => SHOP,

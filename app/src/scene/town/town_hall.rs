@@ -5,7 +5,7 @@ use glam::{Vec3, vec2, vec3};
 use super::builder::{Builder, Corner, Frame};
 use super::house::linear;
 use super::masonry::{Arch, disc, stepped_gable, window_panel};
-use super::paint::{openings, timber};
+use super::paint::{ground_floors, timber};
 use super::roof::{Roof, dormer};
 use super::surface::Surface;
 
@@ -148,7 +148,8 @@ fn arcade(builder: &mut Builder, frame: &Frame, width: f32) {
 
         // The wall behind.
         let bays = timber::BAYS as f32;
-        let cells = [openings::GROUND_WINDOWS[1], if k % 2 == 0 { openings::ARCH } else { openings::SHOP }];
+        let cells =
+            [ground_floors::GROUND_WINDOWS[1], if k % 2 == 0 { ground_floors::ARCH } else { ground_floors::SHOP }];
         for (j, cell) in cells.into_iter().enumerate() {
             let x = left + span / 2.0 * j as f32;
             let u = cell as f32 / bays;
