@@ -9,6 +9,7 @@ use super::house::House;
 use super::market;
 use super::nature;
 use super::paint::ground_floors;
+use super::plan::{Station, on_ground};
 use super::surface::Surface;
 
 /// Furnishes the front of a house, the `number`th of its row.
@@ -114,5 +115,49 @@ fn sign(builder: &mut Builder, frame: &Frame, kind: i32, jetty: f32) {
             Vec3::ONE,
             &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
         );
+    }
+}
+
+/// A hanging cloth, its lower edge in the middle at the frame's origin; `number` chooses its colours.
+pub(super) fn banner(builder: &mut Builder, frame: &Frame, [width, height]: [f32; 2], number: usize) {
+    let stripe = (number % 4) as f32 / 4.0 + 0.03;
+    let corner = |s: f32, t: f32| {
+        Corner::new(frame.point((s - 0.5) * width, t * height, 0.0), vec2(0.375 + s, stripe + 0.19 * (1.0 - t)))
+    };
+    let point = Corner::new(frame.point(0.0, -0.5, 0.0), vec2(0.875, stripe + 0.19));
+    builder.face(
+        Surface::Awning,
+        Vec3::ONE,
+        &[corner(0.0, 0.0), point, corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
+    );
+    let (left, right) = (frame.point(-0.6 * width, height, 0.0), frame.point(0.6 * width, height, 0.0));
+    builder.rod(Surface::Gold, Vec3::ONE, left, right, 0.06);
+}
+
+/// Pennants on a line across the street at a station of the way.
+pub(super) fn bunting(builder: &mut Builder, station: &Station, number: usize) {
+    const PENNANTS: usize = 9;
+    builder.district("bunting");
+    let [left, right] = station.width;
+    let ahead = Vec3::new(station.ahead.x, 0.0, station.ahead.y);
+    // The line sags from wall to wall and bends a little along the street.
+    let at = |k: usize| {
+        let s = k as f32 / PENNANTS as f32;
+        let sag = 4.0 * s * (1.0 - s);
+        let across = -left - 0.4 + s * (left + right + 0.8);
+        on_ground(station.beside(across)) + Vec3::Y * (5.0 - 0.75 * sag) + ahead * (0.8 * s - 0.4)
+    };
+    for k in 0..PENNANTS {
+        let (a, b) = (at(k), at(k + 1));
+        let middle = (a + b) / 2.0 - Vec3::Y * 0.42;
+        let stripe = ((k + number) % 4) as f32 / 4.0;
+        let corner = |at: Vec3, s: f32, t: f32| Corner::new(at, vec2(0.27 + 0.2 * s, stripe + 0.03 + 0.19 * t));
+        let cord = Vec3::Y * 0.03;
+        builder.face(
+            Surface::Awning,
+            Vec3::ONE,
+            &[corner(a.lerp(b, 0.1), 0.0, 0.0), corner(middle, 0.5, 1.0), corner(a.lerp(b, 0.9), 1.0, 0.0)],
+        );
+        builder.face(Surface::Awning, Vec3::splat(0.7), &[a, b, b + cord, a + cord].map(|at| corner(at, 0.5, 0.5)));
     }
 }

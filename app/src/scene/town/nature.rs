@@ -97,6 +97,25 @@ pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice:
     );
 }
 
+/// A tub with a flowering shrub.
+pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
+    builder.prism(Surface::Paint, vec3(0.42, 0.19, 0.11), frame, 6, [0.26, 0.33], [-0.02, 0.5]);
+    for turn in [0.05, 0.22, 0.38] {
+        let leaf = frame.rotated(turn);
+        let start: f32 = dice.random_range(0.0..0.3);
+        let corner = |s: f32, t: f32| Corner {
+            at: leaf.point(s - 0.5, 0.38 + 0.85 * t, 0.0),
+            uv: vec2(start + 0.7 * s, 0.9 - 0.9 * t),
+            light: 0.7 + 0.3 * t,
+        };
+        builder.face(
+            Surface::Flowers,
+            Vec3::ONE,
+            &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
+        );
+    }
+}
+
 /// Height of the country, below the streets so that it never shows through them.
 fn country_height(p: Vec2) -> f32 {
     let hills = 70.0 + 55.0 * cloud(p / 230.0, IVec2::splat(64), 2, 5);
@@ -113,7 +132,7 @@ fn country_point(p: Vec2) -> (Vec3, Vec3) {
 pub(super) fn country(builder: &mut Builder) {
     const RINGS: [f32; 14] =
         [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 195.0, 250.0, 320.0, 410.0, 540.0];
-    const SPOKES: u32 = 30;
+    const SPOKES: u32 = 27;
     builder.district("country");
     for pair in RINGS.windows(2) {
         let (near, far) = (pair[0], pair[1]);

@@ -142,19 +142,3 @@ pub(super) fn chimney(builder: &mut Builder, frame: &Frame, height: f32, tint: T
         builder.prism(Surface::Paint, vec3(0.5, 0.24, 0.15), frame, 4, [0.16, 0.12], [height + 0.12, height + 0.5]);
     }
 }
-
-/// Keeps the part of a convex polygon where `normal · p ≤ offset`.
-pub(super) fn clip(polygon: &[Vec2], normal: Vec2, offset: f32) -> Vec<Vec2> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (k, &p) in polygon.iter().enumerate() {
-        let q = polygon[(k + 1) % polygon.len()];
-        let (a, b) = (normal.dot(p) - offset, normal.dot(q) - offset);
-        if a <= 0.0 {
-            kept.push(p);
-        }
-        if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
-            kept.push(p.lerp(q, a / (a - b)));
-        }
-    }
-    kept
-}
