@@ -1,6 +1,6 @@
 //! Roofs with overhanging eaves, dormers and chimneys.
 
-use glam::{Vec2, Vec3, vec2, vec3};
+use glam::{Vec3, vec2, vec3};
 
 use super::builder::{Builder, Corner, Frame, Tint};
 use super::paint::timber;
