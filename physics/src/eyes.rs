@@ -1,0 +1,67 @@
+//! Two eyes: the pair of events from which a stereo picture is taken.
+//!
+//! The eyes of one observer look at the same moment of the observer's own time. In the world the two events are further
+//! apart along the motion than the eyes are, by γ, and the one ahead is later, so each eye sees a world of its own age
+//! (B 5.2).
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::celerity::unit_vector;
+use crate::{Event, FourVector, Observer};
+
+/// The events of both eyes, in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Eyes {
+    /// Left eye.
+    pub left: Event,
+    /// Right eye.
+    pub right: Event,
+}
+
+/// The eyes of an observer whose head's middle is the observer's event.
+///
+/// *Frames, units:* `separation` in metres of the observer's frame; `right` points from the left eye to the right one
+/// in the axes of the pure boost into that frame, and may have any length; the events are in the world.
+///
+/// # Errors
+///
+/// The separation is negative or not finite, or `right` has no direction.
+///
+/// # Example
+///
+/// Eyes one behind the other, at β = 0.6:
+///
+/// ```
+/// use physics::{Celerity, Event, Observer, eyes::eyes, glam::DVec3};
+/// let observer = Observer { event: Event::default(), celerity: Celerity::new(DVec3::new(0.75, 0.0, 0.0))? };
+/// let eyes = eyes(&observer, 2.0, DVec3::X)?;
+/// assert_eq!(eyes.right, Event { ct: 0.75, position: DVec3::new(1.25, 0.0, 0.0) });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn eyes(observer: &Observer, separation: f64, right: DVec3) -> Result<Eyes, EyesError> {
+    if !(separation.is_finite() && separation >= 0.0) {
+        return Err(EyesError::Separation { separation });
+    }
+    let right = unit_vector(right).ok_or(EyesError::Right { right })?;
+    let world_from_observer = observer.observer_from_world().inverse();
+    let half = world_from_observer.apply(FourVector { t: 0.0, r: right * (0.5 * separation) });
+    Ok(Eyes { left: observer.event + -half, right: observer.event + half })
+}
+
+/// Why there is no pair of eyes.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum EyesError {
+    /// The distance of the eyes is no distance.
+    #[error("the separation of the eyes must be a finite number of metres, 0 or more, not {separation}")]
+    Separation {
+        /// What was given.
+        separation: f64,
+    },
+    /// The direction towards the right eye is none.
+    #[error("the direction towards the right eye must be finite and not zero, not {right}")]
+    Right {
+        /// What was given.
+        right: DVec3,
+    },
+}

@@ -1,0 +1,132 @@
+//! A point of a worldline, and how an increment is added to it without losing what rounding drops.
+
+use glam::{DQuat, DVec3};
+
+use super::WorldlineError;
+use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
+use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
+
+/// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
+///
+/// The fields may be set at will (a wall, a cap); the orientation has to stay a unit quaternion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// τ, the time on the vehicle's own clock, metres.
+    pub proper_time: f64,
+    /// ct in the world, metres.
+    pub ct: f64,
+    /// Place in the world, metres.
+    pub position: DVec3,
+    /// Celerity in the world.
+    pub celerity: Celerity,
+    /// Rotation from the pilot's axes to the axes of the pure boost from the world.
+    pub orientation: DQuat,
+    /// What the sums in `proper_time`, `ct` and `position` have lost to rounding.
+    remainder: Remainder,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Remainder {
+    proper_time: f64,
+    ct: f64,
+    position: DVec3,
+}
+
+/// What a step adds to a state.
+pub(super) struct Increment {
+    pub(super) ct: f64,
+    pub(super) position: DVec3,
+    /// The new celerity, not a difference.
+    pub(super) celerity: DVec3,
+    /// The new orientation; its length is corrected.
+    pub(super) orientation: DQuat,
+}
+
+impl State {
+    /// A vehicle at an event, its own clock at zero.
+    pub fn new(event: Event, celerity: Celerity, orientation: DQuat) -> Self {
+        let Event { ct, position } = event;
+        Self { ct, position, celerity, orientation, ..Self::default() }
+    }
+
+    /// The event.
+    pub fn event(&self) -> Event {
+        Event { ct: self.ct, position: self.position }
+    }
+
+    /// Someone who rests in the vehicle's reference point.
+    pub fn observer(&self) -> Observer {
+        Observer { event: self.event(), celerity: self.celerity }
+    }
+
+    /// The state of a head within the vehicle, at the same time for the vehicle (W 6.3).
+    ///
+    /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
+    /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
+    /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
+    pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
+        let world_from_vehicle = self.observer().observer_from_world().inverse();
+        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: self.orientation * place });
+        let Event { ct, position } = self.event() + displacement;
+        let head = Celerity::from_finite(self.orientation * celerity.vector());
+        let Composition { celerity, wigner } = compose(self.celerity, head);
+        let orientation = wigner.inverse() * self.orientation;
+        Self { ct, position, celerity, orientation, ..*self }
+    }
+
+    /// The state after a step, if it is finite.
+    #[inline]
+    pub(super) fn advanced(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        let lost = self.remainder;
+        let proper_time = DoubleDouble::sum(self.proper_time, step + lost.proper_time);
+        let ct = DoubleDouble::sum(self.ct, increment.ct + lost.ct);
+        let position = DoubleDoubleVec3::sum(self.position, increment.position + lost.position);
+        let end = Self {
+            proper_time: proper_time.high,
+            ct: ct.high,
+            position: position.high,
+            remainder: Remainder { proper_time: proper_time.low, ct: ct.low, position: position.low },
+            ..self.turned(step, increment)?
+        };
+        if end.proper_time.is_finite() && end.ct.is_finite() && end.position.is_finite() {
+            Ok(end)
+        } else {
+            Err(self.overflow(step))
+        }
+    }
+
+    /// A state within a step, only to ask a control and take rates there.
+    #[inline]
+    pub(super) fn staged(&self, span: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        Ok(Self {
+            proper_time: self.proper_time + span,
+            ct: self.ct + increment.ct,
+            position: self.position + increment.position,
+            ..self.turned(span, increment)?
+        })
+    }
+
+    /// This state with the increment's celerity and orientation.
+    #[inline]
+    fn turned(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        let celerity = Celerity::new(increment.celerity).map_err(|_| self.overflow(step))?;
+        let orientation = unit_quaternion(increment.orientation).ok_or_else(|| self.overflow(step))?;
+        Ok(Self { celerity, orientation, ..*self })
+    }
+
+    fn overflow(&self, step: f64) -> WorldlineError {
+        WorldlineError::Overflow { proper_time: self.proper_time, step }
+    }
+}
+
+/// The quaternion at length 1; untouched, to the bit, where it is that long already.
+#[inline]
+fn unit_quaternion(quaternion: DQuat) -> Option<DQuat> {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    let squared = quaternion.length_squared();
+    if (squared - 1.0).abs() <= ROUNDING {
+        Some(quaternion)
+    } else {
+        (squared.is_normal()).then(|| quaternion * squared.sqrt().recip())
+    }
+}

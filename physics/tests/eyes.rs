@@ -1,0 +1,146 @@
+//! Law: both eyes look at one moment of the observer's time, and see a moving source at two of its moments (B 3.4,
+//! 5.2). A wrong program would take the eyes at one moment of the world, or perceive a passing source where it is.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+mod support;
+
+use physics::eyes::{EyesError, eyes};
+use physics::glam::DVec3;
+use physics::perceived::{PerceivedError, perceived};
+use physics::{Celerity, Event, Observer, Source, apparent};
+use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
+
+/// Half the distance of the eyes.
+const HALF: f64 = 0.5;
+
+fn pair() -> [DVec3; 2] {
+    [DVec3::new(HALF, 0.0, 0.0), DVec3::new(-HALF, 0.0, 0.0)]
+}
+
+#[test]
+fn eyes_along_the_motion_are_apart_by_gamma_and_one_later() {
+    let celerity = Celerity::new(DVec3::new(0.75, 0.0, 0.0)).unwrap();
+    let observer = Observer { event: Event { ct: 1.0, position: DVec3::Y }, celerity };
+    let eyes = eyes(&observer, 2.0, DVec3::new(7.0, 0.0, 0.0)).unwrap();
+    assert_eq!(eyes.right, Event { ct: 1.75, position: DVec3::new(1.25, 1.0, 0.0) });
+    assert_eq!(eyes.left, Event { ct: 0.25, position: DVec3::new(-1.25, 1.0, 0.0) });
+}
+
+#[test]
+fn eyes_across_the_motion_are_as_at_rest() {
+    let observer = Observer { event: Event::default(), celerity: Celerity::new(DVec3::new(0.0, 0.0, -1e3)).unwrap() };
+    let eyes = eyes(&observer, 0.064, DVec3::X).unwrap();
+    assert_eq!(eyes.right, Event { ct: 0.0, position: DVec3::new(0.032, 0.0, 0.0) });
+    assert_eq!(eyes.left, Event { ct: 0.0, position: DVec3::new(-0.032, 0.0, 0.0) });
+}
+
+#[test]
+fn eyes_are_simultaneous_and_apart_for_the_observer() {
+    let mut random = seeded(41);
+    for _ in 0..1000 {
+        let observer = Observer { event: Event::default(), celerity: celerity(&mut random, -6.0..5.0) };
+        let right = direction(&mut random);
+        let eyes = eyes(&observer, 2.0, right).unwrap();
+        let apart = observer.observer_from_world().apply(eyes.right - eyes.left);
+        // The events are rounded at γ and come back multiplied by γ.
+        let tolerance = 16.0 * EPSILON * observer.celerity.gamma().powi(2);
+        assert!(apart.t.abs() < tolerance && apart.r.distance(2.0 * right) < tolerance, "{observer:?} {right}");
+    }
+}
+
+#[test]
+fn eyes_that_are_none_are_refused() {
+    let observer = Observer::default();
+    for separation in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(eyes(&observer, separation, DVec3::X), Err(EyesError::Separation { .. })));
+    }
+    for right in [DVec3::ZERO, DVec3::NAN, DVec3::splat(f64::INFINITY)] {
+        assert!(matches!(eyes(&observer, 1.0, right), Err(EyesError::Right { .. })));
+    }
+    assert_eq!(eyes(&observer, 0.0, DVec3::X).unwrap().left, observer.event);
+}
+
+#[test]
+fn source_at_rest_is_perceived_where_it_is() {
+    /// Rounding over the angle between the sight lines, 1e-3 at the least.
+    const TOLERANCE: f64 = 1e-12;
+    let mut random = seeded(42);
+    for _ in 0..500 {
+        let position = vector(&mut random, 0.0..2.0) + DVec3::new(0.0, 10.0, 0.0);
+        let Ok(seen) = perceived(pair(), &Source { position, celerity: Celerity::ZERO }, 3.0) else {
+            panic!("{position} is off the line through the eyes");
+        };
+        let vergence = (position - pair()[0]).angle_between(position - pair()[1]);
+        assert!(seen.position.distance(position) < TOLERANCE / vergence, "{position} {seen:?}");
+        assert!(seen.gap < TOLERANCE);
+    }
+}
+
+/// B eq. 3.9: a source that moves along the line of the eyes, at (x', y') in its own frame.
+fn along_the_eyes(x: f64, y: f64, u: f64, time: f64) -> DVec3 {
+    let gamma = u.hypot(1.0);
+    let beta = u / gamma;
+    let now = x / gamma + beta * time;
+    let [q0, q1] = [-HALF, HALF].map(|a| (now + a).hypot(y / gamma));
+    let divisor = 1.0 + beta / (2.0 * HALF) * (q0 - q1);
+    DVec3::new((now - 0.5 * beta * (q0 + q1)) / divisor, y / (gamma * gamma) / divisor, 0.0)
+}
+
+#[test]
+fn source_along_the_eyes_is_perceived_where_borchers_puts_it() {
+    const TOLERANCE: f64 = 1e-11;
+    let mut random = seeded(43);
+    for u in [0.0, 0.75, -0.75, 3.0, -3.0] {
+        for _ in 0..100 {
+            let place = vector(&mut random, -0.5..0.5);
+            let (x, y, time) = (place.x, place.y.abs() + 0.1, place.z);
+            let celerity = Celerity::new(DVec3::new(u, 0.0, 0.0)).unwrap();
+            let source = Source { position: DVec3::new(x / celerity.gamma(), y, 0.0), celerity };
+            let seen = perceived(pair(), &source, time).unwrap();
+            let expected = along_the_eyes(x, y, u, time);
+            assert!(relative_difference(seen.position, expected) < TOLERANCE, "{source:?} {seen:?} {expected}");
+            assert!(seen.gap < TOLERANCE);
+        }
+    }
+}
+
+#[test]
+fn perceived_place_is_midway_between_the_sight_lines() {
+    const TOLERANCE: f64 = 1e-9;
+    let mut random = seeded(44);
+    let mut widest: f64 = 0.0;
+    for _ in 0..200 {
+        let source = Source { position: vector(&mut random, -0.5..0.5), celerity: celerity(&mut random, -1.0..1.0) };
+        let time = size(&mut random, -1.0..0.5);
+        let seen = perceived(pair(), &source, time).unwrap();
+        widest = widest.max(seen.gap);
+        // From the middle, half a gap to one line and half a gap the opposite way to the other, square to both.
+        let [first, second] = pair().map(|eye| {
+            let observer = Observer { event: Event { ct: time, position: eye }, celerity: Celerity::ZERO };
+            let line = apparent::moving(&observer, &source).position.normalize();
+            (eye - seen.position).reject_from_normalized(line)
+        });
+        let scale = seen.position.length() + 1.0;
+        assert!((first + second).length() < TOLERANCE * scale, "{source:?} {seen:?}");
+        assert!((first.length() - 0.5 * seen.gap).abs() < TOLERANCE * scale, "{source:?} {seen:?}");
+    }
+    assert!(widest > 0.01, "every motion kept to a plane through the eyes: {widest}");
+}
+
+#[test]
+fn blind_cases_are_refused() {
+    let resting = |position| Source { position, celerity: Celerity::ZERO };
+    let on_the_line = perceived(pair(), &resting(DVec3::new(3.0, 0.0, 0.0)), 0.0);
+    assert!(matches!(on_the_line, Err(PerceivedError::Parallel { .. })), "{on_the_line:?}");
+    let far = perceived(pair(), &resting(DVec3::new(0.0, 0.0, -1e20)), 0.0);
+    assert!(matches!(far, Err(PerceivedError::Parallel { .. })), "{far:?}");
+    let at_eye = perceived(pair(), &resting(pair()[0]), 0.0);
+    assert!(matches!(at_eye, Err(PerceivedError::SourceAtEye { .. })), "{at_eye:?}");
+    let one_eye = perceived([DVec3::ONE; 2], &resting(DVec3::ZERO), 0.0);
+    assert!(matches!(one_eye, Err(PerceivedError::EyesCoincide { .. })), "{one_eye:?}");
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert_eq!(perceived(pair(), &resting(DVec3::Y), bad), Err(PerceivedError::NotFinite));
+        assert_eq!(perceived(pair(), &resting(DVec3::Y * bad), 0.0), Err(PerceivedError::NotFinite));
+        assert_eq!(perceived([DVec3::X, DVec3::X * bad], &resting(DVec3::Y), 0.0), Err(PerceivedError::NotFinite));
+    }
+}

@@ -1,0 +1,50 @@
+//! Law: what Rust writes is what the shader reads. A field moved, added or resized on one side only would show
+//! here as a different offset; a shader that does not parse or validate fails here, not on a visitor's machine.
+
+use naga::{Module, TypeInner, front::wgsl, valid};
+use std::mem::{offset_of, size_of};
+
+fn parse(module: &shaders::Module) -> Module {
+    wgsl::parse_str(&module.source()).unwrap_or_else(|error| panic!("{}: {error}", module.name))
+}
+
+/// Offset of each field, and the size of the whole, as naga lays the struct out.
+fn reflected(module: &Module, name: &str) -> (Vec<(String, usize)>, usize) {
+    let (_, kind) = module
+        .types
+        .iter()
+        .find(|(_, kind)| kind.name.as_deref() == Some(name))
+        .expect("the shader declares the struct");
+    let TypeInner::Struct { members, span } = &kind.inner else { panic!("{name} is not a struct") };
+    let fields = members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset as usize)).collect();
+    (fields, *span as usize)
+}
+
+macro_rules! assert_mirrors {
+    ($module:expr, $name:ident { $($field:ident),* }) => {
+        let expected = vec![$((stringify!($field).to_owned(), offset_of!(shaders::$name, $field))),*];
+        assert_eq!(reflected(&$module, stringify!($name)), (expected, size_of::<shaders::$name>()));
+    };
+}
+
+#[test]
+fn every_module_validates() {
+    for module in shaders::MODULES {
+        let parsed = parse(&module);
+        valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty())
+            .validate(&parsed)
+            .unwrap_or_else(|error| panic!("{}: {error:?}", module.name));
+    }
+}
+
+#[test]
+fn structs_have_the_same_layout_on_both_sides() {
+    let surface = parse(&shaders::SURFACE);
+    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion });
+    assert_mirrors!(
+        surface,
+        Lighting { shadow_from_world, sun_direction, sun, sky, ground, zenith, horizon, background }
+    );
+    assert_mirrors!(surface, Material { base_colour, emissive, flags });
+    assert_mirrors!(parse(&shaders::RESOLVE), Resolve { weight, encode, padding });
+}

@@ -1,0 +1,23 @@
+// What every drawing shader is given. Mirrors of shaders/src/layout.rs.
+
+struct View {
+    clip_from_observer: mat4x4<f32>,
+    forward: vec4<f32>,
+    right: vec4<f32>,
+    up: vec4<f32>,
+    motion: vec4<f32>,
+}
+
+struct Lighting {
+    shadow_from_world: mat4x4<f32>,
+    sun_direction: vec4<f32>,
+    sun: vec4<f32>,
+    sky: vec4<f32>,
+    ground: vec4<f32>,
+    zenith: vec4<f32>,
+    horizon: vec4<f32>,
+    background: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> lighting: Lighting;

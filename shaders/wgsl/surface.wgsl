@@ -1,0 +1,78 @@
+// Triangles: apparent positions come in three streams, everything else as the world has it.
+// The radiance that leaves a surface is worked out in the world frame, where sun, sky and scene are at rest.
+
+struct Material {
+    base_colour: vec4<f32>,
+    emissive: vec4<f32>,
+    flags: vec4<f32>,
+}
+
+@group(0) @binding(2) var shadow_map: texture_depth_2d;
+@group(0) @binding(3) var shadow_sampler: sampler_comparison;
+@group(1) @binding(0) var<uniform> material: Material;
+@group(1) @binding(1) var base_colour_texture: texture_2d<f32>;
+@group(1) @binding(2) var base_colour_sampler: sampler;
+@group(1) @binding(3) var emissive_texture: texture_2d<f32>;
+@group(1) @binding(4) var emissive_sampler: sampler;
+
+struct Vertex {
+    @location(0) x: f32,
+    @location(1) y: f32,
+    @location(2) z: f32,
+    @location(3) world: vec3<f32>,
+    @location(4) normal: vec3<f32>,
+    @location(5) uv: vec2<f32>,
+    @location(6) colour: vec4<f32>,
+}
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) colour: vec4<f32>,
+}
+
+@vertex
+fn vertex(in: Vertex) -> Fragment {
+    let clip = view.clip_from_observer * vec4(in.x, in.y, in.z, 1.0);
+    return Fragment(clip, in.world, in.normal, in.uv, in.colour);
+}
+
+// Share of the sun that reaches a point: four filtered looks into the sun's depth map.
+fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let place = lighting.shadow_from_world * vec4(world + normal * SHADOW_NORMAL_OFFSET_M, 1.0);
+    let texel = SHADOW_FILTER_TEXELS / vec2<f32>(textureDimensions(shadow_map));
+    let depth = place.z + SHADOW_BIAS;
+    var sum = 0.0;
+    for (var corner = 0; corner < 4; corner++) {
+        let offset = vec2(f32(corner & 1), f32(corner >> 1)) * 2.0 - 1.0;
+        sum += textureSampleCompareLevel(shadow_map, shadow_sampler, place.xy + offset * texel, depth);
+    }
+    return sum * 0.25;
+}
+
+@fragment
+fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
+    let emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv).rgb;
+    if (base.a < material.emissive.w) {
+        discard;
+    }
+    if (material.flags.x == 1.0) {
+        return base;
+    }
+
+    // Light that falls on the surface: the hemisphere, and the sun where it is seen.
+    let normal = normalize(in.normal) * select(-1.0, 1.0, front);
+    var light = mix(lighting.ground.rgb, lighting.sky.rgb, 0.5 + 0.5 * normal.y);
+    let facing = dot(normal, lighting.sun_direction.xyz);
+    if (facing > 0.0) {
+        var visible = 1.0;
+        if (lighting.sun_direction.w == 1.0) {
+            visible = sunlit(in.world, normal);
+        }
+        light += lighting.sun.rgb * facing * visible;
+    }
+    return vec4(base.rgb * light + emitted, base.a);
+}
