@@ -313,12 +313,15 @@ fn controls_of_any_kind_leave_every_vehicle_finite() {
                     let state = vehicle.state();
                     assert!(state.position.is_finite() && state.ct.is_finite() && state.proper_time.is_finite());
                     assert!((state.orientation.length() - 1.0).abs() < 1e-9);
+                    assert!(!vehicle.notices().contains(&Notice::NotIntegrated), "{kind:?} {integrator:?}");
                     assert!(state.celerity.rapidity() <= RAPIDITY_CAP + 1e-9);
                     assert!((0.0..=1.0).contains(&vehicle.resistance()));
                     assert!(vehicle.eye().observer.event.position.is_finite());
                     let odometer = vehicle.odometer();
                     assert!(
-                        odometer.road_m.is_finite() && odometer.own_m.is_finite() && odometer.world_s >= odometer.own_s
+                        odometer.road_m.is_finite()
+                            && odometer.own_m <= odometer.road_m
+                            && odometer.world_s >= odometer.own_s
                     );
                 }
             }
