@@ -1,0 +1,52 @@
+//! Options that say how a picture is drawn, in a window as on file.
+
+use crate::renderers::Effects;
+use clap::Args;
+
+use super::values::{self, ValueError};
+
+/// How the picture is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Renderer {
+    /// Chosen by what the scene needs.
+    #[default]
+    Auto,
+    /// The photo-surface of every vertex (W 5.1).
+    Polygon,
+}
+
+/// Size, field of view, quality.
+#[derive(Args, Clone, Debug, PartialEq)]
+#[command(next_help_heading = "Picture")]
+pub struct PictureOptions {
+    /// Width and height of the picture, or of the window, in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
+    pub size: [u32; 2],
+    /// Vertical field of view in degrees, 1 to 170.
+    #[arg(long, value_name = "DEGREES", default_value = "60", value_parser = values::within(1.0, 170.0))]
+    pub fov: f64,
+    /// Antialiasing: samples a pixel, 1 to 64; 1 takes the colour along the pixel's centre ray.
+    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub samples: u32,
+    /// What relativity does to the picture.
+    #[arg(long, value_enum, default_value = "geometry")]
+    pub effects: Effects,
+    /// How the picture is computed: auto or polygon.
+    #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
+    pub renderer: Renderer,
+    /// Colour where no surface is: linear red, green, blue, each 0 to 1 [default: the scene's sky].
+    #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::colour)]
+    pub background: Option<[f32; 3]>,
+    /// Threads that transform the scene, 1 to 1024 [default: one a processor core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
+}
+
+fn renderer(text: &str) -> Result<Renderer, ValueError> {
+    match text {
+        "auto" => Ok(Renderer::Auto),
+        "polygon" => Ok(Renderer::Polygon),
+        "image" | "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
+        _ => Err(ValueError::Renderer),
+    }
+}

@@ -1,0 +1,135 @@
+//! `rapidity ride`: the interactive environment.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{PictureOptions, WorldOptions, values};
+
+/// What drives the observer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum VehicleName {
+    /// Pedals, handlebar and brake.
+    #[default]
+    Bicycle,
+    /// Thrust along the ground.
+    Drive,
+    /// Thrust in three directions, and roll.
+    Fly,
+}
+
+/// How the worldline is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorName {
+    /// Classical Runge-Kutta of fourth order.
+    #[default]
+    Rk4,
+    /// The closed solution for thrust and turn rate that are constant during a step.
+    Exact,
+    /// Dormand and Prince's pair of orders five and four, with steps as short as its tolerance asks.
+    Dopri5,
+}
+
+/// How the axes of a flying vehicle are carried along.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Transport {
+    /// As gyroscopes do (Fermi-Walker).
+    Gyroscopic,
+    /// The nose turns to face the motion.
+    #[default]
+    Facing,
+}
+
+/// How transforming and drawing share the time of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Latency {
+    /// One after the other: the picture is as fresh as can be.
+    Low,
+    /// The next frame is transformed while this one is drawn: more frames a second.
+    #[default]
+    Overlap,
+}
+
+/// What to ride through, in what, and for how long.
+#[derive(Args, Clone, Debug, PartialEq)]
+#[command(allow_negative_numbers = true)]
+pub struct RideOptions {
+    /// The world.
+    #[command(flatten)]
+    pub world: WorldOptions,
+    /// The vehicle.
+    #[command(flatten)]
+    pub vehicle: VehicleOptions,
+    /// The devices.
+    #[command(flatten)]
+    pub devices: DeviceOptions,
+    /// Write all that happens to this file, from which the ride can be replayed.
+    #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
+    pub record: Option<PathBuf>,
+    /// Ride a recorded ride again.
+    ///
+    /// World, vehicle and devices come from the recording; --scene is needed only if its scene's file has moved.
+    #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
+    #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
+    #[arg(conflicts_with_all = ["bicycle", "spacemouse"])]
+    pub replay: Option<PathBuf>,
+    /// Only compare: compute the recorded ride again, show nothing, and fail at the first frame that is not the
+    /// same to the bit.
+    #[arg(long, conflicts_with_all = ["out", "realtime"], help_heading = "Recording")]
+    pub verify: bool,
+    /// End after this many seconds [default: when the window is closed, or the recording ends].
+    #[arg(long, value_name = "N", value_parser = values::positive, help_heading = "Session")]
+    pub seconds: Option<f64>,
+    /// Film the ride into this file instead of opening a window.
+    #[arg(long, value_name = "FILE.mp4", value_parser = values::film(), help_heading = "Session")]
+    pub out: Option<PathBuf>,
+    /// Without a window, keep to the clock, as live devices need it, instead of being as fast as possible.
+    #[arg(long, help_heading = "Session")]
+    pub realtime: bool,
+    /// How transforming and drawing share the time of a frame.
+    #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
+    pub latency: Latency,
+    /// How the picture is drawn.
+    #[command(flatten)]
+    pub picture: PictureOptions,
+}
+
+impl RideOptions {
+    /// Checks what the options say together.
+    pub(super) fn check(&self) -> Result<(), String> {
+        if self.verify && self.replay.is_none() {
+            return Err("--verify compares a recorded ride: name the recording with --replay".to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// What is ridden, and on which clock.
+#[derive(Args, Clone, Debug, PartialEq)]
+#[command(next_help_heading = "Vehicle")]
+pub struct VehicleOptions {
+    /// What drives the observer.
+    #[arg(long, value_enum, default_value = "bicycle")]
+    pub vehicle: VehicleName,
+    /// How the worldline is integrated.
+    #[arg(long, value_enum, default_value = "rk4")]
+    pub integrator: IntegratorName,
+    /// How the axes of a flying vehicle are carried along.
+    #[arg(long, value_enum, default_value = "facing")]
+    pub transport: Transport,
+    /// Seconds of the rider's own time for each second of real time.
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::positive)]
+    pub time_scale: f64,
+}
+
+/// Which devices are read, besides keyboard and gamepads.
+#[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
+#[command(next_help_heading = "Devices")]
+pub struct DeviceOptions {
+    /// The serial port of the instrumented bicycle, such as /dev/ttyUSB0.
+    #[arg(long, value_name = "PORT")]
+    pub bicycle: Option<String>,
+    /// Read a SpaceMouse, by itself or through spacenavd.
+    #[arg(long)]
+    pub spacemouse: bool,
+}

@@ -1,0 +1,221 @@
+//! Law: what is typed reaches the program as the value it names, or is refused with a sentence that says which
+//! option, what it was, and what was expected. A wrong program would take a negative coordinate for an option,
+//! let |beta| = 1 through, or swallow one of two options that contradict each other.
+
+use glam::DVec3;
+
+use super::*;
+
+/// Parses a line of words; an underscore is a space within one.
+fn parse(line: &str) -> Result<Command, Stop> {
+    parse_from(format!("rapidity {line}").split_whitespace().map(|word| word.replace('_', " ")).collect::<Vec<_>>())
+}
+
+fn render(options: &str) -> RenderOptions {
+    match parse(&format!("render --out a.png {options}")) {
+        Ok(Command::Render(options)) => *options,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn ride(options: &str) -> RideOptions {
+    match parse(&format!("ride {options}")) {
+        Ok(Command::Ride(options)) => *options,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The sentence with which a line is refused.
+fn refusal(line: &str) -> String {
+    match parse(line) {
+        Err(Stop::Usage(sentence)) => sentence,
+        other => panic!("{line} was not refused: {other:?}"),
+    }
+}
+
+#[test]
+fn clap_finds_no_fault_in_the_definitions() {
+    Cli::command().debug_assert();
+}
+
+#[test]
+fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
+    let options = ride("");
+    assert_eq!(options.world.scene, SceneChoice::Town);
+    assert_eq!(options.world.speed_of_light, 30.0 / 3.6);
+    assert_eq!(options.vehicle.vehicle, VehicleName::Bicycle);
+    assert_eq!(options.vehicle.integrator, IntegratorName::Rk4);
+    assert_eq!(options.vehicle.time_scale, 1.0);
+    assert_eq!(options.picture.size, [1280, 720]);
+    assert_eq!(options.picture.effects, Effects::Geometry);
+    assert_eq!((options.record, options.replay, options.out, options.seconds), (None, None, None, None));
+}
+
+#[test]
+fn a_ride_takes_all_its_options() {
+    let options = ride(
+        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --record r.mcap \
+         --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
+         --threads 2 --integrator exact --transport gyroscopic --time-scale 0.5 --out r.mp4 --realtime --fov 90",
+    );
+    assert_eq!(options.world.scene, SceneChoice::File("a/b.glb".into()));
+    assert_eq!(options.world.speed_of_light, 299_792_458.0);
+    assert_eq!(options.world.edge, 0.1);
+    assert_eq!(options.devices, DeviceOptions { bicycle: Some("/dev/pts/3".to_owned()), spacemouse: true });
+    assert_eq!(options.record, Some("r.mcap".into()));
+    assert_eq!((options.seconds, options.latency, options.realtime), (Some(2.5), Latency::Low, true));
+    assert_eq!(options.vehicle.vehicle, VehicleName::Fly);
+    assert_eq!(options.vehicle.integrator, IntegratorName::Exact);
+    assert_eq!(options.vehicle.transport, Transport::Gyroscopic);
+    assert_eq!(options.picture.renderer, Renderer::Polygon);
+    assert_eq!((options.picture.samples, options.picture.threads, options.picture.fov), (1, Some(2), 90.0));
+    assert!(ride("--replay r.mcap --verify").verify);
+}
+
+#[test]
+fn coordinates_may_be_negative_with_a_space_or_an_equals_sign() {
+    let expected = Some(DVec3::new(-3.0, 1.6, 0.0));
+    assert_eq!(render("--position -3,1.6,0").viewpoint.position, expected);
+    assert_eq!(render("--position=-3,1.6,-0").viewpoint.position, expected);
+    assert_eq!(render("--position -3,_1.6,_0").viewpoint.position, expected);
+}
+
+#[test]
+fn directions_of_any_length_become_unit_vectors() {
+    for text in ["0,-2,0", "0,-1e300,0", "0,-1e-300,0"] {
+        let viewpoint = render(&format!("--look {text} --up -4e200,0,0")).viewpoint;
+        assert_eq!((viewpoint.look, viewpoint.up), (Some(DVec3::NEG_Y), DVec3::NEG_X));
+    }
+}
+
+#[test]
+fn a_velocity_is_the_same_by_celerity_and_by_beta() {
+    let expected = DVec3::new(0.0, 0.0, -0.75);
+    assert_eq!(render("--celerity 0,0,-0.75").viewpoint.celerity().vector(), expected);
+    assert_eq!(render("--beta 0,0,-0.6").viewpoint.celerity().vector(), expected);
+    assert_eq!(render("").viewpoint.celerity(), physics::Celerity::ZERO);
+    assert_eq!(render("--celerity 1e12,0,0").viewpoint.celerity().vector().x, 1e12);
+}
+
+#[test]
+fn speeds_come_in_every_unit() {
+    /// The conversion factors are rounded once, their product with the number once more.
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    for (text, expected) in [
+        ("36_km/h", 10.0),
+        ("36km/h", 10.0),
+        ("299792458_m/s", 299_792_458.0),
+        ("10_mph", 4.4704),
+        ("3e2_km/s", 3e5),
+        ("0.5_c", 149_896_229.0),
+    ] {
+        let speed = ride(&format!("--speed-of-light {text}")).world.speed_of_light;
+        assert!((speed / expected - 1.0).abs() <= ROUNDING, "{text}: {speed}");
+    }
+}
+
+#[test]
+fn the_ending_of_the_file_says_what_is_drawn() {
+    assert_eq!(render("").out, Output::Picture("a.png".into()));
+    let Ok(Command::Render(options)) = parse("render --out b/c.MP4 --seconds 3 --fps 25") else { panic!() };
+    assert_eq!(options.out, Output::Film("b/c.MP4".into()));
+    assert_eq!((options.seconds, options.frames_per_second()), (Some(3.0), 25.0));
+    assert_eq!(render("--replay r.mcap --seconds 3").seconds, Some(3.0));
+}
+
+#[test]
+fn the_small_commands_parse() {
+    assert_eq!(parse("probe").unwrap(), Command::Probe);
+    assert_eq!(parse("town --out t.glb").unwrap(), Command::Town(TownOptions { out: "t.glb".into() }));
+    let files = vec!["a.glb".into(), "b.mcap".into()];
+    assert_eq!(parse("check a.glb b.mcap").unwrap(), Command::Check(CheckOptions { files }));
+    let devices = DevicesOptions { bicycle: Some("/dev/ttyUSB0".to_owned()), seconds: Some(1.0) };
+    assert_eq!(parse("devices --bicycle /dev/ttyUSB0 --seconds 1").unwrap(), Command::Devices(devices));
+}
+
+#[test]
+fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
+    for (line, told) in [
+        ("render --out a.png --size 1280", ["--size", "WIDTHxHEIGHT"]),
+        ("render --out a.png --size 0x720", ["'0x720'", "1 to 16384"]),
+        ("render --out a.png --size 16385x1", ["--size", "1 to 16384"]),
+        ("render --out a.png --position 1,2", ["'1,2'", "three finite numbers"]),
+        ("render --out a.png --position 1,2,3,4", ["--position", "three finite numbers"]),
+        ("render --out a.png --position 1,2,1e999", ["--position", "three finite numbers"]),
+        ("render --out a.png --position nan,2,3", ["--position", "three finite numbers"]),
+        ("render --out a.png --position --look=0,0,1", ["'--look=0,0,1'", "three finite numbers"]),
+        ("render --out a.png --look 0,0,0", ["--look", "must not be 0,0,0"]),
+        ("render --out a.png --beta 0.6,0.8,0", ["--beta", "not slower than light"]),
+        ("render --out a.png --beta 1,0,0", ["--beta", "not slower than light"]),
+        ("render --out a.png --celerity 1e200,0,0", ["--celerity", "1e75"]),
+        ("render --out a.png --fov 0.5", ["--fov", "from 1 to 170"]),
+        ("render --out a.png --fov nan", ["--fov", "from 1 to 170"]),
+        ("render --out a.png --samples 0", ["--samples", "1..=64"]),
+        ("render --out a.png --samples 65", ["--samples", "1..=64"]),
+        ("render --out a.png --background 0,0,1.5", ["--background", "from 0 to 1"]),
+        ("render --out a.png --background -0.1,0,0", ["--background", "from 0 to 1"]),
+        ("render --out a.png --renderer raytrace", ["the raytrace renderer is not there yet", "polygon"]),
+        ("render --out a.png --renderer vulkan", ["--renderer", "auto or polygon"]),
+        ("render --out a.png --effects doppler", ["--effects", "geometry"]),
+        ("render --out a.png --edge 0", ["--edge", "above 0"]),
+        ("render --out a.png --threads 0", ["--threads", "1..=1024"]),
+        ("render --out a.jpg", ["--out", ".png"]),
+        ("render --out png", ["--out", ".png"]),
+        ("render --out a.mp4 --seconds -1", ["--seconds", "above 0"]),
+        ("render --out a.mp4 --seconds inf", ["--seconds", "above 0"]),
+        ("render --out a.mp4 --fps 0", ["--fps", "from 0.1 to 1000"]),
+        ("render --out a.mp4 --replay r.png", ["--replay", ".mcap"]),
+        ("ride --speed-of-light 30", ["--speed-of-light", "km/h"]),
+        ("ride --speed-of-light 30_furlongs", ["--speed-of-light", "km/h"]),
+        ("ride --speed-of-light 0_m/s", ["--speed-of-light", "positive"]),
+        ("ride --speed-of-light 1e308_c", ["--speed-of-light", "positive"]),
+        ("ride --speed-of-light -30_km/h", ["--speed-of-light", "positive"]),
+        ("ride --vehicle boat", ["--vehicle", "bicycle"]),
+        ("ride --latency none", ["--latency", "overlap"]),
+        ("ride --integrator euler", ["--integrator", "dopri5"]),
+        ("ride --transport bus", ["--transport", "gyroscopic"]),
+        ("ride --time-scale 0", ["--time-scale", "above 0"]),
+        ("ride --out ride.png", ["--out", ".mp4"]),
+        ("town --out town.gltf", ["--out", ".glb"]),
+    ] {
+        let sentence = refusal(line);
+        for part in told {
+            assert!(sentence.contains(part), "{line}\n{sentence}");
+        }
+        assert!(!sentence.contains('\n') && !sentence.starts_with("error"), "{sentence}");
+    }
+}
+
+#[test]
+fn options_that_contradict_each_other_are_refused_by_name() {
+    for (line, told) in [
+        ("render --out a.png --celerity 1,0,0 --beta 0.5,0,0", ["--celerity", "--beta"]),
+        ("render --out a.png --fps 25", ["--fps", ".mp4"]),
+        ("render --out a.png --seconds 2", ["--seconds", "--replay"]),
+        ("render --out a.png --look 0,3,0", ["--up", "--look"]),
+        ("render --out a.mp4 --replay r.mcap --position 0,0,0", ["--replay", "--position"]),
+        ("render --out a.mp4 --replay r.mcap --beta 0,0,0", ["--replay", "--beta"]),
+        ("ride --verify", ["--verify", "--replay"]),
+        ("ride --replay r.mcap --record s.mcap", ["--replay", "--record"]),
+        ("ride --replay r.mcap --vehicle fly", ["--replay", "--vehicle"]),
+        ("ride --replay r.mcap --spacemouse", ["--replay", "--spacemouse"]),
+        ("ride --replay r.mcap --verify --out a.mp4", ["--verify", "--out"]),
+        ("render", ["--out", "required"]),
+        ("check", ["FILE", "required"]),
+        ("ride --sped-of-light 1_c", ["--sped-of-light", "--speed-of-light"]),
+        ("fly", ["fly", "subcommand"]),
+    ] {
+        let sentence = refusal(line);
+        for part in told {
+            assert!(sentence.contains(part), "{line}\n{sentence}");
+        }
+    }
+}
+
+#[test]
+fn help_is_no_mistake() {
+    for line in ["--help", "--version", "help ride", "render --help"] {
+        assert!(matches!(parse(line), Err(Stop::Help(error)) if !error.use_stderr()), "{line}");
+    }
+    assert!(matches!(parse_from(["rapidity"]), Err(Stop::Help(_))));
+}

@@ -1,0 +1,201 @@
+//! From the text of one option to its value: vectors, velocities, sizes, speeds, files by their extension.
+//!
+//! A parser refuses what the rest of the program could not use, and says what it expected; clap puts the option's
+//! name and the text before it.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use glam::DVec3;
+use physics::{Beta, Celerity, CelerityError};
+use thiserror::Error;
+
+/// Why an option's text has no value.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ValueError {
+    /// Not a vector.
+    #[error("expected three finite numbers with commas between them, as in -3,1.6,0")]
+    Vector,
+    /// A direction of length zero.
+    #[error("expected a direction, which must not be 0,0,0")]
+    Direction,
+    /// Not a velocity.
+    #[error(transparent)]
+    Velocity(#[from] CelerityError),
+    /// Not a colour.
+    #[error("expected three numbers from 0 to 1 with commas between them: linear red, green, blue, as in 0.2,0.3,0.5")]
+    Colour,
+    /// Not the size of a picture.
+    #[error("expected WIDTHxHEIGHT in pixels, each from 1 to {MAXIMAL_SIZE}, as in 1280x720")]
+    Size,
+    /// Not a speed.
+    #[error("expected a positive number and a unit (m/s, km/h, mph, km/s or c), as in \"30 km/h\"")]
+    Speed,
+    /// Not a usable number.
+    #[error("expected a finite number above 0")]
+    Positive,
+    /// Outside its range.
+    #[error("expected a number from {least} to {most}")]
+    Range {
+        /// The smallest that will do.
+        least: f64,
+        /// The largest that will do.
+        most: f64,
+    },
+    /// A file of a kind that is not written, or not read.
+    #[error("the file's name must end in {allowed}")]
+    Extension {
+        /// The endings that will do.
+        allowed: &'static str,
+    },
+    /// A renderer of the design that is not part of the program yet.
+    #[error("the {name} renderer is not there yet; use auto or polygon")]
+    NotYet {
+        /// Its name.
+        name: String,
+    },
+    /// No renderer's name.
+    #[error("expected auto or polygon")]
+    Renderer,
+    /// No vehicle's name.
+    #[error("expected bicycle, drive or fly")]
+    Vehicle,
+}
+
+/// The largest picture, in pixels along a side: what a graphics device's texture holds.
+const MAXIMAL_SIZE: u32 = 16_384;
+
+/// Metres per second of the units that a speed may be given in.
+const SPEED_UNITS: [(&str, f64); 5] =
+    [("km/h", 1.0 / 3.6), ("km/s", 1000.0), ("m/s", 1.0), ("mph", 0.447_04), ("c", 299_792_458.0)];
+
+/// What is drawn, by the ending of the file's name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// One PNG.
+    Picture(PathBuf),
+    /// An MP4 film.
+    Film(PathBuf),
+}
+
+impl TryFrom<PathBuf> for Output {
+    type Error = ValueError;
+    fn try_from(path: PathBuf) -> Result<Self, ValueError> {
+        if has_extension(&path, &["png"]) {
+            Ok(Self::Picture(path))
+        } else if has_extension(&path, &["mp4"]) {
+            Ok(Self::Film(path))
+        } else {
+            Err(ValueError::Extension { allowed: ".png (a picture) or .mp4 (a film)" })
+        }
+    }
+}
+
+/// A picture or a film.
+pub(super) fn output() -> impl TypedValueParser<Value = Output> {
+    PathBufValueParser::new().try_map(Output::try_from)
+}
+
+/// A film.
+pub(super) fn film() -> impl TypedValueParser<Value = PathBuf> {
+    file(&["mp4"], ".mp4")
+}
+
+/// A recording.
+pub(super) fn recording() -> impl TypedValueParser<Value = PathBuf> {
+    file(&["mcap"], ".mcap")
+}
+
+/// A scene to write.
+pub(super) fn glb() -> impl TypedValueParser<Value = PathBuf> {
+    file(&["glb"], ".glb")
+}
+
+fn file(extensions: &'static [&'static str], allowed: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
+        if has_extension(&path, extensions) { Ok(path) } else { Err(ValueError::Extension { allowed }) }
+    })
+}
+
+/// Whether a path ends in one of these (lower-case) extensions, however it is capitalised.
+pub(super) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    extension.is_some_and(|extension| extensions.iter().any(|allowed| extension == *allowed))
+}
+
+/// Three finite numbers.
+pub(super) fn vector(text: &str) -> Result<DVec3, ValueError> {
+    numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)
+}
+
+/// A unit vector, from one of any length but zero.
+pub(super) fn direction(text: &str) -> Result<DVec3, ValueError> {
+    let vector = vector(text)?;
+    // Scale first: a square may overflow or vanish.
+    (vector / vector.abs().max_element()).try_normalize().ok_or(ValueError::Direction)
+}
+
+/// A velocity given as γβ.
+pub(super) fn celerity(text: &str) -> Result<Celerity, ValueError> {
+    Ok(Celerity::new(vector(text)?)?)
+}
+
+/// A velocity given as v/c.
+pub(super) fn beta(text: &str) -> Result<Celerity, ValueError> {
+    Ok(Beta::new(vector(text)?)?.celerity())
+}
+
+/// Linear red, green and blue.
+pub(super) fn colour(text: &str) -> Result<[f32; 3], ValueError> {
+    let colour = numbers(text).ok_or(ValueError::Colour)?;
+    if colour.iter().all(|channel| (0.0..=1.0).contains(channel)) {
+        Ok(colour.map(|channel| channel as f32))
+    } else {
+        Err(ValueError::Colour)
+    }
+}
+
+/// Width and height in pixels.
+pub(super) fn size(text: &str) -> Result<[u32; 2], ValueError> {
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or(ValueError::Size)?;
+    let side = |text: &str| match text.trim().parse() {
+        Ok(side @ 1..=MAXIMAL_SIZE) => Ok(side),
+        _ => Err(ValueError::Size),
+    };
+    Ok([side(width)?, side(height)?])
+}
+
+/// A speed in m/s, from a number and its unit.
+pub(super) fn speed(text: &str) -> Result<f64, ValueError> {
+    let text = text.trim();
+    let (number, factor) = SPEED_UNITS
+        .iter()
+        .find_map(|(unit, factor)| Some((text.strip_suffix(unit)?, factor)))
+        .ok_or(ValueError::Speed)?;
+    let speed = number.trim().parse::<f64>().map_err(|_| ValueError::Speed)? * factor;
+    if speed.is_finite() && speed > 0.0 { Ok(speed) } else { Err(ValueError::Speed) }
+}
+
+/// A finite number above zero.
+pub(super) fn positive(text: &str) -> Result<f64, ValueError> {
+    number(text).filter(|number| *number > 0.0).ok_or(ValueError::Positive)
+}
+
+/// A number from `least` to `most`.
+pub(super) fn within(
+    least: f64,
+    most: f64,
+) -> impl Fn(&str) -> Result<f64, ValueError> + Clone + Send + Sync + 'static {
+    move |text| number(text).filter(|number| (least..=most).contains(number)).ok_or(ValueError::Range { least, most })
+}
+
+fn numbers(text: &str) -> Option<[f64; 3]> {
+    let mut parts = text.split(',').map(number);
+    let numbers = [parts.next()??, parts.next()??, parts.next()??];
+    parts.next().is_none().then_some(numbers)
+}
+
+fn number(text: &str) -> Option<f64> {
+    f64::from_str(text.trim()).ok().filter(|number| number.is_finite())
+}

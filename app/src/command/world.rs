@@ -1,0 +1,62 @@
+//! Options that say which world is looked at.
+
+use std::convert::Infallible;
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
+
+use super::values;
+
+/// Which scene is shown.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SceneChoice {
+    /// The built-in old town.
+    #[default]
+    Town,
+    /// The built-in lattice of boxes, for seeing and measuring the geometry by itself.
+    Lattice,
+    /// A glTF 2.0 file.
+    File(PathBuf),
+}
+
+impl SceneChoice {
+    /// The choice by its name on the command line and in recordings.
+    pub fn from_name(name: &str) -> Self {
+        match name {
+            "town" => Self::Town,
+            "lattice" => Self::Lattice,
+            file => Self::File(file.into()),
+        }
+    }
+
+    /// The name by which it is found again.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Town => "town".to_owned(),
+            Self::Lattice => "lattice".to_owned(),
+            Self::File(path) => std::path::absolute(path).as_ref().unwrap_or(path).display().to_string(),
+        }
+    }
+}
+
+/// A scene and its speed of light.
+#[derive(Args, Clone, Debug, PartialEq)]
+#[command(next_help_heading = "World")]
+pub struct WorldOptions {
+    /// `town` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
+    #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
+    pub scene: SceneChoice,
+    /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).
+    #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
+    pub speed_of_light: f64,
+    /// Longest edge of a triangle in metres: longer ones are cut, because straight edges must bend.
+    #[arg(long, value_name = "METRES", default_value = "0.5", value_parser = values::positive)]
+    pub edge: f64,
+}
+
+fn scene() -> impl TypedValueParser<Value = SceneChoice> {
+    PathBufValueParser::new().try_map(|path| {
+        Ok::<_, Infallible>(path.to_str().map_or_else(|| SceneChoice::File(path.clone()), SceneChoice::from_name))
+    })
+}
