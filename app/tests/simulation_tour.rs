@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use input::{DeskConfig, SECOND, VehicleKind};
-use rapidity::simulation::{Frame, Setup, Simulation, Start, Tour, TourError};
+use rapidity::simulation::{Frame, Setup, Simulation, Start, Tour};
 use rapidity::vehicle::{OpenPlane, VehicleSettings, World};
 
 /// Way that is followed to within this, metres.
@@ -64,12 +64,12 @@ fn setup(circuit: &[DVec3]) -> Setup {
 fn ride(seconds: u64) -> Vec<Frame> {
     let circuit = circuit();
     let setup = setup(&circuit);
-    let mut tour = Tour::new(&circuit, Tour::CRUISE_M_S, &setup).unwrap();
+    let mut tour = Tour::new(&circuit).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
     (0..=60 * seconds)
         .map(|n| {
             let at = n * SECOND / 60;
-            let samples = tour.samples(at, simulation.vehicle());
+            let samples = tour.samples(simulation.vehicle(), at);
             simulation.frame(at, &samples)
         })
         .collect()
@@ -126,11 +126,11 @@ fn speed_rises_gently_from_rest_to_the_cruise() {
 fn the_sensors_lines_are_all_understood() {
     let circuit = circuit();
     let setup = setup(&circuit);
-    let mut tour = Tour::new(&circuit, 5.0, &setup).unwrap();
+    let mut tour = Tour::new(&circuit).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
     let mut lines = 0;
     for n in 0..600 {
-        let samples = tour.samples(n * SECOND / 60, simulation.vehicle());
+        let samples = tour.samples(simulation.vehicle(), n * SECOND / 60);
         lines += samples.len();
         simulation.frame(n * SECOND / 60, &samples);
     }
@@ -144,12 +144,52 @@ fn a_tour_repeats_to_the_bit() {
     assert!(a.iter().zip(&b).all(|(a, b)| a.record.first_difference(&b.record).is_none()));
 }
 
+/// The town that is built in, with its walls.
+mod in_the_old_town {
+    use super::*;
+    use rapidity::scene::collision::Collision;
+    use rapidity::scene::town;
+    use rapidity::vehicle::Surroundings;
+
+    /// Elbow room that the way itself leaves, metres; the rider may use up half of it.
+    const CLEAR_M: f64 = 0.6;
+
+    #[test]
+    fn the_tour_laps_the_streets_and_touches_nothing() {
+        let scene = town::build(1);
+        let surroundings = Arc::new(Collision::new(&scene).unwrap());
+        let mut tour = Tour::new(&scene.circuit).unwrap();
+        let mut simulation = Simulation::new(setup(&scene.circuit), surroundings.clone()).unwrap();
+        let (mut farthest, mut narrowest, mut steepest) = (0.0f64, f64::INFINITY, 0.0f64);
+        let mut passed = vec![false; scene.circuit.len()];
+        let mut height = simulation.vehicle().state().position.y;
+        for n in 0..60 * 150 {
+            let at = n * SECOND / 60;
+            let samples = tour.samples(simulation.vehicle(), at);
+            let frame = simulation.frame(at, &samples);
+            assert!(frame.notices.is_empty() && frame.record.rapidity.is_finite());
+            let position = frame.vehicle.state().position;
+            farthest = farthest.max(distance_to(&scene.circuit, position));
+            if let Some(wall) = surroundings.nearest_wall(position, 3.0) {
+                narrowest = narrowest.min(wall.distance);
+            }
+            for (passed, point) in passed.iter_mut().zip(&scene.circuit) {
+                *passed |= point.distance(position) < 2.5;
+            }
+            steepest = steepest.max((position.y - height).abs());
+            height = position.y;
+        }
+        assert!(passed.iter().all(|passed| *passed), "{} of {}", passed.iter().filter(|p| **p).count(), passed.len());
+        assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
+        assert!(narrowest > CLEAR_M, "as near as {narrowest} m to a wall");
+        // Up and down no faster than a sixtieth of a second on a kerb's ramp.
+        assert!(steepest < 0.06, "it jumps by {steepest} m");
+    }
+}
+
 #[test]
 fn what_cannot_be_toured_is_refused() {
-    let circuit = circuit();
-    let setup = setup(&circuit);
-    assert_eq!(Tour::new(&circuit[..2], 5.0, &setup).unwrap_err(), TourError::NoWay { points: 2 });
-    for cruise_m_s in [0.0, -1.0, f64::NAN, 31.0] {
-        assert!(matches!(Tour::new(&circuit, cruise_m_s, &setup), Err(TourError::Cruise { .. })));
-    }
+    assert!(Tour::new(&[]).is_none());
+    assert!(Tour::new(&circuit()[..2]).is_none());
+    assert!(Tour::new(&[DVec3::X, DVec3::Y, DVec3::INFINITY]).is_none());
 }

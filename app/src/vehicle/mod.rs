@@ -68,6 +68,8 @@ pub const RAPIDITY_CAP: f64 = 27.0;
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
 /// More pieces than this are not computed for one step.
 const MOST_PIECES: f64 = 64.0;
+/// The sine of a slope that no road has.
+const STEEPEST_ROAD: f64 = 0.9;
 /// More strides than this are not computed between walls for one piece of a step.
 const MOST_STRIDES: usize = 64;
 
@@ -240,7 +242,7 @@ impl Vehicle {
 
     /// One stride on the ground, walls left aside.
     fn drive_on(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
-        let (direction, backward) = self.level_direction();
+        let (direction, backward) = self.road_direction();
         let course = Course::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
         let settings = self.settings;
         if self.kind == VehicleKind::Drive {
@@ -314,13 +316,12 @@ impl Vehicle {
         self.state.celerity.vector().dot(self.state.orientation * DVec3::NEG_Z)
     }
 
-    /// The level direction of the motion, or of the nose at rest; and whether the motion is backward.
-    fn level_direction(&self) -> (DVec3, bool) {
-        let nose = heading(self.state.orientation);
+    /// The direction of the motion, or of the nose at rest, not steeper than a road is; and whether the motion is backward.
+    fn road_direction(&self) -> (DVec3, bool) {
         let backward = self.forward() < 0.0;
-        let celerity = self.state.celerity.vector();
-        let ahead = if backward { -nose } else { nose };
-        (DVec3 { y: 0.0, ..celerity }.try_normalize().unwrap_or(ahead), backward)
+        let nose = heading(self.state.orientation);
+        let motion = self.state.celerity.direction().unwrap_or(nose);
+        (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
     }
 
     /// Road that goes by in a time at the present celerity, metres.
