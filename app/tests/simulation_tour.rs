@@ -144,49 +144,6 @@ fn a_tour_repeats_to_the_bit() {
     assert!(a.iter().zip(&b).all(|(a, b)| a.record.first_difference(&b.record).is_none()));
 }
 
-/// The town that is built in, with its walls.
-mod in_the_old_town {
-    use super::*;
-    use rapidity::scene::collision::Collision;
-    use rapidity::scene::town;
-    use rapidity::vehicle::Surroundings;
-
-    /// Elbow room that the way itself leaves, metres; the rider may use up half of it.
-    const CLEAR_M: f64 = 0.6;
-
-    #[test]
-    fn the_tour_laps_the_streets_and_touches_nothing() {
-        let scene = town::build(1);
-        let surroundings = Arc::new(Collision::new(&scene).unwrap());
-        let mut tour = Tour::new(&scene.circuit).unwrap();
-        let mut simulation = Simulation::new(setup(&scene.circuit), surroundings.clone()).unwrap();
-        let (mut farthest, mut narrowest, mut steepest) = (0.0f64, f64::INFINITY, 0.0f64);
-        let mut passed = vec![false; scene.circuit.len()];
-        let mut height = simulation.vehicle().state().position.y;
-        for n in 0..60 * 150 {
-            let at = n * SECOND / 60;
-            let samples = tour.samples(simulation.vehicle(), at);
-            let frame = simulation.frame(at, &samples);
-            assert!(frame.notices.is_empty() && frame.record.rapidity.is_finite());
-            let position = frame.vehicle.state().position;
-            farthest = farthest.max(distance_to(&scene.circuit, position));
-            if let Some(wall) = surroundings.nearest_wall(position, 3.0) {
-                narrowest = narrowest.min(wall.distance);
-            }
-            for (passed, point) in passed.iter_mut().zip(&scene.circuit) {
-                *passed |= point.distance(position) < 2.5;
-            }
-            steepest = steepest.max((position.y - height).abs());
-            height = position.y;
-        }
-        assert!(passed.iter().all(|passed| *passed), "{} of {}", passed.iter().filter(|p| **p).count(), passed.len());
-        assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
-        assert!(narrowest > CLEAR_M, "as near as {narrowest} m to a wall");
-        // Up and down no faster than a sixtieth of a second on a kerb's ramp.
-        assert!(steepest < 0.06, "it jumps by {steepest} m");
-    }
-}
-
 #[test]
 fn what_cannot_be_toured_is_refused() {
     assert!(Tour::new(&[]).is_none());
