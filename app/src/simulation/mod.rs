@@ -26,7 +26,7 @@ use input::{Action, Controls, Desk, Nanos, Sample};
 pub use replay::{Replay, ReplayError, Replayed};
 pub use setup::{Setup, SetupError, Start};
 pub use ticks::TICKS_PER_SECOND;
-pub use tour::{Tour, TourError};
+pub use tour::Tour;
 
 use crate::vehicle::{Eye, Notice, Surroundings, Vehicle, World};
 use ticks::Ticks;
