@@ -1,1 +1,47 @@
-//! input
+//! Devices to controls.
+//!
+//! Whatever a rider touches ends as a stream of [`Sample`]s: raw bytes, a time stamp, the device's
+//! name. A [`Desk`] decodes them and says, once a frame, what the rider wants ([`Controls`]).
+//! Decoding is a pure function, so a [`recording`] of samples and frame times replays to the same
+//! bits. Live samples come from [`devices`], where each device has a thread of its own; tests and
+//! replays make them without any hardware.
+//!
+//! ```
+//! use input::{Desk, DeskConfig, Key, SECOND, Sample};
+//!
+//! let mut desk = Desk::new(DeskConfig::default())?;
+//! desk.feed(&Sample::key(0, Key::W, true));
+//! assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
+//! # Ok::<(), input::ConfigError>(())
+//! ```
+//!
+//! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on
+//! the wall.
+
+pub mod action;
+pub mod bicycle;
+pub mod brake;
+pub mod config;
+mod controls;
+pub mod decoder;
+mod desk;
+pub mod devices;
+pub mod filters;
+pub mod gamepad;
+pub mod keyboard;
+pub mod line;
+pub mod pulses;
+mod ramp;
+pub mod recording;
+mod sample;
+pub mod spacemouse;
+pub mod spacenavd;
+
+pub use action::{Action, VehicleKind};
+pub use brake::BrakeCommand;
+pub use config::{AxisTable, BareNumber, BicycleConfig, ConfigError, DeskConfig, RiderConfig};
+pub use controls::Controls;
+pub use desk::Desk;
+pub use devices::{Devices, DevicesConfig};
+pub use keyboard::Key;
+pub use sample::{Clock, Nanos, SECOND, Sample, Signal, Source, seconds_between};

@@ -37,7 +37,7 @@ impl Aberration {
     /// *Frames, units:* both directions point from the observer to the source; `n` in world axes, of any finite length
     /// but zero, n' of length 1 in the axes of the pure boost. A zero `n` has no direction: n' is zero and D = γ.
     ///
-    /// *Equation:* D = γ + u·n for a unit n; across the motion n'⊥ = n⊥ / D (W 4.2, B 2.3).
+    /// *Equation:* D = γ + u·n for a unit n; across the motion n'⊥ = n⊥ / D (W 4.2, B eq. 2.8).
     ///
     /// *Accuracy:* 1e-15 rad and a few units in the last place of D, γ to 1e12 (`tests/high_precision.rs`).
     pub fn observer_from_world(&self, n: DVec3) -> (DVec3, f64) {

@@ -25,7 +25,7 @@ pub struct Source {
 /// What an observer sees of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apparent {
-    /// Apparent position relative to the observer, in the axes of the pure boost into his frame, metres. The light
+    /// Apparent position relative to the observer, in the axes of the pure boost into that frame, metres. The light
     /// seen left it.
     pub position: DVec3,
     /// Doppler factor D = ν_observed / ν_emitted.
@@ -64,9 +64,9 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
 /// *Frames:* source and observer in the world.
 ///
 /// *Equation:* let d₀ be the displacement to where the source is at the observer's time. The light left it a proper
-/// time l of the source's clock before, with l² + 2 l (u·d₀) − d₀² = 0, at d = d₀ − l u (B 2.22, in celerity). Of the
-/// two forms of the positive root the one without a difference is taken. D is that of the observer at d over that of
-/// the source at d.
+/// time l of the source's clock before, with l² + 2 l (u·d₀) − d₀² = 0, at d = d₀ − l u (B eq. 2.22, in celerity). Of
+/// the two forms of the positive root the one without a difference is taken. D is that of the observer at d over that
+/// of the source at d.
 ///
 /// *Accuracy:* as [`at_rest`] (`tests/high_precision.rs`).
 pub fn moving(observer: &Observer, source: &Source) -> Apparent {
@@ -81,14 +81,14 @@ pub fn moving(observer: &Observer, source: &Source) -> Apparent {
         0.0 => 1.0,
         scale => scale,
     };
-    let now = now.divided(scale.into());
+    let now = now.times_power_of_two(1.0 / scale);
 
     // Go back along its worldline to the observer's past light cone.
     let along = celerity.dot(now);
     let squared = now.dot(now);
     let root = (along * along + squared).sqrt();
     let age = if along.high > 0.0 { squared / (along + root) } else { root - along };
-    let displacement = (now - celerity.scaled(age)).scaled(scale.into());
+    let displacement = (now - celerity.scaled(age)).times_power_of_two(scale);
     let emitted_at = time - gamma * age * scale.into();
 
     let seen = Axis::new(observer.celerity).image(displacement);

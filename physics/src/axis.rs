@@ -75,7 +75,7 @@ impl Axis {
     /// *Equation:* the light that arrives now left the point r ago, and (−r, d) boosts to (−|x'|, x'). With h the part
     /// along, a = r + h and c = r − h are the light-cone coordinates: x' = d⊥ + (κ a − c / κ) e / 2, |x'| = (κ a +
     /// c / κ) / 2, the vector form of tan θ'/2 = e^(−η) tan θ/2. Of a and c the smaller is |d⊥|² over the larger.
-    /// (W 4.1, 5.1; B 2.2.)
+    /// (W 4.5, 5.1; B 2.6.1.)
     ///
     /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every
     /// direction and γ to 1e12 (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
@@ -92,7 +92,7 @@ impl Axis {
             return Image { position, distance, world_distance: distance, doppler: 1.0 };
         }
         // Scale by a power of two, which rounds nothing, so that no square overflows.
-        let unscaled = DoubleDoubleVec3 { high: displacement.high / scale, low: displacement.low / scale };
+        let unscaled = displacement.times_power_of_two(1.0 / scale);
         let split = self.split(unscaled);
         let along = split.along.rounded();
         let across_squared = split.across.length_squared();
@@ -121,7 +121,7 @@ fn unit(vector: DVec3) -> DoubleDoubleVec3 {
         return DVec3::X.into();
     }
     let scaled = DoubleDoubleVec3::from(vector / scale);
-    scaled.divided(scaled.dot(scaled).sqrt())
+    scaled.scaled(DoubleDouble::from(1.0) / scaled.dot(scaled).sqrt())
 }
 
 /// The largest power of two not above a non-negative normal number; 0 for a subnormal one.

@@ -13,7 +13,8 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// A velocity as the spatial part of the four-velocity in units of c: u = γβ = dx/dτ.
 ///
-/// Always finite and at most [`Celerity::LIMIT`].
+/// Always finite, and at most [`Celerity::LIMIT`] where it was given from outside; what [`compose`](crate::compose)
+/// makes of two such is still finite.
 ///
 /// # Example
 ///
@@ -44,12 +45,11 @@ impl Celerity {
         if !vector.is_finite() {
             return Err(CelerityError::NotFinite { vector });
         }
-        let celerity = Self(vector);
-        // Compare components first: the length itself may overflow.
-        if vector.abs().max_element() > Self::LIMIT || celerity.magnitude() > Self::LIMIT {
+        // A vector too long for its square is infinitely long here.
+        if vector.length_squared() > Self::LIMIT * Self::LIMIT {
             return Err(CelerityError::TooFast { vector });
         }
-        Ok(celerity)
+        Ok(Self(vector))
     }
 
     /// Takes a direction of any length and a rapidity η: |u| = sinh η. A negative rapidity is motion the other way.
@@ -163,7 +163,7 @@ impl Beta {
     /// ```
     pub fn celerity(self) -> Celerity {
         let vector = DoubleDoubleVec3::from(self.0);
-        Celerity::from_finite(vector.divided(self.gamma_squared_inverse().sqrt()).rounded())
+        Celerity::from_finite(vector.scaled(DoubleDouble::from(1.0) / self.gamma_squared_inverse().sqrt()).rounded())
     }
 
     /// 1 − β², to 106 bits.

@@ -119,36 +119,43 @@ impl From<DVec3> for DoubleDoubleVec3 {
 }
 
 impl DoubleDoubleVec3 {
-    fn from_components([x, y, z]: [DoubleDouble; 3]) -> Self {
-        Self { high: DVec3::new(x.high, y.high, z.high), low: DVec3::new(x.low, y.low, z.low) }
+    /// The exact sum of two f64 vectors (Knuth).
+    pub(crate) fn sum(a: DVec3, b: DVec3) -> Self {
+        let high = a + b;
+        let b_seen = high - a;
+        let low = (a - (high - b_seen)) + (b - b_seen);
+        Self { high, low }
+    }
+
+    /// The exact difference of two f64 vectors.
+    pub(crate) fn difference(a: DVec3, b: DVec3) -> Self {
+        Self::sum(a, -b)
+    }
+
+    fn ordered_sum(a: DVec3, b: DVec3) -> Self {
+        let high = a + b;
+        Self { high, low: b - (high - a) }
     }
 
     fn component(self, index: usize) -> DoubleDouble {
         DoubleDouble { high: self.high[index], low: self.low[index] }
     }
 
-    fn map(self, f: impl Fn(DoubleDouble) -> DoubleDouble) -> Self {
-        Self::from_components([0, 1, 2].map(|index| f(self.component(index))))
-    }
-
-    /// The exact difference of two f64 vectors.
-    pub(crate) fn difference(a: DVec3, b: DVec3) -> Self {
-        Self::from_components([0, 1, 2].map(|index| DoubleDouble::sum(a[index], -b[index])))
-    }
-
     pub(crate) fn dot(self, other: Self) -> DoubleDouble {
-        let [x, y, z] = [0, 1, 2].map(|index| self.component(index) * other.component(index));
-        x + y + z
+        let product = |index| self.component(index) * other.component(index);
+        product(0) + product(1) + product(2)
     }
 
     /// This vector times a number.
     pub(crate) fn scaled(self, factor: DoubleDouble) -> Self {
-        self.map(|component| component * factor)
+        let high = self.high * factor.high;
+        let rounding = self.high.mul_add(DVec3::splat(factor.high), -high);
+        Self::ordered_sum(high, rounding + (self.high * factor.low + self.low * factor.high))
     }
 
-    /// This vector divided by a number.
-    pub(crate) fn divided(self, divisor: DoubleDouble) -> Self {
-        self.map(|component| component / divisor)
+    /// This vector times a power of two: exact, unless it underflows.
+    pub(crate) fn times_power_of_two(self, factor: f64) -> Self {
+        Self { high: self.high * factor, low: self.low * factor }
     }
 
     /// `self × other`, rounded to f64 only at the end: each component keeps its own relative precision where the two
@@ -174,7 +181,10 @@ impl DoubleDoubleVec3 {
 impl Add for DoubleDoubleVec3 {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self::from_components([0, 1, 2].map(|index| self.component(index) + other.component(index)))
+        let high = Self::sum(self.high, other.high);
+        let low = Self::sum(self.low, other.low);
+        let first = Self::ordered_sum(high.high, high.low + low.high);
+        Self::ordered_sum(first.high, first.low + low.low)
     }
 }
 

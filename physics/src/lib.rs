@@ -31,6 +31,7 @@ pub mod event;
 pub mod eyes;
 pub mod observer;
 pub mod perceived;
+pub mod photo_surface;
 pub mod worldline;
 
 pub use aberration::Aberration;

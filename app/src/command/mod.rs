@@ -25,7 +25,7 @@ mod ride;
 mod values;
 mod world;
 
-pub use picture::{Effects, PictureOptions, Renderer};
+pub use picture::{PictureOptions, Renderer};
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, IntegratorName, Latency, RideOptions, Transport, VehicleName, VehicleOptions};
 pub use values::{Output, ValueError};

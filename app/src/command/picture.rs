@@ -1,18 +1,9 @@
 //! Options that say how a picture is drawn, in a window as on file.
 
-use clap::{Args, ValueEnum};
+use crate::renderers::Effects;
+use clap::Args;
 
 use super::values::{self, ValueError};
-
-/// What relativity does to the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Effects {
-    /// Nothing: the plain picture, for comparison.
-    None,
-    /// Aberration and light-travel time: where things are seen.
-    #[default]
-    Geometry,
-}
 
 /// How the picture is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -7,10 +7,24 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod check;
+pub mod collision;
+pub mod export;
+pub mod gltf;
+pub mod lattice;
+pub mod mipmap;
+pub mod refine;
+pub mod source;
+pub mod town;
+
 use glam::{DVec3, Vec2, Vec3};
 
+/// The most triangles, and three times as many vertices, that a scene may have: about 10 GB of arrays. What would be more is refused
+/// before memory is asked for.
+pub const MAX_TRIANGLES: usize = 50_000_000;
+
 /// A world at rest: geometry, materials, light, and a place to start from.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// What to call it in titles and messages.
     pub name: String,
@@ -51,7 +65,7 @@ impl Default for Start {
 ///
 /// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// From the file's node and mesh, for messages.
     pub name: String,
@@ -72,7 +86,7 @@ pub struct Mesh {
 }
 
 /// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// From the file, for messages.
     pub name: String,
@@ -120,7 +134,7 @@ pub enum Alpha {
 }
 
 /// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// From the file, for messages.
     pub name: String,
@@ -185,6 +199,16 @@ impl Default for Lighting {
     }
 }
 
+/// A scene that breaks a promise of its types.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("scene \"{scene}\" is damaged: {fault}; make it anew or load it from a file")]
+pub struct SceneFault {
+    /// Name of the scene.
+    pub scene: String,
+    /// What is wrong, and with which mesh, material or texture.
+    pub fault: String,
+}
+
 impl Scene {
     /// Number of vertices in all meshes.
     pub fn vertex_count(&self) -> usize {
@@ -194,5 +218,50 @@ impl Scene {
     /// Number of triangles in all meshes.
     pub fn triangle_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
+    }
+
+    /// Checks what these types promise: array lengths and indices, not coordinates.
+    ///
+    /// Loaders keep the promises; this is the door for scenes made by hand, so that what lies behind it may index freely.
+    ///
+    /// # Errors
+    /// The first broken promise.
+    pub fn validate(&self) -> Result<(), SceneFault> {
+        match self.fault() {
+            None => Ok(()),
+            Some(fault) => Err(SceneFault { scene: self.name.clone(), fault }),
+        }
+    }
+
+    fn fault(&self) -> Option<String> {
+        let texture = |texture: &Texture| {
+            let bytes = u64::from(texture.width) * u64::from(texture.height) * 4;
+            (bytes != texture.rgba.len() as u64).then(|| {
+                let (name, width, height, given) = (&texture.name, texture.width, texture.height, texture.rgba.len());
+                format!("texture \"{name}\" of {width} × {height} pixels has {given} bytes instead of {bytes}")
+            })
+        };
+        let material = |material: &Material| {
+            let used = [material.base_colour_texture, material.emissive_texture];
+            let missing = used.into_iter().flatten().find(|&index| index >= self.textures.len())?;
+            let (name, count) = (&material.name, self.textures.len());
+            Some(format!("material \"{name}\" uses texture {missing} of {count}"))
+        };
+        let mesh = |mesh: &Mesh| {
+            let (name, count) = (&mesh.name, mesh.positions.len());
+            if mesh.material >= self.materials.len() {
+                return Some(format!("mesh \"{name}\" uses material {} of {}", mesh.material, self.materials.len()));
+            }
+            if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
+                return Some(format!("mesh \"{name}\" has vertex arrays of different lengths"));
+            }
+            if !mesh.indices.len().is_multiple_of(3) {
+                return Some(format!("mesh \"{name}\" has {} indices, not three per triangle", mesh.indices.len()));
+            }
+            let beyond = mesh.indices.iter().find(|&&index| index as usize >= count)?;
+            Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
+        };
+        let textures = self.textures.iter().find_map(texture);
+        textures.or_else(|| self.materials.iter().find_map(material)).or_else(|| self.meshes.iter().find_map(mesh))
     }
 }

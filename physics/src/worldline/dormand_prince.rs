@@ -123,7 +123,7 @@ impl DormandPrince {
         control: &dyn Control,
     ) -> Result<Attempt, WorldlineError> {
         let rates = TABLEAU.rates(state, trial, first, control)?;
-        let end = Rates::weighted(&WEIGHTS, &rates).applied(state, trial, trial)?;
+        let end = Rates::weighted(&WEIGHTS, &rates).applied(state, trial)?;
         let difference = Rates::weighted(&ERROR_WEIGHTS, &rates);
         let gamma = state.celerity.gamma().max(end.celerity.gamma());
         let share = (trial / step).abs();

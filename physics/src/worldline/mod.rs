@@ -10,7 +10,7 @@
 //! dct/dτ = γ      dx/dτ = u      du/dτ = a + u (u·a)/(1 + γ)      dR/dτ = ((a × u)/(1 + γ) + ω) × R
 //! ```
 //!
-//! (W 4.2; the third in celerity.) The term (a × u)/(1 + γ) is Thomas precession: with ω = 0 the axes are those of
+//! (W 4.7, in celerity.) The term (a × u)/(1 + γ) is Thomas precession: with ω = 0 the axes are those of
 //! gyroscopes, carried along by Fermi–Walker transport. γ is always √(1 + u²); a γ integrated as a fifth variable
 //! drifts off the mass shell.
 //!

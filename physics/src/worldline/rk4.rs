@@ -24,6 +24,6 @@ impl Integrator for Rk4 {
         }
         let first = Rates::of(state, control)?;
         let rates = TABLEAU.rates(state, step, first, control)?;
-        Rates::weighted(&WEIGHTS, &rates).applied(state, step, step)
+        Rates::weighted(&WEIGHTS, &rates).applied(state, step)
     }
 }

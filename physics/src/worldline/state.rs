@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 
 use super::WorldlineError;
-use crate::double_double::DoubleDouble;
-use crate::{Celerity, Event, Observer};
+use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
+use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
 ///
@@ -59,31 +59,68 @@ impl State {
         Observer { event: self.event(), celerity: self.celerity }
     }
 
+    /// The state of a head within the vehicle, at the same time for the vehicle (W 6.3).
+    ///
+    /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
+    /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
+    /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
+    pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
+        let world_from_vehicle = self.observer().observer_from_world().inverse();
+        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: self.orientation * place });
+        let Event { ct, position } = self.event() + displacement;
+        let head = Celerity::from_finite(self.orientation * celerity.vector());
+        let Composition { celerity, wigner } = compose(self.celerity, head);
+        let orientation = wigner.inverse() * self.orientation;
+        Self { ct, position, celerity, orientation, ..*self }
+    }
+
     /// The state after a step, if it is finite.
+    #[inline]
     pub(super) fn advanced(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
-        let overflow = WorldlineError::Overflow { proper_time: self.proper_time, step };
-        let celerity = Celerity::new(increment.celerity).map_err(|_| overflow)?;
-        let orientation = unit_quaternion(increment.orientation).ok_or(overflow)?;
-        let (proper_time, lost_proper_time) = sum(self.proper_time, self.remainder.proper_time, step);
-        let (ct, lost_ct) = sum(self.ct, self.remainder.ct, increment.ct);
-        let [x, y, z] = [0, 1, 2].map(|i| sum(self.position[i], self.remainder.position[i], increment.position[i]));
-        let position = DVec3::new(x.0, y.0, z.0);
-        if !(proper_time.is_finite() && ct.is_finite() && position.is_finite()) {
-            return Err(overflow);
+        let lost = self.remainder;
+        let proper_time = DoubleDouble::sum(self.proper_time, step + lost.proper_time);
+        let ct = DoubleDouble::sum(self.ct, increment.ct + lost.ct);
+        let position = DoubleDoubleVec3::sum(self.position, increment.position + lost.position);
+        let end = Self {
+            proper_time: proper_time.high,
+            ct: ct.high,
+            position: position.high,
+            remainder: Remainder { proper_time: proper_time.low, ct: ct.low, position: position.low },
+            ..self.turned(step, increment)?
+        };
+        if end.proper_time.is_finite() && end.ct.is_finite() && end.position.is_finite() {
+            Ok(end)
+        } else {
+            Err(self.overflow(step))
         }
-        let lost_position = DVec3::new(x.1, y.1, z.1);
-        let remainder = Remainder { proper_time: lost_proper_time, ct: lost_ct, position: lost_position };
-        Ok(Self { proper_time, ct, position, celerity, orientation, remainder })
+    }
+
+    /// A state within a step, only to ask a control and take rates there.
+    #[inline]
+    pub(super) fn staged(&self, span: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        Ok(Self {
+            proper_time: self.proper_time + span,
+            ct: self.ct + increment.ct,
+            position: self.position + increment.position,
+            ..self.turned(span, increment)?
+        })
+    }
+
+    /// This state with the increment's celerity and orientation.
+    #[inline]
+    fn turned(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
+        let celerity = Celerity::new(increment.celerity).map_err(|_| self.overflow(step))?;
+        let orientation = unit_quaternion(increment.orientation).ok_or_else(|| self.overflow(step))?;
+        Ok(Self { celerity, orientation, ..*self })
+    }
+
+    fn overflow(&self, step: f64) -> WorldlineError {
+        WorldlineError::Overflow { proper_time: self.proper_time, step }
     }
 }
 
-/// `total` plus an increment and what earlier sums lost, and what this sum loses.
-fn sum(total: f64, lost: f64, increment: f64) -> (f64, f64) {
-    let sum = DoubleDouble::sum(total, increment + lost);
-    (sum.high, sum.low)
-}
-
 /// The quaternion at length 1; untouched, to the bit, where it is that long already.
+#[inline]
 fn unit_quaternion(quaternion: DQuat) -> Option<DQuat> {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let squared = quaternion.length_squared();

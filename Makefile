@@ -1,0 +1,27 @@
+# Rapidity. `make ride` and `make test` are all one needs; each does only what is missing.
+
+CARGO ?= cargo
+
+.PHONY: help ride test bench docs clean
+
+help: ## What can be made
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /make \1\t/'
+
+ride: ## Install what the system lacks, build, and ride; without a display, film 10 s of it into ride.mp4
+	@scripts/install ride
+	$(CARGO) build --release --bin rapidity
+	target/release/rapidity ride $(ARGS)
+
+test: ## Install what the tests need, and run every test
+	@scripts/install test
+	$(CARGO) test --release --workspace
+
+bench: ## Measure: kernel against copy bandwidth, integrators, frames
+	@scripts/install test
+	$(CARGO) bench --workspace
+
+docs: ## Build the documentation of all crates
+	$(CARGO) doc --workspace --no-deps
+
+clean: ## Remove what was built
+	$(CARGO) clean

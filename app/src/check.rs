@@ -1,0 +1,59 @@
+//! `rapidity check`: is this scene or recording good, and what is wrong with it?
+
+use crate::command::CheckOptions;
+use crate::error::Error;
+use crate::scene;
+use input::recording::{Entry, Recording, RecordingError};
+use std::path::Path;
+
+/// Carries out `rapidity check`: a paragraph for each file.
+///
+/// # Errors
+/// [`Error::Checked`] if a file is not good, after all have been looked at.
+pub fn check(options: &CheckOptions) -> Result<(), Error> {
+    let mut bad = 0;
+    for path in &options.files {
+        match report(path) {
+            Ok(text) => println!("{}: good\n{text}", path.display()),
+            Err(error) => {
+                bad += 1;
+                println!("{error}");
+            }
+        }
+    }
+    if bad == 0 { Ok(()) } else { Err(Error::Checked { bad, files: options.files.len() }) }
+}
+
+fn report(path: &Path) -> Result<String, Error> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("gltf" | "glb") => Ok(scene::check::check(path)?.to_string()),
+        Some("mcap") => Ok(recording(path)?),
+        _ => Err(Error::UnknownKind { path: path.to_owned() }),
+    }
+}
+
+/// What is in a recording, if it is whole.
+fn recording(path: &Path) -> Result<String, RecordingError> {
+    let recording = Recording::open(path)?;
+    let header = recording.header().clone();
+    let (mut samples, mut frames, mut last) = (0_u64, 0_u64, 0);
+    for entry in recording {
+        match entry? {
+            Entry::Sample(_) => samples += 1,
+            Entry::Controls(_) => {}
+            Entry::Frame(frame) => {
+                frames += 1;
+                last = frame.at;
+            }
+        }
+    }
+    Ok(format!(
+        "  a ride of {:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step",
+        last as f64 * 1e-9,
+        header.scene,
+        header.build,
+        header.speed_of_light_m_s,
+        header.integrator,
+        header.step_s
+    ))
+}

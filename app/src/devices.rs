@@ -1,0 +1,108 @@
+//! `rapidity devices`: what is plugged in, and what it says just now.
+
+use crate::command::DevicesOptions;
+use crate::error::Error;
+use crate::render::interrupted;
+use input::devices::{Devices, DevicesConfig, Plugged, State, Status, plugged_in};
+use input::{Clock, Controls, Desk, DeskConfig, SECOND};
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// Between two looks at the devices.
+const INTERVAL: Duration = Duration::from_millis(200);
+/// Bytes of a device's last sample that are shown.
+const SHOWN_BYTES: usize = 16;
+/// Seconds for which devices are watched where nobody sits at a terminal.
+const UNATTENDED_SECONDS: f64 = 2.0;
+
+/// Carries out `rapidity devices`: on a terminal the listing stays in place and follows the devices until Ctrl-C.
+///
+/// # Errors
+/// A thread that cannot be started, or an output that is closed.
+pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
+    let mut out = std::io::stdout();
+    let terminal = out.is_terminal();
+    writeln!(out, "{}", plugged(&plugged_in()))?;
+
+    let clock = Clock::start();
+    let config = DevicesConfig { bicycle: options.bicycle.clone(), ..Default::default() };
+    let live = Devices::open(&config, clock)?;
+    let mut desk = Desk::new(DeskConfig::default())?;
+    let stop = interrupted();
+    let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
+    let mut shown = 0;
+    loop {
+        std::thread::sleep(INTERVAL);
+        for sample in live.drain() {
+            desk.feed(&sample);
+        }
+        let now = clock.now();
+        let over = stop.load(Ordering::Relaxed) || seconds.is_some_and(|seconds| now as f64 >= seconds * SECOND as f64);
+        if terminal || over {
+            let controls = desk.controls(now);
+            let text = listing(&live.status(), &desk, &controls);
+            if shown > 0 {
+                // Back over the last listing.
+                write!(out, "\x1b[{shown}A\x1b[J")?;
+            }
+            write!(out, "{text}")?;
+            out.flush()?;
+            shown = text.lines().count();
+        }
+        if over {
+            return Ok(());
+        }
+    }
+}
+
+fn plugged(devices: &[Plugged]) -> String {
+    if devices.is_empty() {
+        return "No serial port, SpaceMouse or gamepad is plugged in; the keyboard rides, too.".to_owned();
+    }
+    let mut text = "Plugged in:".to_owned();
+    for device in devices {
+        let _ = write!(text, "\n  {:<11} {}  {}", device.source.name(), device.path, device.name);
+        if let Some(reason) = &device.refused {
+            let _ = write!(text, "\n              {reason}");
+        }
+    }
+    text
+}
+
+fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
+    let mut text = String::new();
+    for status in statuses {
+        let _ = match &status.state {
+            State::Open => {
+                let bytes: Vec<String> =
+                    status.last.iter().take(SHOWN_BYTES).map(|byte| format!("{byte:02x}")).collect();
+                let bad = desk.faults(status.source).number();
+                writeln!(
+                    text,
+                    "{:<11} {} {}: {:.0} a second, {} in all, {bad} bad, {} dropped; last {}",
+                    status.source.name(),
+                    status.name,
+                    status.path,
+                    status.rate_hz,
+                    status.samples,
+                    status.dropped,
+                    bytes.join(" ")
+                )
+            }
+            State::Absent(why) => writeln!(text, "{:<11} {why}", status.source.name()),
+        };
+    }
+    let wheel = controls.wheel_speed.map_or("none".to_owned(), |speed| format!("{:.2} m/s", speed));
+    let axes = |axes: [f64; 3]| format!("{:+.2} {:+.2} {:+.2}", axes[0], axes[1], axes[2]);
+    let _ = writeln!(
+        text,
+        "wheel {wheel} · handlebar {:+.1}° · brake {:.2} · thrust {} · turn {}",
+        controls.steer_rad.to_degrees(),
+        controls.brake,
+        axes(controls.thrust),
+        axes(controls.turn)
+    );
+    text
+}

@@ -1,0 +1,87 @@
+//! What can go wrong in the program as a whole. Every part has an error of its own; here they meet, so that `main`
+//! reports once.
+
+use crate::film::FilmError;
+use crate::gpu::GpuError;
+use crate::scene::gltf::GltfError;
+use crate::scene::refine::RefineError;
+use physics::photo_surface::PhotoSurfaceError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// One sentence: what was wrong, where, and what to do.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// Nothing to draw with.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// No film.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// No scene.
+    #[error(transparent)]
+    Scene(#[from] GltfError),
+    /// Too fine.
+    #[error(transparent)]
+    Refine(#[from] RefineError),
+    /// An observer or a scene that is nowhere.
+    #[error(transparent)]
+    PhotoSurface(#[from] PhotoSurfaceError),
+    /// A recording that cannot be made or read.
+    #[error(transparent)]
+    Recording(#[from] input::recording::RecordingError),
+    /// A ride that cannot begin.
+    #[error(transparent)]
+    Setup(#[from] crate::simulation::SetupError),
+    /// A recorded ride that is not the same.
+    #[error(transparent)]
+    Replay(#[from] crate::simulation::ReplayError),
+    /// A speed of light that is none.
+    #[error(transparent)]
+    World(#[from] crate::vehicle::WorldError),
+    /// Devices that cannot be read.
+    #[error(transparent)]
+    Devices(#[from] input::devices::DevicesError),
+    /// Device settings that cannot be used.
+    #[error(transparent)]
+    Desk(#[from] input::ConfigError),
+    /// Files that `rapidity check` found fault with.
+    #[error("{bad} of {files} files are not good")]
+    Checked {
+        /// How many.
+        bad: usize,
+        /// Of how many.
+        files: usize,
+    },
+    /// A file that nothing here reads.
+    #[error("{}: neither a scene (.gltf, .glb) nor a recording (.mcap)", path.display())]
+    UnknownKind {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A ride too long to be recorded from its beginning.
+    #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
+    NotRemembered,
+    /// No window.
+    #[error("no window could be opened ({0}); to film the ride instead, name a file with --out")]
+    Window(String),
+    /// The terminal or the pipe that is written to is gone.
+    #[error("the output cannot be written: {0}")]
+    Output(#[from] std::io::Error),
+    /// A file that would not be written.
+    #[error("{}: could not be written: {reason}; choose another place with --out", path.display())]
+    Write {
+        /// What was to be written.
+        path: PathBuf,
+        /// As the system says it.
+        reason: String,
+    },
+    /// More pixels than the device can draw.
+    #[error("--size {}x{} is too large for this graphics device, which draws up to {limit} pixels a side", size[0], size[1])]
+    TooLarge {
+        /// As asked.
+        size: [u32; 2],
+        /// As the device says.
+        limit: u32,
+    },
+}

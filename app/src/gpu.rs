@@ -1,0 +1,127 @@
+//! The graphics device: found once, shared by every renderer and window.
+//!
+//! Vulkan on Linux, in hardware or in software (lavapipe). Where there is none, [`GpuError::NoAdapter`] says which
+//! package to install. A device can be lost at any time (a driver reset, a pulled eGPU); that is an event to look
+//! for with [`Gpu::lost`], not an exit.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use thiserror::Error;
+
+/// Why no picture can be drawn.
+#[derive(Debug, Error)]
+pub enum GpuError {
+    /// No driver, or no loader.
+    #[error(
+        "no Vulkan driver was found ({0}); on Debian or Ubuntu install libvulkan1 and mesa-vulkan-drivers \
+         (`sudo apt-get install libvulkan1 mesa-vulkan-drivers`), or your graphics card's own driver"
+    )]
+    NoAdapter(String),
+    /// The driver refused to open the device.
+    #[error("the graphics device {adapter} could not be opened: {reason}")]
+    NoDevice {
+        /// As the driver calls it.
+        adapter: String,
+        /// As the driver says it.
+        reason: String,
+    },
+    /// The driver went away, or broke, while drawing.
+    #[error("the graphics device was lost: {0}; restart the program, and update the driver if it happens again")]
+    Lost(String),
+}
+
+/// An open device and its queue.
+pub struct Gpu {
+    /// For surfaces of windows.
+    pub instance: wgpu::Instance,
+    /// What was chosen.
+    pub adapter: wgpu::Adapter,
+    /// Makes resources.
+    pub device: wgpu::Device,
+    /// Takes work.
+    pub queue: wgpu::Queue,
+    fault: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// Opens the best device there is, for drawing without a window.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] without a driver, [`GpuError::NoDevice`] if it does not open.
+    pub fn new() -> Result<Self, GpuError> {
+        Self::with_instance(wgpu::Instance::new(descriptor()), None)
+    }
+
+    /// Opens the best device that can draw into `surface`, made from `instance`.
+    ///
+    /// # Errors
+    /// As [`Gpu::new`].
+    pub fn with_instance(instance: wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            compatible_surface: surface,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options))
+            .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
+        let wanted = wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE;
+        let device_descriptor = wgpu::DeviceDescriptor {
+            label: Some("rapidity"),
+            required_features: adapter.features() & wanted,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor))
+            .map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
+        let fault = Arc::new(Mutex::new(None));
+        let (on_loss, on_error) = (Arc::clone(&fault), Arc::clone(&fault));
+        device.set_device_lost_callback(move |reason, message| note(&on_loss, format!("{reason:?}: {message}")));
+        device.on_uncaptured_error(Arc::new(move |error| note(&on_error, error.to_string())));
+        Ok(Self { instance, adapter, device, queue, fault })
+    }
+
+    /// What draws: the adapter's name and driver, for the HUD and for reports.
+    pub fn description(&self) -> String {
+        let info = self.adapter.get_info();
+        format!("{} ({:?}, {})", info.name, info.backend, info.driver_info)
+    }
+
+    /// Whether drawing happens on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Whether colour targets of 32-bit floats can be blended into here.
+    pub fn has_full_precision(&self) -> bool {
+        self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE)
+    }
+
+    /// The first fault that the driver reported, if any.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] with the driver's words.
+    pub fn lost(&self) -> Result<(), GpuError> {
+        match &*self.fault.lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(message) => Err(GpuError::Lost(message.clone())),
+            None => Ok(()),
+        }
+    }
+
+    /// Waits until everything submitted so far is done.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away meanwhile.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+        self.lost()
+    }
+}
+
+/// How the instance is asked for: Vulkan, or what the system has instead; `WGPU_BACKEND` overrides.
+pub fn descriptor() -> wgpu::InstanceDescriptor {
+    wgpu::InstanceDescriptor::new_without_display_handle_from_env()
+}
+
+/// Keeps the first message only: what follows a fault is its echo.
+fn note(fault: &Mutex<Option<String>>, message: String) {
+    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+}

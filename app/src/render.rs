@@ -1,0 +1,187 @@
+//! `rapidity render`: stills and films, without a window.
+//!
+//! A film without a recording shows what an inertial observer sees: his eye moves on a straight worldline, and the
+//! frames are taken at equal steps of his own time. A recorded ride is seen with the rider's eyes.
+
+use crate::command::{Output, PictureOptions, RenderOptions, Viewpoint};
+use crate::error::Error;
+use crate::film::{Film, Written};
+use crate::gpu::Gpu;
+use crate::progress;
+use crate::renderers::Effects;
+use crate::renderers::picture::{Shot, Studio, largest_side};
+use crate::renderers::polygon::{PolygonRenderer, Positions};
+use crate::scene::{Scene, source};
+use crate::views::{Camera, Gaze};
+use glam::DVec3;
+use image::RgbaImage;
+use physics::Celerity;
+use physics::photo_surface::Eye;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Metres from the ground to the eye of a standing visitor.
+const EYE_HEIGHT_M: f64 = 1.6;
+/// Seconds of a film for which `--seconds` says nothing.
+const FILM_SECONDS: f64 = 10.0;
+
+/// Carries out `rapidity render`.
+///
+/// # Errors
+/// Whatever keeps the picture from being drawn or written.
+pub fn render(options: &RenderOptions) -> Result<(), Error> {
+    let gpu = Gpu::new()?;
+    let scene = source::refined(&source::load(&options.world.scene)?, options.world.edge)?;
+    let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
+    let speed_of_light = options.world.speed_of_light;
+    match &options.out {
+        Output::Picture(path) => camera.still(inertial(&options.viewpoint, &scene, 0.0)?, path),
+        Output::Film(path) => {
+            let rate = options.frames_per_second();
+            let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round() as u64;
+            let gazes = (0..count)
+                .map(|frame| inertial(&options.viewpoint, &scene, frame as f64 / rate * speed_of_light))
+                .collect::<Result<Vec<_>, _>>()?;
+            camera.film(gazes.into_iter(), rate, path)
+        }
+    }
+}
+
+/// What an observer in uniform motion sees, `proper_time` metres of light travel after the start.
+fn inertial(viewpoint: &Viewpoint, scene: &Scene, proper_time: f64) -> Result<Gaze, Error> {
+    let start = viewpoint.position.unwrap_or(scene.start.position + DVec3::Y * EYE_HEIGHT_M);
+    let celerity = viewpoint.celerity();
+    let eye = Eye::new(start + celerity.vector() * proper_time, celerity.vector())?;
+    let look = viewpoint.look.unwrap_or(scene.start.look);
+    Ok(Gaze { eye, observer_from_eye: Camera::looking(look, viewpoint.up, 1.0).observer_from_eye })
+}
+
+/// A scene, a device and targets, ready to take pictures.
+pub struct Cameraman<'gpu> {
+    gpu: &'gpu Gpu,
+    renderer: PolygonRenderer,
+    studio: Studio,
+    options: PictureOptions,
+}
+
+impl<'gpu> Cameraman<'gpu> {
+    /// Uploads the scene.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the device cannot draw pictures of that size.
+    pub fn new(gpu: &'gpu Gpu, scene: &Scene, options: &PictureOptions) -> Result<Self, Error> {
+        let limit = largest_side(gpu);
+        if options.size.iter().any(|side| *side > limit) {
+            return Err(Error::TooLarge { size: options.size, limit });
+        }
+        let spinner =
+            progress::spinner(format!("{}: {} triangles to {}", scene.name, scene.triangle_count(), gpu.description()));
+        let renderer = PolygonRenderer::new(gpu, scene, Studio::format(gpu), options.background)?;
+        let studio = Studio::new(gpu, options.size, options.samples);
+        gpu.wait()?;
+        spinner.finish_and_clear();
+        Ok(Self { gpu, renderer, studio, options: options.clone() })
+    }
+
+    /// Takes one picture and writes it as PNG.
+    ///
+    /// # Errors
+    /// A lost device, or a place that cannot be written.
+    pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
+        self.submit(&gaze)?;
+        let picture = self.take(&gaze)?;
+        save(&picture, path)?;
+        eprintln!("wrote {}", path.display());
+        Ok(())
+    }
+
+    /// Films one frame per gaze. Ctrl-C ends the film early and keeps what there is.
+    ///
+    /// # Errors
+    /// A lost device, an encoder that fails, or a place that cannot be written.
+    pub fn film(
+        &mut self,
+        gazes: impl ExactSizeIterator<Item = Gaze>,
+        frames_per_second: f64,
+        path: &Path,
+    ) -> Result<(), Error> {
+        let stop = interrupted();
+        let film = Film::create(path, self.options.size, frames_per_second)?;
+        let bar = progress::bar(path.display().to_string(), gazes.len() as u64);
+
+        // The photo-surface of the next frame is worked out while this one is drawn.
+        let mut gazes = gazes;
+        let mut next = gazes.next();
+        if let Some(gaze) = &next {
+            self.submit(gaze)?;
+        }
+        while let Some(gaze) = next {
+            next = if stop.load(Ordering::Relaxed) { None } else { gazes.next() };
+            if let Some(gaze) = &next {
+                self.submit(gaze)?;
+            }
+            if !film.add(self.take(&gaze)?) {
+                break;
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        match film.finish()? {
+            Written::Film(path) => eprintln!("wrote {}", path.display()),
+            Written::Pictures(folder) => eprintln!(
+                "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
+                folder.display()
+            ),
+        }
+        Ok(())
+    }
+
+    fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {
+        if self.options.effects == Effects::Geometry {
+            self.renderer.submit(self.gpu, gaze.eye)?;
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, gaze: &Gaze) -> Result<RgbaImage, Error> {
+        let shot = shot(gaze, self.options.fov, self.options.effects);
+        Ok(self.studio.photograph(self.gpu, &mut self.renderer, &shot)?)
+    }
+}
+
+/// A gaze through a camera of `fov` degrees.
+pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
+    let camera = Camera { observer_from_eye: gaze.observer_from_eye, fov_y_rad: fov.to_radians() };
+    let eye = gaze.eye.position();
+    match effects {
+        Effects::Geometry => {
+            let motion = Celerity::new(gaze.eye.celerity()).unwrap_or_default();
+            Shot { camera, positions: Positions::Apparent, eye, motion }
+        }
+        Effects::None => Shot { camera, positions: Positions::Plain(eye), eye, motion: Celerity::ZERO },
+    }
+}
+
+/// Writes a picture as PNG.
+///
+/// # Errors
+/// [`Error::Write`] with the path and the reason.
+pub fn save(picture: &RgbaImage, path: &Path) -> Result<(), Error> {
+    picture
+        .save_with_format(path, image::ImageFormat::Png)
+        .map_err(|error| Error::Write { path: path.to_owned(), reason: error.to_string() })
+}
+
+/// A flag that Ctrl-C sets, so that what was done so far can be finished.
+pub fn interrupted() -> Arc<AtomicBool> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&flag);
+    // Fails only if a handler is there already, which then does the same.
+    let _ = ctrlc::set_handler(move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    flag
+}

@@ -1,0 +1,148 @@
+//! Materials on the GPU: a uniform and two textures each.
+
+use crate::gpu::Gpu;
+use crate::scene::mipmap::mipmap;
+use crate::scene::{Alpha, Material, Scene, Texture, Wrap};
+use bytemuck::bytes_of;
+use glam::Vec4;
+use rayon::prelude::*;
+use wgpu::util::{DeviceExt, TextureDataOrder};
+
+/// Samples along the longer side of a stretched footprint.
+const ANISOTROPY: u16 = 8;
+/// The same where the CPU draws, which pays for each sample.
+const ANISOTROPY_SOFTWARE: u16 = 4;
+
+/// One bind group per material, in the scene's order.
+pub struct Materials {
+    /// As the pipelines take them.
+    pub layout: wgpu::BindGroupLayout,
+    /// Index = material.
+    pub bind_groups: Vec<wgpu::BindGroup>,
+}
+
+impl Materials {
+    /// Uploads textures with all their mip levels, and the uniforms.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
+        let layout = layout(gpu);
+        let white = Texture {
+            name: "white".to_owned(),
+            width: 1,
+            height: 1,
+            rgba: vec![255; 4],
+            wrap: [Wrap::Repeat; 2],
+            nearest: false,
+        };
+        let pictures: Vec<&Texture> = scene.textures.iter().chain([&white]).collect();
+        let chains: Vec<Vec<u8>> = pictures
+            .par_iter()
+            .map(|texture| mipmap(texture).into_iter().flat_map(|level| level.rgba).collect())
+            .collect();
+        let textures: Vec<_> = pictures
+            .iter()
+            .zip(&chains)
+            .map(|(texture, chain)| (upload(gpu, texture, chain), sampler(gpu, texture)))
+            .collect();
+        let bind_groups = scene
+            .materials
+            .iter()
+            .map(|material| {
+                let texture = |index: Option<usize>| &textures[index.unwrap_or(scene.textures.len())];
+                let (base, emissive) = (texture(material.base_colour_texture), texture(material.emissive_texture));
+                bind(gpu, &layout, material, base, emissive)
+            })
+            .collect();
+        Self { layout, bind_groups }
+    }
+}
+
+type Sampled = (wgpu::TextureView, wgpu::Sampler);
+
+fn bind(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    material: &Material,
+    base: &Sampled,
+    emissive: &Sampled,
+) -> wgpu::BindGroup {
+    let threshold = if let Alpha::Mask(threshold) = material.alpha { threshold } else { 0.0 };
+    let [red, green, blue] = material.emissive;
+    let uniform = shaders::Material {
+        base_colour: Vec4::from_array(material.base_colour),
+        emissive: Vec4::new(red, green, blue, threshold),
+        flags: Vec4::new(f32::from(u8::from(material.unlit)), 0.0, 0.0, 0.0),
+    };
+    let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(&material.name),
+        contents: bytes_of(&uniform),
+        usage: wgpu::BufferUsages::UNIFORM,
+    });
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(&material.name),
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&base.0) },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&base.1) },
+            wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::TextureView(&emissive.0) },
+            wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::Sampler(&emissive.1) },
+        ],
+    })
+}
+
+fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry =
+        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("material"),
+        entries: &[entry(0, uniform), entry(1, texture), entry(2, sampler), entry(3, texture), entry(4, sampler)],
+    })
+}
+
+fn upload(gpu: &Gpu, texture: &Texture, chain: &[u8]) -> wgpu::TextureView {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(&texture.name),
+        size: wgpu::Extent3d { width: texture.width, height: texture.height, depth_or_array_layers: 1 },
+        mip_level_count: texture.width.max(texture.height).ilog2() + 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    gpu.device
+        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, chain)
+        .create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {
+    let mode = |wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+    };
+    let anisotropy = if gpu.is_software() { ANISOTROPY_SOFTWARE } else { ANISOTROPY };
+    let filter = if texture.nearest { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(&texture.name),
+        address_mode_u: mode(texture.wrap[0]),
+        address_mode_v: mode(texture.wrap[1]),
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter: if texture.nearest { wgpu::MipmapFilterMode::Nearest } else { wgpu::MipmapFilterMode::Linear },
+        // The driver demands linear filters throughout for more than one.
+        anisotropy_clamp: if texture.nearest { 1 } else { anisotropy },
+        ..Default::default()
+    })
+}

@@ -1,0 +1,168 @@
+//! The transform beside the render thread: worldwide vertices in, apparent positions out, straight into memory the
+//! GPU copies from.
+//!
+//! Three staging buffers circulate (W 6.4.1's flux buffers): one being filled by the `photo-surface` thread and its
+//! rayon workers, one being copied from and drawn, one on its way back. A buffer travels
+//!
+//! ```text
+//! free ─► submit: job ─► thread: kernel writes the mapped memory ─► receive ─► copy, draw ─► mapped again ─► free
+//! ```
+//!
+//! and a whole photo-surface is handed over or nothing. [`PhotoSurface::submit`] for frame n + 1 before
+//! [`PhotoSurface::receive`]'s frame n is drawn makes the two overlap.
+
+use super::geometry::stream_stride;
+use crate::gpu::{Gpu, GpuError};
+use crate::scene::Scene;
+use crossbeam_channel::{Receiver, Sender, bounded};
+use physics::photo_surface::{Eye, Kernel, PhotoSurfaceError, Stats, Surface, Vertices};
+use std::mem::MaybeUninit;
+use std::time::{Duration, Instant};
+
+/// Buffers in circulation.
+const STAGING_BUFFERS: usize = 3;
+
+/// The transform's thread, its buffers, and the vertex buffer that draws read.
+pub struct PhotoSurface {
+    jobs: Sender<Job>,
+    finished: Receiver<Transformed>,
+    free: Receiver<wgpu::Buffer>,
+    freed: Sender<wgpu::Buffer>,
+    pending: usize,
+    /// The apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart.
+    pub streams: wgpu::Buffer,
+}
+
+struct Job {
+    staging: wgpu::Buffer,
+    eye: Eye,
+}
+
+/// A photo-surface ready to draw.
+pub struct Transformed {
+    staging: wgpu::Buffer,
+    /// What the kernel met.
+    pub stats: Stats,
+    /// How long it took.
+    pub duration: Duration,
+}
+
+impl PhotoSurface {
+    /// Starts the thread for the vertices of `scene`.
+    ///
+    /// # Errors
+    /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, PhotoSurfaceError> {
+        let stride = stream_stride(scene.vertex_count());
+        let positions = scene.meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
+        let vertices = Vertices::from_offsets(scene.origin, positions)?;
+        let (freed, free) = bounded(STAGING_BUFFERS);
+        for _ in 0..STAGING_BUFFERS {
+            let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("photo-surface staging"),
+                size: 3 * stride,
+                usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: true,
+            });
+            freed.send(staging).expect("the channel holds every buffer");
+        }
+        let (jobs, job_queue) = bounded::<Job>(STAGING_BUFFERS);
+        let (finish, finished) = bounded(STAGING_BUFFERS);
+        std::thread::Builder::new()
+            .name("photo-surface".to_owned())
+            .spawn(move || {
+                for job in job_queue {
+                    if finish.send(transform(&vertices, stride, job)).is_err() {
+                        return;
+                    }
+                }
+            })
+            .expect("the system can start a thread");
+        let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("photo-surface"),
+            size: 3 * stride,
+            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Ok(Self { jobs, finished, free, freed, pending: 0, streams })
+    }
+
+    /// Begins the transform for an eye. Waits if all buffers are under way.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn submit(&mut self, gpu: &Gpu, eye: Eye) -> Result<(), GpuError> {
+        // Buffers come back by callbacks, which run when the device is polled.
+        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        let staging = match self.free.try_recv() {
+            Ok(staging) => staging,
+            Err(_) => {
+                gpu.wait()?;
+                self.free.try_recv().map_err(|_| GpuError::Lost("a staging buffer did not come back".to_owned()))?
+            }
+        };
+        self.jobs
+            .send(Job { staging, eye })
+            .map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))?;
+        self.pending += 1;
+        Ok(())
+    }
+
+    /// Photo-surfaces submitted and not yet received.
+    pub fn pending(&self) -> usize {
+        self.pending
+    }
+
+    /// Waits for the oldest photo-surface under way.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if there is none, or its thread has ended.
+    pub fn receive(&mut self) -> Result<Transformed, GpuError> {
+        if self.pending == 0 {
+            return Err(GpuError::Lost("no photo-surface was asked for".to_owned()));
+        }
+        self.pending -= 1;
+        self.finished.recv().map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))
+    }
+
+    /// Waits for the oldest photo-surface under way, and frees its buffer, which is still mapped.
+    ///
+    /// # Errors
+    /// As [`PhotoSurface::receive`].
+    pub fn discard(&mut self) -> Result<(), GpuError> {
+        let transformed = self.receive()?;
+        self.freed.send(transformed.staging).map_err(|_| GpuError::Lost("the buffers' channel is closed".to_owned()))
+    }
+
+    /// Puts a photo-surface where draws find it, and sends its buffer back round once the GPU is done with it.
+    pub fn upload(&self, encoder: &mut wgpu::CommandEncoder, transformed: Transformed) {
+        let staging = transformed.staging;
+        staging.unmap();
+        encoder.copy_buffer_to_buffer(&staging, 0, &self.streams, 0, staging.size());
+        let (back, freed) = (staging.clone(), self.freed.clone());
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Write, .., move |mapped| {
+            if mapped.is_ok() {
+                // A closed channel means that the renderer is gone, and the buffer with it.
+                let _ = freed.send(back);
+            }
+        });
+    }
+}
+
+/// Runs the kernel on the mapped memory of one buffer.
+fn transform(vertices: &Vertices, stride: u64, job: Job) -> Transformed {
+    let started = Instant::now();
+    let mut mapped = job.staging.get_mapped_range_mut(..).expect("a free staging buffer is mapped");
+    let length = mapped.slice(..).len() / 4;
+    let start = mapped.slice(..).as_raw_element_ptr().cast::<MaybeUninit<f32>>();
+    // SAFETY: the mapping holds `length` floats, is aligned to at least 8 bytes (WebGPU's MAP_ALIGNMENT), and is
+    // exclusively ours until `mapped` is dropped. As MaybeUninit it need not be readable, and the kernel only writes.
+    let floats = unsafe { std::slice::from_raw_parts_mut(start.as_ptr(), length) };
+    let (x, rest) = floats.split_at_mut(stride as usize / 4);
+    let (y, z) = rest.split_at_mut(stride as usize / 4);
+    let streams = [x, y, z].map(|stream| &mut stream[..vertices.len()]);
+    let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
+    let stats = Kernel::default().transform(&job.eye, vec![surface]);
+    drop(mapped);
+    Transformed { staging: job.staging, stats, duration: started.elapsed() }
+}

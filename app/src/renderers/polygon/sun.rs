@@ -1,0 +1,134 @@
+//! The sun's depth map: which surfaces it reaches.
+//!
+//! Sun and scene are at rest relative to each other, so in the world frame the pattern of light and shadow does not
+//! change, and one map drawn when the scene is loaded serves every observer at every speed (W 5.1.3).
+
+use super::geometry::Geometry;
+use super::pipelines::Pipelines;
+use crate::gpu::Gpu;
+use crate::renderers::target::{DEPTH_FORMAT, texture};
+use crate::scene::Scene;
+use crate::views::matrix;
+use bytemuck::bytes_of;
+use glam::{DMat4, DVec3, Vec4};
+use wgpu::util::DeviceExt;
+
+/// Texels along each side.
+const MAP_SIZE: u32 = 4096;
+
+/// What the shaders need to know of light.
+pub struct Light {
+    /// The uniform [`shaders::Lighting`].
+    pub uniform: wgpu::Buffer,
+    /// Reversed depth as the sun sees it.
+    pub map: wgpu::TextureView,
+    /// Compares and filters.
+    pub sampler: wgpu::Sampler,
+}
+
+impl Light {
+    /// Uploads the light of `scene` and, if the sun casts shadows, draws its map.
+    ///
+    /// `background` replaces the sky by one linear radiance.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        geometry: &Geometry,
+        pipelines: &Pipelines,
+        background: Option<[f32; 3]>,
+    ) -> Self {
+        let lighting = lighting(scene, background);
+        let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("lighting"),
+            contents: bytes_of(&lighting),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let side = if scene.light.shadows { MAP_SIZE.min(gpu.device.limits().max_texture_dimension_2d) } else { 1 };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let map = texture(gpu, "sun's depth map", [side, side], DEPTH_FORMAT, 1, usage);
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("sun's depth map"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::GreaterEqual),
+            ..Default::default()
+        });
+        let light = Self { uniform, map, sampler };
+        light.draw_map(gpu, scene, geometry, pipelines);
+        light
+    }
+
+    fn draw_map(&self, gpu: &Gpu, scene: &Scene, geometry: &Geometry, pipelines: &Pipelines) {
+        // The layout wants a view as well; the shadow shader does not read it.
+        let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("unused view"),
+            size: size_of::<shaders::View>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM,
+            mapped_at_creation: false,
+        });
+        let bind = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("light"),
+            layout: &pipelines.light_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
+            ],
+        });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("sun's depth map"),
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &self.map,
+                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                    stencil_ops: None,
+                }),
+                ..Default::default()
+            });
+            if scene.light.shadows {
+                pass.set_pipeline(&pipelines.shadow);
+                pass.set_bind_group(0, &bind, &[]);
+                pass.set_vertex_buffer(0, geometry.attributes.slice(..));
+                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+                for draw in geometry.opaque.iter().filter(|draw| !scene.materials[draw.material].unlit) {
+                    pass.draw_indexed(draw.indices.clone(), 0, 0..1);
+                }
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+}
+
+/// The light of a scene as the shaders take it.
+fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
+    let light = &scene.light;
+    let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
+    shaders::Lighting {
+        shadow_from_world: matrix(&shadow_from_world(scene)),
+        sun_direction: light.sun_direction.extend(f32::from(u8::from(light.shadows))),
+        sun: colour(light.sun),
+        sky: colour(light.sky),
+        ground: colour(light.ground),
+        zenith: colour(light.zenith),
+        horizon: colour(light.horizon),
+        background: background.map_or(Vec4::ZERO, |b| colour(b).with_w(1.0)),
+    }
+}
+
+/// From the scene's coordinates to texture coordinates (y down) and reversed depth, the whole scene inside.
+fn shadow_from_world(scene: &Scene) -> DMat4 {
+    let towards_sun = scene.light.sun_direction.as_dvec3().normalize_or(DVec3::Y);
+    let side = if towards_sun.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z }.cross(towards_sun).normalize();
+    let up = towards_sun.cross(side);
+    let sun_from_world =
+        DMat4::from_cols(side.extend(0.0), up.extend(0.0), towards_sun.extend(0.0), glam::DVec4::W).transpose();
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for position in scene.meshes.iter().flat_map(|mesh| &mesh.positions).filter(|position| position.is_finite()) {
+        let place = sun_from_world.transform_point3(position.as_dvec3());
+        (low, high) = (low.min(place), high.max(place));
+    }
+    let extent = (high - low).max(DVec3::splat(1e-3));
+    let texture_from_sun = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0) / extent)
+        * DMat4::from_translation(DVec3::new(-low.x, -high.y, -low.z));
+    texture_from_sun * sun_from_world
+}

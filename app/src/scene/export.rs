@@ -1,0 +1,322 @@
+//! Scenes to binary glTF 2.0, for other programs and for [`super::gltf::load`], which gives back the same scene.
+//!
+//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG. What glTF has no words
+//! for (light, start, circuit, what is solid) goes into `extras.rapidity`. Emission above 1 is written as a factor and a
+//! power of two as `KHR_materials_emissive_strength`, so that their product is exact.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use glam::{Vec2, Vec3};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+
+use super::gltf::extras::{NodeExtras, SceneExtras};
+use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
+
+/// `componentType` of 32-bit floats.
+const FLOAT: u32 = 5126;
+/// `componentType` of 32-bit indices.
+const UNSIGNED_INT: u32 = 5125;
+/// `target` of vertex attributes.
+const ARRAY_BUFFER: u32 = 34962;
+/// `target` of indices.
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+/// Why a scene cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The operating system refuses.
+    #[error("cannot write {path}: {error}; check the folder, its permissions and the space left")]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// glTF has no empty scenes.
+    #[error("scene \"{scene}\" has no triangles to write")]
+    Nothing {
+        /// Name of the scene.
+        scene: String,
+    },
+    /// The scene breaks a promise of its types.
+    #[error(transparent)]
+    Damaged(#[from] SceneFault),
+    /// glTF has no word for this value.
+    #[error("glTF cannot express {what} of \"{name}\": {fault}")]
+    Value {
+        /// Which property.
+        what: &'static str,
+        /// Of which mesh, material or scene.
+        name: String,
+        /// Why not.
+        fault: &'static str,
+    },
+    /// A `.glb` counts bytes with 32 bits.
+    #[error("{path} would have {bytes} bytes, and a .glb holds {} at most; write fewer meshes at a time", u32::MAX)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+}
+
+/// Writes a scene as `.glb`.
+///
+/// The file appears at once and whole, or not at all. Meshes without triangles and [`Scene::notices`] are left out.
+///
+/// # Errors
+/// [`ExportError`]; values that are not finite, or base colours outside 0…1, are among them.
+pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
+    scene.validate()?;
+    check_values(scene)?;
+    let mut file = File::default();
+    file.textures(&scene.textures)?;
+    let materials: Vec<Value> = scene.materials.iter().map(material).collect();
+    let drawn: Vec<&Mesh> = scene.meshes.iter().filter(|mesh| !mesh.indices.is_empty()).collect();
+    if drawn.is_empty() {
+        return Err(ExportError::Nothing { scene: scene.name.clone() });
+    }
+    let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
+    for mesh in drawn {
+        nodes.push(json!({
+            "name": mesh.name,
+            "mesh": meshes.len(),
+            "translation": scene.origin.to_array(),
+            "extras": NodeExtras { solid: Some(mesh.solid) }.to_json(),
+        }));
+        meshes.push(file.mesh(mesh));
+    }
+    let extras = SceneExtras {
+        origin: Some(scene.origin.to_array()),
+        light: Some(scene.light),
+        start: Some(scene.start),
+        circuit: scene.circuit.iter().map(|point| point.to_array()).collect(),
+    };
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": concat!("Rapidity ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.to_json() }],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": materials,
+        "accessors": file.accessors,
+        "bufferViews": file.views,
+        "buffers": [{ "byteLength": file.blob.len() }],
+    });
+    // Empty lists are not allowed, so these are there only if anything is in them.
+    let lists = [("images", file.images), ("textures", file.textures), ("samplers", file.samplers)];
+    for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+        root[name] = json!(list);
+    }
+    let extensions = extensions_used(&scene.materials);
+    if !extensions.is_empty() {
+        root["extensionsUsed"] = json!(extensions);
+    }
+    write(path, root.to_string().into_bytes(), file.blob)
+}
+
+fn check_values(scene: &Scene) -> Result<(), ExportError> {
+    let ensure = |holds: bool, what, name: &str, fault| {
+        if holds { Ok(()) } else { Err(ExportError::Value { what, name: name.into(), fault }) }
+    };
+    const FINITE: &str = "it is not finite";
+    let name = &scene.name;
+    ensure(scene.origin.is_finite(), "the origin", name, FINITE)?;
+    ensure(scene.start.position.is_finite() && scene.start.look.is_finite(), "the start", name, FINITE)?;
+    ensure(scene.circuit.iter().all(|point| point.is_finite()), "the circuit", name, FINITE)?;
+    let light = &scene.light;
+    let light = [light.sun_direction.to_array(), light.sun, light.sky, light.ground, light.zenith, light.horizon];
+    ensure(light.as_flattened().iter().all(|value| value.is_finite()), "the light", name, FINITE)?;
+    for texture in &scene.textures {
+        ensure(!texture.rgba.is_empty(), "a picture", &texture.name, "it has no pixels")?;
+    }
+    for material in &scene.materials {
+        let fraction = |value: &f32| (0.0..=1.0).contains(value);
+        let name = &material.name;
+        ensure(material.base_colour.iter().all(fraction), "the base colour", name, "it is not within 0…1")?;
+        // Half the largest f32, so that there is a power of two above it.
+        let emissive = (material.emissive.iter()).all(|value| (0.0..=f32::MAX / 2.0).contains(value));
+        ensure(emissive, "the emission", name, "it is negative or too large")?;
+        let cutoff = !matches!(material.alpha, Alpha::Mask(cutoff) if !(cutoff.is_finite() && cutoff >= 0.0));
+        ensure(cutoff, "the opacity threshold", name, "it is negative or not finite")?;
+    }
+    for mesh in &scene.meshes {
+        ensure(mesh.positions.iter().all(|position| position.is_finite()), "a position", &mesh.name, FINITE)?;
+        ensure(mesh.normals.iter().all(|normal| normal.is_finite()), "a normal", &mesh.name, FINITE)?;
+        ensure(mesh.uvs.iter().all(|uv| uv.is_finite()), "a texture coordinate", &mesh.name, FINITE)?;
+        let colours = mesh.colours.as_flattened().iter().all(|value| value.is_finite());
+        ensure(colours, "a vertex colour", &mesh.name, FINITE)?;
+    }
+    Ok(())
+}
+
+/// The lists of a glTF file that grow as things are added, and the binary chunk.
+#[derive(Default)]
+struct File {
+    blob: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    images: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
+}
+
+impl File {
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        self.blob.resize(self.blob.len().next_multiple_of(4), 0);
+        let mut view = json!({ "buffer": 0, "byteOffset": self.blob.len(), "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.blob.extend_from_slice(bytes);
+        push(&mut self.views, view)
+    }
+
+    fn attribute<T: bytemuck::NoUninit>(&mut self, kind: &str, values: &[T]) -> usize {
+        let view = self.view(bytemuck::cast_slice(values), Some(ARRAY_BUFFER));
+        let accessor = json!({ "bufferView": view, "componentType": FLOAT, "type": kind, "count": values.len() });
+        push(&mut self.accessors, accessor)
+    }
+
+    /// Adds the data of a mesh. Attributes that say nothing are left out.
+    fn mesh(&mut self, mesh: &Mesh) -> Value {
+        let positions = self.attribute("VEC3", &mesh.positions);
+        let least = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let most = mesh.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        self.accessors[positions]["min"] = json!(least.to_array());
+        self.accessors[positions]["max"] = json!(most.to_array());
+        let mut attributes = Map::new();
+        attributes.insert("POSITION".into(), json!(positions));
+        attributes.insert("NORMAL".into(), json!(self.attribute("VEC3", &mesh.normals)));
+        if mesh.uvs.iter().any(|uv| *uv != Vec2::ZERO) {
+            attributes.insert("TEXCOORD_0".into(), json!(self.attribute("VEC2", &mesh.uvs)));
+        }
+        if mesh.colours.iter().any(|colour| *colour != [1.0; 4]) {
+            attributes.insert("COLOR_0".into(), json!(self.attribute("VEC4", &mesh.colours)));
+        }
+        let view = self.view(bytemuck::cast_slice(&mesh.indices), Some(ELEMENT_ARRAY_BUFFER));
+        let count = mesh.indices.len();
+        let indices = json!({ "bufferView": view, "componentType": UNSIGNED_INT, "type": "SCALAR", "count": count });
+        let indices = push(&mut self.accessors, indices);
+        let primitive = json!({ "attributes": attributes, "indices": indices, "material": mesh.material });
+        json!({ "name": mesh.name, "primitives": [primitive] })
+    }
+
+    fn textures(&mut self, textures: &[Texture]) -> Result<(), ExportError> {
+        let encoded: Vec<_> = textures.par_iter().map(png).collect::<Result<_, _>>()?;
+        for (texture, png) in textures.iter().zip(encoded) {
+            let view = self.view(&png, None);
+            let image = json!({ "name": texture.name, "bufferView": view, "mimeType": "image/png" });
+            let [wrap_s, wrap_t] = texture.wrap.map(|wrap| match wrap {
+                Wrap::Repeat => 10497,
+                Wrap::Mirror => 33648,
+                Wrap::Clamp => 33071,
+            });
+            // Magnified: nearest or linear. Minified: linear between mipmaps.
+            let magnified = if texture.nearest { 9728 } else { 9729 };
+            let sampler = json!({ "wrapS": wrap_s, "wrapT": wrap_t, "magFilter": magnified, "minFilter": 9987 });
+            let image = push(&mut self.images, image);
+            let sampler = push(&mut self.samplers, sampler);
+            self.textures.push(json!({ "name": texture.name, "source": image, "sampler": sampler }));
+        }
+        Ok(())
+    }
+}
+
+fn push(list: &mut Vec<Value>, item: Value) -> usize {
+    list.push(item);
+    list.len() - 1
+}
+
+fn png(texture: &Texture) -> Result<Vec<u8>, ExportError> {
+    let mut bytes = Cursor::new(Vec::new());
+    let encoder = PngEncoder::new(&mut bytes);
+    let result = encoder.write_image(&texture.rgba, texture.width, texture.height, ExtendedColorType::Rgba8);
+    let fault = "it cannot be encoded as PNG";
+    result.map_err(|_| ExportError::Value { what: "a picture", name: texture.name.clone(), fault })?;
+    Ok(bytes.into_inner())
+}
+
+/// The smallest power of two that is no less than the emission and than 1.
+fn emissive_strength(material: &Material) -> f32 {
+    let largest = material.emissive.into_iter().fold(1.0, f32::max);
+    let power = largest.log2().ceil().exp2();
+    if power < largest { 2.0 * power } else { power }
+}
+
+fn material(material: &Material) -> Value {
+    let mut surface = json!({ "baseColorFactor": material.base_colour, "metallicFactor": 0.0 });
+    if let Some(texture) = material.base_colour_texture {
+        surface["baseColorTexture"] = json!({ "index": texture });
+    }
+    let strength = emissive_strength(material);
+    let mut value = json!({
+        "name": material.name,
+        "pbrMetallicRoughness": surface,
+        "emissiveFactor": material.emissive.map(|value| value / strength),
+        "doubleSided": material.double_sided,
+    });
+    if let Some(texture) = material.emissive_texture {
+        value["emissiveTexture"] = json!({ "index": texture });
+    }
+    match material.alpha {
+        Alpha::Opaque => {}
+        Alpha::Mask(cutoff) => {
+            value["alphaMode"] = json!("MASK");
+            value["alphaCutoff"] = json!(cutoff);
+        }
+        Alpha::Blend => value["alphaMode"] = json!("BLEND"),
+    }
+    let mut extensions = Map::new();
+    if material.unlit {
+        extensions.insert("KHR_materials_unlit".into(), json!({}));
+    }
+    if strength > 1.0 {
+        extensions.insert("KHR_materials_emissive_strength".into(), json!({ "emissiveStrength": strength }));
+    }
+    if !extensions.is_empty() {
+        value["extensions"] = Value::Object(extensions);
+    }
+    value
+}
+
+fn extensions_used(materials: &[Material]) -> Vec<&'static str> {
+    let unlit = materials.iter().any(|material| material.unlit);
+    let strong = materials.iter().any(|material| emissive_strength(material) > 1.0);
+    let names = [(unlit, "KHR_materials_unlit"), (strong, "KHR_materials_emissive_strength")];
+    names.into_iter().filter_map(|(used, name)| used.then_some(name)).collect()
+}
+
+/// Puts header and chunks together, each padded to whole words, under another name first.
+fn write(path: &Path, mut text: Vec<u8>, mut blob: Vec<u8>) -> Result<(), ExportError> {
+    text.resize(text.len().next_multiple_of(4), b' ');
+    blob.resize(blob.len().next_multiple_of(4), 0);
+    let bytes = (12 + 8 + text.len() + 8 + blob.len()) as u64;
+    let Ok(length) = u32::try_from(bytes) else {
+        return Err(ExportError::TooLarge { path: path.into(), bytes });
+    };
+    // No cast loses anything: both are less than `length`.
+    let word = |value: usize| (value as u32).to_le_bytes();
+    let header = [&b"glTF"[..], &2_u32.to_le_bytes(), &length.to_le_bytes(), &word(text.len()), b"JSON"].concat();
+    let middle = [&word(blob.len()), &b"BIN\0"[..]].concat();
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".part");
+    let partial = PathBuf::from(partial);
+    let result = std::fs::File::create(&partial).and_then(|mut file| {
+        for part in [&header, &text, &middle, &blob] {
+            std::io::Write::write_all(&mut file, part)?;
+        }
+        file.sync_all()?;
+        std::fs::rename(&partial, path)
+    });
+    result.map_err(|error| {
+        // Nothing more can be done about what is left of it; the first error is the one to report.
+        let _ = std::fs::remove_file(&partial);
+        ExportError::Write { path: path.into(), error }
+    })
+}

@@ -1,0 +1,169 @@
+//! Numbers in buffers.
+//!
+//! An accessor says how many elements of which type lie where in a buffer view, and may replace some of them (sparse).
+//! Everything it claims is compared with the bytes that are there before a single element is read or memory asked for.
+
+use ::gltf::json;
+use ::gltf::json::accessor::{ComponentType, Type};
+use ::gltf::json::validation::Checked;
+
+use super::container::{Document, range};
+use super::{GltfError, MAX_TRIANGLES};
+
+/// The components of an accessor's elements, one after the other.
+pub(super) struct Numbers<T> {
+    pub(super) values: Vec<T>,
+    /// Components of an element.
+    pub(super) width: usize,
+}
+
+/// What an accessor is for, and so which types it may have.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Purpose {
+    /// Vectors of this type; integers are what the accessor says.
+    Vectors(Type),
+    /// Three or four components; integers are fractions of their largest value, whatever the accessor says (exporters
+    /// forget to).
+    Colours,
+    /// Unsigned integers.
+    Indices,
+}
+
+impl Purpose {
+    fn allows(self, element: Type, component: ComponentType) -> bool {
+        match self {
+            Self::Vectors(vector) => element == vector && component != ComponentType::U32,
+            Self::Colours => matches!(element, Type::Vec3 | Type::Vec4) && component != ComponentType::U32,
+            Self::Indices => {
+                use ComponentType::{U8, U16, U32};
+                element == Type::Scalar && matches!(component, U8 | U16 | U32)
+            }
+        }
+    }
+}
+
+/// Number of elements that an accessor claims to have: at least one, and not more than any scene may have.
+pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<usize, GltfError> {
+    let count = document.item(&document.json.accessors, index, place)?.count.0;
+    if count == 0 {
+        return Err(document.damaged(&format!("accessors[{index}]"), "it has no elements"));
+    }
+    let limit = 3 * MAX_TRIANGLES;
+    usize::try_from(count)
+        .ok()
+        .filter(|&count| count <= limit)
+        .ok_or_else(|| document.too_large(&format!("accessors[{index}]"), format!("{count} elements, above {limit}")))
+}
+
+/// Reads an accessor.
+pub(super) fn read<T: Copy>(
+    document: &Document,
+    index: usize,
+    place: &str,
+    purpose: Purpose,
+    convert: impl Fn(f64) -> T,
+) -> Result<Numbers<T>, GltfError> {
+    let count = count(document, index, place)?;
+    let accessor = document.item(&document.json.accessors, index, place)?;
+    let place = format!("accessors[{index}]");
+    let (Checked::Valid(json::accessor::GenericComponentType(component)), Checked::Valid(element)) =
+        (accessor.component_type, accessor.type_)
+    else {
+        return Err(document.damaged(&place, "its type is unknown"));
+    };
+    if !purpose.allows(element, component) {
+        return Err(document.damaged(&place, format!("{element:?} of {component:?} does not belong there")));
+    }
+    let width = element.multiplicity();
+    let normalized = match purpose {
+        Purpose::Vectors(_) => accessor.normalized,
+        Purpose::Colours => true,
+        Purpose::Indices => false,
+    };
+    let decode = |bytes: &[u8]| convert(decode(bytes, component, normalized));
+
+    // The elements themselves, or zeros to be replaced.
+    let mut values = match accessor.buffer_view {
+        Some(view) => {
+            let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+            let layout = Layout { offset, count, size: width * component.size() };
+            let elements = layout.elements(document, view.value(), &place)?;
+            elements.flat_map(|element| element.chunks_exact(component.size()).map(&decode)).collect()
+        }
+        None => vec![convert(0.0); count * width],
+    };
+
+    // Replacements.
+    if let Some(sparse) = &accessor.sparse {
+        let place = format!("{place}.sparse");
+        let replaced = usize::try_from(sparse.count.0).ok().filter(|&replaced| replaced <= count);
+        let replaced = replaced.ok_or_else(|| document.damaged(&place, "it replaces more elements than there are"))?;
+        let Checked::Valid(json::accessor::IndexComponentType(number)) = sparse.indices.component_type else {
+            return Err(document.damaged(&place, "the type of its indices is unknown"));
+        };
+        let indices = Layout { offset: sparse.indices.byte_offset.0, count: replaced, size: number.size() };
+        let with = Layout { offset: sparse.values.byte_offset.0, count: replaced, size: width * component.size() };
+        let indices = indices.elements(document, sparse.indices.buffer_view.value(), &place)?;
+        let with = with.elements(document, sparse.values.buffer_view.value(), &place)?;
+        for (index, element) in indices.zip(with) {
+            let index = self::decode(index, number, false) as usize;
+            if index >= count {
+                return Err(document.damaged(&place, format!("it replaces element {index} of {count}")));
+            }
+            for (value, bytes) in
+                values[index * width..][..width].iter_mut().zip(element.chunks_exact(component.size()))
+            {
+                *value = decode(bytes);
+            }
+        }
+    }
+    Ok(Numbers { values, width })
+}
+
+/// Where elements lie in a buffer view.
+struct Layout {
+    offset: u64,
+    count: usize,
+    /// Bytes of an element.
+    size: usize,
+}
+
+impl Layout {
+    /// Each element's bytes, all of which exist.
+    fn elements<'a>(
+        &self,
+        document: &'a Document,
+        view: usize,
+        place: &str,
+    ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, GltfError> {
+        let (bytes, stride) = document.view(view, &format!("{place}.bufferView"))?;
+        let (count, size) = (self.count, self.size);
+        let stride = stride.unwrap_or(size);
+        if stride < size {
+            return Err(
+                document.damaged(place, format!("elements of {size} bytes follow each other every {stride} bytes"))
+            );
+        }
+        let length = (stride as u64).checked_mul((count as u64).saturating_sub(1));
+        let length = length.and_then(|length| length.checked_add(if count == 0 { 0 } else { size as u64 }));
+        let bytes = length.and_then(|length| range(bytes, self.offset, length)).ok_or_else(|| {
+            let (offset, there) = (self.offset, bytes.len());
+            document.damaged(place, format!("{count} elements from byte {offset} on, in a view of {there} bytes"))
+        })?;
+        Ok((0..count).map(move |index| &bytes[index * stride..][..size]))
+    }
+}
+
+/// One component, little-endian; normalised integers by the rules of glTF 2.0, 3.6.2.2.
+fn decode(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
+    let byte = |index: usize| bytes[index];
+    let (value, largest) = match component {
+        ComponentType::I8 => (f64::from(byte(0) as i8), 127.0),
+        ComponentType::U8 => (f64::from(byte(0)), 255.0),
+        ComponentType::I16 => (f64::from(i16::from_le_bytes([byte(0), byte(1)])), 32767.0),
+        ComponentType::U16 => (f64::from(u16::from_le_bytes([byte(0), byte(1)])), 65535.0),
+        ComponentType::U32 => return f64::from(u32::from_le_bytes([0, 1, 2, 3].map(byte))),
+        ComponentType::F32 => return f64::from(f32::from_le_bytes([0, 1, 2, 3].map(byte))),
+    };
+    if normalized { (value / largest).max(-1.0) } else { value }
+}

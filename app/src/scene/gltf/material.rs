@@ -1,0 +1,115 @@
+//! Surfaces: the diffuse part of glTF's metallic–roughness model.
+
+use std::collections::HashSet;
+
+use ::gltf::json;
+use ::gltf::json::material::AlphaMode;
+use ::gltf::json::validation::Checked;
+use glam::{Mat2, Vec2};
+
+use super::container::Document;
+use super::{GltfError, Notices};
+use crate::scene::{Alpha, Material};
+
+/// Where a mesh's texture coordinates come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Channel {
+    /// `TEXCOORD_n`.
+    pub(super) set: u32,
+    linear: Mat2,
+    offset: Vec2,
+}
+
+impl Channel {
+    const FIRST: Self = Self { set: 0, linear: Mat2::IDENTITY, offset: Vec2::ZERO };
+
+    fn of(texture: &json::texture::Info) -> Self {
+        let transform = texture.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
+        let Some(transform) = transform else {
+            return Self { set: texture.tex_coord, ..Self::FIRST };
+        };
+        // v points down, so a counter-clockwise turn by φ takes u to (cos φ, −sin φ).
+        let turn = Mat2::from_angle(-transform.rotation.0);
+        Self {
+            set: transform.tex_coord.unwrap_or(texture.tex_coord),
+            linear: turn * Mat2::from_diagonal(Vec2::from_array(transform.scale.0)),
+            offset: Vec2::from_array(transform.offset.0),
+        }
+    }
+
+    pub(super) fn apply(self, uv: Vec2) -> Vec2 {
+        self.linear * uv + self.offset
+    }
+}
+
+/// All materials of the file, then the default one, and each one's texture coordinates.
+///
+/// Texture indices are still those of the file; `picture::textures` replaces them.
+pub(super) fn materials(
+    document: &Document,
+    notices: &mut Notices,
+) -> Result<(Vec<Material>, Vec<Channel>), GltfError> {
+    let mut materials = Vec::new();
+    let mut channels = Vec::new();
+    for (index, material) in document.json.materials.iter().enumerate() {
+        let (material, channel) = read(document, index, material, notices)?;
+        materials.push(material);
+        channels.push(channel);
+    }
+    if uses_default(document) {
+        materials.push(Material { name: "default".into(), ..Material::default() });
+        channels.push(Channel::FIRST);
+    }
+    Ok((materials, channels))
+}
+
+fn uses_default(document: &Document) -> bool {
+    document.json.meshes.iter().flat_map(|mesh| &mesh.primitives).any(|primitive| primitive.material.is_none())
+}
+
+fn read(
+    document: &Document,
+    index: usize,
+    material: &json::Material,
+    notices: &mut Notices,
+) -> Result<(Material, Channel), GltfError> {
+    let place = format!("materials[{index}]");
+    let surface = &material.pbr_metallic_roughness;
+    let extensions = material.extensions.as_ref();
+    let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
+    let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
+    let Checked::Valid(mode) = material.alpha_mode else {
+        return Err(document.damaged(&format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND"));
+    };
+    let read = Material {
+        name: material.name.clone().unwrap_or_else(|| format!("material {index}")),
+        base_colour: surface.base_color_factor.0,
+        base_colour_texture: surface.base_color_texture.as_ref().map(|texture| texture.index.value()),
+        emissive: material.emissive_factor.0.map(|factor| factor * strength),
+        emissive_texture: material.emissive_texture.as_ref().map(|texture| texture.index.value()),
+        unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
+        double_sided: material.double_sided,
+        alpha: match mode {
+            AlphaMode::Opaque => Alpha::Opaque,
+            AlphaMode::Mask => Alpha::Mask(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
+            AlphaMode::Blend => Alpha::Blend,
+        },
+    };
+    let numbers = read.base_colour.iter().chain(&read.emissive);
+    if !numbers.copied().all(f32::is_finite) {
+        return Err(document.damaged(&place, "its colours are beyond all numbers"));
+    }
+    let channels: Vec<Channel> =
+        [&surface.base_color_texture, &material.emissive_texture].into_iter().flatten().map(Channel::of).collect();
+    if let [base, emissive] = channels[..]
+        && base != emissive
+    {
+        notices.add(format!("the emissive map of material \"{}\" is drawn where its base colour is", read.name));
+    }
+    Ok((read, channels.first().copied().unwrap_or(Channel::FIRST)))
+}
+
+/// The file's textures that any material draws.
+pub(super) fn textures_used(materials: &[Material]) -> HashSet<usize> {
+    materials.iter().flat_map(|material| [material.base_colour_texture, material.emissive_texture]).flatten().collect()
+}

@@ -1,0 +1,317 @@
+//! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
+//!
+//! A file passes five doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
+//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture` and `material`. The `gltf` crate only reads
+//! the JSON; every index, offset and length in it is looked up with a check here, because a file may come from
+//! anywhere and none may bring the program down or make it ask for more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
+//!
+//! Node transforms are composed in f64, from the digits in the file, and only what is left after subtracting
+//! [`Scene::origin`] becomes f32: a street 1000 km from the file's origin keeps its millimetres.
+
+mod accessor;
+mod container;
+pub(super) mod extras;
+mod material;
+mod nodes;
+mod picture;
+mod primitive;
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+use self::container::Document;
+use self::nodes::{Bounds, Placement};
+use self::primitive::Primitive;
+use super::collision::Collision;
+use super::{MAX_TRIANGLES, Mesh, Scene, Start};
+
+/// The most meshes a scene may have, one for each primitive and instance.
+const MAX_MESHES: usize = 1_000_000;
+
+/// Up to this distance from the file's origin, in metres, f32 keeps a quarter of a millimetre, and positions stay as the file has them.
+const NEAR: f64 = 4096.0;
+
+/// Why a file gives no scene. Every message says what is wrong, where, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum GltfError {
+    /// The operating system refuses.
+    #[error("cannot read {path}: {error}; check the name and the permissions")]
+    Read {
+        /// The scene or a file it refers to.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// A directory or a device.
+    #[error("{path} is not a file; name a .gltf or .glb file")]
+    NotAFile {
+        /// The scene or a file it refers to.
+        path: PathBuf,
+    },
+    /// Nothing in it.
+    #[error("{path} is empty; export or download it again")]
+    Empty {
+        /// The scene.
+        path: PathBuf,
+    },
+    /// Not this format, or another version of it.
+    #[error("{path} is not glTF 2.0: {fault}; export the scene as .glb or .gltf")]
+    NotGltf {
+        /// The scene.
+        path: PathBuf,
+        /// What is wrong.
+        fault: String,
+    },
+    /// The file cannot be shown without something that this program lacks.
+    #[error("{path} requires the extension {name}, which this program does not know; export the scene without it")]
+    Extension {
+        /// The scene.
+        path: PathBuf,
+        /// As in `extensionsRequired`.
+        name: String,
+    },
+    /// The file contradicts itself or the format.
+    #[error("{path} is damaged at {place}: {fault}; export the scene again")]
+    Damaged {
+        /// The scene.
+        path: PathBuf,
+        /// Where in its JSON.
+        place: String,
+        /// What is wrong.
+        fault: String,
+    },
+    /// More than this program takes.
+    #[error("{path} is too large at {place}: {fault}; export a smaller part or a coarser version of the scene")]
+    TooLarge {
+        /// The scene.
+        path: PathBuf,
+        /// Where in its JSON.
+        place: String,
+        /// What is too large, and the limit.
+        fault: String,
+    },
+    /// No triangles.
+    #[error("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}")]
+    Nothing {
+        /// The scene.
+        path: PathBuf,
+        /// What there is instead.
+        found: &'static str,
+    },
+}
+
+/// What `load` is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Decoding pictures.
+    Pictures,
+    /// Placing meshes.
+    Meshes,
+}
+
+/// How far `load` is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Pictures or meshes that are ready.
+    pub done: usize,
+    /// Pictures or meshes in all.
+    pub total: usize,
+}
+
+/// Reads a scene.
+///
+/// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
+/// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
+/// What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
+/// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
+/// first camera, else at the origin or in front of the scene.
+///
+/// `progress` is called from several threads at once.
+///
+/// # Errors
+/// [`GltfError`]. A picture that is missing is a notice, a picture that is damaged an error.
+pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, GltfError> {
+    let document = Document::open(path)?;
+    let mut notices = Notices::default();
+    note_what_is_not_drawn(&document, &mut notices);
+
+    // Find what stands where, and refuse what would be too much before any of it is unpacked.
+    let scene_index = document.scene_index(&mut notices)?;
+    let extras = document.scene_extras(scene_index)?;
+    let placements = nodes::placements(&document, scene_index, &mut notices)?;
+    let instances = instances(&document, &placements, &mut notices)?;
+
+    // Unpack every primitive once.
+    let (mut materials, channels) = material::materials(&document, &mut notices)?;
+    let mut primitives = BTreeMap::new();
+    for instance in &instances {
+        let key = (instance.mesh, instance.primitive);
+        if let Entry::Vacant(vacant) = primitives.entry(key) {
+            vacant.insert(Primitive::read(&document, key, &channels, &mut notices)?);
+        }
+    }
+    if primitives.values().all(|primitive| primitive.indices.is_empty()) {
+        let found = if document.json.meshes.is_empty() { "nodes" } else { "points and lines" };
+        return Err(GltfError::Nothing { path: document.path, found });
+    }
+    let textures = picture::textures(&document, &mut materials, &mut notices, &progress)?;
+
+    // Choose the origin, then place the primitives relative to it.
+    let mut bounds = Bounds::default();
+    for instance in &instances {
+        bounds.add(&primitives[&(instance.mesh, instance.primitive)], instance.placement.transform);
+    }
+    let origin = extras.origin.map_or_else(|| bounds.origin(), DVec3::from_array);
+    let (done, total) = (AtomicUsize::new(0), instances.len());
+    let placed: Vec<(Mesh, usize)> = instances
+        .par_iter()
+        .map(|instance| {
+            let primitive = &primitives[&(instance.mesh, instance.primitive)];
+            let placed = primitive.place(instance.name.clone(), instance.placement.transform, origin);
+            progress(Progress { stage: Stage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
+            placed
+        })
+        .collect();
+    let mut meshes = Vec::with_capacity(placed.len());
+    for ((mut mesh, not_finite), instance) in placed.into_iter().zip(&instances) {
+        if not_finite > 0 {
+            notices.add(format!("mesh \"{}\" has vertices that are nowhere (not finite): {not_finite}", mesh.name));
+        }
+        let opaque = materials[mesh.material].alpha == super::Alpha::Opaque;
+        mesh.solid = instance.placement.solid.unwrap_or(opaque);
+        meshes.push(mesh);
+    }
+    meshes.retain(|mesh| !mesh.indices.is_empty());
+
+    let mut scene = Scene {
+        name: document.scene_name(scene_index),
+        origin,
+        textures,
+        materials,
+        meshes,
+        light: extras.light.unwrap_or_default(),
+        start: extras.start.unwrap_or_else(|| bounds.start()),
+        circuit: extras.circuit.into_iter().map(DVec3::from_array).collect(),
+        notices: notices.into_sentences(),
+    };
+    if extras.start.is_none()
+        && let Some(camera) = placements.iter().find(|placement| placement.camera)
+    {
+        scene.start = start_below(camera.transform, &scene);
+    }
+    Ok(scene)
+}
+
+/// A primitive of a mesh, at a node.
+struct Instance<'a> {
+    placement: &'a Placement,
+    mesh: usize,
+    primitive: usize,
+    name: String,
+}
+
+/// Everything that will be drawn, after checking that it is not too much.
+fn instances<'a>(
+    document: &Document,
+    placements: &'a [Placement],
+    notices: &mut Notices,
+) -> Result<Vec<Instance<'a>>, GltfError> {
+    let mut instances = Vec::new();
+    let mut corners = 0_u64;
+    for placement in placements {
+        let Some(mesh_index) = placement.mesh else {
+            continue;
+        };
+        let place = format!("nodes[{}].mesh", placement.node);
+        let mesh = document.item(&document.json.meshes, mesh_index, &place)?;
+        for (index, primitive) in mesh.primitives.iter().enumerate() {
+            let place = format!("meshes[{mesh_index}].primitives[{index}]");
+            let Some(predicted) = primitive::corners(document, primitive, &place, notices)? else {
+                continue;
+            };
+            corners += predicted;
+            if corners > 3 * MAX_TRIANGLES as u64 || instances.len() == MAX_MESHES {
+                let fault = format!("more than {MAX_TRIANGLES} triangles or {MAX_MESHES} meshes with all instances");
+                return Err(document.too_large(&place, fault));
+            }
+            let name = instance_name(document, placement.node, mesh_index, index);
+            instances.push(Instance { placement, mesh: mesh_index, primitive: index, name });
+        }
+    }
+    Ok(instances)
+}
+
+/// The names of node and mesh (once if they are the same) and, where there are several, the primitive's number.
+fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize) -> String {
+    let node_name = document.json.nodes[node].name.clone();
+    let mesh_name = document.json.meshes[mesh].name.clone();
+    let name = match (node_name, mesh_name) {
+        (Some(node), Some(mesh)) if node != mesh => format!("{node} / {mesh}"),
+        (Some(name), _) => name,
+        (None, Some(mesh)) => format!("node {node} / {mesh}"),
+        (None, None) => format!("node {node}"),
+    };
+    if document.json.meshes[mesh].primitives.len() > 1 { format!("{name} #{primitive}") } else { name }
+}
+
+/// On the ground below a camera, or at the camera where there is none, looking where it looks.
+fn start_below(camera: DAffine3, scene: &Scene) -> Start {
+    let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
+    let collision = Collision::new(scene).expect("loaded scenes keep the promises of their types");
+    let ground = collision.height_below(camera.translation);
+    let height = ground.map_or(camera.translation.y, |ground| ground.height);
+    Start { position: camera.translation.with_y(height), look }
+}
+
+/// Extensions that are drawn.
+const EXTENSIONS: [&str; 4] =
+    ["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+
+fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
+    let json = &document.json;
+    for name in json.extensions_used.iter().filter(|name| !EXTENSIONS.contains(&name.as_str())) {
+        notices.add(format!("the extension {name} is not drawn"));
+    }
+    let mut count = |number: usize, sentence: &str| (0..number).for_each(|_| notices.add(sentence.into()));
+    count(json.animations.len(), "animations stand still");
+    count(json.skins.len(), "skins stay in their rest position");
+    count(json.cameras.len(), "cameras only say where to start: lenses are not used");
+    let morphs = json.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|primitive| primitive.targets.is_some());
+    count(morphs.count(), "morph targets are not applied");
+    let materials = || json.materials.iter();
+    count(materials().filter(|material| material.normal_texture.is_some()).count(), "normal maps are not drawn");
+    count(materials().filter(|material| material.occlusion_texture.is_some()).count(), "occlusion maps are not drawn");
+    let metallic = materials().filter(|material| material.pbr_metallic_roughness.metallic_roughness_texture.is_some());
+    count(metallic.count(), "metallic-roughness maps are not drawn");
+}
+
+/// Sentences for [`Scene::notices`], each once, with how often it holds, in the order in which they came up.
+#[derive(Default)]
+struct Notices {
+    sentences: Vec<(String, usize)>,
+    place_of: BTreeMap<String, usize>,
+}
+
+impl Notices {
+    fn add(&mut self, sentence: String) {
+        let place = *self.place_of.entry(sentence.clone()).or_insert(self.sentences.len());
+        match self.sentences.get_mut(place) {
+            Some((_, count)) => *count += 1,
+            None => self.sentences.push((sentence, 1)),
+        }
+    }
+
+    fn into_sentences(self) -> Vec<String> {
+        let sentence = |(sentence, count)| {
+            if count > 1 { format!("{sentence} ({count})") } else { sentence }
+        };
+        self.sentences.into_iter().map(sentence).collect()
+    }
+}

@@ -1,0 +1,163 @@
+//! Streets: cobbles with a gutter on both sides, kerbs, raised pavements up to and under the house fronts.
+
+use glam::{Vec2, Vec3, vec2};
+
+use super::builder::{Builder, Corner};
+use super::plan::{Lot, Plan, Station, Use, on_ground};
+use super::surface::Surface;
+
+/// Width of a pavement and of its kerb, and height of the kerb, metres.
+pub(super) const PAVEMENT: f32 = 0.95;
+const KERB: f32 = 0.14;
+const STEP: f32 = 0.08;
+/// Pavements run on under the houses, whose fronts are straight while the street bends.
+const UNDER: f32 = 1.6;
+
+/// One strip of the street's cross section: from its left to its right edge.
+struct Strip {
+    surface: Surface,
+    /// Distances right of the middle.
+    across: [f32; 2],
+    /// Heights above the ground.
+    height: [f32; 2],
+    light: [f32; 2],
+}
+
+/// The cross section at a station; `level` is 0 where everything lies in one plane and 1 in the open street.
+fn section(station: &Station, level: f32) -> Vec<Strip> {
+    let [left, right] = station.width;
+    let step = STEP * level;
+    let camber = 0.05 * level;
+    let gutter = -0.03 * level;
+    let mut strips = vec![];
+    let edge = |width: f32| width - PAVEMENT;
+    let (l, r) = (edge(left), edge(right));
+    let mut strip = |surface, a: f32, b: f32, ha: f32, hb: f32, la: f32, lb: f32| {
+        strips.push(Strip { surface, across: [a, b], height: [ha, hb], light: [la, lb] });
+    };
+    strip(Surface::Slabs, -left - UNDER, -l - KERB, step, step, 0.0, 0.95);
+    strip(Surface::Ashlar, -l - KERB, -l, step, step, 0.9, 0.9);
+    strip(Surface::Ashlar, -l, -l, step, gutter, 0.75, 0.6);
+    strip(Surface::Cobbles, -l, -l + 0.4, gutter, 0.0, 0.72, 0.96);
+    strip(Surface::Cobbles, -l + 0.4, 0.0, 0.0, camber, 0.96, 1.0);
+    strip(Surface::Cobbles, 0.0, r - 0.4, camber, 0.0, 1.0, 0.96);
+    strip(Surface::Cobbles, r - 0.4, r, 0.0, gutter, 0.96, 0.72);
+    strip(Surface::Ashlar, r, r, gutter, step, 0.6, 0.75);
+    strip(Surface::Ashlar, r, r + KERB, step, step, 0.9, 0.9);
+    strip(Surface::Slabs, r + KERB, right + UNDER, step, step, 0.95, 0.0);
+    strips
+}
+
+/// Paves the street from the square round and back to it.
+pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
+    let stations = plan.street_stations();
+    // Every second station is enough for a bend of ten metres' radius.
+    let mut chosen: Vec<&Station> = stations.iter().step_by(2).collect();
+    if stations.len().is_multiple_of(2) {
+        chosen.extend(stations.last());
+    }
+    let level = |k: usize| (k.min(chosen.len() - 1 - k) as f32 / 2.0).min(1.0);
+    let mut unit = 0.0;
+    builder.district("streets");
+    for k in 0..chosen.len() - 1 {
+        let (near, far) = (chosen[k], chosen[k + 1]);
+        let advance = near.at.distance(far.at);
+        for (a, b) in section(near, level(k)).iter().zip(section(far, level(k + 1))) {
+            let tile = a.surface.tile();
+            let corner = |station: &Station, strip: &Strip, side: usize, along: f32| {
+                let foot = station.beside(strip.across[side]);
+                let at = on_ground(foot) + Vec3::Y * strip.height[side];
+                let across = if strip.across[0] == strip.across[1] { strip.height[side] } else { strip.across[side] };
+                Corner { at, uv: vec2(across, -along) / tile, light: strip.light[side] }
+            };
+            builder.face(
+                a.surface,
+                Vec3::ONE,
+                &[
+                    corner(near, a, 0, unit),
+                    corner(near, a, 1, unit),
+                    corner(far, &b, 1, unit + advance),
+                    corner(far, &b, 0, unit + advance),
+                ],
+            );
+        }
+        unit += advance;
+    }
+}
+
+/// Paves the market square: setts inside, a border of slabs along the fronts.
+pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
+    builder.district("market square");
+    let outline = square_outline(plan);
+    let count = outline.len();
+    let inner: Vec<Vec2> = (0..count)
+        .map(|k| {
+            let (a, p, b) = (outline[(k + count - 1) % count], outline[k], outline[(k + 1) % count]);
+            let (into, onward) = ((p - a).normalize(), (b - p).normalize());
+            let (m, n) = (into.perp(), onward.perp());
+            let bisector = (m + n) / (1.0 + m.dot(n)).max(0.5);
+            p - bisector * 1.6
+        })
+        .collect();
+    for k in 0..count {
+        let next = (k + 1) % count;
+        let corners = [(outline[k], 0.55), (outline[next], 0.55), (inner[next], 1.0), (inner[k], 1.0)];
+        builder.lit(
+            Surface::Slabs,
+            Vec3::ONE,
+            &corners.map(|(p, light)| (on_ground(p), light)).into_iter().rev().collect::<Vec<_>>(),
+        );
+    }
+    for triangle in triangulate(&inner) {
+        builder.metric(Surface::Setts, Vec3::ONE, &triangle.map(on_ground));
+    }
+}
+
+/// Corners of the square, house fronts and street mouths, clockwise on a map.
+fn square_outline(plan: &Plan) -> Vec<Vec2> {
+    let mut outline = vec![];
+    let at_square = |lot: &&Lot| lot.at_square || matches!(lot.kind, Use::TownHall | Use::Church);
+    for row in &plan.rows {
+        // The row begins in the street or at the square; either way its lots at the square follow one another.
+        let lots: Vec<_> = row.iter().filter(at_square).collect();
+        for lot in &lots {
+            outline.push(lot.front[0]);
+        }
+        outline.extend(lots.last().map(|lot| lot.front[1]));
+    }
+    outline
+}
+
+/// Cuts a simple polygon into triangles by clipping ears.
+fn triangulate(outline: &[Vec2]) -> Vec<[Vec2; 3]> {
+    let area: f32 = (0..outline.len()).map(|k| outline[k].perp_dot(outline[(k + 1) % outline.len()])).sum();
+    let mut rest: Vec<Vec2> = outline.to_vec();
+    // On the ground, z points down the map: a positive area runs clockwise as seen from above.
+    if area > 0.0 {
+        rest.reverse();
+    }
+    let mut triangles = vec![];
+    while rest.len() > 3 {
+        let count = rest.len();
+        let ear = (0..count).filter(|&k| {
+            let (a, b, c) = (rest[(k + count - 1) % count], rest[k], rest[(k + 1) % count]);
+            let inside = |p: Vec2| {
+                (b - a).perp_dot(p - a) <= 0.0 && (c - b).perp_dot(p - b) <= 0.0 && (a - c).perp_dot(p - c) <= 0.0
+            };
+            (b - a).perp_dot(c - b) < 0.0 && rest.iter().all(|&p| p == a || p == b || p == c || !inside(p))
+        });
+        let flatness = |k: usize| {
+            let (a, c) = (rest[(k + count - 1) % count], rest[(k + 1) % count]);
+            a.distance_squared(c)
+        };
+        let Some(k) = ear.min_by(|&i, &j| flatness(i).total_cmp(&flatness(j))) else {
+            break;
+        };
+        triangles.push([rest[(k + count - 1) % count], rest[k], rest[(k + 1) % count]]);
+        rest.remove(k);
+    }
+    if let [a, b, c] = rest[..] {
+        triangles.push([a, b, c]);
+    }
+    triangles
+}

@@ -1,0 +1,194 @@
+//! The town hall on the west side of the square: an arcade, two storeys of tall windows, stepped gables, a clock, a turret.
+
+use glam::{Vec3, vec2, vec3};
+
+use super::builder::{Builder, Corner, Frame};
+use super::house::linear;
+use super::masonry::{Arch, disc, stepped_gable, window_panel};
+use super::paint::{openings, timber};
+use super::roof::{Roof, dormer};
+use super::surface::Surface;
+
+const ARCHES: u32 = 6;
+/// Depth of the arcade and of the whole building, thickness of its piers.
+const ARCADE: f32 = 3.2;
+const DEPTH: f32 = 13.0;
+const PIER: f32 = 0.7;
+/// Heights of the arcade and of each storey, and number of storeys.
+const FIRST: f32 = 4.7;
+const STOREY: f32 = 3.5;
+const STOREYS: u32 = 2;
+const ROOF: f32 = 8.5;
+
+/// Builds the town hall; `frame` lies at the left end of its front on the ground.
+pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
+    let wall = linear(timber::FRONTS[timber::TOWN_HALL].plaster());
+    arcade(builder, frame, width);
+
+    // The storeys, in bays of their own picture.
+    let bays = (width / 2.6).round() as u32;
+    for storey in 0..STOREYS {
+        let low = FIRST + STOREY * storey as f32;
+        for k in 0..bays {
+            let cell = timber::WINDOWS[(k % 2) as usize] as f32 / timber::BAYS as f32;
+            let corner = |x: u32, y: f32, u: f32, v: f32| {
+                Corner::new(
+                    frame.point(width * x as f32 / bays as f32, y, 0.0),
+                    vec2(cell + u / timber::BAYS as f32, v),
+                )
+            };
+            let corners = [
+                corner(k, low, 0.0, 1.0),
+                corner(k + 1, low, 1.0, 1.0),
+                corner(k + 1, low + STOREY, 1.0, 0.0),
+                corner(k, low + STOREY, 0.0, 0.0),
+            ];
+            builder.face(Surface::Front(timber::TOWN_HALL), Vec3::ONE, &corners);
+        }
+    }
+    for level in [FIRST, FIRST + STOREY] {
+        builder.beam(Surface::Ashlar, Vec3::ONE, frame, vec3(0.0, level - 0.22, -0.1), vec3(width, level + 0.1, 0.16));
+    }
+
+    // Sides, back and roof.
+    let eaves = FIRST + STOREY * STOREYS as f32;
+    let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
+    for (x, out) in [(0.0, -frame.right), (width, frame.right)] {
+        builder.facing(
+            Surface::Plaster,
+            wall,
+            &[p(x, 0.0, 0.0), p(x, 0.0, -DEPTH), p(x, eaves, -DEPTH), p(x, eaves, 0.0)],
+            out,
+        );
+        let inward = if x > 0.0 { -0.45 } else { 0.0 };
+        let gable = Frame {
+            origin: p(x + inward + 0.45, eaves, -DEPTH / 2.0),
+            right: -frame.out,
+            up: Vec3::Y,
+            out: frame.right,
+        };
+        stepped_gable(builder, Surface::Plaster, wall, &gable, DEPTH / 2.0, ROOF + 1.2, 7);
+    }
+    builder.facing(
+        Surface::Plaster,
+        wall,
+        &[p(0.0, 0.0, -DEPTH), p(width, 0.0, -DEPTH), p(width, eaves, -DEPTH), p(0.0, eaves, -DEPTH)],
+        -frame.out,
+    );
+    let tint = vec3(0.95, 0.86, 0.82);
+    let roof = Roof {
+        walls: [p(width - 0.4, eaves, 0.0), p(width - 0.4, eaves, -DEPTH), p(0.4, eaves, -DEPTH), p(0.4, eaves, 0.0)],
+        height: ROOF,
+        overhang: [0.35, 0.0, 0.0],
+        hips: [None, None],
+        surface: Surface::Tiles,
+        near: true,
+        tint,
+    };
+    roof.build(builder);
+    let slope = 2.0 * ROOF / DEPTH;
+    for x in [0.12, 0.28, 0.72, 0.88] {
+        dormer(builder, &frame.at(width * x, eaves + 0.1 + 1.2 * slope, -1.2), slope, timber::TOWN_HALL, tint);
+    }
+
+    // The middle gable with the clock, and its roof back to the slope.
+    let (half, height) = (4.4, 7.6);
+    let gable = frame.at(width / 2.0, eaves, 0.12);
+    stepped_gable(builder, Surface::Plaster, wall, &gable, half, height, 6);
+    disc(builder, Surface::Clock, &gable.at(0.0, 4.1, 0.05), 1.15);
+    for x in [-1.75, 0.55] {
+        window_panel(builder, timber::TOWN_HALL, &gable.at(0.0, 0.0, 0.04), [x, 0.5], [1.2, 1.75]);
+    }
+    let top = height - 1.0;
+    let reach = -top / slope;
+    for side in [-1.0, 1.0] {
+        let corners = [
+            gable.point(side * half, 0.05, -0.4),
+            gable.point(side * half, 0.05, 0.0),
+            gable.point(0.0, top, -0.4),
+            gable.point(0.0, top, reach),
+        ];
+        builder.facing(Surface::Tiles, tint, &[corners[0], corners[2], corners[3]], Vec3::Y);
+    }
+
+    // A turret with a bell rides on the ridge.
+    let turret = frame.at(width / 2.0, eaves + ROOF - 0.8, -DEPTH / 2.0);
+    builder.prism(Surface::Planks, vec3(0.9, 0.85, 0.8), &turret, 6, [0.95, 0.95], [0.0, 2.6]);
+    builder.prism(Surface::Slate, Vec3::ONE, &turret, 6, [1.25, 0.75], [2.6, 3.5]);
+    builder.prism(Surface::Slate, Vec3::ONE, &turret, 6, [0.75, 0.0], [3.5, 7.2]);
+    builder.turned(Surface::Gold, Vec3::ONE, &turret, 6, &[(0.0, 7.0), (0.18, 7.25), (0.0, 7.5)]);
+}
+
+/// The arcade along the square, with doors and windows behind it.
+fn arcade(builder: &mut Builder, frame: &Frame, width: f32) {
+    let stone = Vec3::ONE;
+    let span = width / ARCHES as f32;
+    let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
+    for k in 0..ARCHES {
+        let left = span * k as f32;
+        let arch = Arch {
+            wall: [left, left + span],
+            top: FIRST,
+            middle: left + span / 2.0,
+            half: span / 2.0 - 0.42,
+            spring: 2.35,
+            depth: PIER,
+        };
+        arch.face(builder, Surface::Ashlar, stone, frame);
+        arch.vault(builder, Surface::Ashlar, stone, frame);
+        for (x, w) in [(left, 0.42), (left + span - 0.42, 0.42)] {
+            builder.beam(
+                Surface::Ashlar,
+                stone * 0.95,
+                frame,
+                vec3(x - 0.02, 2.2, -PIER - 0.03),
+                vec3(x + w + 0.05, 2.38, 0.06),
+            );
+        }
+
+        // The wall behind.
+        let bays = timber::BAYS as f32;
+        let cells = [openings::GROUND_WINDOWS[1], if k % 2 == 0 { openings::ARCH } else { openings::SHOP }];
+        for (j, cell) in cells.into_iter().enumerate() {
+            let x = left + span / 2.0 * j as f32;
+            let u = cell as f32 / bays;
+            let corner = |x: f32, y: f32, u: f32, v: f32| Corner { at: p(x, y, -ARCADE), uv: vec2(u, v), light: 0.62 };
+            let next = x + span / 2.0;
+            let corners = [
+                corner(x, 0.0, u, 1.0),
+                corner(next, 0.0, u + 1.0 / bays, 1.0),
+                corner(next, FIRST - 0.2, u + 1.0 / bays, 0.0),
+                corner(x, FIRST - 0.2, u, 0.0),
+            ];
+            builder.face(Surface::GroundFloor(1), Vec3::ONE, &corners);
+        }
+    }
+    builder.lit(
+        Surface::Planks,
+        Vec3::splat(0.8),
+        &[
+            (p(0.0, FIRST - 0.2, -ARCADE), 0.4),
+            (p(width, FIRST - 0.2, -ARCADE), 0.4),
+            (p(width, FIRST - 0.2, -PIER), 0.5),
+            (p(0.0, FIRST - 0.2, -PIER), 0.5),
+        ],
+    );
+    builder.lit(
+        Surface::Slabs,
+        stone,
+        &[
+            (p(0.0, 0.02, 0.0), 0.7),
+            (p(width, 0.02, 0.0), 0.7),
+            (p(width, 0.02, -ARCADE), 0.45),
+            (p(0.0, 0.02, -ARCADE), 0.45),
+        ],
+    );
+    for (x, out) in [(0.02, frame.right), (width - 0.02, -frame.right)] {
+        builder.facing(
+            Surface::Ashlar,
+            stone * 0.6,
+            &[p(x, 0.0, -PIER), p(x, 0.0, -ARCADE), p(x, FIRST, -ARCADE), p(x, FIRST, -PIER)],
+            out,
+        );
+    }
+}

@@ -1,0 +1,182 @@
+//! The head-up display: how fast, which time it is for whom, how far, and how the program is doing.
+
+use egui::{Align2, Color32, CornerRadius, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2};
+
+/// What the display shows.
+#[derive(Clone, Debug, Default)]
+pub struct Readings {
+    /// Speed in the world as a fraction of light's.
+    pub beta: f64,
+    /// γ.
+    pub gamma: f64,
+    /// η = asinh |u|.
+    pub rapidity: f64,
+    /// Metres a second.
+    pub speed_of_light: f64,
+    /// Seconds on the rider's own clock.
+    pub own_clock_s: f64,
+    /// Seconds on the town's clock.
+    pub world_clock_s: f64,
+    /// Metres of road passed, as the town measures them.
+    pub road_m: f64,
+    /// Metres on the rider's own odometer, for whom the road is contracted.
+    pub own_m: f64,
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// Name and milliseconds of each stage of a frame.
+    pub stages_ms: Vec<(&'static str, f64)>,
+    /// What the rider should know now, most urgent first.
+    pub notices: Vec<String>,
+    /// The clock stands.
+    pub paused: bool,
+    /// A recording is running.
+    pub recording: bool,
+}
+
+const INK: Color32 = Color32::from_rgb(0xf6, 0xf1, 0xe4);
+const FAINT: Color32 = Color32::from_rgb(0xb9, 0xb2, 0xa0);
+const ACCENT: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
+const ALERT: Color32 = Color32::from_rgb(0xff, 0x6b, 0x57);
+const BACKDROP: Color32 = Color32::from_rgba_premultiplied(0x0c, 0x0e, 0x12, 0xb8);
+
+/// Height of the bar at the bottom, points.
+const BAR_HEIGHT: f32 = 92.0;
+
+/// Draws the display over the picture.
+pub fn show(ui: &Ui, readings: &Readings) {
+    let painter = ui.painter();
+    let screen = ui.ctx().content_rect();
+    let scale = (screen.width() / 1100.0).clamp(0.55, 1.0);
+    let bar = Rect::from_min_max(Pos2::new(screen.left(), screen.bottom() - BAR_HEIGHT * scale), screen.max);
+    painter.rect_filled(bar, CornerRadius::ZERO, BACKDROP);
+
+    // Four fields side by side: speed, the two clocks, distances, the numbers of relativity.
+    let field = |index: usize| {
+        let width = bar.width() / 4.0;
+        Rect::from_min_size(bar.min + Vec2::new(width * index as f32, 0.0), Vec2::new(width, bar.height()))
+            .shrink2(Vec2::new(18.0, 8.0) * scale)
+    };
+    let text = |at: Pos2, anchor, words: &str, size: f32, colour| {
+        painter.text(at, anchor, words, FontId::proportional(size * scale), colour)
+    };
+    let pair = |area: Rect, rows: [(&str, String); 2]| {
+        for (row, (label, value)) in rows.into_iter().enumerate() {
+            let y = area.top() + area.height() * (0.27 + 0.5 * row as f32);
+            text(Pos2::new(area.left(), y), Align2::LEFT_CENTER, label, 14.0, FAINT);
+            text(Pos2::new(area.right(), y), Align2::RIGHT_CENTER, &value, 22.0, INK);
+        }
+    };
+
+    let area = field(0);
+    let kilometres_per_hour = readings.beta * readings.speed_of_light * 3.6;
+    text(area.left_top(), Align2::LEFT_TOP, &speed(kilometres_per_hour), 34.0, INK);
+    let limit = format!("light: {}", speed(readings.speed_of_light * 3.6));
+    text(area.right_top() + Vec2::new(0.0, 12.0 * scale), Align2::RIGHT_TOP, &limit, 14.0, FAINT);
+    let track = Rect::from_min_max(Pos2::new(area.left(), area.bottom() - 16.0 * scale), area.max);
+    let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * readings.beta as f32, track.height()));
+    painter.rect_filled(filled, CornerRadius::same(3), ACCENT);
+    painter.rect_stroke(track, CornerRadius::same(3), Stroke::new(1.0, FAINT), StrokeKind::Inside);
+
+    pair(field(1), [("your clock", clock(readings.own_clock_s)), ("town's clock", clock(readings.world_clock_s))]);
+    pair(field(2), [("road passed", metres(readings.road_m)), ("your odometer", metres(readings.own_m))]);
+    pair(
+        field(3),
+        [
+            ("β", format!("{} c", beta(readings.beta, readings.gamma))),
+            ("γ · rapidity", format!("{} · {:.2}", number(readings.gamma), readings.rapidity)),
+        ],
+    );
+
+    // Above: state and notices at the left, the program's own pace at the right.
+    let mut y = screen.top() + 10.0;
+    let mut line = |words: &str, colour| {
+        let at = Pos2::new(screen.left() + 14.0, y);
+        let galley = painter.layout_no_wrap(words.to_owned(), FontId::proportional(17.0), colour);
+        let back = Rect::from_min_size(at, galley.size()).expand(5.0);
+        painter.rect_filled(back, CornerRadius::same(4), BACKDROP);
+        painter.galley(at, galley, colour);
+        y += 30.0;
+    };
+    if readings.recording {
+        line("● recording", ALERT);
+    }
+    if readings.paused {
+        line("paused", ACCENT);
+    }
+    for notice in &readings.notices {
+        line(notice, INK);
+    }
+    let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
+    let pace = format!("{:.0} frames/s   {} ms   F1: help", readings.frame_rate, stages.join(" · "));
+    let galley = painter.layout_no_wrap(pace, FontId::proportional(13.0), INK);
+    let at = Pos2::new(screen.right() - galley.size().x - 12.0, screen.top() + 8.0);
+    painter.rect_filled(Rect::from_min_size(at, galley.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
+    painter.galley(at, galley, INK);
+}
+
+/// β with as many nines as there are: digits follow 1 − β = 1/(γ² (1 + β)).
+fn beta(beta: f64, gamma: f64) -> String {
+    if beta < 0.999 {
+        return format!("{beta:.3}");
+    }
+    let short = 1.0 / (gamma * gamma * (1.0 + beta));
+    if short > 1e-9 {
+        format!("{beta:.*}", (2.0 - short.log10()).ceil() as usize)
+    } else {
+        format!("1 − {short:.1e}")
+    }
+}
+
+fn number(value: f64) -> String {
+    if value < 100.0 { format!("{value:.3}") } else { format!("{value:.3e}") }
+}
+
+/// A speed in km/h with about three digits; very large ones in km/s.
+fn speed(kilometres_per_hour: f64) -> String {
+    match kilometres_per_hour {
+        v if v < 1000.0 => format!("{v:.1} km/h"),
+        v => format!("{:.0} km/s", v / 3600.0),
+    }
+}
+
+fn metres(value: f64) -> String {
+    match value {
+        v if v < 9_999.5 => format!("{v:.0} m"),
+        v if v < 9.999e9 => format!("{:.1} km", v / 1000.0),
+        v => format!("{v:.2e} m"),
+    }
+}
+
+fn clock(seconds: f64) -> String {
+    if seconds.abs() >= 360_000.0 {
+        return format!("{seconds:.3e} s");
+    }
+    let minutes = (seconds / 60.0).floor();
+    format!("{minutes:02.0}:{:04.1}", (seconds - 60.0 * minutes).min(59.9))
+}
+
+#[cfg(test)]
+mod tests {
+    //! What is shown must never contradict what is so: a speed below light's never reads 1, a clock never 60 s.
+
+    use super::*;
+
+    #[test]
+    fn beta_below_one_never_reads_one() {
+        for exponent in 1..13 {
+            let gamma = 10_f64.powi(exponent);
+            let value = (1.0 - 1.0 / gamma / gamma).sqrt();
+            assert!(!beta(value, gamma).starts_with("1.0"), "{}", beta(value, gamma));
+        }
+        assert_eq!(beta(0.6, 1.25), "0.600");
+        assert_eq!(beta(0.999_95, 100.001_25), "0.999950");
+    }
+
+    #[test]
+    fn clocks_carry_to_minutes() {
+        assert_eq!(clock(0.0), "00:00.0");
+        assert_eq!(clock(59.98), "00:59.9");
+        assert_eq!(clock(61.25), "01:01.2");
+        assert_eq!(clock(1e6), "1.000e6 s");
+    }
+}

@@ -1,0 +1,84 @@
+//! egui over the picture: input in, shapes out, drawn in one last pass.
+
+use crate::gpu::Gpu;
+use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
+use winit::event::WindowEvent;
+use winit::window::Window;
+
+/// egui's state for one window.
+pub struct Interface {
+    context: egui::Context,
+    state: egui_winit::State,
+    renderer: Renderer,
+}
+
+impl Interface {
+    /// For a window whose surface has `format`.
+    pub fn new(gpu: &Gpu, window: &Window, format: wgpu::TextureFormat) -> Self {
+        let context = egui::Context::default();
+        context.set_theme(egui::Theme::Dark);
+        let side = gpu.device.limits().max_texture_dimension_2d as usize;
+        let state = egui_winit::State::new(
+            context.clone(),
+            egui::ViewportId::ROOT,
+            window,
+            Some(window.scale_factor() as f32),
+            None,
+            Some(side),
+        );
+        let renderer = Renderer::new(&gpu.device, format, RendererOptions::default());
+        Self { context, state, renderer }
+    }
+
+    /// Offers an event to the panels first. Returns true if one of them took it.
+    pub fn event(&mut self, window: &Window, event: &WindowEvent) -> bool {
+        self.state.on_window_event(window, event).consumed
+    }
+
+    /// Whether a text field or the like wants the keys.
+    pub fn wants_keys(&self) -> bool {
+        self.context.egui_wants_keyboard_input()
+    }
+
+    /// Lays out and draws `contents` over what is in `target`.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        window: &Window,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        contents: impl FnMut(&mut egui::Ui),
+    ) {
+        let input = self.state.take_egui_input(window);
+        let output = self.context.run_ui(input, contents);
+        self.state.handle_platform_output(window, output.platform_output);
+        let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
+        let size = window.inner_size();
+        let screen =
+            ScreenDescriptor { size_in_pixels: [size.width, size.height], pixels_per_point: output.pixels_per_point };
+
+        for (id, deltas) in &output.textures_delta.set {
+            for delta in deltas {
+                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+            }
+        }
+        let uploads = self.renderer.update_buffers(&gpu.device, &gpu.queue, encoder, &shapes, &screen);
+        gpu.queue.submit(uploads);
+        {
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("interface"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+                })],
+                ..Default::default()
+            });
+            self.renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
+        }
+        for id in &output.textures_delta.free {
+            self.renderer.free_texture(id);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! The window: events in, frames out.
+//!
+//! winit calls us for each event; a redraw advances the ride by one frame ([`Ride::frame`]) and asks for the next. Keys
+//! go to the ride as samples, so that they are recorded like any device's; what only changes the picture (field of
+//! view, effects, panels) stays here. A window that cannot be drawn in for the moment (occluded, being resized) is
+//! skipped; a surface that was lost is made again.
+
+mod hud;
+mod interface;
+mod keys;
+mod panel;
+
+use crate::command::RideOptions;
+use crate::error::Error;
+use crate::frame::{Pictured, Ride};
+use crate::gpu::{Gpu, GpuError, descriptor};
+use crate::live::Live;
+use crate::photo;
+use crate::renderers::Effects;
+use crate::renderers::polygon::PolygonRenderer;
+use crate::renderers::resolve::Resolver;
+use crate::renderers::target::{Format, Radiance};
+use crate::scene::Scene;
+use input::{Action, Sample, Source};
+pub use hud::Readings;
+use interface::Interface;
+pub use panel::Ride as RidePanel;
+use panel::Settings;
+use std::sync::Arc;
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{ElementState, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::keyboard::{KeyCode, PhysicalKey};
+use winit::window::{Fullscreen, Window, WindowId};
+
+/// Samples a pixel in a window drawn by hardware, where they cost little; software draws one.
+const HARDWARE_SAMPLES: u32 = 4;
+
+/// Whether there is a display to open a window on.
+pub fn has_display() -> bool {
+    !cfg!(all(unix, not(target_os = "macos")))
+        || ["DISPLAY", "WAYLAND_DISPLAY"]
+            .iter()
+            .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
+}
+
+/// Opens the window and rides until it is closed.
+///
+/// # Errors
+/// No display after all, no graphics device, or a fault while riding.
+pub fn run(options: &RideOptions, scene: Scene, live: Live) -> Result<(), Error> {
+    let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
+    events.set_control_flow(ControlFlow::Poll);
+    let mut application = Application { options: options.clone(), waiting: Some((scene, live)), open: None, failed: None };
+    events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
+    let finished = application.open.map_or(Ok(()), |mut open| open.ride.live.finish());
+    application.failed.map_or(finished, Err)
+}
+
+/// What winit calls.
+struct Application {
+    options: RideOptions,
+    waiting: Option<(Scene, Live)>,
+    open: Option<Open>,
+    failed: Option<Error>,
+}
+
+/// An open window and all that draws in it.
+struct Open {
+    gpu: Gpu,
+    window: Arc<Window>,
+    surface: wgpu::Surface<'static>,
+    configuration: wgpu::SurfaceConfiguration,
+    radiance: Radiance,
+    format: Format,
+    resolver: Resolver,
+    interface: Interface,
+    settings: Settings,
+    ride: Ride,
+}
+
+impl ApplicationHandler for Application {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if let Some((scene, live)) = self.waiting.take() {
+            match Open::new(events, &self.options, &scene, live) {
+                Ok(open) => {
+                    open.window.request_redraw();
+                    self.open = Some(open);
+                }
+                Err(error) => self.fail(events, error),
+            }
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(open) = &mut self.open else { return };
+        match open.event(events, event) {
+            Ok(()) => {}
+            Err(error) => self.fail(events, error),
+        }
+    }
+}
+
+impl Application {
+    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
+        self.failed.get_or_insert(error);
+        events.exit();
+    }
+}
+
+impl Open {
+    fn new(events: &ActiveEventLoop, options: &RideOptions, scene: &Scene, live: Live) -> Result<Self, Error> {
+        let [width, height] = options.picture.size;
+        let attributes = Window::default_attributes()
+            .with_title(format!("Rapidity: {}", scene.name))
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = Arc::new(events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?);
+
+        // The surface decides which device can draw in it.
+        let instance = wgpu::Instance::new(descriptor());
+        let surface = instance
+            .create_surface(Arc::clone(&window))
+            .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
+        let gpu = Gpu::with_instance(instance, Some(&surface))?;
+        let size = window.inner_size();
+        let mut configuration = surface
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+            .ok_or_else(|| GpuError::NoAdapter("the window's surface has no format".to_owned()))?;
+        // The interface mixes colours as they are encoded, so the surface must not encode once more.
+        configuration.format = configuration.format.remove_srgb_suffix();
+        surface.configure(&gpu.device, &configuration);
+
+        let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
+        let format = Format::fast(samples);
+        let renderer = PolygonRenderer::new(&gpu, scene, format, options.picture.background)?;
+        let interface = Interface::new(&gpu, &window, configuration.format);
+        Ok(Self {
+            radiance: Radiance::new(&gpu, [configuration.width, configuration.height], format),
+            resolver: Resolver::new(&gpu, format.colour, configuration.format),
+            settings: Settings {
+                open: false,
+                help: false,
+                readings: true,
+                effects: options.picture.effects,
+                latency: options.latency,
+                fov: options.picture.fov,
+            },
+            ride: Ride::new(renderer, live),
+            gpu,
+            window,
+            surface,
+            configuration,
+            format,
+            interface,
+        })
+    }
+
+    fn event(&mut self, events: &ActiveEventLoop, event: WindowEvent) -> Result<(), Error> {
+        let taken = self.interface.event(&self.window, &event);
+        match event {
+            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::Resized(size) => self.resize(size),
+            WindowEvent::Focused(false) => self.ride.live.say(|at| Sample::closed(at, Source::Keyboard)),
+            WindowEvent::KeyboardInput { event, .. } if !taken && !event.repeat => {
+                if let PhysicalKey::Code(code) = event.physical_key {
+                    self.key(events, code, event.state == ElementState::Pressed);
+                }
+            }
+            WindowEvent::RedrawRequested => {
+                if self.frame()? {
+                    self.window.request_redraw();
+                } else {
+                    events.exit();
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn key(&mut self, events: &ActiveEventLoop, code: KeyCode, pressed: bool) {
+        if let Some(key) = keys::key(code) {
+            self.ride.live.say(|at| Sample::key(at, key, pressed));
+        }
+        if !pressed {
+            return;
+        }
+        match code {
+            KeyCode::Escape => events.exit(),
+            KeyCode::Tab => self.settings.open = !self.settings.open,
+            KeyCode::F2 => self.settings.readings = !self.settings.readings,
+            KeyCode::KeyG => {
+                self.settings.effects = match self.settings.effects {
+                    Effects::Geometry => Effects::None,
+                    Effects::None => Effects::Geometry,
+                }
+            }
+            KeyCode::F11 => {
+                let full = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
+                self.window.set_fullscreen(full);
+            }
+            _ => {}
+        }
+    }
+
+    fn resize(&mut self, size: PhysicalSize<u32>) {
+        if size.width == 0 || size.height == 0 {
+            return;
+        }
+        (self.configuration.width, self.configuration.height) = (size.width, size.height);
+        self.surface.configure(&self.gpu.device, &self.configuration);
+        self.radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
+    }
+
+    /// One frame. Returns false when the ride is over.
+    fn frame(&mut self) -> Result<bool, Error> {
+        self.gpu.lost()?;
+        use wgpu::CurrentSurfaceTexture as Current;
+        let texture = match self.surface.get_current_texture() {
+            Current::Success(texture) | Current::Suboptimal(texture) => texture,
+            Current::Lost => {
+                self.surface = self
+                    .gpu
+                    .instance
+                    .create_surface(Arc::clone(&self.window))
+                    .map_err(|error| GpuError::Lost(error.to_string()))?;
+                self.surface.configure(&self.gpu.device, &self.configuration);
+                return Ok(true);
+            }
+            Current::Outdated => {
+                self.surface.configure(&self.gpu.device, &self.configuration);
+                return Ok(true);
+            }
+            Current::Timeout | Current::Occluded | Current::Validation => return Ok(true),
+        };
+        let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+
+        // Devices to light, on one page: frame.rs.
+        let look = Pictured { target: &self.radiance, fov: self.settings.fov, effects: self.settings.effects, latency: self.settings.latency };
+        let Some(events) = self.ride.frame(&self.gpu, &look)? else { return Ok(false) };
+        for action in events {
+            match action {
+                Action::ToggleHelp => self.settings.help = !self.settings.help,
+                Action::ToggleRecording => self.ride.live.toggle_recording(),
+                Action::Photo => {
+                    let told = photo::take(&self.gpu, &self.radiance).unwrap_or_else(|error| error.to_string());
+                    self.ride.live.tell(told);
+                }
+                _ => {}
+            }
+        }
+
+        // Light to the window, and the display over it.
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.resolver.show(&self.gpu, &mut encoder, self.radiance.result(), &screen);
+        let readings = self.ride.readings();
+        let panel = self.ride.panel(&self.gpu);
+        let settings = &mut self.settings;
+        let mut wanted = Vec::new();
+        self.interface.draw(&self.gpu, &self.window, &mut encoder, &screen, |ui| {
+            if settings.readings {
+                hud::show(ui, &readings);
+            }
+            wanted.extend(panel::show(ui, settings, &panel));
+        });
+        for action in wanted {
+            self.ride.live.say(|at| Sample::action(at, &action));
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.queue.present(texture);
+        Ok(true)
+    }
+}

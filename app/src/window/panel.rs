@@ -1,0 +1,157 @@
+//! The settings panel and the help.
+
+use crate::command::Latency;
+use crate::renderers::Effects;
+use egui::{Align2, Grid, RichText, Slider, Ui, Window};
+use input::{Action, VehicleKind};
+
+/// What the panel shows and changes by itself: how the picture is drawn, which no recording depends on.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The panel is open.
+    pub open: bool,
+    /// The help is open.
+    pub help: bool,
+    /// The display at the edges is shown.
+    pub readings: bool,
+    /// What relativity does to the picture.
+    pub effects: Effects,
+    /// How transforming and drawing share a frame's time.
+    pub latency: Latency,
+    /// Vertical field of view, degrees.
+    pub fov: f64,
+}
+
+/// What the ride tells the panel.
+#[derive(Clone, Debug)]
+pub struct Ride {
+    /// What is ridden.
+    pub vehicle: VehicleKind,
+    /// Proper time per real time.
+    pub time_scale: f64,
+    /// m/s.
+    pub speed_of_light: f64,
+    /// A sentence for each device.
+    pub devices: Vec<String>,
+    /// What draws, and how much.
+    pub drawing: String,
+}
+
+/// Shows the panel. What changes the ride comes back as actions, so that it is recorded like a key.
+pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
+    let mut actions = Vec::new();
+    if settings.help {
+        help(ui, &mut settings.help);
+    }
+    let mut open = settings.open;
+    Window::new("Settings").open(&mut open).anchor(Align2::RIGHT_TOP, [-12.0, 40.0]).resizable(false).show(
+        ui.ctx(),
+        |ui| {
+            Grid::new("settings").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| {
+                ui.label("Vehicle");
+                ui.horizontal(|ui| {
+                    for (kind, name) in [
+                        (VehicleKind::Bicycle, "bicycle"),
+                        (VehicleKind::Drive, "drive"),
+                        (VehicleKind::Fly, "fly"),
+                    ] {
+                        if ui.selectable_label(ride.vehicle == kind, name).clicked() {
+                            actions.push(Action::Vehicle(kind));
+                        }
+                    }
+                });
+                ui.end_row();
+
+                ui.label("Speed of light");
+                let mut kilometres_per_hour = ride.speed_of_light * 3.6;
+                let slider = Slider::new(&mut kilometres_per_hour, 5.0..=2000.0).logarithmic(true).suffix(" km/h");
+                if ui.add(slider).changed() {
+                    actions.push(Action::SpeedOfLight(kilometres_per_hour / 3.6));
+                }
+                ui.end_row();
+
+                ui.label("Time scale");
+                let mut scale = ride.time_scale;
+                if ui.add(Slider::new(&mut scale, 0.05..=4.0).logarithmic(true)).changed() {
+                    actions.push(Action::TimeScale(scale));
+                }
+                ui.end_row();
+
+                ui.label("Picture");
+                ui.horizontal(|ui| {
+                    ui.selectable_value(&mut settings.effects, Effects::Geometry, "as seen");
+                    ui.selectable_value(&mut settings.effects, Effects::None, "light infinitely fast");
+                });
+                ui.end_row();
+
+                ui.label("Field of view");
+                ui.add(Slider::new(&mut settings.fov, 20.0..=140.0).suffix("°"));
+                ui.end_row();
+
+                ui.label("Frames");
+                ui.horizontal(|ui| {
+                    ui.selectable_value(&mut settings.latency, Latency::Overlap, "many");
+                    ui.selectable_value(&mut settings.latency, Latency::Low, "fresh");
+                });
+                ui.end_row();
+            });
+            ui.separator();
+            ui.horizontal(|ui| {
+                for (label, action) in [
+                    ("Pause", Action::TogglePause),
+                    ("Step", Action::Step),
+                    ("To the start", Action::Restart),
+                    ("Photo", Action::Photo),
+                    ("Record", Action::ToggleRecording),
+                ] {
+                    if ui.button(label).clicked() {
+                        actions.push(action);
+                    }
+                }
+            });
+            ui.separator();
+            for line in ride.devices.iter().chain([&ride.drawing]) {
+                ui.label(RichText::new(line).small());
+            }
+        },
+    );
+    settings.open = open;
+    actions
+}
+
+/// What each key does; the same list as in the README.
+const KEYS: [(&str, &str); 18] = [
+    ("W S  ↑ ↓", "pedal, push back; thrust; nose down, up when flying"),
+    ("A D  ← →", "steer; thrust sideways"),
+    ("R F", "thrust up, down when flying"),
+    ("Q E", "roll"),
+    ("Shift", "sprint"),
+    ("Space", "brake"),
+    ("1 2 3", "bicycle, drive, fly"),
+    ("P", "pause"),
+    (".", "one step while paused"),
+    ("− =", "own time slower, faster"),
+    ("G", "picture as seen, or with light infinitely fast"),
+    ("C", "photo"),
+    ("V", "record, from the ride's beginning"),
+    ("Backspace", "back to the start"),
+    ("Tab", "settings"),
+    ("F2", "hide the display"),
+    ("F11", "full screen"),
+    ("Esc", "leave"),
+];
+
+fn help(ui: &Ui, open: &mut bool) {
+    Window::new("Keys").open(open).anchor(Align2::CENTER_CENTER, [0.0, -20.0]).resizable(false).show(
+        ui.ctx(),
+        |ui| {
+            Grid::new("keys").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
+                for (keys, meaning) in KEYS {
+                    ui.label(RichText::new(keys).monospace().strong());
+                    ui.label(meaning);
+                    ui.end_row();
+                }
+            });
+        },
+    );
+}

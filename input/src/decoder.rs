@@ -1,0 +1,82 @@
+//! What all decoders have in common: bytes in, state inside, faults counted.
+//!
+//! A decoder has no clock and no thread. It sees the samples of its device in order and holds what
+//! they say; time enters only through the samples and through the moment at which the desk asks.
+
+use crate::action::Action;
+use crate::sample::Nanos;
+
+/// A device's bytes turned into state.
+pub trait Decoder {
+    /// The device came or went: half a message, held keys and deflections are forgotten.
+    fn reset(&mut self, at: Nanos);
+
+    /// Bytes arrived at `at`, cut anywhere. What happens once is pushed to `actions`.
+    fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions);
+
+    /// What could not be understood so far.
+    fn faults(&self) -> &Faults;
+}
+
+/// Messages that were skipped because they made no sense.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Faults {
+    number: u64,
+    last: Option<String>,
+}
+
+impl Faults {
+    /// Counts one more.
+    pub(crate) fn count(&mut self, what: impl Into<String>) {
+        self.number += 1;
+        self.last = Some(what.into());
+    }
+
+    /// How many there were.
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// What was wrong with the last one.
+    pub fn last(&self) -> Option<&str> {
+        self.last.as_deref()
+    }
+}
+
+/// Actions waiting for the next frame, in the order in which they happened.
+#[derive(Debug, Default)]
+pub struct Actions {
+    waiting: Vec<Action>,
+}
+
+impl Actions {
+    /// More than anybody can press between two frames; the rest of a flood is dropped.
+    const MOST: usize = 256;
+
+    /// Adds one.
+    pub fn push(&mut self, action: Action) {
+        if self.waiting.len() < Self::MOST {
+            self.waiting.push(action);
+        }
+    }
+
+    /// Hands them over.
+    pub fn take(&mut self) -> Vec<Action> {
+        std::mem::take(&mut self.waiting)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flood_of_actions_is_bounded() {
+        let mut actions = Actions::default();
+        for _ in 0..10 * Actions::MOST {
+            actions.push(Action::Step);
+        }
+        assert_eq!(actions.take().len(), Actions::MOST);
+        assert!(actions.take().is_empty());
+    }
+}

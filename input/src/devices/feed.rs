@@ -1,0 +1,284 @@
+//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue
+//! behind it.
+
+use std::io;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
+
+use crate::sample::{Clock, Nanos, SECOND, Sample, Source, seconds_between};
+
+/// Pause before a device is looked for again, at first.
+const FIRST_PAUSE: Duration = Duration::from_millis(100);
+/// The longest such pause; each is twice the one before.
+const LONGEST_PAUSE: Duration = Duration::from_secs(2);
+
+/// How to find and open a device.
+pub(super) trait Port: Send {
+    /// Opens it.
+    ///
+    /// # Errors
+    /// A sentence that says what is missing and what to do about it.
+    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String>;
+}
+
+/// Which device has been opened.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub(super) source: Source,
+    pub(super) name: String,
+    pub(super) path: String,
+}
+
+/// An open device.
+pub(super) trait Connection {
+    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none
+    /// if none came.
+    ///
+    /// # Errors
+    /// If the device is gone.
+    fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()>;
+
+    /// Samples had to be dropped: a device that reports only changes now reports all.
+    fn report_all(&mut self) {}
+}
+
+/// Whether a device can be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It is open.
+    Open,
+    /// It is not; the sentence says why, and what to do.
+    Absent(String),
+}
+
+/// How a device is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Status {
+    /// Which decoder reads it.
+    pub source: Source,
+    /// What it calls itself.
+    pub name: String,
+    /// Where it is.
+    pub path: String,
+    /// Whether it can be read.
+    pub state: State,
+    /// Samples a second, over the last second.
+    pub rate_hz: f64,
+    /// Samples so far.
+    pub samples: u64,
+    /// Samples that were dropped because nobody drained them.
+    pub dropped: u64,
+    /// The last bytes.
+    pub last: Vec<u8>,
+}
+
+/// What a device's thread tells about it.
+#[derive(Debug)]
+pub(super) struct Live {
+    status: Status,
+    second_began: Nanos,
+    this_second: u32,
+}
+
+/// A device's news, shared by its thread and the listing.
+pub(super) type Shared = Arc<Mutex<Live>>;
+
+/// The news are whole at all times, even should a thread die while it holds them.
+fn lock(live: &Shared) -> MutexGuard<'_, Live> {
+    live.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A device's status at the time `now`.
+pub(super) fn status(live: &Shared, now: Nanos) -> Status {
+    let live = lock(live);
+    let mut status = live.status.clone();
+    if seconds_between(live.second_began, now) > 2.0 {
+        status.rate_hz = 0.0;
+    }
+    status
+}
+
+/// The thread's end of a device's queue.
+pub(super) struct Feed {
+    clock: Clock,
+    queue: Sender<Sample>,
+    /// The other end of the queue, to make room.
+    oldest: Receiver<Sample>,
+    live: Shared,
+    stopped: Receiver<()>,
+}
+
+impl Feed {
+    /// A queue of this length, its other end, and the device's news.
+    pub(super) fn new(
+        source: Source,
+        clock: Clock,
+        length: usize,
+        stopped: Receiver<()>,
+    ) -> (Self, Receiver<Sample>, Shared) {
+        let (queue, samples) = bounded(length);
+        let status = Status {
+            source,
+            name: source.name().to_owned(),
+            path: String::new(),
+            state: State::Absent("being looked for".to_owned()),
+            rate_hz: 0.0,
+            samples: 0,
+            dropped: 0,
+            last: Vec::new(),
+        };
+        let live = Arc::new(Mutex::new(Live { status, second_began: clock.now(), this_second: 0 }));
+        (Self { clock, queue, oldest: samples.clone(), live: live.clone(), stopped }, samples, live)
+    }
+
+    /// Keeps the device open until the program ends.
+    pub(super) fn run(self, mut port: impl Port) {
+        let mut pause = FIRST_PAUSE;
+        while !self.is_stopped() {
+            match port.open() {
+                Ok((place, mut connection)) => {
+                    pause = FIRST_PAUSE;
+                    let source = place.source;
+                    self.opened(place);
+                    let why = self.read(source, connection.as_mut());
+                    self.send(Sample::closed(self.clock.now(), source));
+                    self.absent(why);
+                }
+                Err(why) => {
+                    self.absent(why);
+                    pause = (2 * pause).min(LONGEST_PAUSE);
+                }
+            }
+            // Wakes at once when the program ends.
+            if self.stopped.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+        }
+    }
+
+    /// Reads until the device goes or the program ends; says which.
+    fn read(&self, source: Source, connection: &mut dyn Connection) -> String {
+        let mut bytes = Vec::new();
+        while !self.is_stopped() {
+            bytes.clear();
+            if let Err(error) = connection.read(&mut bytes) {
+                return format!("it has gone ({error}); it will be used again when it is back");
+            }
+            if !bytes.is_empty() && self.bytes(source, &bytes) {
+                connection.report_all();
+            }
+        }
+        "the program ends".to_owned()
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.try_recv() == Err(TryRecvError::Disconnected)
+    }
+
+    fn opened(&self, place: Place) {
+        let mut live = lock(&self.live);
+        let Place { source, name, path } = place;
+        live.status = Status { source, name, path, state: State::Open, ..live.status.clone() };
+        drop(live);
+        self.send(Sample::opened(self.clock.now(), source));
+    }
+
+    fn absent(&self, why: String) {
+        let mut live = lock(&self.live);
+        live.status.state = State::Absent(why);
+        live.status.rate_hz = 0.0;
+    }
+
+    /// Queues bytes; whether others were dropped for them.
+    fn bytes(&self, source: Source, bytes: &[u8]) -> bool {
+        let now = self.clock.now();
+        let dropped = self.send(Sample::bytes(now, source, bytes));
+        let mut live = lock(&self.live);
+        live.status.samples += 1;
+        live.status.last.clear();
+        live.status.last.extend_from_slice(bytes);
+        live.this_second += 1;
+        let elapsed_s = seconds_between(live.second_began, now);
+        if now.saturating_sub(live.second_began) >= SECOND {
+            live.status.rate_hz = f64::from(live.this_second) / elapsed_s;
+            (live.second_began, live.this_second) = (now, 0);
+        }
+        dropped
+    }
+
+    /// Queues a sample in place of the oldest if need be; whether there was need.
+    fn send(&self, sample: Sample) -> bool {
+        let mut sample = sample;
+        let mut dropped = 0;
+        // The loop ends: only this thread fills the queue.
+        while let Err(TrySendError::Full(back)) = self.queue.try_send(sample) {
+            sample = back;
+            dropped += u64::from(self.oldest.try_recv().is_ok());
+        }
+        lock(&self.live).status.dropped += dropped;
+        dropped > 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A flood that nobody drains must cost the oldest samples, never the newest, and no memory.
+    use super::*;
+
+    fn feed(length: usize) -> (Feed, Receiver<Sample>, Shared, Sender<()>) {
+        let (stop, stopped) = bounded(0);
+        let (feed, samples, live) = Feed::new(Source::Bicycle, Clock::start(), length, stopped);
+        (feed, samples, live, stop)
+    }
+
+    #[test]
+    fn a_flood_drops_the_oldest_and_says_so() {
+        let (feed, samples, live, _stop) = feed(4);
+        let dropped: Vec<bool> = (0..10_u8).map(|n| feed.bytes(Source::Bicycle, &[n])).collect();
+        assert_eq!(dropped, [[false; 4].as_slice(), &[true; 6]].concat());
+        let kept: Vec<_> = samples.try_iter().map(|sample| sample.signal).collect();
+        let expected: Vec<_> = (6..10_u8).map(|n| Sample::bytes(0, Source::Bicycle, [n]).signal).collect();
+        assert_eq!(kept, expected);
+        let status = status(&live, 0);
+        assert_eq!((status.samples, status.dropped, status.last), (10, 6, vec![9]));
+    }
+
+    /// A device that says one thing and goes, a number of times; then it cannot be opened.
+    struct Flaky {
+        lives: u8,
+    }
+
+    impl Port for Flaky {
+        fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+            self.lives = self.lives.checked_sub(1).ok_or("it is broken")?;
+            let place = Place { source: Source::Bicycle, name: "flaky".into(), path: "nowhere".into() };
+            Ok((place, Box::new(Once(Some(self.lives)))))
+        }
+    }
+
+    struct Once(Option<u8>);
+
+    impl Connection for Once {
+        fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+            bytes.push(self.0.take().ok_or(io::ErrorKind::BrokenPipe)?);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_device_that_comes_and_goes_is_opened_again_and_closed_each_time() {
+        let (feed, samples, live, stop) = feed(64);
+        let thread = std::thread::spawn(move || feed.run(Flaky { lives: 2 }));
+        let seen: Vec<_> = samples.iter().take(6).map(|sample| sample.signal).collect();
+        let bytes = |byte: u8| Sample::bytes(0, Source::Bicycle, [byte]).signal;
+        use crate::sample::Signal::{Closed, Opened};
+        assert_eq!(seen, [Opened, bytes(1), Closed, Opened, bytes(0), Closed]);
+        while status(&live, 0).state != State::Absent("it is broken".to_owned()) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        drop(stop);
+        thread.join().unwrap();
+    }
+}

@@ -1,0 +1,145 @@
+//! A SpaceMouse: raw HID where we may read it, spacenavd's socket where we may not.
+
+use std::ffi::CString;
+use std::io;
+use std::path::PathBuf;
+
+use hidapi::{HidApi, HidDevice};
+
+use super::feed::{Connection, Place, Port};
+use crate::sample::Source;
+
+/// Vendor number of the older devices.
+const LOGITECH: u16 = 0x046d;
+/// Vendor number of the newer ones.
+const CONNEXION: u16 = 0x256f;
+/// Usage page and usage of a multi-axis controller.
+const MULTI_AXIS: (u16, u16) = (1, 8);
+/// Mice, keyboards and numpads of the same makers.
+const NOT_A_PUCK: [u16; 12] =
+    [0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668];
+/// How long one read of a single interface waits, milliseconds.
+const READ_WAIT_MS: i32 = 100;
+/// The longest report is 13 bytes.
+const BUFFER: usize = 64;
+
+/// What makes the device readable.
+const UDEV_RULE: &str = "as root, put `KERNEL==\"hidraw*\", ATTRS{idVendor}==\"046d|256f\", TAG+=\"uaccess\"` into \
+                         /etc/udev/rules.d/70-spacemouse.rules and plug it in again";
+
+/// An interface that may be that of a SpaceMouse.
+pub(super) struct Candidate {
+    pub(super) name: String,
+    pub(super) path: CString,
+}
+
+impl Candidate {
+    /// Opens the interface.
+    ///
+    /// # Errors
+    /// A sentence that says what to do.
+    pub(super) fn open(&self, api: &HidApi) -> Result<HidDevice, String> {
+        api.open_path(&self.path).map_err(|error| {
+            format!("{} may not be read at {} ({error}): {UDEV_RULE}", self.name, self.path.to_string_lossy())
+        })
+    }
+}
+
+/// Every interface that may be that of a SpaceMouse.
+pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
+    api.device_list()
+        .filter(|device| [LOGITECH, CONNEXION].contains(&device.vendor_id()))
+        .filter(|device| (device.usage_page(), device.usage()) == MULTI_AXIS)
+        .filter(|device| !NOT_A_PUCK.contains(&device.product_id()))
+        .map(|device| {
+            let ids = (device.vendor_id(), device.product_id());
+            let nameless = || format!("SpaceMouse {:04x}:{:04x}", ids.0, ids.1);
+            let name = device.product_string().filter(|name| !name.is_empty()).map_or_else(nameless, str::to_owned);
+            Candidate { name, path: device.path().to_owned() }
+        })
+        .collect()
+}
+
+/// Where a SpaceMouse may be.
+pub(super) struct PuckPort {
+    socket: PathBuf,
+}
+
+impl PuckPort {
+    pub(super) fn new(socket: PathBuf) -> Self {
+        Self { socket }
+    }
+
+    #[cfg(unix)]
+    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
+        super::socket::Daemon::connect(&self.socket)
+    }
+
+    #[cfg(not(unix))]
+    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
+        Err(format!("there is no spacenavd here ({})", self.socket.display()))
+    }
+}
+
+impl Port for PuckPort {
+    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+        open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| format!("{raw}; {daemon}")))
+    }
+}
+
+/// Opens every interface that may be it: a wireless receiver has several, and only time tells which
+/// one it is.
+fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
+    let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
+    let mut interfaces = Vec::new();
+    let mut found = None;
+    let mut why = "no SpaceMouse is plugged in".to_owned();
+    for candidate in candidates(&api) {
+        match candidate.open(&api) {
+            Ok(device) => {
+                interfaces.push(device);
+                found = Some(candidate);
+            }
+            Err(error) => why = error,
+        }
+    }
+    let Some(Candidate { name, path }) = found else {
+        return Err(why);
+    };
+    let place = Place { source: Source::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
+    Ok((place, Box::new(Raw { interfaces })))
+}
+
+/// The interfaces that are left; one, as soon as it has spoken.
+struct Raw {
+    interfaces: Vec<HidDevice>,
+}
+
+impl Connection for Raw {
+    fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+        let wait_ms = READ_WAIT_MS / i32::try_from(self.interfaces.len().max(1)).unwrap_or(READ_WAIT_MS);
+        let mut buffer = [0; BUFFER];
+        let mut speaker = None;
+        let mut gone = None;
+        for (index, interface) in self.interfaces.iter().enumerate() {
+            match interface.read_timeout(&mut buffer, wait_ms) {
+                Ok(0) => {}
+                Ok(length) => {
+                    bytes.extend_from_slice(&buffer[..length]);
+                    speaker = (buffer[0] == 1).then_some(index);
+                    break;
+                }
+                Err(error) => gone = Some((index, error)),
+            }
+        }
+        if let Some(index) = speaker {
+            self.interfaces = vec![self.interfaces.swap_remove(index)];
+        } else if let Some((index, error)) = gone {
+            self.interfaces.swap_remove(index);
+            if self.interfaces.is_empty() {
+                return Err(io::Error::other(error));
+            }
+        }
+        Ok(())
+    }
+}

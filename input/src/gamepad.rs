@@ -1,0 +1,396 @@
+//! A gamepad or joystick.
+//!
+//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not
+//! depend on the system:
+//!
+//! | first byte | then, little-endian | meaning |
+//! |---|---|---|
+//! | `G` or `J` | | it is a gamepad, or a joystick; nothing is held but what follows |
+//! | `A` | code u16, value i32, least i32, most i32 | an axis: where it is, how far it goes |
+//! | `E` | type u16, code u16, value i32 | an event |
+//!
+//! | | gamepad | joystick |
+//! |---|---|---|
+//! | steer; nose left, right | left stick; right stick | stick left, right |
+//! | pedal, brake | right and left trigger | trigger, thumb button |
+//! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
+//! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
+//!
+//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and
+//! the left one takes a picture.
+
+use crate::action::Action;
+use crate::decoder::{Actions, Decoder, Faults};
+use crate::sample::Nanos;
+use crate::spacemouse::with_dead_zone;
+
+/// Part of the way within which a stick counts as centred: worn ones rest off centre.
+const STICK_DEAD_ZONE: f64 = 0.12;
+/// The same for triggers.
+const TRIGGER_DEAD_ZONE: f64 = 0.04;
+/// Axes of the absolute kind that evdev numbers.
+const AXES: usize = 64;
+
+/// Numbers of Linux's `input-event-codes.h`.
+pub mod codes {
+    /// Event type: a button.
+    pub const KEY: u16 = 1;
+    /// Event type: an axis.
+    pub const ABSOLUTE: u16 = 3;
+    pub(super) const X: u16 = 0;
+    pub(super) const Y: u16 = 1;
+    pub(super) const Z: u16 = 2;
+    pub(super) const RX: u16 = 3;
+    pub(super) const RY: u16 = 4;
+    pub(super) const RZ: u16 = 5;
+    pub(super) const HAT_X: u16 = 16;
+    pub(super) const HAT_Y: u16 = 17;
+    /// First button of a joystick.
+    pub const TRIGGER: u16 = 0x120;
+    pub(super) const THUMB: u16 = 0x121;
+    /// First button of a gamepad.
+    pub const SOUTH: u16 = 0x130;
+    pub(super) const NORTH: u16 = 0x133;
+    pub(super) const WEST: u16 = 0x134;
+    pub(super) const LEFT_SHOULDER: u16 = 0x136;
+    pub(super) const RIGHT_SHOULDER: u16 = 0x137;
+    pub(super) const SELECT: u16 = 0x13a;
+    pub(super) const START: u16 = 0x13b;
+}
+
+/// One item of a gamepad's bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Item {
+    /// It is laid out as a gamepad.
+    Gamepad,
+    /// It is laid out as a joystick.
+    Joystick,
+    /// An axis: number, where it is, how far it goes.
+    Axis {
+        /// evdev's number.
+        code: u16,
+        /// Where it is.
+        value: i32,
+        /// Its least value.
+        least: i32,
+        /// Its greatest value.
+        most: i32,
+    },
+    /// An event of evdev.
+    Event {
+        /// Its type: [`codes::KEY`], [`codes::ABSOLUTE`] or another.
+        kind: u16,
+        /// Which button or axis.
+        code: u16,
+        /// The new value.
+        value: i32,
+    },
+}
+
+impl Item {
+    /// Writes the item behind the bytes.
+    pub fn encode(self, bytes: &mut Vec<u8>) {
+        match self {
+            Self::Gamepad => bytes.push(b'G'),
+            Self::Joystick => bytes.push(b'J'),
+            Self::Axis { code, value, least, most } => {
+                bytes.push(b'A');
+                bytes.extend_from_slice(&code.to_le_bytes());
+                [value, least, most].iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+            }
+            Self::Event { kind, code, value } => {
+                bytes.push(b'E');
+                bytes.extend_from_slice(&kind.to_le_bytes());
+                bytes.extend_from_slice(&code.to_le_bytes());
+                bytes.extend_from_slice(&value.to_le_bytes());
+            }
+        }
+    }
+
+    /// Reads the first item and gives what follows it.
+    fn split(bytes: &[u8]) -> Option<(Self, &[u8])> {
+        let (&kind, rest) = bytes.split_first()?;
+        match kind {
+            b'G' => Some((Self::Gamepad, rest)),
+            b'J' => Some((Self::Joystick, rest)),
+            b'A' => {
+                let (code, rest) = rest.split_first_chunk()?;
+                let (value, rest) = rest.split_first_chunk()?;
+                let (least, rest) = rest.split_first_chunk()?;
+                let (most, rest) = rest.split_first_chunk()?;
+                let item = Self::Axis {
+                    code: u16::from_le_bytes(*code),
+                    value: i32::from_le_bytes(*value),
+                    least: i32::from_le_bytes(*least),
+                    most: i32::from_le_bytes(*most),
+                };
+                Some((item, rest))
+            }
+            b'E' => {
+                let (kind, rest) = rest.split_first_chunk()?;
+                let (code, rest) = rest.split_first_chunk()?;
+                let (value, rest) = rest.split_first_chunk()?;
+                let item = Self::Event {
+                    kind: u16::from_le_bytes(*kind),
+                    code: u16::from_le_bytes(*code),
+                    value: i32::from_le_bytes(*value),
+                };
+                Some((item, rest))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// An axis that has been announced.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    value: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Axis {
+    /// −1 to 1 about the middle of its way.
+    fn stick(self) -> f64 {
+        with_dead_zone((2.0 * self.value - self.least - self.most) / (self.most - self.least), STICK_DEAD_ZONE)
+    }
+
+    /// 0 to 1 from its lower end.
+    fn trigger(self) -> f64 {
+        with_dead_zone(((self.value - self.least) / (self.most - self.least)).max(0.0), TRIGGER_DEAD_ZONE)
+    }
+}
+
+/// Decoder of [`Source::Gamepad`](crate::Source::Gamepad).
+#[derive(Debug)]
+pub struct Gamepad {
+    is_joystick: bool,
+    axes: [Option<Axis>; AXES],
+    held: Vec<u16>,
+    pedalled: bool,
+    faults: Faults,
+}
+
+impl Default for Gamepad {
+    fn default() -> Self {
+        Self { is_joystick: false, axes: [None; AXES], held: Vec::new(), pedalled: false, faults: Faults::default() }
+    }
+}
+
+impl Gamepad {
+    /// No pad has more buttons; more are not remembered.
+    const MOST_HELD: usize = 64;
+
+    /// How strongly it pedals, 0 to 1; `None` until it has.
+    pub fn pedal(&self) -> Option<f64> {
+        self.pedalled.then(|| self.forward())
+    }
+
+    /// Brake lever, 0 to 1.
+    pub fn brake(&self) -> f64 {
+        if self.is_joystick { self.button(codes::THUMB) } else { self.trigger(codes::Z) }
+    }
+
+    /// Handlebar, −1 right to 1 left.
+    pub fn steer(&self) -> f64 {
+        -self.stick(codes::X)
+    }
+
+    /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
+    pub fn deflection(&self) -> [f64; 6] {
+        let back = self.brake() - self.forward();
+        if self.is_joystick {
+            let [right, up] = [self.stick(codes::HAT_X), -self.stick(codes::HAT_Y)];
+            [right, up, back, self.stick(codes::Y), -self.stick(codes::X), -self.stick(codes::RZ)]
+        } else {
+            let back = (self.stick(codes::Y) + back).clamp(-1.0, 1.0);
+            let roll_left = self.button(codes::LEFT_SHOULDER) - self.button(codes::RIGHT_SHOULDER);
+            let [right, up] = [self.stick(codes::X), -self.stick(codes::HAT_Y)];
+            [right, up, back, -self.stick(codes::RY), -self.stick(codes::RX), roll_left]
+        }
+    }
+
+    fn forward(&self) -> f64 {
+        if self.is_joystick { self.button(codes::TRIGGER) } else { self.trigger(codes::RZ) }
+    }
+
+    fn stick(&self, code: u16) -> f64 {
+        self.axes[usize::from(code)].map_or(0.0, Axis::stick)
+    }
+
+    fn trigger(&self, code: u16) -> f64 {
+        self.axes[usize::from(code)].map_or(0.0, Axis::trigger)
+    }
+
+    fn button(&self, code: u16) -> f64 {
+        f64::from(u8::from(self.held.contains(&code)))
+    }
+
+    fn press(&mut self, code: u16, pressed: bool, actions: &mut Actions) {
+        let was_held = self.held.contains(&code);
+        if pressed && !was_held && self.held.len() < Self::MOST_HELD {
+            self.held.push(code);
+            match code {
+                codes::START => actions.push(Action::TogglePause),
+                codes::SELECT => actions.push(Action::ToggleHelp),
+                codes::NORTH => actions.push(Action::Restart),
+                codes::WEST => actions.push(Action::Photo),
+                _ => {}
+            }
+        } else if !pressed {
+            self.held.retain(|&held| held != code);
+        }
+    }
+
+    fn item(&mut self, item: Item, actions: &mut Actions) {
+        match item {
+            // A description begins: what is held is said next.
+            Item::Gamepad | Item::Joystick => {
+                self.is_joystick = item == Item::Joystick;
+                self.held.clear();
+            }
+            Item::Axis { code, value, least, most } if usize::from(code) < AXES && least < most => {
+                let [value, least, most] = [value, least, most].map(f64::from);
+                self.axes[usize::from(code)] = Some(Axis { value, least, most });
+            }
+            Item::Axis { code, least, most, .. } => {
+                self.faults.count(format!("axis {code} that goes from {least} to {most}"));
+            }
+            Item::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(code)) {
+                Some(Some(axis)) => axis.value = f64::from(value),
+                _ => self.faults.count(format!("axis {code}, which was not announced")),
+            },
+            // A value of 2 is a repetition.
+            Item::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
+            Item::Event { .. } => {}
+        }
+        self.pedalled |= self.forward() > 0.0;
+    }
+}
+
+impl Decoder for Gamepad {
+    fn reset(&mut self, _at: Nanos) {
+        *self = Self { faults: std::mem::take(&mut self.faults), ..Self::default() };
+    }
+
+    fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
+        while let Some((item, rest)) = Item::split(bytes) {
+            self.item(item, actions);
+            bytes = rest;
+        }
+        if let Some(first) = bytes.first() {
+            self.faults.count(format!("{} bytes that begin with {first:02x}", bytes.len()));
+        }
+    }
+
+    fn faults(&self) -> &Faults {
+        &self.faults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go
+    //! with it.
+    use super::*;
+
+    fn pad(items: &[Item]) -> (Gamepad, Vec<Action>) {
+        let (mut pad, mut actions) = (Gamepad::default(), Actions::default());
+        feed(&mut pad, items, &mut actions);
+        (pad, actions.take())
+    }
+
+    fn feed(pad: &mut Gamepad, items: &[Item], actions: &mut Actions) {
+        let mut bytes = Vec::new();
+        items.iter().for_each(|item| item.encode(&mut bytes));
+        pad.bytes(0, &bytes, actions);
+    }
+
+    fn axis(code: u16, value: i32) -> Item {
+        Item::Axis { code, value, least: -32768, most: 32767 }
+    }
+
+    fn event(kind: u16, code: u16, value: i32) -> Item {
+        Item::Event { kind, code, value }
+    }
+
+    #[test]
+    fn a_resting_pad_wants_nothing() {
+        let trigger = Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 };
+        let (pad, actions) = pad(&[Item::Gamepad, axis(codes::X, -2000), axis(codes::Y, 1500), trigger]);
+        assert_eq!((pad.deflection(), pad.brake(), pad.pedal()), ([0.0; 6].map(|zero: f64| zero), 0.0, None));
+        assert!(actions.is_empty());
+    }
+
+    #[test]
+    fn sticks_and_triggers_reach_their_ends() {
+        let (mut pad, _) = pad(&[Item::Gamepad, axis(codes::X, 0), axis(codes::Y, 0), axis(codes::RX, 0)]);
+        let mut actions = Actions::default();
+        let trigger = Item::Axis { code: codes::RZ, value: 255, least: 0, most: 255 };
+        let pushed = [event(codes::ABSOLUTE, codes::X, -32768), event(codes::ABSOLUTE, codes::RX, 32767), trigger];
+        feed(&mut pad, &pushed, &mut actions);
+        assert_eq!(pad.steer(), 1.0);
+        assert_eq!(pad.pedal(), Some(1.0));
+        assert_eq!(pad.deflection(), [-1.0, -0.0, -1.0, -0.0, -1.0, 0.0]);
+        feed(&mut pad, &[event(codes::ABSOLUTE, codes::RZ, 0)], &mut actions);
+        assert_eq!(pad.pedal(), Some(0.0));
+    }
+
+    #[test]
+    fn a_joystick_is_flown_by_stick_and_twist() {
+        let (pad, _) = pad(&[
+            Item::Joystick,
+            Item::Axis { code: codes::Y, value: 255, least: 0, most: 255 },
+            Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 },
+            event(codes::KEY, codes::TRIGGER, 1),
+        ]);
+        let [_, _, back, nose_up, _, roll_left] = pad.deflection();
+        assert_eq!([back, nose_up, roll_left], [-1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn buttons_act_once() {
+        let presses = [1, 2, 0, 1].map(|value| event(codes::KEY, codes::START, value));
+        let (_, actions) = pad(&presses);
+        assert_eq!(actions, [Action::TogglePause, Action::TogglePause]);
+    }
+
+    #[test]
+    fn unplugging_lets_everything_go() {
+        let (mut pad, _) = pad(&[axis(codes::Y, -32768), event(codes::KEY, codes::LEFT_SHOULDER, 1)]);
+        assert_eq!(pad.deflection()[2], -1.0);
+        pad.reset(0);
+        assert_eq!(pad.deflection(), Gamepad::default().deflection());
+        assert_eq!(pad.deflection().map(f64::abs), [0.0; 6]);
+    }
+
+    #[test]
+    fn a_new_description_lets_go_of_what_it_does_not_name() {
+        let left = event(codes::KEY, codes::LEFT_SHOULDER, 1);
+        let right = event(codes::KEY, codes::RIGHT_SHOULDER, 1);
+        let (mut pad, _) = pad(&[left, right]);
+        assert_eq!(pad.deflection()[5], 0.0);
+        feed(&mut pad, &[Item::Gamepad, right], &mut Actions::default());
+        assert_eq!(pad.deflection()[5], -1.0);
+    }
+
+    #[test]
+    fn nonsense_is_counted_and_bounded() {
+        let (mut pad, _) = pad(&[
+            Item::Axis { code: 64, value: 0, least: 0, most: 1 },
+            Item::Axis { code: 0, value: 0, least: 1, most: 1 },
+            event(codes::ABSOLUTE, 5, 1),
+            event(codes::ABSOLUTE, 999, 1),
+        ]);
+        assert_eq!(pad.faults().number(), 4);
+        let mut actions = Actions::default();
+        for bytes in [&b"Z"[..], b"A\x00", b"E\x01\x00\x02"] {
+            pad.bytes(0, bytes, &mut actions);
+        }
+        assert_eq!(pad.faults().number(), 7);
+        let flood: Vec<Item> = (0..5000).map(|code| event(codes::KEY, code, 1)).collect();
+        feed(&mut pad, &flood, &mut actions);
+        assert_eq!(pad.held.len(), Gamepad::MOST_HELD);
+    }
+}

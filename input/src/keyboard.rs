@@ -1,0 +1,352 @@
+//! Keys of the window: riding, driving and flying without any device.
+//!
+//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
+//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample. What keys
+//! want moves on ramps, as legs and hands do.
+//!
+//! | keys | bicycle | drive, fly |
+//! |---|---|---|
+//! | W, S | pedal, push backward | thrust forward, backward |
+//! | A, D | steer | thrust left, right |
+//! | arrows | pedal, push backward, steer | nose down, up, left, right |
+//! | Shift | sprint | |
+//! | Space | brake | brake |
+//! | R, F | | thrust up, down |
+//! | Q, E | | roll left, right |
+//!
+//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the
+//! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
+
+use crate::action::{Action, VehicleKind};
+use crate::config::RiderConfig;
+use crate::decoder::{Actions, Decoder, Faults};
+use crate::ramp::Ramp;
+use crate::sample::Nanos;
+
+/// Full deflections a second that a pressed key moves a control by.
+const PRESS_RATE: f64 = 3.0;
+/// The same for a released key.
+const RELEASE_RATE: f64 = 5.0;
+
+macro_rules! keys {
+    ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
+        /// A key that means something, by its place on the USB keyboard.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u8)]
+        pub enum Key {
+            $($(#[$doc])* $name = $code),*
+        }
+
+        impl Key {
+            /// Every key.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            /// The key with this number on the USB.
+            pub fn from_code(code: u8) -> Option<Self> {
+                match code {
+                    $($code => Some(Self::$name),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+keys! {
+    /// A.
+    A = 0x04,
+    /// C.
+    C = 0x06,
+    /// D.
+    D = 0x07,
+    /// E.
+    E = 0x08,
+    /// F.
+    F = 0x09,
+    /// H.
+    H = 0x0b,
+    /// P.
+    P = 0x13,
+    /// Q.
+    Q = 0x14,
+    /// R.
+    R = 0x15,
+    /// S.
+    S = 0x16,
+    /// V.
+    V = 0x19,
+    /// W.
+    W = 0x1a,
+    /// 1 above the letters.
+    One = 0x1e,
+    /// 2 above the letters.
+    Two = 0x1f,
+    /// 3 above the letters.
+    Three = 0x20,
+    /// Backspace.
+    Backspace = 0x2a,
+    /// The space bar.
+    Space = 0x2c,
+    /// − above the letters.
+    Minus = 0x2d,
+    /// = above the letters.
+    Equal = 0x2e,
+    /// The full stop.
+    Period = 0x37,
+    /// F1.
+    F1 = 0x3a,
+    /// Arrow to the right.
+    Right = 0x4f,
+    /// Arrow to the left.
+    Left = 0x50,
+    /// Arrow down.
+    Down = 0x51,
+    /// Arrow up.
+    Up = 0x52,
+    /// Either shift key.
+    Shift = 0xe1,
+}
+
+/// The bytes of a key event.
+pub fn encode(key: Key, pressed: bool) -> [u8; 2] {
+    [key as u8, u8::from(pressed)]
+}
+
+/// What a key does once when pressed.
+fn action(key: Key) -> Option<Action> {
+    Some(match key {
+        Key::P => Action::TogglePause,
+        Key::Period => Action::Step,
+        Key::Minus => Action::ScaleTime(0.5),
+        Key::Equal => Action::ScaleTime(2.0),
+        Key::One => Action::Vehicle(VehicleKind::Bicycle),
+        Key::Two => Action::Vehicle(VehicleKind::Drive),
+        Key::Three => Action::Vehicle(VehicleKind::Fly),
+        Key::Backspace => Action::Restart,
+        Key::C => Action::Photo,
+        Key::V => Action::ToggleRecording,
+        Key::H | Key::F1 => Action::ToggleHelp,
+        _ => return None,
+    })
+}
+
+/// The keys that are down.
+#[derive(Clone, Copy, Debug)]
+struct Held([bool; 256]);
+
+impl Held {
+    fn any(&self, keys: &[Key]) -> bool {
+        keys.iter().any(|&key| self.0[usize::from(key as u8)])
+    }
+
+    /// −1, 0 or 1 for a pair of opposite keys.
+    fn between(&self, negative: &[Key], positive: &[Key]) -> f64 {
+        f64::from(i8::from(self.any(positive)) - i8::from(self.any(negative)))
+    }
+}
+
+/// Decoder of [`Source::Keyboard`](crate::Source::Keyboard).
+#[derive(Debug)]
+pub struct Keyboard {
+    rider: RiderConfig,
+    held: Held,
+    pedalled: bool,
+    wheel: Ramp,
+    steer: Ramp,
+    brake: Ramp,
+    thrust: [Ramp; 3],
+    turn: [Ramp; 3],
+    faults: Faults,
+}
+
+impl Keyboard {
+    /// A keyboard that nobody touches.
+    pub fn new(rider: RiderConfig) -> Self {
+        Self {
+            rider,
+            held: Held([false; 256]),
+            pedalled: false,
+            wheel: Ramp::default(),
+            steer: Ramp::default(),
+            brake: Ramp::default(),
+            thrust: [Ramp::default(); 3],
+            turn: [Ramp::default(); 3],
+            faults: Faults::default(),
+        }
+    }
+
+    /// Speed that the keys pedal, m/s; `None` until somebody has.
+    pub fn wheel_speed(&self, at: Nanos) -> Option<f64> {
+        self.pedalled.then(|| self.wheel.value(at))
+    }
+
+    /// Handlebar, −1 right to 1 left.
+    pub fn steer(&self, at: Nanos) -> f64 {
+        self.steer.value(at)
+    }
+
+    /// Brake lever, 0 to 1.
+    pub fn brake(&self, at: Nanos) -> f64 {
+        self.brake.value(at)
+    }
+
+    /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
+    pub fn deflection(&self, at: Nanos) -> [f64; 6] {
+        let [right, up, back] = self.thrust.map(|ramp| ramp.value(at));
+        let [nose_up, nose_left, roll_left] = self.turn.map(|ramp| ramp.value(at));
+        [right, up, back, nose_up, nose_left, roll_left]
+    }
+
+    /// Aims every ramp at what the held keys want.
+    fn aim(&mut self, at: Nanos) {
+        let held = self.held;
+        let lean = |ramp: &mut Ramp, target: f64| {
+            ramp.aim(at, target, if target == 0.0 { RELEASE_RATE } else { PRESS_RATE });
+        };
+
+        // Fly and drive.
+        let thrust = [
+            held.between(&[Key::A], &[Key::D]),
+            held.between(&[Key::F], &[Key::R]),
+            held.between(&[Key::W], &[Key::S]),
+        ];
+        let turn = [
+            held.between(&[Key::Down], &[Key::Up]),
+            held.between(&[Key::Right], &[Key::Left]),
+            held.between(&[Key::E], &[Key::Q]),
+        ];
+        self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
+        self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
+
+        // Ride.
+        lean(&mut self.steer, held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]));
+        lean(&mut self.brake, held.between(&[], &[Key::Space]));
+        let rider = &self.rider;
+        let forward = held.between(&[Key::S, Key::Down], &[Key::W, Key::Up]);
+        let (speed, rate) = if held.any(&[Key::Space]) {
+            (0.0, rider.brake_m_s2)
+        } else if forward > 0.0 {
+            (if held.any(&[Key::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
+        } else if forward < 0.0 {
+            // First to a stop, then backward.
+            (-rider.reverse_m_s, rider.pedal_m_s2)
+        } else {
+            (0.0, rider.coast_m_s2)
+        };
+        self.pedalled |= forward != 0.0;
+        self.wheel.aim(at, speed, rate);
+    }
+}
+
+impl Decoder for Keyboard {
+    /// The window lost the focus: every key is let go, the bicycle coasts.
+    fn reset(&mut self, at: Nanos) {
+        self.held = Held([false; 256]);
+        self.aim(at);
+    }
+
+    fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions) {
+        let (events, rest) = bytes.as_chunks::<2>();
+        for &[code, state] in events {
+            match (Key::from_code(code), state) {
+                (Some(key), 0 | 1) => {
+                    let held = &mut self.held.0[usize::from(code)];
+                    let pressed = state == 1 && !*held;
+                    *held = state == 1;
+                    if pressed && let Some(action) = action(key) {
+                        actions.push(action);
+                    }
+                }
+                _ => self.faults.count(format!("key event {code:02x} {state:02x}")),
+            }
+        }
+        if !rest.is_empty() {
+            self.faults.count("half a key event");
+        }
+        self.aim(at);
+    }
+
+    fn faults(&self) -> &Faults {
+        &self.faults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A key that is held must lead smoothly to its control and a released one back; the order of
+    //! asking may not matter.
+    use super::*;
+    use crate::sample::SECOND;
+
+    fn keyboard() -> (Keyboard, Actions) {
+        (Keyboard::new(RiderConfig::default()), Actions::default())
+    }
+
+    #[test]
+    fn every_key_survives_its_bytes() {
+        for &key in Key::ALL {
+            assert_eq!(Key::from_code(encode(key, true)[0]), Some(key));
+        }
+    }
+
+    #[test]
+    fn pedalling_rises_to_the_cruise_and_coasts_down() {
+        let (mut keys, mut actions) = keyboard();
+        assert_eq!(keys.wheel_speed(0), None);
+        keys.bytes(SECOND, &encode(Key::W, true), &mut actions);
+        assert_eq!(keys.wheel_speed(SECOND), Some(0.0));
+        assert_eq!(keys.wheel_speed(2 * SECOND), Some(2.0));
+        assert_eq!(keys.wheel_speed(60 * SECOND), Some(10.0));
+        keys.bytes(60 * SECOND, &encode(Key::W, false), &mut actions);
+        assert_eq!(keys.wheel_speed(64 * SECOND), Some(8.0));
+        assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
+    }
+
+    #[test]
+    fn braking_wins_over_pedalling() {
+        let (mut keys, mut actions) = keyboard();
+        keys.bytes(0, &encode(Key::Up, true), &mut actions);
+        keys.bytes(10 * SECOND, &encode(Key::Space, true), &mut actions);
+        assert_eq!(keys.wheel_speed(11 * SECOND), Some(4.0));
+        assert_eq!(keys.brake(11 * SECOND), 1.0);
+        assert_eq!(keys.wheel_speed(12 * SECOND), Some(0.0));
+    }
+
+    #[test]
+    fn opposite_keys_cancel() {
+        let (mut keys, mut actions) = keyboard();
+        keys.bytes(0, &encode(Key::A, true), &mut actions);
+        assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
+        keys.bytes(SECOND, &encode(Key::D, true), &mut actions);
+        assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn losing_the_focus_lets_everything_go() {
+        let (mut keys, mut actions) = keyboard();
+        for key in [Key::W, Key::A, Key::Space, Key::Q] {
+            keys.bytes(0, &encode(key, true), &mut actions);
+        }
+        keys.reset(SECOND);
+        let later = 30 * SECOND;
+        assert_eq!((keys.steer(later), keys.brake(later), keys.wheel_speed(later)), (0.0, 0.0, Some(0.0)));
+        assert_eq!(keys.deflection(later), [0.0; 6]);
+    }
+
+    #[test]
+    fn a_repeated_press_acts_once() {
+        let (mut keys, mut actions) = keyboard();
+        for state in [true, true, false, true] {
+            keys.bytes(0, &encode(Key::P, state), &mut actions);
+        }
+        assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause]);
+    }
+
+    #[test]
+    fn unknown_keys_are_counted() {
+        let (mut keys, mut actions) = keyboard();
+        keys.bytes(0, &[0xff, 1, 0x1a, 2, 0x1a], &mut actions);
+        assert_eq!(keys.faults().number(), 3);
+        assert_eq!(keys.wheel_speed(SECOND), None);
+    }
+}

@@ -1,0 +1,332 @@
+//! What is written for a frame and a sample, and the JSON schemas that describe it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::controls::Controls;
+use crate::sample::{Nanos, Sample, Signal, Source};
+
+/// The observer after a frame's steps.
+///
+/// # Frames, units
+/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the
+/// physics. The celerity is in units of the speed of light. The orientation is the quaternion (x,
+/// y, z, w) that takes the pilot's axes to the axes of the comoving frame that is a pure boost of
+/// the world's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrameRecord {
+    /// Number of the frame, from 0.
+    pub frame: u64,
+    /// Real time at which the desk was asked.
+    pub at: Nanos,
+    /// Steps that were integrated in this frame.
+    pub steps: u64,
+    /// The observer's own time.
+    pub proper_time: f64,
+    /// The world's time.
+    pub ct: f64,
+    /// Where.
+    pub position: [f64; 3],
+    /// How fast.
+    pub celerity: [f64; 3],
+    /// Which way up.
+    pub orientation: [f64; 4],
+    /// Rapidity, for plots.
+    pub rapidity: f64,
+    /// Doppler factor dead ahead of the motion, for plots.
+    pub doppler_ahead: f64,
+    /// Distance ridden, measured along the road.
+    pub road: f64,
+    /// Distance ridden, by the vehicle's own odometer (∫ β dτ).
+    pub odometer: f64,
+}
+
+/// Where two frame records differ first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The field, with its index.
+    pub field: String,
+    /// What was recorded.
+    pub recorded: String,
+    /// What the replay gives.
+    pub replayed: String,
+}
+
+impl FrameRecord {
+    /// Every real number, with its place.
+    fn numbers(&self) -> impl Iterator<Item = (Place, f64)> {
+        let vectors: [(&str, &[f64]); 9] = [
+            ("proper_time", std::slice::from_ref(&self.proper_time)),
+            ("ct", std::slice::from_ref(&self.ct)),
+            ("position", &self.position),
+            ("celerity", &self.celerity),
+            ("orientation", &self.orientation),
+            ("rapidity", std::slice::from_ref(&self.rapidity)),
+            ("doppler_ahead", std::slice::from_ref(&self.doppler_ahead)),
+            ("road", std::slice::from_ref(&self.road)),
+            ("odometer", std::slice::from_ref(&self.odometer)),
+        ];
+        vectors.into_iter().flat_map(|(field, vector)| {
+            let place = move |index| Place { field, index: (vector.len() > 1).then_some(index) };
+            vector.iter().enumerate().map(move |(index, &number)| (place(index), number))
+        })
+    }
+
+    /// The first number that JSON cannot carry.
+    pub(super) fn not_finite(&self) -> Option<(String, f64)> {
+        let found = self.numbers().find(|(_, number)| !number.is_finite());
+        found.map(|(place, number)| (place.to_string(), number))
+    }
+
+    /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
+    pub fn first_difference(&self, replayed: &Self) -> Option<Difference> {
+        let counts = [
+            ("frame", self.frame, replayed.frame),
+            ("at", self.at, replayed.at),
+            ("steps", self.steps, replayed.steps),
+        ];
+        if let Some((field, ours, theirs)) = counts.into_iter().find(|(_, ours, theirs)| ours != theirs) {
+            let (recorded, replayed) = (ours.to_string(), theirs.to_string());
+            return Some(Difference { field: field.to_owned(), recorded, replayed });
+        }
+        self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
+            |((place, ours), (_, theirs))| {
+                let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
+                Difference { field: place.to_string(), recorded, replayed }
+            },
+        )
+    }
+}
+
+/// A number's place in a frame record.
+#[derive(Clone, Copy)]
+struct Place {
+    field: &'static str,
+    index: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.index {
+            Some(index) => write!(formatter, "{}[{index}]", self.field),
+            None => formatter.write_str(self.field),
+        }
+    }
+}
+
+/// What the desk said for a frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ControlsRecord {
+    /// Number of the frame.
+    pub frame: u64,
+    /// Real time at which the desk was asked.
+    pub at: Nanos,
+    /// Its answer.
+    #[serde(flatten)]
+    pub controls: Controls,
+}
+
+/// One message of a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// A device said something.
+    Sample(Sample),
+    /// What the desk made of it.
+    Controls(ControlsRecord),
+    /// Where the observer was after the frame.
+    Frame(FrameRecord),
+}
+
+/// What happened, as it is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Opened,
+    Bytes,
+    Closed,
+}
+
+/// A sample, as it is written.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SampleRecord {
+    at: Nanos,
+    source: Source,
+    kind: Kind,
+    bytes: String,
+}
+
+impl From<&Sample> for SampleRecord {
+    fn from(sample: &Sample) -> Self {
+        let (kind, bytes): (_, &[u8]) = match &sample.signal {
+            Signal::Opened => (Kind::Opened, &[]),
+            Signal::Bytes(bytes) => (Kind::Bytes, bytes),
+            Signal::Closed => (Kind::Closed, &[]),
+        };
+        Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
+    }
+}
+
+impl TryFrom<SampleRecord> for Sample {
+    type Error = String;
+
+    fn try_from(record: SampleRecord) -> Result<Self, String> {
+        let signal = match record.kind {
+            Kind::Opened => Signal::Opened,
+            Kind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
+            Kind::Closed => Signal::Closed,
+        };
+        Ok(Self { at: record.at, source: record.source, signal })
+    }
+}
+
+/// Bytes as hexadecimal digits.
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn unhex(text: &str) -> Result<Box<[u8]>, String> {
+    let digits: Option<Vec<u8>> =
+        text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
+    match digits {
+        Some(digits) if digits.len().is_multiple_of(2) => {
+            Ok(digits.as_chunks().0.iter().map(|[high, low]| high << 4 | low).collect())
+        }
+        _ => Err(format!("{text:?} is not a row of hexadecimal bytes")),
+    }
+}
+
+/// A channel of the recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Topic {
+    Samples,
+    Controls,
+    Frames,
+}
+
+impl Topic {
+    pub(super) const ALL: [Self; 3] = [Self::Samples, Self::Controls, Self::Frames];
+
+    /// Its name in the file.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Samples => "/device/raw",
+            Self::Controls => "/controls",
+            Self::Frames => "/observer",
+        }
+    }
+
+    /// Name and text of its schema.
+    pub(super) fn schema(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Samples => ("rapidity.Sample", include_str!("sample.schema.json")),
+            Self::Controls => ("rapidity.Controls", include_str!("controls.schema.json")),
+            Self::Frames => ("rapidity.Observer", include_str!("observer.schema.json")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Every field must take part in the comparison, and be known to the schema: one that is not
+    //! would differ unseen, or would not be plotted.
+    use super::*;
+    use serde_json::Value;
+
+    fn frame() -> FrameRecord {
+        FrameRecord { frame: 3, position: [0.1, -0.0, 1e-300], orientation: [0.0, 0.0, 0.0, 1.0], ..Default::default() }
+    }
+
+    /// Calls `each` with the record changed in one number, for every number in it.
+    fn nudge_each(record: &FrameRecord, mut each: impl FnMut(String, FrameRecord)) {
+        let value = serde_json::to_value(record).unwrap();
+        let nudge = |value: &Value| match value {
+            Value::Number(number) if number.is_u64() => Value::from(number.as_u64().unwrap() + 1),
+            number => Value::from(f64::from_bits(number.as_f64().unwrap().to_bits() ^ 1)),
+        };
+        for (key, field) in value.as_object().unwrap() {
+            let mut changed = value.clone();
+            if let Value::Array(elements) = field {
+                for (index, element) in elements.iter().enumerate() {
+                    let mut changed = value.clone();
+                    changed[key][index] = nudge(element);
+                    each(format!("{key}[{index}]"), serde_json::from_value(changed).unwrap());
+                }
+            } else {
+                changed[key] = nudge(field);
+                each(key.clone(), serde_json::from_value(changed).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn equal_frames_do_not_differ() {
+        assert_eq!(frame().first_difference(&frame()), None);
+    }
+
+    #[test]
+    fn the_last_bit_of_every_field_shows() {
+        let mut fields = 0;
+        nudge_each(&frame(), |name, changed| {
+            assert_eq!(frame().first_difference(&changed).unwrap().field, name);
+            fields += 1;
+        });
+        assert_eq!(fields, 3 + 2 + 3 + 3 + 4 + 4);
+    }
+
+    #[test]
+    fn minus_zero_is_not_zero() {
+        let mut changed = frame();
+        changed.position[1] = 0.0;
+        let difference = frame().first_difference(&changed).unwrap();
+        assert_eq!((difference.recorded.as_str(), difference.replayed.as_str()), ("-0.0", "0.0"));
+    }
+
+    #[test]
+    fn every_bit_survives_the_text() {
+        let mut record = frame();
+        record.position = [f64::MIN_POSITIVE / 3.0, -0.0, 1.0 / 3.0];
+        record.celerity = [1e12 + 1.0 / 1024.0, f64::MAX, f64::EPSILON];
+        let text = serde_json::to_string(&record).unwrap();
+        assert_eq!(record.first_difference(&serde_json::from_str(&text).unwrap()), None);
+    }
+
+    #[test]
+    fn samples_survive_their_text() {
+        for sample in [
+            Sample::opened(1, Source::Bicycle),
+            Sample::bytes(u64::MAX, Source::SpaceMouse, [0, 0xff, 0x7f]),
+            Sample::bytes(3, Source::Settings, []),
+            Sample::closed(4, Source::Keyboard),
+        ] {
+            let text = serde_json::to_string(&SampleRecord::from(&sample)).unwrap();
+            let record: SampleRecord = serde_json::from_str(&text).unwrap();
+            assert_eq!(Sample::try_from(record), Ok(sample));
+        }
+    }
+
+    #[test]
+    fn texts_that_are_no_bytes_are_refused() {
+        for text in ["0", "0g", "é0", " 00", "+1"] {
+            assert!(unhex(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn schemas_describe_exactly_what_is_written() {
+        let sample = SampleRecord::from(&Sample::opened(0, Source::Gamepad));
+        let written = [
+            serde_json::to_value(sample).unwrap(),
+            serde_json::to_value(ControlsRecord::default()).unwrap(),
+            serde_json::to_value(FrameRecord::default()).unwrap(),
+        ];
+        for (topic, written) in Topic::ALL.into_iter().zip(written) {
+            let schema: Value = serde_json::from_str(topic.schema().1).unwrap();
+            let described: Vec<_> = schema["properties"].as_object().unwrap().keys().collect();
+            let written: Vec<_> = written.as_object().unwrap().keys().collect();
+            assert_eq!(described, written, "{topic:?}");
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! A chunk: up to 8192 vertices of one mesh, transformed by one thread with one formula.
+
+use std::mem::MaybeUninit;
+
+use super::formula::{AtRest, ExactAstern, Formula, LightCone};
+use super::lanes::{AlignedLine, Lanes, OutputLine};
+use super::plan::{Form, Plan};
+use super::simd;
+use super::vertices::{LINE, Line};
+
+/// What one call of the kernel works on.
+pub(super) struct Chunk<'a> {
+    pub(super) plan: Plan,
+    pub(super) form: Form,
+    pub(super) input: [&'a [Line]; 3],
+    /// A value of each for every vertex.
+    pub(super) position: [&'a mut [MaybeUninit<f32>]; 3],
+    /// A value for every vertex, or none at all where D is not wanted.
+    pub(super) doppler: &'a mut [MaybeUninit<f32>],
+    /// Whether to write past the caches where the memory is aligned.
+    pub(super) streaming: bool,
+}
+
+impl Chunk<'_> {
+    /// Transforms the chunk; returns how many of its results are not finite.
+    #[inline(always)]
+    pub(super) fn transform<L: Lanes>(self) -> usize {
+        match self.form {
+            Form::AtRest => self.transform_by::<L, AtRest<L>>(),
+            Form::LightCone => self.transform_by::<L, LightCone<L>>(),
+            Form::ExactAstern => self.transform_by::<L, ExactAstern<L>>(),
+        }
+    }
+
+    #[inline(always)]
+    fn transform_by<L: Lanes, F: Formula<L>>(self) -> usize {
+        let formula = F::new(&self.plan);
+        let streams = self.position.map(<[_]>::as_chunks_mut);
+        let (doppler, doppler_end) = self.doppler.as_chunks_mut();
+        let [(x, x_end), (y, y_end), (z, z_end)] = streams;
+        let lines = x.len();
+        let left_over = x_end.len();
+
+        // Transform the whole lines, past the caches where that is asked for and possible.
+        let mut not_finite = if self.streaming {
+            match simd::aligned([x, y, z, doppler]) {
+                Ok(target) => {
+                    let not_finite = transform_lines(&formula, self.input, target);
+                    L::finish_streaming();
+                    not_finite
+                }
+                Err(target) => transform_lines(&formula, self.input, target),
+            }
+        } else {
+            transform_lines(&formula, self.input, [x, y, z, doppler])
+        };
+
+        // Transform the vertices that do not fill a line by way of one, and copy what belongs to them.
+        if left_over > 0 {
+            let mut target = [[MaybeUninit::uninit(); LINE]; 4];
+            let [x, y, z, doppler] = &mut target;
+            let input = self.input.map(|stream| &stream[lines]);
+            let finite = transform_line(&formula, input, [x, y, z], Some(doppler));
+            not_finite += left_over - (finite & !(u32::MAX << left_over)).count_ones() as usize;
+            for (end, line) in [x_end, y_end, z_end, doppler_end].into_iter().zip(&target) {
+                end.copy_from_slice(&line[..end.len()]);
+            }
+        }
+        not_finite
+    }
+}
+
+/// A line to write to: through the caches or past them.
+trait Target {
+    fn put<L: Lanes>(&mut self, first: usize, values: L);
+}
+
+impl Target for OutputLine {
+    #[inline(always)]
+    fn put<L: Lanes>(&mut self, first: usize, values: L) {
+        values.store(&mut self[first..]);
+    }
+}
+
+impl Target for AlignedLine {
+    #[inline(always)]
+    fn put<L: Lanes>(&mut self, first: usize, values: L) {
+        values.stream(self, first);
+    }
+}
+
+/// Transforms as many lines as there are in the first target; returns how many results are not finite.
+#[inline(always)]
+fn transform_lines<L: Lanes, F: Formula<L>, T: Target>(
+    formula: &F,
+    input: [&[Line]; 3],
+    [x, y, z, doppler]: [&mut [T]; 4],
+) -> usize {
+    let lines = x.len();
+    let [in_x, in_y, in_z] = input.map(|stream| &stream[..lines]);
+    let (y, z) = (&mut y[..lines], &mut z[..lines]);
+    let mut not_finite = 0;
+    for line in 0..lines {
+        let finite = transform_line(
+            formula,
+            [&in_x[line], &in_y[line], &in_z[line]],
+            [&mut x[line], &mut y[line], &mut z[line]],
+            doppler.get_mut(line),
+        );
+        not_finite += LINE - finite.count_ones() as usize;
+    }
+    not_finite
+}
+
+/// Transforms a line; returns a set bit for every vertex whose result is finite. The others are written as zeros.
+#[inline(always)]
+fn transform_line<L: Lanes, F: Formula<L>, T: Target>(
+    formula: &F,
+    [in_x, in_y, in_z]: [&Line; 3],
+    [x, y, z]: [&mut T; 3],
+    mut doppler: Option<&mut T>,
+) -> u32 {
+    let mut finite = 0;
+    for first in (0..LINE).step_by(L::COUNT) {
+        let vertex = [L::load(&in_x.0[first..]), L::load(&in_y.0[first..]), L::load(&in_z.0[first..])];
+        let mut seen = formula.seen(vertex);
+        if seen.finite != L::ALL {
+            seen = seen.collapsed();
+        }
+        let [to_x, to_y, to_z] = seen.position;
+        x.put(first, to_x);
+        y.put(first, to_y);
+        z.put(first, to_z);
+        if let Some(doppler) = &mut doppler {
+            doppler.put(first, seen.doppler);
+        }
+        finite |= seen.finite << first;
+    }
+    finite
+}

@@ -1,0 +1,243 @@
+//! The equations, written once for every vector width.
+//!
+//! Each form takes the offsets p of as many vertices as a register holds and gives the apparent positions and
+//! Doppler factors. With d = p − o the displacement from the eye to the vertex, h and d⊥ its parts along and
+//! across the motion, the emission event is (−r, d), and the boost only scales its light-cone coordinates r ± h:
+//!
+//! ```text
+//! q = |d⊥|²    r = √(h² + q)    big = r + |h|    small = q / big
+//! (a, c) = h ≥ 0 ? (big, small) : (small, big)    A = κ a / 2    C = c / (2κ)
+//! x' = d⊥ + (A − C) e    D = (A + C) / r
+//! ```
+//!
+//! Neither r + |h| nor q / big cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
+//! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for
+//! vertices that lie there: neighbours in a mesh mostly are neighbours in space, so that few do.
+
+use super::lanes::{Lanes, WideLanes, each};
+use super::plan::{Plan, REAR_CONE_COTANGENT_SQUARED};
+
+/// Above this a length or a squared length counts as not finite: the next operation might overflow.
+const LARGEST: f32 = 1e38;
+
+/// What big · r is clamped to, so that a vertex at the eye divides by something.
+const SMALLEST: f32 = f32::MIN_POSITIVE;
+
+/// What a form says of a register's worth of vertices.
+pub(super) struct Seen<L> {
+    /// x', observer's rest frame, axes of the world after a pure boost; metres.
+    pub(super) position: [L; 3],
+    /// D.
+    pub(super) doppler: L,
+    /// Set where the numbers above are finite.
+    pub(super) finite: u32,
+}
+
+impl<L: Lanes> Seen<L> {
+    /// The same with zeros where it is not finite.
+    #[inline(always)]
+    pub(super) fn collapsed(self) -> Self {
+        let zero = L::splat(0.0);
+        let [x, y, z] = self.position;
+        Self {
+            position: [zero.replaced(self.finite, x), zero.replaced(self.finite, y), zero.replaced(self.finite, z)],
+            doppler: zero.replaced(self.finite, self.doppler),
+            finite: self.finite,
+        }
+    }
+}
+
+/// One of the formulas, its constants spread over registers.
+pub(super) trait Formula<L: Lanes> {
+    fn new(plan: &Plan) -> Self;
+    fn seen(&self, vertex: [L; 3]) -> Seen<L>;
+}
+
+/// The eye's offset from the mesh's origin as f32 high and low parts, 48 bits together.
+struct Offset<L> {
+    high: [L; 3],
+    low: [L; 3],
+}
+
+impl<L: Lanes> Offset<L> {
+    #[inline(always)]
+    fn new(plan: &Plan) -> Self {
+        let high = plan.offset.as_vec3();
+        let low = (plan.offset - high.as_dvec3() + plan.offset_rest).as_vec3();
+        Self { high: each!(L::splat, high.to_array()), low: each!(L::splat, low.to_array()) }
+    }
+
+    /// d = (p − o_high) − o_low.
+    #[inline(always)]
+    fn displacement(&self, [x, y, z]: [L; 3]) -> [L; 3] {
+        [x - self.high[0] - self.low[0], y - self.high[1] - self.low[1], z - self.high[2] - self.low[2]]
+    }
+}
+
+/// x' = d and D = 1.
+pub(super) struct AtRest<L>(Offset<L>);
+
+impl<L: Lanes> Formula<L> for AtRest<L> {
+    #[inline(always)]
+    fn new(plan: &Plan) -> Self {
+        Self(Offset::new(plan))
+    }
+
+    #[inline(always)]
+    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+        let position = self.0.displacement(vertex);
+        let size = position[0].abs() + position[1].abs() + position[2].abs();
+        Seen { position, doppler: L::splat(1.0), finite: size.below(L::splat(LARGEST)) }
+    }
+}
+
+/// κ and e, and the steps that both moving forms share.
+struct Boost<L> {
+    direction: [L; 3],
+    half_kappa: L,
+    half_over_kappa: L,
+}
+
+impl<L: Lanes> Boost<L> {
+    #[inline(always)]
+    fn new(plan: &Plan) -> Self {
+        Self {
+            direction: each!(L::splat, plan.direction.as_vec3().to_array()),
+            half_kappa: L::splat((plan.kappa / 2.0) as f32),
+            half_over_kappa: L::splat((0.5 / plan.kappa) as f32),
+        }
+    }
+
+    /// h = e·d.
+    #[inline(always)]
+    fn along(&self, [x, y, z]: [L; 3]) -> L {
+        let [ex, ey, ez] = self.direction;
+        z.mul_add(ez, y.mul_add(ey, x * ex))
+    }
+
+    /// Scales the light-cone coordinates and puts x' and D together.
+    #[inline(always)]
+    fn seen(&self, along: L, across: [L; 3]) -> Seen<L> {
+        let [ax, ay, az] = across;
+        let across_squared = length_squared(across);
+        let distance = along.mul_add(along, across_squared).sqrt();
+
+        // One division serves both q / big and 1 / r.
+        let big = distance + along.abs();
+        let product = big * distance;
+        let inverse = L::splat(1.0) / product.or_at_least(L::splat(SMALLEST));
+        let small = across_squared * (distance * inverse);
+
+        let advanced = along.if_negative(small, big) * self.half_kappa;
+        let retarded = along.if_negative(big, small) * self.half_over_kappa;
+        let lengthened = advanced - retarded;
+        let apparent_distance = advanced + retarded;
+        let [ex, ey, ez] = self.direction;
+        Seen {
+            position: [lengthened.mul_add(ex, ax), lengthened.mul_add(ey, ay), lengthened.mul_add(ez, az)],
+            doppler: apparent_distance * (big * inverse),
+            finite: (apparent_distance + product).below(L::splat(LARGEST)),
+        }
+    }
+}
+
+/// The light-cone form in f32.
+pub(super) struct LightCone<L> {
+    offset: Offset<L>,
+    boost: Boost<L>,
+}
+
+impl<L: Lanes> LightCone<L> {
+    /// h and d⊥ = d − h e.
+    #[inline(always)]
+    fn along_and_across(&self, vertex: [L; 3]) -> (L, [L; 3]) {
+        let displacement = self.offset.displacement(vertex);
+        let along = self.boost.along(displacement);
+        let [x, y, z] = displacement;
+        let [ex, ey, ez] = self.boost.direction;
+        let across = [along.negated_mul_add(ex, x), along.negated_mul_add(ey, y), along.negated_mul_add(ez, z)];
+        (along, across)
+    }
+}
+
+impl<L: Lanes> Formula<L> for LightCone<L> {
+    #[inline(always)]
+    fn new(plan: &Plan) -> Self {
+        Self { offset: Offset::new(plan), boost: Boost::new(plan) }
+    }
+
+    #[inline(always)]
+    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+        let (along, across) = self.along_and_across(vertex);
+        self.boost.seen(along, across)
+    }
+}
+
+/// The light-cone form, accurate in every direction.
+pub(super) struct ExactAstern<L: Lanes> {
+    light_cone: LightCone<L>,
+    offset: [L::Wide; 3],
+    offset_rest: [L::Wide; 3],
+    direction: [L::Wide; 3],
+}
+
+impl<L: Lanes> ExactAstern<L> {
+    /// A bit for every vertex in the rear cone.
+    #[inline(always)]
+    fn astern(along: L, across: [L; 3]) -> u32 {
+        let steepness = L::splat(REAR_CONE_COTANGENT_SQUARED);
+        length_squared(across).mul_add(steepness, along * along.abs()).below(L::splat(0.0))
+    }
+
+    /// d⊥ = e × (d × e), with d and d × e in f64.
+    #[inline(always)]
+    fn across(&self, vertex: [L; 3]) -> [L; 3] {
+        let [x, y, z] = each!(L::widen, vertex);
+        let [ox, oy, oz] = self.offset;
+        let [rx, ry, rz] = self.offset_rest;
+        let displacement = [x - ox - rx, y - oy - ry, z - oz - rz];
+        let moment = cross_wide::<L>(displacement, self.direction);
+        cross(self.light_cone.boost.direction, moment)
+    }
+}
+
+impl<L: Lanes> Formula<L> for ExactAstern<L> {
+    #[inline(always)]
+    fn new(plan: &Plan) -> Self {
+        Self {
+            light_cone: LightCone::new(plan),
+            offset: each!(L::Wide::splat, plan.offset.to_array()),
+            offset_rest: each!(L::Wide::splat, plan.offset_rest.to_array()),
+            direction: each!(L::Wide::splat, plan.direction.to_array()),
+        }
+    }
+
+    #[inline(always)]
+    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+        let (along, mut across) = self.light_cone.along_and_across(vertex);
+        let astern = Self::astern(along, across);
+        if astern != 0 {
+            let ([x, y, z], [exact_x, exact_y, exact_z]) = (across, self.across(vertex));
+            across = [x.replaced(astern, exact_x), y.replaced(astern, exact_y), z.replaced(astern, exact_z)];
+        }
+        self.light_cone.boost.seen(along, across)
+    }
+}
+
+/// |a|².
+#[inline(always)]
+fn length_squared<L: Lanes>([x, y, z]: [L; 3]) -> L {
+    z.mul_add(z, y.mul_add(y, x * x))
+}
+
+/// a × b in f64, rounded to f32 at the end.
+#[inline(always)]
+fn cross_wide<L: Lanes>([ax, ay, az]: [L::Wide; 3], [bx, by, bz]: [L::Wide; 3]) -> [L; 3] {
+    [L::narrow(ay.mul_sub(bz, az * by)), L::narrow(az.mul_sub(bx, ax * bz)), L::narrow(ax.mul_sub(by, ay * bx))]
+}
+
+/// a × b.
+#[inline(always)]
+fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
+    [az.negated_mul_add(by, ay * bz), ax.negated_mul_add(bz, az * bx), ay.negated_mul_add(bx, ax * by)]
+}

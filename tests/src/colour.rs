@@ -1,0 +1,43 @@
+//! sRGB in f64, by IEC 61966-2-1.
+
+/// The eight bits of a pixel that a linear value is nearest to.
+pub fn srgb_byte(linear: f64) -> u8 {
+    encoded(linear).round() as u8
+}
+
+/// The nearest eight bits of three linear values, opaque.
+pub fn srgb_pixel(linear: [f32; 3]) -> [u8; 4] {
+    let [red, green, blue] = linear.map(|value| srgb_byte(f64::from(value)));
+    [red, green, blue, 255]
+}
+
+/// The encoded value of a linear one, on the scale of a byte and before rounding; what is out of range is clipped.
+pub fn encoded(linear: f64) -> f64 {
+    let linear = linear.clamp(0.0, 1.0);
+    255.0 * if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The linear value that a byte stands for.
+pub fn linear(byte: u8) -> f64 {
+    let encoded = f64::from(byte) / 255.0;
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Numbers from the standard: its breakpoint, and mid grey, 188 for half the light.
+
+    use super::*;
+
+    #[test]
+    fn half_the_light_is_188() {
+        assert_eq!(srgb_byte(0.5), 188);
+        assert_eq!(srgb_pixel([0.0, 1.0, 2.0]), [0, 255, 255, 255]);
+        assert!((encoded(0.003_130_8) / 255.0 - 0.040_45).abs() < 1e-6);
+    }
+
+    #[test]
+    fn every_byte_comes_back() {
+        assert!((0..=255).all(|byte| srgb_byte(linear(byte)) == byte));
+    }
+}
