@@ -21,6 +21,15 @@ pub enum Error {
     /// No scene.
     #[error(transparent)]
     Scene(#[from] GltfError),
+    /// A scene with a flaw.
+    #[error(transparent)]
+    Flawed(#[from] crate::scene::SceneFault),
+    /// A scene that `rapidity check` refuses.
+    #[error(transparent)]
+    Check(#[from] crate::scene::check::CheckError),
+    /// A file that could not be exported.
+    #[error(transparent)]
+    Export(#[from] crate::scene::export::ExportError),
     /// Too fine.
     #[error(transparent)]
     Refine(#[from] RefineError),

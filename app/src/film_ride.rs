@@ -40,8 +40,8 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             let (scene, mut replay) = recorded(recording, &options.world.scene)?;
             let spinner = progress::spinner(format!("riding {} again", recording.display()));
             let mut reel = Reel::new(seconds);
-            while let Some(frame) = replay.next_frame()? {
-                if !reel.add(&frame)? {
+            while let Some(replayed) = replay.next_frame()? {
+                if !reel.add(&replayed.frame)? {
                     break;
                 }
             }

@@ -84,12 +84,19 @@ impl Live {
             Rider::Recorded { replay, next } => {
                 self.said.clear();
                 // Frames that were ridden since the last look are gone through, and the last of them is shown.
-                let mut shown = next.take().map(|frame| *frame);
+                let mut shown = None;
                 loop {
-                    let Some(frame) = replay.next_frame()? else { break shown };
+                    let frame = match next.take() {
+                        Some(frame) => *frame,
+                        None => match replay.next_frame()? {
+                            Some(replayed) => replayed.frame,
+                            None => break shown,
+                        },
+                    };
                     if frame.record.at > now {
-                        *next = Some(Box::new(frame.clone()));
-                        break shown.or(Some(frame));
+                        let shown = shown.or_else(|| Some(frame.clone()));
+                        *next = Some(Box::new(frame));
+                        break shown;
                     }
                     shown = Some(frame);
                 }

@@ -81,14 +81,8 @@ impl Log {
             State::Kept(_) => {}
         }
         let mut recorder = Recorder::create(path, &self.header)?;
-        if let State::Kept(entries) = &self.state {
-            for entry in entries {
-                match entry {
-                    Entry::Sample(sample) => recorder.sample(sample)?,
-                    Entry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls)?,
-                    Entry::Frame(record) => recorder.frame(record)?,
-                }
-            }
+        if let State::Kept(entries) = std::mem::replace(&mut self.state, State::TooLong) {
+            recorder.past(entries)?;
         }
         self.state = State::Written(recorder);
         Ok(())

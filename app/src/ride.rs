@@ -117,7 +117,7 @@ fn setup(options: &RideOptions, scene: &Scene) -> Result<Setup, Error> {
     };
     vehicle.flight.nose = match options.vehicle.transport {
         Transport::Gyroscopic => Nose::Gyroscopic,
-        Transport::Facing => Nose::FacingMotion,
+        Transport::Facing => Nose::FacesMotion,
     };
     // One who flies begins at his eye, the others on the ground.
     let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };

@@ -1,10 +1,16 @@
-//! Filters for noisy measurements.
+//! Filters for noisy measurements, and the dead zone of a stick.
 //!
 //! [`MedianOfThree`] removes single outliers (a bouncing contact, a lost pulse); [`OneEuro`] then
 //! smooths, strongly while the signal rests and weakly while it moves, so that slow jitter goes and
 //! quick motion is not late.
 
 use std::f64::consts::TAU;
+
+/// The value with a dead zone about zero, continuous at the zone's edge and clamped to −1 to 1.
+pub fn with_dead_zone(value: f64, zone: f64) -> f64 {
+    let outside = ((value.abs() - zone) / (1.0 - zone)).clamp(0.0, 1.0);
+    outside.copysign(value)
+}
 
 /// The middle one of the last three values.
 #[derive(Clone, Debug, Default)]
@@ -94,6 +100,12 @@ mod tests {
         filter.filter(1.0, 0.1);
         assert_eq!(filter.filter(5.0, 0.0), 1.0);
         assert_eq!(filter.filter(5.0, -1.0), 1.0);
+    }
+
+    #[test]
+    fn a_dead_zone_rests_about_zero_and_reaches_the_ends() {
+        let zoned = [0.0, 0.25, -0.25, 0.625, -1.0, 7.0].map(|value| with_dead_zone(value, 0.25));
+        assert_eq!(zoned, [0.0, 0.0, 0.0, 0.5, -1.0, 1.0]);
     }
 
     #[test]

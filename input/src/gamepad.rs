@@ -21,8 +21,8 @@
 
 use crate::action::Action;
 use crate::decoder::{Actions, Decoder, Faults};
+use crate::filters::with_dead_zone;
 use crate::sample::Nanos;
-use crate::spacemouse::with_dead_zone;
 
 /// Part of the way within which a stick counts as centred: worn ones rest off centre.
 const STICK_DEAD_ZONE: f64 = 0.12;

@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | W, S | pedal, push backward | thrust forward, backward |
 //! | A, D | steer | thrust left, right |
-//! | arrows | pedal, push backward, steer | nose down, up, left, right |
+//! | arrows | pedal, push backward, steer | turn the nose that way |
 //! | Shift | sprint | |
 //! | Space | brake | brake |
 //! | R, F | | thrust up, down |

@@ -11,6 +11,7 @@
 use crate::action::Action;
 use crate::config::AxisTable;
 use crate::decoder::{Actions, Decoder, Faults};
+use crate::filters::with_dead_zone;
 use crate::sample::{Nanos, seconds_between};
 
 /// Nominal full deflection; a hard push exceeds it.
@@ -26,12 +27,6 @@ const BUTTONS: [Action; 2] = [Action::TogglePause, Action::ToggleHelp];
 /// What button `index` does when pressed, on either back end.
 pub(crate) fn button(index: usize) -> Option<Action> {
     BUTTONS.get(index).copied()
-}
-
-/// The value with a dead zone about zero, continuous at its edge and clamped to −1 to 1.
-pub(crate) fn with_dead_zone(value: f64, zone: f64) -> f64 {
-    let outside = ((value.abs() - zone) / (1.0 - zone)).clamp(0.0, 1.0);
-    outside.copysign(value)
 }
 
 /// The six controls for a device's axes and their full deflection.

@@ -380,6 +380,15 @@ fn a_later_format_is_named() {
 }
 
 #[test]
+fn a_header_that_cannot_be_read_back_is_refused_before_the_ride() {
+    let (_directory, path) = place();
+    let nonsense = Header { step_s: f64::NAN, ..header() };
+    let text = Recorder::create(&path, &nonsense).unwrap_err().to_string();
+    assert!(text.starts_with("cannot write") && text.contains("null"), "{text}");
+    assert!(!path.exists(), "the name must stay free");
+}
+
+#[test]
 fn nothing_is_written_over() {
     let (directory, path) = place();
     fs::write(&path, "precious").unwrap();

@@ -11,6 +11,7 @@ use glam::DVec3;
 use super::collision::Collision;
 use super::gltf::{GltfError, load};
 use super::{Scene, SceneFault};
+use crate::vehicle::Surroundings;
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
 const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;

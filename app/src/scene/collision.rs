@@ -14,6 +14,7 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
 
 use super::{Scene, SceneFault};
+use crate::vehicle::{Ground, Surroundings, Wall};
 
 /// The highest step that a vehicle climbs, in metres.
 pub const STEP: f64 = 0.2;
@@ -29,24 +30,6 @@ pub struct Collision {
     origin: DVec3,
     floors: Surfaces,
     walls: Surfaces,
-}
-
-/// The ground under a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ground {
-    /// World y, in metres.
-    pub height: f64,
-    /// Unit vector, world axes, upwards.
-    pub normal: DVec3,
-}
-
-/// The nearest wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wall {
-    /// Horizontal distance, in metres.
-    pub distance: f64,
-    /// Horizontal unit vector, world axes, from the wall to the vehicle.
-    pub normal: DVec3,
 }
 
 impl Collision {
@@ -70,8 +53,11 @@ impl Collision {
         Ok(Self { origin: scene.origin, floors: Surfaces::new(floors), walls: Surfaces::new(walls) })
     }
 
+}
+
+impl Surroundings for Collision {
     /// The highest floor that is not more than [`STEP`] above a point, or `None` if there is nothing below.
-    pub fn height_below(&self, position: DVec3) -> Option<Ground> {
+    fn height_below(&self, position: DVec3) -> Option<Ground> {
         let from = position - self.origin + STEP * DVec3::Y;
         if self.floors.triangles.is_empty() || !from.is_finite() {
             return None;
@@ -88,7 +74,7 @@ impl Collision {
     /// The nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
     ///
     /// A vehicle may lean on it softly: the normal is horizontal and points away from the wall, on either side of it.
-    pub fn nearest_wall(&self, position: DVec3, radius: f64) -> Option<Wall> {
+    fn nearest_wall(&self, position: DVec3, radius: f64) -> Option<Wall> {
         let foot = position - self.origin;
         let (lowest, highest) = (foot.y + STEP, foot.y + BODY);
         if self.walls.triangles.is_empty() || !foot.is_finite() || radius.is_nan() {

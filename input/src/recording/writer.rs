@@ -51,6 +51,7 @@ impl Recorder {
     /// # Errors
     /// If the file exists already, or the system does not let us create or write it.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
+        let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
             io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
             io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
@@ -151,6 +152,13 @@ impl Drop for Recorder {
     }
 }
 
+/// The header as JSON. A number that is not finite is written as none, so it is read back to see.
+fn text(header: &Header) -> Result<String, serde_json::Error> {
+    let text = serde_json::to_string(header)?;
+    serde_json::from_str::<Header>(&text)?;
+    Ok(text)
+}
+
 /// That every number can be read back.
 fn check(record: &FrameRecord) -> Result<(), RecordingError> {
     match record.not_finite() {
@@ -193,7 +201,7 @@ struct Writer {
 impl Writer {
     /// Writes everything that comes before the first message. Chunks are put together in memory and
     /// written whole, so that the file never holds half of one that looks complete.
-    fn new(file: File, header: &Header) -> Result<Self, McapError> {
+    fn new(file: File, header: String) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)
             .library(format!("{PROFILE} {}", env!("CARGO_PKG_VERSION")))
@@ -201,7 +209,6 @@ impl Writer {
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file.try_clone()?)))?;
 
-        let header = serde_json::to_string(header).map_err(io::Error::other)?;
         let metadata = BTreeMap::from([
             (KEY_VERSION.to_owned(), VERSION.to_owned()),
             (KEY_CHECKSUM.to_owned(), format!("{:08x}", crc32fast::hash(header.as_bytes()))),

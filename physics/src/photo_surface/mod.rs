@@ -47,6 +47,7 @@ mod lanes;
 mod plan;
 mod simd;
 mod surface;
+#[cfg(target_arch = "x86_64")]
 mod twice;
 mod vertices;
 

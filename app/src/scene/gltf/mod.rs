@@ -27,6 +27,7 @@ use rayon::prelude::*;
 use self::container::Document;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
+use crate::vehicle::Surroundings;
 use super::collision::Collision;
 use super::{MAX_TRIANGLES, Mesh, Scene, Start};
 
