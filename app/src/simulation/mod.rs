@@ -14,6 +14,8 @@
 mod replay;
 mod setup;
 mod ticks;
+mod tour;
+mod way;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,6 +26,7 @@ use input::{Action, Controls, Desk, Nanos, Sample};
 pub use replay::{Replay, ReplayError, Replayed};
 pub use setup::{Setup, SetupError, Start};
 pub use ticks::TICKS_PER_SECOND;
+pub use tour::{Tour, TourError};
 
 use crate::vehicle::{Eye, Notice, Surroundings, Vehicle, World};
 use ticks::Ticks;

@@ -35,10 +35,6 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-    /// Whether a text field or the like wants the keys.
-    pub fn wants_keys(&self) -> bool {
-        self.context.egui_wants_keyboard_input()
-    }
 
     /// Lays out and draws `contents` over what is in `target`.
     pub fn draw(
