@@ -3,6 +3,8 @@
 //! A program with a clock, a thread or an unordered map in the path would differ from run to run; one that added up rounded intervals would depend on the
 //! frame rate; one that replayed decoded values instead of raw bytes would not notice a decoder that has changed.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use std::sync::Arc;
 
 use glam::DVec3;

@@ -2,6 +2,8 @@
 //!
 //! A wrong sign of the handlebar or of the yaw leaves the way at the first bend; a rider without foresight is carried out of the bends.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use std::sync::Arc;
 
 use glam::DVec3;

@@ -2,6 +2,8 @@
 //!
 //! Triangles from a modeller are no perfect walls: corners, doorsteps and things that stand about are where a vehicle would slip through or be thrown about.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;

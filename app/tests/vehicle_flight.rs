@@ -3,6 +3,8 @@
 //! A program that accelerated in the world's frame would gain speed ever more slowly in rapidity; one whose nose follows the motion by direction alone
 //! would spin at rest and flip in reverse; one that set γ and u apart would leave the mass shell on a long flight.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
 use physics::worldline::State;
