@@ -46,7 +46,7 @@ impl Interface {
         contents: impl FnMut(&mut egui::Ui),
     ) {
         let input = self.state.take_egui_input(window);
-        let output = self.context.run_ui(input, contents);
+        let mut output = self.context.run_ui(input, contents);
         self.state.handle_platform_output(window, output.platform_output);
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
         let size = window.inner_size();
@@ -76,5 +76,6 @@ impl Interface {
         for id in &output.textures_delta.free {
             self.renderer.free_texture(id);
         }
+        output.textures_delta.clear();
     }
 }
