@@ -54,7 +54,15 @@ pub struct Ride {
 impl Ride {
     /// A ride that is about to begin.
     pub fn new(renderer: PolygonRenderer, live: Live) -> Self {
-        Self { live, renderer, under_way: VecDeque::new(), shown: None, not_finite: 0, frame: None, pace: Pace::default() }
+        Self {
+            live,
+            renderer,
+            under_way: VecDeque::new(),
+            shown: None,
+            not_finite: 0,
+            frame: None,
+            pace: Pace::default(),
+        }
     }
 
     /// Advances the ride to this moment and draws it. Returns what the rider wants of the program, `None` at the end.

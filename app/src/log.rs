@@ -6,7 +6,7 @@
 use crate::error::Error;
 use crate::simulation::Frame;
 use input::Sample;
-use input::recording::{Entry, Header, ControlsRecord, Recorder};
+use input::recording::{ControlsRecord, Entry, Header, Recorder};
 use std::path::Path;
 
 /// Entries kept in memory: about three quarters of an hour at sixty frames a second.

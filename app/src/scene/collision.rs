@@ -52,7 +52,6 @@ impl Collision {
         }
         Ok(Self { origin: scene.origin, floors: Surfaces::new(floors), walls: Surfaces::new(walls) })
     }
-
 }
 
 impl Surroundings for Collision {

@@ -27,9 +27,9 @@ use rayon::prelude::*;
 use self::container::Document;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
-use crate::vehicle::Surroundings;
 use super::collision::Collision;
 use super::{MAX_TRIANGLES, Mesh, Scene, Start};
+use crate::vehicle::Surroundings;
 
 /// The most meshes a scene may have, one for each primitive and instance.
 const MAX_MESHES: usize = 1_000_000;

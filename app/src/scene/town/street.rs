@@ -100,7 +100,7 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
             let (m, n) = ((p - before.0).normalize().perp(), (next - p).normalize().perp());
             let (a, b) = (before.1, here);
             let turn = m.perp_dot(n);
-            if turn.abs() < 0.1 { p + n * b } else { p + (m.perp() * -b + n.perp() * a) / turn }
+            if turn.abs() < 0.1 { p + n * b } else { p + (m.perp() * b - n.perp() * a) / turn }
         })
         .collect();
     for k in 0..count {
