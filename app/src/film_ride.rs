@@ -160,8 +160,8 @@ enum Demonstrator {
 impl Demonstrator {
     fn new(scene: &Scene, simulation: &Simulation) -> Self {
         let setup = simulation.setup();
-        match (setup.kind, Tour::new(&scene.circuit, Tour::CRUISE_M_S, setup)) {
-            (VehicleKind::Bicycle, Ok(tour)) => Self::Cyclist(Box::new(tour)),
+        match (setup.kind, Tour::new(&scene.circuit)) {
+            (VehicleKind::Bicycle, Some(tour)) => Self::Cyclist(Box::new(tour)),
             _ => Self::Foot { pressed: false },
         }
     }
@@ -169,7 +169,7 @@ impl Demonstrator {
     /// What he does up to `at`.
     fn samples(&mut self, simulation: &Simulation, at: Nanos) -> Vec<Sample> {
         match self {
-            Self::Cyclist(tour) => tour.samples(at, simulation.vehicle()),
+            Self::Cyclist(tour) => tour.samples(simulation.vehicle(), at),
             Self::Foot { pressed } if !*pressed => {
                 *pressed = true;
                 vec![Sample::key(at, Key::W, true)]

@@ -3,6 +3,8 @@
 //! A program that took the wheel speed for β would stand still at c or run past it; one that turned by the world's clock would ride bends whose radius
 //! depends on the speed; one that forgot γ in the felt accelerations would drift off the nose, or off its celerity, in a bend.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
 use physics::worldline::State;

@@ -3,6 +3,8 @@
 //! A program that only looked where it is would come out on the other side of a house at a celerity of a few; one that took away all speed near a wall
 //! would hold a rider who wants to leave.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
 use physics::worldline::State;

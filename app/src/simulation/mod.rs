@@ -26,7 +26,7 @@ use input::{Action, Controls, Desk, Nanos, Sample};
 pub use replay::{Replay, ReplayError, Replayed};
 pub use setup::{Setup, SetupError, Start};
 pub use ticks::TICKS_PER_SECOND;
-pub use tour::{Tour, TourError};
+pub use tour::Tour;
 
 use crate::vehicle::{Eye, Notice, Surroundings, Vehicle, World};
 use ticks::Ticks;
@@ -42,6 +42,8 @@ pub struct Simulation {
     /// Samples not yet due, by time.
     waiting: VecDeque<Sample>,
     ticks: Ticks,
+    /// The vehicle as the ride began.
+    first: Vehicle,
     vehicle: Vehicle,
     /// Of the last tick.
     controls: Controls,
@@ -78,7 +80,7 @@ impl Simulation {
     /// A setting or the start cannot be used.
     pub fn new(setup: Setup, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
         let desk = Desk::new(setup.desk.clone())?;
-        let mut vehicle = Vehicle::new(setup.world, setup.kind, setup.start.state()?, setup.vehicle.clone())?;
+        let mut vehicle = Vehicle::new(setup.world, setup.kind, setup.start.state()?, setup.vehicle)?;
         vehicle.settle(&*surroundings);
         Ok(Self {
             setup,
@@ -86,6 +88,7 @@ impl Simulation {
             desk,
             waiting: VecDeque::new(),
             ticks: Ticks::default(),
+            first: vehicle.clone(),
             vehicle,
             controls: Controls::default(),
             paused: false,
@@ -190,13 +193,10 @@ impl Simulation {
 
     /// Puts the vehicle, of whatever kind it is by now, back to the start.
     fn restart(&mut self) {
-        let Setup { kind, start, vehicle, .. } = &self.setup;
-        let fresh =
-            start.state().ok().and_then(|state| Vehicle::new(self.vehicle.world(), *kind, state, vehicle.clone()).ok());
-        let mut fresh = fresh.expect("the same start and settings have made a vehicle before");
-        fresh.settle(&*self.surroundings);
-        fresh.set_kind(self.vehicle.kind(), &*self.surroundings);
-        self.vehicle = fresh;
+        let (world, kind) = (self.vehicle.world(), self.vehicle.kind());
+        self.vehicle = self.first.clone();
+        self.vehicle.set_world(world);
+        self.vehicle.set_kind(kind, &*self.surroundings);
     }
 }
 

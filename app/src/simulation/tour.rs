@@ -8,9 +8,7 @@
 use glam::{DQuat, DVec3};
 use input::line::sealed;
 use input::{BicycleConfig, Nanos, SECOND, Sample, Source};
-use thiserror::Error;
 
-use super::Setup;
 use super::way::Way;
 use crate::vehicle::Vehicle;
 
@@ -42,8 +40,6 @@ const FARTHEST_STEER_RAD: f64 = 0.8;
 pub struct Tour {
     way: Way,
     bicycle: BicycleConfig,
-    wheelbase_m: f64,
-    cruise_m_s: f64,
     /// Lines said so far.
     lines: u64,
     /// Speed of the pedalled wheel.
@@ -55,35 +51,26 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// The usual top speed, m/s: 25 km/h, a celerity of 5/6 in the old town.
+    /// His top speed, m/s: 25 km/h, a celerity of 5/6 in the old town.
     pub const CRUISE_M_S: f64 = 25.0 / 3.6;
 
-    /// A rider for a closed way, a polyline on the ground, who pedals up to `cruise_m_s`.
-    ///
-    /// # Errors
-    /// The way has fewer than three different points, or points or speed are no usable numbers.
-    pub fn new(circuit: &[DVec3], cruise_m_s: f64, setup: &Setup) -> Result<Self, TourError> {
-        let way = Way::new(circuit).ok_or(TourError::NoWay { points: circuit.len() })?;
-        if !(cruise_m_s > 0.0 && cruise_m_s <= setup.desk.bicycle.fastest_m_s) {
-            return Err(TourError::Cruise { cruise_m_s, fastest_m_s: setup.desk.bicycle.fastest_m_s });
-        }
-        let bicycle = setup.desk.bicycle.clone();
-        let crank_m = DEVELOPMENT_M / bicycle.pulses_per_crank_turn;
-        Ok(Self {
-            way,
-            wheelbase_m: setup.vehicle.bicycle.wheelbase_m,
-            cruise_m_s,
+    /// A rider for a closed way, a polyline on the ground, on a bicycle whose sensors are calibrated as [`BicycleConfig::default`] says. None if the way has
+    /// fewer than three different corners, or one that is not finite.
+    pub fn new(circuit: &[DVec3]) -> Option<Self> {
+        let bicycle = BicycleConfig::default();
+        Some(Self {
+            way: Way::new(circuit)?,
             lines: 0,
             wheel_m_s: 0.0,
             wheel: Magnet::new(bicycle.metres_per_pulse()),
-            crank: Magnet::new(crank_m),
+            crank: Magnet::new(DEVELOPMENT_M / bicycle.pulses_per_crank_turn),
             along_m: f64::NAN,
             bicycle,
         })
     }
 
     /// What the sensors say up to the time `until`, after what they have said before. `vehicle` is where the rider finds himself.
-    pub fn samples(&mut self, until: Nanos, vehicle: &Vehicle) -> Vec<Sample> {
+    pub fn samples(&mut self, vehicle: &Vehicle, until: Nanos) -> Vec<Sample> {
         let mut samples = Vec::new();
         if self.lines == 0 {
             samples.push(Sample::opened(0, Source::Bicycle));
@@ -108,15 +95,16 @@ impl Tour {
         self.along_m = self.way.nearest(state.position, self.along_m);
 
         // Steer towards a point ahead.
+        let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
         let aim = self.way.point(self.along_m + AIM_M.max(AIM_S * speed));
         let (ahead, left) = in_plane(state.orientation, aim - state.position);
-        let steer_rad = (2.0 * self.wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE)).atan();
+        let steer_rad = (2.0 * wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE)).atan();
         // What lies behind is turned to as sharply as can be.
         let steer_rad = if ahead > 0.0 { steer_rad } else { FARTHEST_STEER_RAD.copysign(left) };
 
         // Slow down in time for the bends ahead.
         let looks = (0..).map(|n| f64::from(n) * OUTLOOK_SPACING_M).take_while(|&distance| distance < OUTLOOK_M);
-        let wanted_m_s = looks.fold(self.cruise_m_s, |slowest, distance| {
+        let wanted_m_s = looks.fold(Self::CRUISE_M_S, |slowest, distance| {
             let bend_m_s = BEND_RAD_S / self.way.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
             slowest.min(bend_m_s.hypot((2.0 * FORESIGHT_M_S2 * distance).sqrt()))
         });
@@ -182,27 +170,4 @@ impl Magnet {
             self.last_us = end_us.saturating_sub(ago_us) as u32;
         }
     }
-}
-
-/// Why there is no tour.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum TourError {
-    /// Nothing to follow.
-    #[error(
-        "the scene has no way to tour: its circuit has {points} points, expected a closed line of three different, finite ones at least"
-    )]
-    NoWay {
-        /// How many points there are.
-        points: usize,
-    },
-    /// Nobody rides like that.
-    #[error(
-        "the tour's speed is {cruise_m_s} m/s: expected a positive number up to {fastest_m_s}, the bicycle's fastest"
-    )]
-    Cruise {
-        /// What was given.
-        cruise_m_s: f64,
-        /// The fastest that the bicycle's sensors believe.
-        fastest_m_s: f64,
-    },
 }

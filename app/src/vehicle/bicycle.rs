@@ -9,8 +9,8 @@
 //! - handlebar: dψ/dτ = v tan δ / L. The bend's radius is L/tan δ metres of the world at any speed;
 //! - road: the pitch follows the ground ([`super::ground`]).
 //!
-//! A motion that turns at Ω (about pilot's up and right) along the nose is felt as Ω × u, and as a turn of γ Ω against gyroscopes, Thomas precession
-//! included. These are fed to the integrator. Wheels roll where the frame points: [`roll`] takes away what rounding adds across.
+//! A motion that turns at Ω (about pilot's up and right) is felt as the acceleration a = Ω × u, and as a turn Ω − (a × u)/(1 + γ) = γ Ω against
+//! gyroscopes, Thomas precession included. These are fed to the integrator. Wheels roll where the frame points: [`roll`] takes away what rounding adds across.
 
 use glam::DVec3;
 use physics::Celerity;
@@ -108,16 +108,15 @@ impl<'a> Bicycle<'a> {
 impl Control for Bicycle<'_> {
     fn thrust(&self, state: &State) -> Thrust {
         let nose = state.orientation * DVec3::NEG_Z;
-        let u = state.celerity.vector().dot(nose);
-        let gamma = u.hypot(1.0);
-        let speed = self.world.metres_per_own_second(u.abs());
+        let u = state.orientation.inverse() * state.celerity.vector();
+        let speed = self.world.metres_per_own_second(u.z.abs());
         let pitch = self.course.pitch_rate_rad_s(nose.y.clamp(-1.0, 1.0).asin(), speed);
-        let turn = DVec3::new(pitch, self.yaw_rad_s(u), 0.0);
-        let along = DVec3::NEG_Z;
-        let per_second =
-            Thrust { acceleration: along * self.forward_per_s(u) + turn.cross(along * u), turn_rate: turn * gamma };
+        let turn = DVec3::new(pitch, self.yaw_rad_s(-u.z), 0.0);
+        // Bend the way with the frame, about the same axis and by the same celerity, or at large γ the one would run away from the other.
+        let acceleration = DVec3::NEG_Z * self.forward_per_s(-u.z) + turn.cross(u);
+        let thomas = acceleration.cross(u) / (1.0 + state.celerity.gamma());
         let c = self.world.speed_of_light_m_s();
-        Thrust { acceleration: per_second.acceleration / c, turn_rate: per_second.turn_rate / c }
+        Thrust { acceleration: acceleration / c, turn_rate: (turn - thomas) / c }
     }
 }
 

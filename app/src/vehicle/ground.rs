@@ -12,12 +12,10 @@ use super::surroundings::Surroundings;
 const LOOK_M: f64 = 0.8;
 /// k above.
 const STIFFNESS: f64 = 4.0;
-/// In one step no more than this share of a look is ridden.
+/// A look goes at least this many steps ahead.
 const LOOK_PER_STEP: f64 = 4.0;
 /// The steepest way up or down, radians.
 const STEEPEST_RAD: f64 = 0.5;
-/// The highest step that is ground and not a wall, metres.
-const STEP_UP_M: f64 = 0.5;
 /// Nothing pitches faster than this, radians per second of own time.
 const FASTEST_PITCH_RAD_S: f64 = 20.0;
 
@@ -31,12 +29,14 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Looks at the ground ahead; `direction` is the motion's, level and of unit length, `way_m` what will be ridden before the next look. Where
-    /// there is no ground the way is level.
+    /// Looks at the ground ahead; `direction` is the unit vector of the motion, not vertical, `way_m` what will be ridden before the next look. Where there is
+    /// no ground the way is level.
     pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, way_m: f64) -> Self {
         let look_m = LOOK_M.max(LOOK_PER_STEP * way_m);
-        let ahead = position + direction * look_m;
-        let slope_rad = height_below(surroundings, ahead).map_or(0.0, |height| (height - position.y).atan2(look_m));
+        // Look along the present slope, so that a hill is not taken for a step.
+        let ahead = position + direction * (look_m / direction.x.hypot(direction.z));
+        let height = surroundings.height_below(ahead).map(|ground| ground.height);
+        let slope_rad = height.map_or(0.0, |height| (height - position.y).atan2(look_m));
         Self { slope_rad: slope_rad.clamp(-STEEPEST_RAD, STEEPEST_RAD), look_m }
     }
 
@@ -53,13 +53,9 @@ impl Course {
     }
 }
 
-fn height_below(surroundings: &dyn Surroundings, position: DVec3) -> Option<f64> {
-    surroundings.height_below(position + DVec3::Y * STEP_UP_M).map(|ground| ground.height)
-}
-
 /// The point of the ground below, or the point itself where there is none.
 pub(super) fn placed(surroundings: &dyn Surroundings, position: DVec3) -> DVec3 {
-    DVec3 { y: height_below(surroundings, position).unwrap_or(position.y), ..position }
+    surroundings.height_below(position).map_or(position, |ground| DVec3 { y: ground.height, ..position })
 }
 
 /// The level unit vector along which the nose points; for a nose straight up or down, along which the roof or the floor does.

@@ -68,6 +68,8 @@ pub const RAPIDITY_CAP: f64 = 27.0;
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
 /// More pieces than this are not computed for one step.
 const MOST_PIECES: f64 = 64.0;
+/// The sine of a slope that no road has.
+const STEEPEST_ROAD: f64 = 0.9;
 /// More strides than this are not computed between walls for one piece of a step.
 const MOST_STRIDES: usize = 64;
 
@@ -200,10 +202,8 @@ impl Vehicle {
     /// One piece of a step through free space.
     fn fly(&mut self, own_s: f64, wishes: &Wishes) {
         self.resistance = 0.0;
-        let settings = self.settings.clone();
-        let before = self.state;
+        let settings = self.settings;
         self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, None));
-        self.count(&before, own_s);
     }
 
     /// One piece of a step on the ground, in strides that no wall is thinner than.
@@ -221,7 +221,7 @@ impl Vehicle {
             let way_m = self.way_m(left_s);
             let span_s = if way_m > free_m { left_s * (free_m / way_m) } else { left_s };
 
-            let before = self.state;
+            let before = self.state.position;
             self.drive_on(span_s, wishes, surroundings);
             match walls::settled(surroundings, wall, self.state.position, self.way_m(left_s)) {
                 Some((position, wall_there)) => {
@@ -229,11 +229,10 @@ impl Vehicle {
                     wall = wall_there;
                 }
                 None => {
-                    self.state.position = before.position;
+                    self.state.position = before;
                     self.state.celerity = Celerity::ZERO;
                 }
             }
-            self.count(&before, span_s);
             if span_s >= left_s || stride == MOST_STRIDES {
                 return;
             }
@@ -243,9 +242,9 @@ impl Vehicle {
 
     /// One stride on the ground, walls left aside.
     fn drive_on(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
-        let (direction, backward) = self.level_direction();
+        let (direction, backward) = self.road_direction();
         let course = Course::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
-        let settings = self.settings.clone();
+        let settings = self.settings;
         if self.kind == VehicleKind::Drive {
             self.resistance = 0.0;
             self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, Some(course)));
@@ -259,26 +258,29 @@ impl Vehicle {
         self.constrain();
     }
 
-    /// Integrates the worldline and caps the rapidity.
+    /// Integrates the worldline, caps the rapidity, and turns the odometer.
     fn integrate(&mut self, own_s: f64, control: &dyn Control) {
+        let before = self.state.celerity;
         let step = self.world.metres(own_s);
         let taken = match self.settings.integrator {
             IntegratorKind::Rk4 => Rk4.step(&self.state, step, control),
             IntegratorKind::Exact => Exact.step(&self.state, step, control),
             IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
         };
+        let taken = taken.or_else(|_| {
+            self.tell(Notice::TakenByRk4);
+            Rk4.step(&self.state, step, control)
+        });
         match taken {
-            Ok(state) => {
-                self.state = state;
-                self.odometer.own_s += own_s;
-            }
-            Err(_) => self.tell(Notice::NotIntegrated),
+            Ok(state) => self.state = state,
+            Err(_) => return self.tell(Notice::NotIntegrated),
         }
         let capped = self.state.celerity.capped(RAPIDITY_CAP);
         if capped != self.state.celerity {
             self.state.celerity = capped;
             self.tell(Notice::RapidityCapped);
         }
+        self.odometer.count(self.world, own_s, before, self.state.celerity);
     }
 
     /// What a vehicle on the ground cannot do: slip sideways, lean, tilt.
@@ -309,27 +311,17 @@ impl Vehicle {
         self.state.celerity = Celerity::new(kept).unwrap_or(Celerity::ZERO);
     }
 
-    /// Adds a stride to the odometer.
-    fn count(&mut self, before: &State, own_s: f64) {
-        let beta = |state: &State| state.celerity.magnitude() / state.celerity.gamma();
-        let odometer = &mut self.odometer;
-        odometer.road_m += (self.state.position - before.position).length();
-        odometer.own_m += 0.5 * (beta(before) + beta(&self.state)) * self.world.metres(own_s);
-        odometer.world_s += self.world.seconds(self.state.ct - before.ct);
-    }
-
     /// The celerity along the nose.
     fn forward(&self) -> f64 {
         self.state.celerity.vector().dot(self.state.orientation * DVec3::NEG_Z)
     }
 
-    /// The level direction of the motion, or of the nose at rest; and whether the motion is backward.
-    fn level_direction(&self) -> (DVec3, bool) {
-        let nose = heading(self.state.orientation);
+    /// The direction of the motion, or of the nose at rest, not steeper than a road is; and whether the motion is backward.
+    fn road_direction(&self) -> (DVec3, bool) {
         let backward = self.forward() < 0.0;
-        let celerity = self.state.celerity.vector();
-        let ahead = if backward { -nose } else { nose };
-        (DVec3 { y: 0.0, ..celerity }.try_normalize().unwrap_or(ahead), backward)
+        let nose = heading(self.state.orientation);
+        let motion = self.state.celerity.direction().unwrap_or(nose);
+        (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
     }
 
     /// Road that goes by in a time at the present celerity, metres.

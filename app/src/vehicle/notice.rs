@@ -11,6 +11,8 @@ pub enum Notice {
     RapidityCapped,
     /// A control was no finite number and counted as let go.
     ControlsNotFinite,
+    /// The chosen integrator gave up on a step, and RK4 took it.
+    TakenByRk4,
     /// A step could not be integrated and was not taken.
     NotIntegrated,
     /// The walls stand too close for this celerity.
@@ -24,6 +26,7 @@ impl fmt::Display for Notice {
         match self {
             Self::RapidityCapped => write!(formatter, "rapidity capped at {RAPIDITY_CAP}"),
             Self::ControlsNotFinite => write!(formatter, "a control is not a finite number: it counts as let go"),
+            Self::TakenByRk4 => write!(formatter, "the chosen integrator gave up on a step: RK4 took it"),
             Self::NotIntegrated => write!(formatter, "a step could not be computed: the vehicle waits"),
             Self::HeldByWalls => write!(formatter, "too fast for these walls: slowed down"),
             Self::SpeedOfLightRefused => write!(formatter, "no world can be computed with such a speed of light"),

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// How the vehicles respond.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VehicleSettings {
     /// The bicycle.
@@ -75,7 +75,7 @@ pub struct SettingsError {
 }
 
 /// The bicycle of B 5.6.1. Speeds and accelerations are those that the rider measures: road by his own clock.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BicycleSettings {
     /// Distance of the axles, metres.
@@ -98,7 +98,7 @@ impl Default for BicycleSettings {
 }
 
 /// Driving and flying (W 6.2, 6.3).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlightSettings {
     /// Proper acceleration at full deflection, as rapidity gained per second of own time.

@@ -23,7 +23,7 @@ pub struct Wall {
 /// A place at rest in the world. Vehicles ask it several times a step, so answers should take microseconds; the same question must
 /// always get the same answer, to the bit, or a ride does not replay.
 pub trait Surroundings: Send + Sync {
-    /// The highest ground at or below `position`, none where there is nothing to stand on.
+    /// The highest ground that is below `position` or no more than a kerb above it, none where there is nothing to stand on.
     fn height_below(&self, position: DVec3) -> Option<Ground>;
 
     /// The wall nearest to a vehicle whose reference point on the ground is `position`, none within `reach` metres. The distance must be
@@ -50,8 +50,8 @@ impl Surroundings for OpenSpace {
 pub struct OpenPlane;
 
 impl Surroundings for OpenPlane {
-    fn height_below(&self, position: DVec3) -> Option<Ground> {
-        (position.y >= 0.0).then_some(Ground { height: 0.0, normal: DVec3::Y })
+    fn height_below(&self, _: DVec3) -> Option<Ground> {
+        Some(Ground { height: 0.0, normal: DVec3::Y })
     }
 
     fn nearest_wall(&self, _: DVec3, _: f64) -> Option<Wall> {
