@@ -155,8 +155,8 @@ pub(super) fn country(builder: &mut Builder, daylight: &Lighting) {
             let surface = if hill { Surface::Hills } else { Surface::Grass };
             // Clearings are lighter; distance pales everything.
             let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.10;
-            let wood = if clearing { vec3(1.9, 1.6, 1.3) } else { Vec3::ONE };
-            let pale = wood.lerp(vec3(1.3, 1.45, 1.9), 0.6 * smoothstep(PLAIN, HORIZON, near));
+            let wood = if clearing { vec3(0.72, 0.66, 0.66) } else { vec3(0.36, 0.40, 0.50) };
+            let pale = wood.lerp(vec3(0.55, 0.62, 0.85), 0.6 * smoothstep(PLAIN, HORIZON, near));
             let tint = if hill { pale * level } else { Vec3::ONE };
             let (corners, normals): (Vec<Corner>, Vec<Vec3>) = places
                 .iter()
