@@ -35,7 +35,6 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-
     /// Lays out and draws `contents` over what is in `target`.
     pub fn draw(
         &mut self,

@@ -127,8 +127,11 @@ impl Gable {
         let square = [vec2(left, low), vec2(left + bay, low), vec2(left + bay, high), vec2(left, high)];
         // Below the two slopes: x/middle ≥ y/height on the left, mirrored on the right.
         let cut = clip(&square, vec2(-1.0 / middle, 1.0 / self.height), 0.0);
-        let cut = clip(&cut, vec2(1.0 / middle, 1.0 / self.height), 2.0);
-        if cut.len() < 3 {
+        let mut cut = clip(&cut, vec2(1.0 / middle, 1.0 / self.height), 2.0);
+        // Where a slope passes through a corner, points fall together.
+        cut.dedup_by(|a, b| a.distance(*b) < 0.005);
+        let twice_area: f32 = cut.windows(2).map(|pair| (pair[0] - cut[0]).perp_dot(pair[1] - cut[0])).sum();
+        if cut.len() < 3 || twice_area < 0.002 {
             return;
         }
         let corner = |p: &Vec2| {

@@ -89,7 +89,7 @@ pub fn build(seed: u64) -> Scene {
     skyline::second_row(&mut builder, &plan, &mut dice);
     skyline::yards(&mut builder, &mut dice);
     skyline::town_wall(&mut builder);
-    nature::country(&mut builder);
+    nature::country(&mut builder, &daylight());
 
     // Paint the surfaces and hand everything over.
     let (materials, textures) = surface::materials(seed as u32);

@@ -9,11 +9,14 @@ use super::canvas::{cloud, smoothstep};
 use super::plan::ground;
 use super::surface::Surface;
 use super::turn::circle;
+use crate::scene::Lighting;
 
 /// Middle of the town.
 pub(super) const MIDDLE: Vec2 = vec2(48.0, -4.0);
 /// Where the country begins to rise, metres from the middle.
 const PLAIN: f32 = 150.0;
+/// Where the hills are highest and the country ends.
+const HORIZON: f32 = 340.0;
 
 /// A lime tree: a trunk and `sprays` of leaves that face outwards from the middles of three lobes.
 pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u32, dice: &mut ChaCha8Rng) {
@@ -118,8 +121,8 @@ pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
 
 /// Height of the country, below the streets so that it never shows through them.
 fn country_height(p: Vec2) -> f32 {
-    let hills = 70.0 + 55.0 * cloud(p / 230.0, IVec2::splat(64), 2, 5);
-    ground(p) - 0.22 + hills * smoothstep(PLAIN, 520.0, p.distance(MIDDLE))
+    let hills = 62.0 + 40.0 * cloud(p / 150.0, IVec2::splat(64), 2, 5);
+    ground(p) - 0.22 + hills * smoothstep(PLAIN, HORIZON, p.distance(MIDDLE))
 }
 
 /// A point of the country and its normal.
@@ -129,27 +132,38 @@ fn country_point(p: Vec2) -> (Vec3, Vec3) {
 }
 
 /// Meadows under and round the town, woods and clearings on the hills beyond.
-pub(super) fn country(builder: &mut Builder) {
-    const RINGS: [f32; 14] =
-        [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 195.0, 250.0, 320.0, 410.0, 540.0];
+///
+/// The hills send out the light of `daylight` as if they were unlit: they are beyond the reach of any shadow, and the sun's
+/// depth map need not cover them.
+pub(super) fn country(builder: &mut Builder, daylight: &Lighting) {
+    const RINGS: [f32; 13] = [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 185.0, 225.0, 275.0, HORIZON];
     const SPOKES: u32 = 27;
     builder.district("country");
+    let irradiance = |normal: Vec3| {
+        let [sun, sky, ground] = [daylight.sun, daylight.sky, daylight.ground].map(Vec3::from);
+        sun * normal.dot(daylight.sun_direction).max(0.0) + ground.lerp(sky, 0.5 + 0.5 * normal.y)
+    };
+    let level = irradiance(Vec3::Y);
     for pair in RINGS.windows(2) {
         let (near, far) = (pair[0], pair[1]);
-        // Distance pales the hills.
-        let tint = Vec3::ONE.lerp(vec3(0.95, 1.05, 1.30), smoothstep(PLAIN, 560.0, near));
         for spoke in 0..SPOKES {
             let at =
                 |radius: f32, step: u32| MIDDLE + radius * circle(((spoke + step) % SPOKES) as f32 / SPOKES as f32);
             let places = [at(near, 1), at(near, 0), at(far, 0), at(far, 1)];
             let places = if near > 0.0 { &places[..] } else { &places[1..] };
-            let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.12;
-            let surface = if near < PLAIN || clearing { Surface::Grass } else { Surface::Hills };
+            let hill = near >= PLAIN;
+            let surface = if hill { Surface::Hills } else { Surface::Grass };
+            // Clearings are lighter; distance pales everything.
+            let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.10;
+            let wood = if clearing { vec3(0.72, 0.66, 0.66) } else { vec3(0.36, 0.40, 0.50) };
+            let pale = wood.lerp(vec3(0.55, 0.62, 0.85), 0.6 * smoothstep(PLAIN, HORIZON, near));
+            let tint = if hill { pale * level } else { Vec3::ONE };
             let (corners, normals): (Vec<Corner>, Vec<Vec3>) = places
                 .iter()
                 .map(|&p| {
                     let (at, normal) = country_point(p);
-                    (Corner::new(at, p / surface.tile()), normal)
+                    let light = if hill { irradiance(normal).y / level.y } else { 1.0 };
+                    (Corner { at, uv: p / surface.tile(), light }, normal)
                 })
                 .rev()
                 .unzip();

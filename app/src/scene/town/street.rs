@@ -93,24 +93,29 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     builder.district("market square");
     let outline = square_outline(plan);
     let count = outline.len();
-    let inner: Vec<Vec2> = (0..count)
+    // Inner corners of the border: where the side before ends and where the side after begins. They are one, except where
+    // the border stops at a street.
+    let inner: Vec<[Vec2; 2]> = (0..count)
         .map(|k| {
-            let (before, (p, here), next) = (outline[(k + count - 1) % count], outline[k], outline[(k + 1) % count].0);
-            // The point at each side's own distance from the sides that meet here.
-            let (m, n) = ((p - before.0).normalize().perp(), (next - p).normalize().perp());
-            let (a, b) = (before.1, here);
-            let turn = m.perp_dot(n);
-            if turn.abs() < 0.1 { p + n * b } else { p + (m.perp() * -b + n.perp() * a) / turn }
+            let ((before, width), (p, next_width)) = (outline[(k + count - 1) % count], outline[k]);
+            let (m, n) = ((p - before).normalize().perp(), (outline[(k + 1) % count].0 - p).normalize().perp());
+            if width == next_width {
+                [p + (m + n) * width / (1.0 + m.dot(n)); 2]
+            } else {
+                [p + m * width, p + n * next_width]
+            }
         })
         .collect();
     for k in 0..count {
         let next = (k + 1) % count;
         if outline[k].1 > 0.0 {
-            let corners = [(inner[k], 1.0), (inner[next], 1.0), (outline[next].0, 0.55), (outline[k].0, 0.55)];
+            let corners = [(inner[k][1], 1.0), (inner[next][0], 1.0), (outline[next].0, 0.55), (outline[k].0, 0.55)];
             builder.lit(Surface::Slabs, Vec3::ONE, &corners.map(|(p, light)| (on_ground(p), light)));
         }
     }
-    for triangle in triangulate(&inner) {
+    let mut middle: Vec<Vec2> = inner.into_iter().flatten().collect();
+    middle.dedup();
+    for triangle in triangulate(&middle) {
         builder.metric(Surface::Setts, Vec3::ONE, &triangle.map(on_ground));
     }
 }

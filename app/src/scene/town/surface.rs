@@ -55,6 +55,7 @@ struct Recipe {
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
     alpha: Alpha,
+    unlit: bool,
     double_sided: bool,
 }
 
@@ -124,6 +125,7 @@ impl Surface {
             base_colour: [1.0; 4],
             wrap: [Wrap::Repeat; 2],
             alpha: Alpha::Opaque,
+            unlit: false,
             double_sided: false,
         };
         let clamped = [Wrap::Clamp; 2];
@@ -176,7 +178,7 @@ impl Surface {
             Surface::Flowers => Recipe { picture: square(512, nature::flowers), double_sided: true, ..cut_out },
             Surface::Ivy => Recipe { picture: square(512, nature::ivy), double_sided: true, ..cut_out },
             Surface::Grass => Recipe { picture: square(512, nature::grass), ..plain },
-            Surface::Hills => Recipe { picture: square(512, nature::woods), ..plain },
+            Surface::Hills => Recipe { picture: square(512, nature::woods), unlit: true, ..plain },
         }
     }
 
@@ -209,6 +211,7 @@ pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
             base_colour: recipe.base_colour,
             base_colour_texture,
             alpha: recipe.alpha,
+            unlit: recipe.unlit,
             double_sided: recipe.double_sided,
             ..Material::default()
         });

@@ -107,7 +107,7 @@ pub(in crate::scene::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -
 pub(in crate::scene::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let crowns = noise(p * 0.2, ivec2(12, 12), seed) * 0.5 + noise(p * 0.6, ivec2(36, 36), seed + 1);
-        vec3(0.31, 0.39, 0.23) * (1.0 + 0.25 * crowns)
+        vec3(0.50, 0.58, 0.36) * (1.0 + 0.25 * crowns)
     })
 }
 
