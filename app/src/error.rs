@@ -21,12 +21,62 @@ pub enum Error {
     /// No scene.
     #[error(transparent)]
     Scene(#[from] GltfError),
+    /// A scene with a flaw.
+    #[error(transparent)]
+    Flawed(#[from] crate::scene::SceneFault),
+    /// A scene that `rapidity check` refuses.
+    #[error(transparent)]
+    Check(#[from] crate::scene::check::CheckError),
+    /// A file that could not be exported.
+    #[error(transparent)]
+    Export(#[from] crate::scene::export::ExportError),
     /// Too fine.
     #[error(transparent)]
     Refine(#[from] RefineError),
     /// An observer or a scene that is nowhere.
     #[error(transparent)]
     PhotoSurface(#[from] PhotoSurfaceError),
+    /// A recording that cannot be made or read.
+    #[error(transparent)]
+    Recording(#[from] input::recording::RecordingError),
+    /// A ride that cannot begin.
+    #[error(transparent)]
+    Setup(#[from] crate::simulation::SetupError),
+    /// A recorded ride that is not the same.
+    #[error(transparent)]
+    Replay(#[from] crate::simulation::ReplayError),
+    /// A speed of light that is none.
+    #[error(transparent)]
+    World(#[from] crate::vehicle::WorldError),
+    /// Devices that cannot be read.
+    #[error(transparent)]
+    Devices(#[from] input::devices::DevicesError),
+    /// Device settings that cannot be used.
+    #[error(transparent)]
+    Desk(#[from] input::ConfigError),
+    /// Files that `rapidity check` found fault with.
+    #[error("{bad} of {files} files are not good")]
+    Checked {
+        /// How many.
+        bad: usize,
+        /// Of how many.
+        files: usize,
+    },
+    /// A file that nothing here reads.
+    #[error("{}: neither a scene (.gltf, .glb) nor a recording (.mcap)", path.display())]
+    UnknownKind {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A ride too long to be recorded from its beginning.
+    #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
+    NotRemembered,
+    /// No window.
+    #[error("no window could be opened ({0}); to film the ride instead, name a file with --out")]
+    Window(String),
+    /// The terminal or the pipe that is written to is gone.
+    #[error("the output cannot be written: {0}")]
+    Output(#[from] std::io::Error),
     /// A file that would not be written.
     #[error("{}: could not be written: {reason}; choose another place with --out", path.display())]
     Write {

@@ -2,25 +2,59 @@
 
 use rapidity::command::{self, Command};
 use rapidity::error::Error;
-use rapidity::render;
+use rapidity::scene::{export, source};
+use rapidity::{check, devices, probe, render, ride};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match command::parse() {
-        Ok(command) => match run(&command) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("rapidity: {error}");
-                ExitCode::FAILURE
-            }
-        },
+    quieten_mesa();
+    match command::parse().map(|command| run(&command)) {
+        Ok(Ok(status)) => status,
+        Ok(Err(error)) => {
+            eprintln!("rapidity: {error}");
+            ExitCode::FAILURE
+        }
         Err(status) => status,
     }
 }
 
-fn run(command: &Command) -> Result<(), Error> {
+fn run(command: &Command) -> Result<ExitCode, Error> {
     match command {
-        Command::Render(options) => render::render(options),
-        _ => Ok(()),
+        Command::Ride(options) => {
+            limit_threads(options.picture.threads);
+            ride::ride(options)?;
+        }
+        Command::Render(options) => {
+            limit_threads(options.picture.threads);
+            render::render(options)?;
+        }
+        Command::Town(options) => {
+            let scene = source::load(&command::SceneChoice::Town)?;
+            export::write_glb(&scene, &options.out)?;
+            eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
+        }
+        Command::Probe => {
+            let good = probe::run(std::io::stdin().lock(), std::io::stdout().lock())?;
+            return Ok(if good { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+        }
+        Command::Devices(options) => devices::devices(options)?,
+        Command::Check(options) => check::check(options)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The number of threads that transform the scene.
+fn limit_threads(threads: Option<u32>) {
+    if let Some(threads) = threads {
+        // Fails only if the pool is running already, which it is not before the first command.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
+    }
+}
+
+/// Mesa complains on standard error where no session has set this directory, which it does not need.
+fn quieten_mesa() {
+    if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: no other thread runs yet that could read the environment.
+        unsafe { std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir()) };
     }
 }

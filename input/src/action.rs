@@ -1,7 +1,8 @@
 //! Actions: things that happen once, at a press, and the decoder of those that the interface sends.
 //!
-//! Buttons of any device and the program's own panels end in the same list. What a panel sends is a small JSON
-//! text (`"step"`, `{"time_scale":0.5}`) that passes through the recording like any other device's bytes.
+//! Buttons of any device and the program's own panels end in the same list. What a panel sends is a
+//! small JSON text (`"step"`, `{"time_scale":0.5}`) that passes through the recording like any
+//! other device's bytes.
 
 use serde::{Deserialize, Serialize};
 
@@ -50,18 +51,14 @@ pub enum Action {
 impl Action {
     /// The text that the settings' decoder reads.
     pub fn to_bytes(&self) -> Box<[u8]> {
-        serde_json::to_vec(self)
-            .expect("an action is always representable as JSON")
-            .into_boxed_slice()
+        serde_json::to_vec(self).expect("an action is always representable as JSON").into_boxed_slice()
     }
 
     /// Whether the numbers are of use.
     fn is_sound(self) -> bool {
         match self {
             Self::TimeScale(scale) => scale.is_finite() && scale >= 0.0,
-            Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => {
-                factor.is_finite() && factor > 0.0
-            }
+            Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && factor > 0.0,
             _ => true,
         }
     }
@@ -118,14 +115,8 @@ mod tests {
 
     #[test]
     fn texts_that_are_no_action_are_counted_and_do_nothing() {
-        let bad: [&[u8]; 6] = [
-            b"",
-            b"\"fly\"",
-            b"{\"time_scale\":-1}",
-            b"{\"scale_time\":0}",
-            b"{\"time_scale\":1e999}",
-            b"\xff\xfe",
-        ];
+        let bad: [&[u8]; 6] =
+            [b"", b"\"fly\"", b"{\"time_scale\":-1}", b"{\"scale_time\":0}", b"{\"time_scale\":1e999}", b"\xff\xfe"];
         for bytes in bad {
             assert_eq!(decode(bytes), (vec![], 1), "{bytes:?}");
         }

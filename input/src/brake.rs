@@ -1,7 +1,8 @@
 //! What the program tells the bicycle: how strongly to brake.
 //!
-//! The ergometer's brake is driven from the lever and from what the simulation feels (B 5.6.1). The line is
-//! `K1,<seq>,<brake 0..1>*HH`, sealed like those that come in; the box may check `seq` for lost ones.
+//! The ergometer's brake is driven from the lever and from what the simulation feels (B 5.6.1). The
+//! line is `K1,<seq>,<brake 0..1>*HH`, sealed like those that come in; the box may check `seq` for
+//! lost ones.
 
 use crate::line::{LineError, sealed, unseal};
 
@@ -15,13 +16,10 @@ pub struct BrakeCommand {
 }
 
 impl BrakeCommand {
-    /// The line, with its line feed. The brake is clamped to 0 to 1 and given to a thousandth; what is not a number brakes not.
+    /// The line, with its line feed. The brake is clamped to 0 to 1 and given to a thousandth; what
+    /// is not a number brakes not.
     pub fn to_line(self) -> String {
-        let brake = if self.brake.is_nan() {
-            0.0
-        } else {
-            self.brake.clamp(0.0, 1.0)
-        };
+        let brake = if self.brake.is_nan() { 0.0 } else { self.brake.clamp(0.0, 1.0) };
         sealed(&format!("K1,{},{brake:.3}", self.sequence))
     }
 
@@ -39,14 +37,8 @@ impl BrakeCommand {
                 expected: "3, the first `K1`",
             });
         };
-        let wrong = |field, text: &str, expected| LineError::Field {
-            field,
-            text: text.to_owned(),
-            expected,
-        };
-        let sequence = sequence
-            .parse()
-            .map_err(|_| wrong("seq", sequence, "a whole number"))?;
+        let wrong = |field, text: &str, expected| LineError::Field { field, text: text.to_owned(), expected };
+        let sequence = sequence.parse().map_err(|_| wrong("seq", sequence, "a whole number"))?;
         match brake.parse::<f64>() {
             Ok(brake) if (0.0..=1.0).contains(&brake) => Ok(Self { sequence, brake }),
             _ => Err(wrong("brake", brake, "a number from 0 to 1")),
@@ -61,33 +53,15 @@ mod tests {
     #[test]
     fn a_command_survives_its_line() {
         for brake in [0.0, 0.25, 0.999, 1.0] {
-            let command = BrakeCommand {
-                sequence: u32::MAX,
-                brake,
-            };
-            assert_eq!(
-                BrakeCommand::parse(command.to_line().trim_end()),
-                Ok(command)
-            );
+            let command = BrakeCommand { sequence: u32::MAX, brake };
+            assert_eq!(BrakeCommand::parse(command.to_line().trim_end()), Ok(command));
         }
-        assert_eq!(
-            BrakeCommand {
-                sequence: 7,
-                brake: 0.5
-            }
-            .to_line(),
-            "K1,7,0.500*66\n"
-        );
+        assert_eq!(BrakeCommand { sequence: 7, brake: 0.5 }.to_line(), "K1,7,0.500*66\n");
     }
 
     #[test]
     fn a_brake_out_of_range_is_clamped_and_one_that_is_no_number_lets_go() {
-        for (brake, clamped) in [
-            (-1.0, 0.0),
-            (7.0, 1.0),
-            (f64::NAN, 0.0),
-            (f64::INFINITY, 1.0),
-        ] {
+        for (brake, clamped) in [(-1.0, 0.0), (7.0, 1.0), (f64::NAN, 0.0), (f64::INFINITY, 1.0)] {
             let line = BrakeCommand { sequence: 0, brake }.to_line();
             assert_eq!(BrakeCommand::parse(line.trim_end()).unwrap().brake, clamped);
         }
@@ -96,10 +70,7 @@ mod tests {
     #[test]
     fn other_lines_are_no_commands() {
         for text in ["K1,1", "K2,1,0.5", "K1,x,0.5", "K1,1,1.5", "K1,1,nan"] {
-            assert!(
-                BrakeCommand::parse(sealed(text).trim_end()).is_err(),
-                "{text}"
-            );
+            assert!(BrakeCommand::parse(sealed(text).trim_end()).is_err(), "{text}");
         }
     }
 }

@@ -17,16 +17,12 @@ pub struct ConfigError {
     pub expected: &'static str,
 }
 
-/// Fails unless the value is finite and positive.
+/// Fails unless the value is positive and of a size that leaves room for arithmetic.
 fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
-    if value.is_finite() && value > 0.0 {
+    if (1e-6..=1e6).contains(&value) {
         Ok(())
     } else {
-        Err(ConfigError {
-            key,
-            value: value.to_string(),
-            expected: "a positive, finite number",
-        })
+        Err(ConfigError { key, value: value.to_string(), expected: "a positive number from 1e-6 to 1e6" })
     }
 }
 
@@ -35,11 +31,7 @@ fn not_zero(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if value.is_finite() && value != 0.0 {
         Ok(())
     } else {
-        Err(ConfigError {
-            key,
-            value: value.to_string(),
-            expected: "a finite number other than zero",
-        })
+        Err(ConfigError { key, value: value.to_string(), expected: "a finite number other than zero" })
     }
 }
 
@@ -108,7 +100,8 @@ pub struct BicycleConfig {
     pub stop_after_s: f64,
     /// Reading of the steering sensor straight ahead.
     pub steer_straight: f64,
-    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
+    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the
+    /// right.
     pub steer_rad_per_unit: f64,
     /// Reading of the brake sensor with the lever released.
     pub brake_released: f64,
@@ -123,7 +116,8 @@ pub struct BicycleConfig {
 }
 
 impl Default for BicycleConfig {
-    /// A 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees of travel.
+    /// A 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees
+    /// of travel.
     fn default() -> Self {
         Self {
             wheel_circumference_m: 2.1,
@@ -159,16 +153,9 @@ impl BicycleConfig {
         positive("bicycle.four_field_brake_full", self.four_field_brake_full)?;
         if !self.steer_straight.is_finite() {
             let value = self.steer_straight.to_string();
-            return Err(ConfigError {
-                key: "bicycle.steer_straight",
-                value,
-                expected: "a finite number",
-            });
+            return Err(ConfigError { key: "bicycle.steer_straight", value, expected: "a finite number" });
         }
-        not_zero(
-            "bicycle.brake_full - bicycle.brake_released",
-            self.brake_full - self.brake_released,
-        )
+        not_zero("bicycle.brake_full - bicycle.brake_released", self.brake_full - self.brake_released)
     }
 }
 
@@ -228,43 +215,36 @@ impl RiderConfig {
 
 /// Which axis of a device drives which control, and with which sign.
 ///
-/// Six entries: thrust right, up, backward; turn nose up, nose left, roll left. Each is the number of the device's axis, 1
-/// to 6, negative where it counts the other way.
+/// Six entries: thrust right, up, backward; turn nose up, nose left, roll left. Each is the number
+/// of the device's axis, 1 to 6, negative where it counts the other way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AxisTable(pub [i8; 6]);
 
 impl AxisTable {
     /// Raw HID: x right, y towards the user, z down, and the turns about them.
     pub const RAW: Self = Self([1, -3, 2, 4, -6, 5]);
-    /// spacenavd as it is installed: x right, y up, z away from the user, and the same signs for the turns.
+    /// spacenavd as it is installed: x right, y up, z away from the user, and the same signs for
+    /// the turns.
     pub const SPACENAVD: Self = Self([1, 2, -3, 4, 5, -6]);
 
     /// The six controls from the device's six axes.
     pub fn controls(self, axes: [f64; 6]) -> [f64; 6] {
-        self.0
-            .map(|entry| axes[usize::from(entry.unsigned_abs()) - 1] * f64::from(entry.signum()))
+        self.0.map(|entry| axes[usize::from(entry.unsigned_abs()) - 1] * f64::from(entry.signum()))
     }
 
     fn check(self, key: &'static str) -> Result<(), ConfigError> {
-        if self
-            .0
-            .iter()
-            .all(|entry| (1..=6).contains(&entry.unsigned_abs()))
-        {
+        if self.0.iter().all(|entry| (1..=6).contains(&entry.unsigned_abs())) {
             Ok(())
         } else {
-            Err(ConfigError {
-                key,
-                value: format!("{:?}", self.0),
-                expected: "six axis numbers, each ±1 to ±6",
-            })
+            Err(ConfigError { key, value: format!("{:?}", self.0), expected: "six axis numbers, each ±1 to ±6" })
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    //! Both back ends must turn one push into one control, and no setting may smuggle in a division by zero.
+    //! Both back ends must turn one push into one control, and no setting may smuggle in a division
+    //! by zero.
     use super::*;
 
     #[test]
@@ -272,14 +252,8 @@ mod tests {
         let raw = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
         // What spacenavd makes of it: x, −z, −y, for shifts and turns.
         let daemon = [10.0, -30.0, -20.0, 40.0, -60.0, -50.0];
-        assert_eq!(
-            AxisTable::RAW.controls(raw),
-            AxisTable::SPACENAVD.controls(daemon)
-        );
-        assert_eq!(
-            AxisTable::RAW.controls(raw),
-            [10.0, -30.0, 20.0, 40.0, -60.0, 50.0]
-        );
+        assert_eq!(AxisTable::RAW.controls(raw), AxisTable::SPACENAVD.controls(daemon));
+        assert_eq!(AxisTable::RAW.controls(raw), [10.0, -30.0, 20.0, 40.0, -60.0, 50.0]);
     }
 
     #[test]
@@ -291,13 +265,14 @@ mod tests {
     fn a_setting_that_cannot_be_used_is_named() {
         let mut config = DeskConfig::default();
         config.bicycle.wheel_circumference_m = 0.0;
-        assert_eq!(
-            config.check().unwrap_err().key,
-            "bicycle.wheel_circumference_m"
-        );
+        assert_eq!(config.check().unwrap_err().key, "bicycle.wheel_circumference_m");
         let mut config = DeskConfig::default();
         config.rider.lateral_m_s2 = f64::NAN;
         assert_eq!(config.check().unwrap_err().key, "rider.lateral_m_s2");
+        let mut config = DeskConfig::default();
+        config.bicycle.fastest_m_s = 1e300;
+        let error = config.check().unwrap_err().to_string();
+        assert!(error.starts_with("bicycle.fastest_m_s is 1") && error.ends_with("from 1e-6 to 1e6"), "{error}");
         let mut config = DeskConfig::default();
         config.bicycle.brake_full = config.bicycle.brake_released;
         assert!(config.check().is_err());

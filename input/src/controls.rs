@@ -7,12 +7,12 @@ use crate::action::Action;
 /// The state of all controls at one moment, and what was pressed since the moment before.
 ///
 /// # Frames, units
-/// The pilot's own axes, right-handed: x to the right, y up, z backward, so that forward is −z. Turns are about
-/// these axes by the right-hand rule.
+/// The pilot's own axes, right-handed: x to the right, y up, z backward, so that forward is −z.
+/// Turns are about these axes by the right-hand rule.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Controls {
-    /// Speed of the driven wheel on the rider's own clock, m/s; negative backward. `None` while there is neither a
-    /// bicycle nor anybody who pedals by key or trigger.
+    /// Speed of the driven wheel on the rider's own clock, m/s; negative backward. `None` while
+    /// there is neither a bicycle nor anybody who pedals by key or trigger.
     pub wheel_speed: Option<f64>,
     /// Turns of the crank a second. `None` where no sensor measures them.
     pub cadence_hz: Option<f64>,
@@ -22,7 +22,8 @@ pub struct Controls {
     pub brake: f64,
     /// Wanted thrust as a fraction of the vehicle's, each −1 to 1: right, up, backward.
     pub thrust: [f64; 3],
-    /// Wanted turn rate as a fraction of the vehicle's, each −1 to 1: nose up, nose to the left, roll to the left.
+    /// Wanted turn rate as a fraction of the vehicle's, each −1 to 1: nose up, nose to the left,
+    /// roll to the left.
     pub turn: [f64; 3],
     /// What happened since the controls were last asked for, in order.
     pub actions: Vec<Action>,

@@ -1,7 +1,7 @@
 //! What all decoders have in common: bytes in, state inside, faults counted.
 //!
-//! A decoder has no clock and no thread. It sees the samples of its device in order and holds what they say;
-//! time enters only through the samples and through the moment at which the desk asks.
+//! A decoder has no clock and no thread. It sees the samples of its device in order and holds what
+//! they say; time enters only through the samples and through the moment at which the desk asks.
 
 use crate::action::Action;
 use crate::sample::Nanos;

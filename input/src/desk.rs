@@ -1,11 +1,12 @@
 //! The desk: all devices' decoders, and the one set of controls that they make.
 //!
-//! Feed it samples in the order in which they were drained, ask it for the controls once a frame. What it answers depends on
-//! nothing else, so feeding a recording's samples and asking at its frame times gives the same bits.
+//! Feed it samples in the order in which they were drained, ask it for the controls once a frame.
+//! What it answers depends on nothing else, so feeding a recording's samples and asking at its
+//! frame times gives the same bits.
 //!
-//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake wins; the wheel is the
-//! faster of the ridden and the pretended one. Keys and sticks turn the handlebar only as far as a rider would lean: at the
-//! speed v no further than tan δ = a L / v².
+//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake
+//! wins; the wheel is the faster of the ridden and the pretended one. Keys and sticks turn the
+//! handlebar only as far as a rider would lean: at the speed v no further than tan δ = a L / v².
 
 use crate::action::Settings;
 use crate::bicycle::Bicycle;
@@ -94,22 +95,12 @@ impl Desk {
             self.space_mouse.deflection(at),
             self.spacenavd.deflection(),
         ];
-        let deflection = |axis: usize| {
-            deflections
-                .iter()
-                .map(|device| device[axis])
-                .sum::<f64>()
-                .clamp(-1.0, 1.0)
-        };
+        let deflection = |axis: usize| deflections.iter().map(|device| device[axis]).sum::<f64>().clamp(-1.0, 1.0);
         Controls {
             wheel_speed,
             cadence_hz: self.bicycle.cadence_hz(at),
             steer_rad,
-            brake: self
-                .bicycle
-                .brake()
-                .max(self.keyboard.brake(at))
-                .max(self.gamepad.brake()),
+            brake: self.bicycle.brake().max(self.keyboard.brake(at)).max(self.gamepad.brake()),
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             actions: self.actions.take(),
@@ -126,5 +117,98 @@ impl Desk {
             Source::Bicycle => self.bicycle.faults(),
             Source::Settings => self.settings.faults(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Devices used together must add up to one rider, not fight; what one lets go of must go.
+    use super::*;
+    use crate::action::{Action, VehicleKind};
+    use crate::keyboard::Key;
+    use crate::sample::SECOND;
+
+    fn desk() -> Desk {
+        Desk::new(DeskConfig::default()).unwrap()
+    }
+
+    fn push_right(at: Nanos) -> Sample {
+        Sample::bytes(at, Source::SpaceMouse, [1, 0x5e, 1, 0, 0, 0, 0])
+    }
+
+    #[test]
+    fn nobody_wants_nothing() {
+        let controls = desk().controls(SECOND);
+        assert_eq!(controls.wheel_speed, None);
+        assert_eq!((controls.steer_rad, controls.brake), (0.0, 0.0));
+        assert_eq!((controls.thrust, controls.turn), ([0.0; 3], [0.0; 3]));
+    }
+
+    #[test]
+    fn deflections_add_up_and_stay_in_range() {
+        let mut desk = desk();
+        desk.feed(&Sample::key(0, Key::A, true));
+        desk.feed(&push_right(SECOND));
+        assert_eq!(desk.controls(SECOND).thrust[0], 0.0);
+        desk.feed(&Sample::key(SECOND, Key::A, false));
+        desk.feed(&Sample::key(SECOND, Key::D, true));
+        desk.feed(&push_right(3 * SECOND));
+        assert_eq!(desk.controls(3 * SECOND).thrust[0], 1.0);
+    }
+
+    #[test]
+    fn the_faster_wheel_counts() {
+        let mut desk = desk();
+        desk.feed(&Sample::key(0, Key::W, true));
+        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"3.6\n"));
+        assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
+        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"36\n"));
+        assert_eq!(desk.controls(SECOND).wheel_speed, Some(10.0));
+        desk.feed(&Sample::closed(SECOND, Source::Bicycle));
+        assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
+    }
+
+    #[test]
+    fn a_fast_rider_steers_no_further_than_he_leans() {
+        let mut desk = desk();
+        desk.feed(&Sample::key(0, Key::Left, true));
+        assert_eq!(desk.controls(SECOND).steer_rad, 0.6);
+        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"36\n"));
+        let controls = desk.controls(SECOND);
+        // v² tan δ / L is the lateral acceleration.
+        let lateral = controls.wheel_speed.unwrap().powi(2) * controls.steer_rad.tan() / 1.1;
+        assert!((lateral - 5.0).abs() < 1e-12, "{lateral}");
+    }
+
+    #[test]
+    fn actions_of_all_devices_come_once_and_in_order() {
+        let mut desk = desk();
+        desk.feed(&Sample::key(0, Key::Three, true));
+        desk.feed(&Sample::action(1, &Action::TimeScale(0.25)));
+        desk.feed(&Sample::bytes(2, Source::SpaceMouse, [3, 1]));
+        let expected = [Action::Vehicle(VehicleKind::Fly), Action::TimeScale(0.25), Action::TogglePause];
+        assert_eq!(desk.controls(3).actions, expected);
+        assert_eq!(desk.controls(3).actions, []);
+    }
+
+    #[test]
+    fn a_device_that_goes_lets_go() {
+        for source in Source::ALL {
+            let mut desk = desk();
+            desk.feed(&Sample::key(0, Key::Q, true));
+            desk.feed(&push_right(SECOND));
+            let (before, closed) = (desk.controls(SECOND), Sample::closed(SECOND, source));
+            desk.feed(&closed);
+            let after = desk.controls(SECOND + SECOND / 2);
+            assert_eq!(after.thrust != before.thrust, source == Source::SpaceMouse, "{source}");
+            assert_eq!(after.turn != before.turn, source == Source::Keyboard, "{source}");
+        }
+    }
+
+    #[test]
+    fn a_setting_that_cannot_be_used_is_refused_at_the_door() {
+        let mut config = DeskConfig::default();
+        config.bicycle.stop_after_s = 0.0;
+        assert_eq!(Desk::new(config).unwrap_err().key, "bicycle.stop_after_s");
     }
 }

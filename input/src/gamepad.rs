@@ -1,6 +1,7 @@
 //! A gamepad or joystick.
 //!
-//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not depend on the system:
+//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not
+//! depend on the system:
 //!
 //! | first byte | then, little-endian | meaning |
 //! |---|---|---|
@@ -15,12 +16,13 @@
 //! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
 //! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
 //!
-//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and the left one takes a picture.
+//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and
+//! the left one takes a picture.
 
 use crate::action::Action;
 use crate::decoder::{Actions, Decoder, Faults};
+use crate::filters::with_dead_zone;
 use crate::sample::Nanos;
-use crate::spacemouse::with_dead_zone;
 
 /// Part of the way within which a stick counts as centred: worn ones rest off centre.
 const STICK_DEAD_ZONE: f64 = 0.12;
@@ -91,17 +93,10 @@ impl Item {
         match self {
             Self::Gamepad => bytes.push(b'G'),
             Self::Joystick => bytes.push(b'J'),
-            Self::Axis {
-                code,
-                value,
-                least,
-                most,
-            } => {
+            Self::Axis { code, value, least, most } => {
                 bytes.push(b'A');
                 bytes.extend_from_slice(&code.to_le_bytes());
-                [value, least, most]
-                    .iter()
-                    .for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+                [value, least, most].iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
             }
             Self::Event { kind, code, value } => {
                 bytes.push(b'E');
@@ -158,18 +153,12 @@ struct Axis {
 impl Axis {
     /// −1 to 1 about the middle of its way.
     fn stick(self) -> f64 {
-        with_dead_zone(
-            (2.0 * self.value - self.least - self.most) / (self.most - self.least),
-            STICK_DEAD_ZONE,
-        )
+        with_dead_zone((2.0 * self.value - self.least - self.most) / (self.most - self.least), STICK_DEAD_ZONE)
     }
 
     /// 0 to 1 from its lower end.
     fn trigger(self) -> f64 {
-        with_dead_zone(
-            ((self.value - self.least) / (self.most - self.least)).max(0.0),
-            TRIGGER_DEAD_ZONE,
-        )
+        with_dead_zone(((self.value - self.least) / (self.most - self.least)).max(0.0), TRIGGER_DEAD_ZONE)
     }
 }
 
@@ -185,13 +174,7 @@ pub struct Gamepad {
 
 impl Default for Gamepad {
     fn default() -> Self {
-        Self {
-            is_joystick: false,
-            axes: [None; AXES],
-            held: Vec::new(),
-            pedalled: false,
-            faults: Faults::default(),
-        }
+        Self { is_joystick: false, axes: [None; AXES], held: Vec::new(), pedalled: false, faults: Faults::default() }
     }
 }
 
@@ -206,11 +189,7 @@ impl Gamepad {
 
     /// Brake lever, 0 to 1.
     pub fn brake(&self) -> f64 {
-        if self.is_joystick {
-            self.button(codes::THUMB)
-        } else {
-            self.trigger(codes::Z)
-        }
+        if self.is_joystick { self.button(codes::THUMB) } else { self.trigger(codes::Z) }
     }
 
     /// Handlebar, −1 right to 1 left.
@@ -223,35 +202,17 @@ impl Gamepad {
         let back = self.brake() - self.forward();
         if self.is_joystick {
             let [right, up] = [self.stick(codes::HAT_X), -self.stick(codes::HAT_Y)];
-            [
-                right,
-                up,
-                back,
-                self.stick(codes::Y),
-                -self.stick(codes::X),
-                -self.stick(codes::RZ),
-            ]
+            [right, up, back, self.stick(codes::Y), -self.stick(codes::X), -self.stick(codes::RZ)]
         } else {
             let back = (self.stick(codes::Y) + back).clamp(-1.0, 1.0);
             let roll_left = self.button(codes::LEFT_SHOULDER) - self.button(codes::RIGHT_SHOULDER);
             let [right, up] = [self.stick(codes::X), -self.stick(codes::HAT_Y)];
-            [
-                right,
-                up,
-                back,
-                -self.stick(codes::RY),
-                -self.stick(codes::RX),
-                roll_left,
-            ]
+            [right, up, back, -self.stick(codes::RY), -self.stick(codes::RX), roll_left]
         }
     }
 
     fn forward(&self) -> f64 {
-        if self.is_joystick {
-            self.button(codes::TRIGGER)
-        } else {
-            self.trigger(codes::RZ)
-        }
+        if self.is_joystick { self.button(codes::TRIGGER) } else { self.trigger(codes::RZ) }
     }
 
     fn stick(&self, code: u16) -> f64 {
@@ -289,37 +250,19 @@ impl Gamepad {
                 self.is_joystick = item == Item::Joystick;
                 self.held.clear();
             }
-            Item::Axis {
-                code,
-                value,
-                least,
-                most,
-            } if usize::from(code) < AXES && least < most => {
+            Item::Axis { code, value, least, most } if usize::from(code) < AXES && least < most => {
                 let [value, least, most] = [value, least, most].map(f64::from);
                 self.axes[usize::from(code)] = Some(Axis { value, least, most });
             }
-            Item::Axis {
-                code, least, most, ..
-            } => {
-                self.faults
-                    .count(format!("axis {code} that goes from {least} to {most}"));
+            Item::Axis { code, least, most, .. } => {
+                self.faults.count(format!("axis {code} that goes from {least} to {most}"));
             }
-            Item::Event {
-                kind: codes::ABSOLUTE,
-                code,
-                value,
-            } => match self.axes.get_mut(usize::from(code)) {
+            Item::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(code)) {
                 Some(Some(axis)) => axis.value = f64::from(value),
-                _ => self
-                    .faults
-                    .count(format!("axis {code}, which was not announced")),
+                _ => self.faults.count(format!("axis {code}, which was not announced")),
             },
             // A value of 2 is a repetition.
-            Item::Event {
-                kind: codes::KEY,
-                code,
-                value,
-            } => self.press(code, value != 0, actions),
+            Item::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
             Item::Event { .. } => {}
         }
         self.pedalled |= self.forward() > 0.0;
@@ -328,10 +271,7 @@ impl Gamepad {
 
 impl Decoder for Gamepad {
     fn reset(&mut self, _at: Nanos) {
-        *self = Self {
-            faults: std::mem::take(&mut self.faults),
-            ..Self::default()
-        };
+        *self = Self { faults: std::mem::take(&mut self.faults), ..Self::default() };
     }
 
     fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
@@ -340,8 +280,7 @@ impl Decoder for Gamepad {
             bytes = rest;
         }
         if let Some(first) = bytes.first() {
-            self.faults
-                .count(format!("{} bytes that begin with {first:02x}", bytes.len()));
+            self.faults.count(format!("{} bytes that begin with {first:02x}", bytes.len()));
         }
     }
 
@@ -352,7 +291,8 @@ impl Decoder for Gamepad {
 
 #[cfg(test)]
 mod tests {
-    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go with it.
+    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go
+    //! with it.
     use super::*;
 
     fn pad(items: &[Item]) -> (Gamepad, Vec<Action>) {
@@ -368,12 +308,7 @@ mod tests {
     }
 
     fn axis(code: u16, value: i32) -> Item {
-        Item::Axis {
-            code,
-            value,
-            least: -32768,
-            most: 32767,
-        }
+        Item::Axis { code, value, least: -32768, most: 32767 }
     }
 
     fn event(kind: u16, code: u16, value: i32) -> Item {
@@ -382,54 +317,23 @@ mod tests {
 
     #[test]
     fn a_resting_pad_wants_nothing() {
-        let trigger = Item::Axis {
-            code: codes::RZ,
-            value: 0,
-            least: 0,
-            most: 255,
-        };
-        let (pad, actions) = pad(&[
-            Item::Gamepad,
-            axis(codes::X, -2000),
-            axis(codes::Y, 1500),
-            trigger,
-        ]);
-        assert_eq!(
-            (pad.deflection(), pad.brake(), pad.pedal()),
-            ([0.0; 6].map(|zero: f64| zero), 0.0, None)
-        );
+        let trigger = Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 };
+        let (pad, actions) = pad(&[Item::Gamepad, axis(codes::X, -2000), axis(codes::Y, 1500), trigger]);
+        assert_eq!((pad.deflection(), pad.brake(), pad.pedal()), ([0.0; 6].map(|zero: f64| zero), 0.0, None));
         assert!(actions.is_empty());
     }
 
     #[test]
     fn sticks_and_triggers_reach_their_ends() {
-        let (mut pad, _) = pad(&[
-            Item::Gamepad,
-            axis(codes::X, 0),
-            axis(codes::Y, 0),
-            axis(codes::RX, 0),
-        ]);
+        let (mut pad, _) = pad(&[Item::Gamepad, axis(codes::X, 0), axis(codes::Y, 0), axis(codes::RX, 0)]);
         let mut actions = Actions::default();
-        let trigger = Item::Axis {
-            code: codes::RZ,
-            value: 255,
-            least: 0,
-            most: 255,
-        };
-        let pushed = [
-            event(codes::ABSOLUTE, codes::X, -32768),
-            event(codes::ABSOLUTE, codes::RX, 32767),
-            trigger,
-        ];
+        let trigger = Item::Axis { code: codes::RZ, value: 255, least: 0, most: 255 };
+        let pushed = [event(codes::ABSOLUTE, codes::X, -32768), event(codes::ABSOLUTE, codes::RX, 32767), trigger];
         feed(&mut pad, &pushed, &mut actions);
         assert_eq!(pad.steer(), 1.0);
         assert_eq!(pad.pedal(), Some(1.0));
         assert_eq!(pad.deflection(), [-1.0, -0.0, -1.0, -0.0, -1.0, 0.0]);
-        feed(
-            &mut pad,
-            &[event(codes::ABSOLUTE, codes::RZ, 0)],
-            &mut actions,
-        );
+        feed(&mut pad, &[event(codes::ABSOLUTE, codes::RZ, 0)], &mut actions);
         assert_eq!(pad.pedal(), Some(0.0));
     }
 
@@ -437,18 +341,8 @@ mod tests {
     fn a_joystick_is_flown_by_stick_and_twist() {
         let (pad, _) = pad(&[
             Item::Joystick,
-            Item::Axis {
-                code: codes::Y,
-                value: 255,
-                least: 0,
-                most: 255,
-            },
-            Item::Axis {
-                code: codes::RZ,
-                value: 0,
-                least: 0,
-                most: 255,
-            },
+            Item::Axis { code: codes::Y, value: 255, least: 0, most: 255 },
+            Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 },
             event(codes::KEY, codes::TRIGGER, 1),
         ]);
         let [_, _, back, nose_up, _, roll_left] = pad.deflection();
@@ -464,10 +358,7 @@ mod tests {
 
     #[test]
     fn unplugging_lets_everything_go() {
-        let (mut pad, _) = pad(&[
-            axis(codes::Y, -32768),
-            event(codes::KEY, codes::LEFT_SHOULDER, 1),
-        ]);
+        let (mut pad, _) = pad(&[axis(codes::Y, -32768), event(codes::KEY, codes::LEFT_SHOULDER, 1)]);
         assert_eq!(pad.deflection()[2], -1.0);
         pad.reset(0);
         assert_eq!(pad.deflection(), Gamepad::default().deflection());
@@ -475,20 +366,20 @@ mod tests {
     }
 
     #[test]
+    fn a_new_description_lets_go_of_what_it_does_not_name() {
+        let left = event(codes::KEY, codes::LEFT_SHOULDER, 1);
+        let right = event(codes::KEY, codes::RIGHT_SHOULDER, 1);
+        let (mut pad, _) = pad(&[left, right]);
+        assert_eq!(pad.deflection()[5], 0.0);
+        feed(&mut pad, &[Item::Gamepad, right], &mut Actions::default());
+        assert_eq!(pad.deflection()[5], -1.0);
+    }
+
+    #[test]
     fn nonsense_is_counted_and_bounded() {
         let (mut pad, _) = pad(&[
-            Item::Axis {
-                code: 64,
-                value: 0,
-                least: 0,
-                most: 1,
-            },
-            Item::Axis {
-                code: 0,
-                value: 0,
-                least: 1,
-                most: 1,
-            },
+            Item::Axis { code: 64, value: 0, least: 0, most: 1 },
+            Item::Axis { code: 0, value: 0, least: 1, most: 1 },
             event(codes::ABSOLUTE, 5, 1),
             event(codes::ABSOLUTE, 999, 1),
         ]);

@@ -1,20 +1,21 @@
 //! Keys of the window: riding, driving and flying without any device.
 //!
-//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every system) and 1 for
-//! pressed, 0 for released. Several may follow one another in a sample. What keys want moves on ramps, as legs and hands do.
+//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
+//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample. What keys
+//! want moves on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
 //! |---|---|---|
 //! | W, S | pedal, push backward | thrust forward, backward |
 //! | A, D | steer | thrust left, right |
-//! | arrows | pedal, push backward, steer | nose down, up, left, right |
+//! | arrows | pedal, push backward, steer | turn the nose that way |
 //! | Shift | sprint | |
 //! | Space | brake | brake |
 //! | R, F | | thrust up, down |
 //! | Q, E | | roll left, right |
 //!
-//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace goes back to the
-//! start, C takes a picture, V records, H and F1 show the help.
+//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the
+//! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::config::RiderConfig;
@@ -200,15 +201,7 @@ impl Keyboard {
     fn aim(&mut self, at: Nanos) {
         let held = self.held;
         let lean = |ramp: &mut Ramp, target: f64| {
-            ramp.aim(
-                at,
-                target,
-                if target == 0.0 {
-                    RELEASE_RATE
-                } else {
-                    PRESS_RATE
-                },
-            );
+            ramp.aim(at, target, if target == 0.0 { RELEASE_RATE } else { PRESS_RATE });
         };
 
         // Fly and drive.
@@ -222,34 +215,18 @@ impl Keyboard {
             held.between(&[Key::Right], &[Key::Left]),
             held.between(&[Key::E], &[Key::Q]),
         ];
-        self.thrust
-            .iter_mut()
-            .zip(thrust)
-            .for_each(|(ramp, target)| lean(ramp, target));
-        self.turn
-            .iter_mut()
-            .zip(turn)
-            .for_each(|(ramp, target)| lean(ramp, target));
+        self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
+        self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
 
         // Ride.
-        lean(
-            &mut self.steer,
-            held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]),
-        );
+        lean(&mut self.steer, held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]));
         lean(&mut self.brake, held.between(&[], &[Key::Space]));
         let rider = &self.rider;
         let forward = held.between(&[Key::S, Key::Down], &[Key::W, Key::Up]);
         let (speed, rate) = if held.any(&[Key::Space]) {
             (0.0, rider.brake_m_s2)
         } else if forward > 0.0 {
-            (
-                if held.any(&[Key::Shift]) {
-                    rider.sprint_m_s
-                } else {
-                    rider.cruise_m_s
-                },
-                rider.pedal_m_s2,
-            )
+            (if held.any(&[Key::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
         } else if forward < 0.0 {
             // First to a stop, then backward.
             (-rider.reverse_m_s, rider.pedal_m_s2)
@@ -280,9 +257,7 @@ impl Decoder for Keyboard {
                         actions.push(action);
                     }
                 }
-                _ => self
-                    .faults
-                    .count(format!("key event {code:02x} {state:02x}")),
+                _ => self.faults.count(format!("key event {code:02x} {state:02x}")),
             }
         }
         if !rest.is_empty() {
@@ -298,7 +273,8 @@ impl Decoder for Keyboard {
 
 #[cfg(test)]
 mod tests {
-    //! A key that is held must lead smoothly to its control and a released one back; the order of asking may not matter.
+    //! A key that is held must lead smoothly to its control and a released one back; the order of
+    //! asking may not matter.
     use super::*;
     use crate::sample::SECOND;
 
@@ -340,15 +316,9 @@ mod tests {
     fn opposite_keys_cancel() {
         let (mut keys, mut actions) = keyboard();
         keys.bytes(0, &encode(Key::A, true), &mut actions);
-        assert_eq!(
-            (keys.steer(SECOND), keys.deflection(SECOND)[0]),
-            (1.0, -1.0)
-        );
+        assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
         keys.bytes(SECOND, &encode(Key::D, true), &mut actions);
-        assert_eq!(
-            (keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]),
-            (0.0, 0.0)
-        );
+        assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
     }
 
     #[test]
@@ -359,14 +329,7 @@ mod tests {
         }
         keys.reset(SECOND);
         let later = 30 * SECOND;
-        assert_eq!(
-            (
-                keys.steer(later),
-                keys.brake(later),
-                keys.wheel_speed(later)
-            ),
-            (0.0, 0.0, Some(0.0))
-        );
+        assert_eq!((keys.steer(later), keys.brake(later), keys.wheel_speed(later)), (0.0, 0.0, Some(0.0)));
         assert_eq!(keys.deflection(later), [0.0; 6]);
     }
 

@@ -1,8 +1,8 @@
 //! Text lines from a byte stream, and their checksum.
 //!
-//! A serial port hands over bytes cut anywhere, with noise in between. [`Lines`] puts lines together, bounded in length;
-//! [`sealed`] and [`unseal`] add and check the checksum `*HH`: all bytes before the asterisk, combined by exclusive or,
-//! as two hexadecimal digits, as in NMEA 0183.
+//! A serial port hands over bytes cut anywhere, with noise in between. [`Lines`] puts lines
+//! together, bounded in length; [`sealed`] and [`unseal`] add and check the checksum `*HH`: all
+//! bytes before the asterisk, combined by exclusive or, as two hexadecimal digits, as in NMEA 0183.
 
 use thiserror::Error;
 
@@ -69,7 +69,8 @@ impl Lines {
         *self = Self::default();
     }
 
-    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are passed over.
+    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are
+    /// passed over.
     pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<&str, LineError>)) {
         for &byte in bytes {
             if byte == b'\n' || byte == b'\r' {
@@ -113,29 +114,20 @@ pub fn sealed(text: &str) -> String {
 /// # Errors
 /// If the checksum is missing or wrong.
 pub fn unseal(line: &str) -> Result<&str, LineError> {
-    let none = || LineError::NoChecksum {
-        line: line.to_owned(),
-    };
+    let none = || LineError::NoChecksum { line: line.to_owned() };
     let (text, digits) = line.rsplit_once('*').ok_or_else(none)?;
     if digits.len() != 2 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
         return Err(none());
     }
     let found = u8::from_str_radix(digits, 16).map_err(|_| none())?;
     let computed = checksum(text);
-    if found == computed {
-        Ok(text)
-    } else {
-        Err(LineError::Checksum {
-            line: line.to_owned(),
-            found,
-            computed,
-        })
-    }
+    if found == computed { Ok(text) } else { Err(LineError::Checksum { line: line.to_owned(), found, computed }) }
 }
 
 #[cfg(test)]
 mod tests {
-    //! However the bytes are cut, the same lines must come out; a flipped bit must not pass the checksum.
+    //! However the bytes are cut, the same lines must come out; a flipped bit must not pass the
+    //! checksum.
     use super::*;
 
     fn lines(chunks: &[&[u8]]) -> Vec<Result<String, LineError>> {
@@ -174,10 +166,7 @@ mod tests {
     #[test]
     fn a_missing_checksum_is_told_from_a_wrong_one() {
         for line in ["B1,1", "B1,1*", "B1,1*4", "B1,1*xy", "B1,1*+4", "B1,1*474"] {
-            assert!(
-                matches!(unseal(line), Err(LineError::NoChecksum { .. })),
-                "{line}"
-            );
+            assert!(matches!(unseal(line), Err(LineError::NoChecksum { .. })), "{line}");
         }
         assert!(matches!(unseal("B1,1*00"), Err(LineError::Checksum { .. })));
     }
@@ -186,10 +175,7 @@ mod tests {
     fn lines_do_not_depend_on_the_cut() {
         let stream = b"one\r\ntwo\n\nthree\rfour";
         let whole = lines(&[stream]);
-        assert_eq!(
-            whole,
-            ["one", "two", "three"].map(|line| Ok(line.to_owned()))
-        );
+        assert_eq!(whole, ["one", "two", "three"].map(|line| Ok(line.to_owned())));
         let bytes: Vec<&[u8]> = stream.chunks(1).collect();
         assert_eq!(lines(&bytes), whole);
     }
@@ -198,10 +184,7 @@ mod tests {
     fn a_line_without_end_is_one_fault_and_bounded() {
         let mut stream = vec![b'x'; 100_000];
         stream.extend_from_slice(b"\nok\n");
-        assert_eq!(
-            lines(&[&stream]),
-            vec![Err(LineError::TooLong), Ok("ok".to_owned())]
-        );
+        assert_eq!(lines(&[&stream]), vec![Err(LineError::TooLong), Ok("ok".to_owned())]);
         let longest = [vec![b'x'; LONGEST_LINE], b"\n".to_vec()].concat();
         assert!(lines(&[&longest])[0].is_ok());
     }

@@ -1,8 +1,9 @@
 //! How fast something turns, from the times at which it passed a sensor.
 //!
-//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the age of the last pulse
-//! needs ours. Between pulses the estimate is capped by what the silence still allows (had it turned faster, the next
-//! pulse would be here already), so it decays by itself, and after a while of silence it is zero.
+//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the
+//! age of the last pulse needs ours. Between pulses the estimate is capped by what the silence
+//! still allows (had it turned faster, the next pulse would be here already), so it decays by
+//! itself, and after a while of silence it is zero.
 
 use crate::filters::{MedianOfThree, OneEuro};
 use crate::sample::{Nanos, seconds_between};
@@ -45,9 +46,14 @@ impl PulseRate {
         *self = Self::new(self.shortest_interval_s, self.stop_after_s);
     }
 
-    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last one before them. Says
-    /// whether they were believed: a bounce is not, and leaves everything as it was.
+    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last
+    /// one before them. Says whether they were believed: a bounce is not, and leaves everything as
+    /// it was.
     pub fn pulses(&mut self, at: Nanos, count: u32, interval_s: f64) -> bool {
+        let interval_each_s = interval_s / f64::from(count);
+        if interval_each_s < self.shortest_interval_s {
+            return false;
+        }
         let Some(last) = self.last_pulse else {
             self.last_pulse = Some(at);
             return true;
@@ -58,14 +64,8 @@ impl PulseRate {
             self.last_pulse = Some(at);
             return true;
         }
-        let interval_each_s = interval_s / f64::from(count);
-        if interval_each_s < self.shortest_interval_s {
-            return false;
-        }
         self.last_pulse = Some(at);
-        self.rate_hz = self
-            .filter
-            .filter(self.median.filter(1.0 / interval_each_s), interval_s);
+        self.rate_hz = self.filter.filter(self.median.filter(1.0 / interval_each_s), interval_s);
         true
     }
 
@@ -76,21 +76,15 @@ impl PulseRate {
 
     /// Pulses a second at the time `at`.
     pub fn rate_hz(&self, at: Nanos) -> f64 {
-        let silence_s = self
-            .last_pulse
-            .map_or(f64::INFINITY, |last| seconds_between(last, at));
-        if silence_s > self.stop_after_s {
-            0.0
-        } else {
-            self.rate_hz.min(1.0 / silence_s)
-        }
+        let silence_s = self.last_pulse.map_or(f64::INFINITY, |last| seconds_between(last, at));
+        if silence_s > self.stop_after_s { 0.0 } else { self.rate_hz.min(1.0 / silence_s) }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last jerk, and neither a
-    //! bouncing contact nor a clock that wrapped may show as speed.
+    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last
+    //! jerk, and neither a bouncing contact nor a clock that wrapped may show as speed.
     use super::*;
     use crate::sample::SECOND;
 

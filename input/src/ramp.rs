@@ -1,7 +1,7 @@
 //! A value that moves towards its target at a steady rate, as a key makes it.
 //!
-//! A key is down or up, a leg is not. The value between is a function of the time of the last change and the time of
-//! asking only, so it does not matter how often one asks.
+//! A key is down or up, a leg is not. The value between is a function of the time of the last
+//! change and the time of asking only, so it does not matter how often one asks.
 
 use crate::sample::{Nanos, seconds_between};
 
@@ -19,21 +19,12 @@ impl Ramp {
     pub fn value(&self, at: Nanos) -> f64 {
         let way = self.target - self.from;
         let reach = self.rate * seconds_between(self.since, at);
-        if way.abs() <= reach {
-            self.target
-        } else {
-            self.from + reach.copysign(way)
-        }
+        if way.abs() <= reach { self.target } else { self.from + reach.copysign(way) }
     }
 
     /// From `at` on, moves towards `target` by `rate` a second.
     pub fn aim(&mut self, at: Nanos, target: f64, rate: f64) {
-        *self = Self {
-            from: self.value(at),
-            since: at,
-            target,
-            rate,
-        };
+        *self = Self { from: self.value(at), since: at, target, rate };
     }
 }
 

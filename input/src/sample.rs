@@ -1,8 +1,9 @@
 //! What a device said, and when.
 //!
-//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp, and which
-//! device spoke. Whatever is decoded from samples is a pure function of them, so a recording of samples and
-//! frame times replays to the same bits. Even the switches of the interface pass as samples ([`Source::Settings`]).
+//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp,
+//! and which device spoke. Whatever is decoded from samples is a pure function of them, so a
+//! recording of samples and frame times replays to the same bits. Even the switches of the
+//! interface pass as samples ([`Source::Settings`]).
 
 use std::fmt;
 use std::time::Instant;
@@ -18,7 +19,8 @@ pub type Nanos = u64;
 /// One second in [`Nanos`].
 pub const SECOND: Nanos = 1_000_000_000;
 
-/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two threads may be.
+/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two
+/// threads may be.
 pub fn seconds_between(earlier: Nanos, later: Nanos) -> f64 {
     later.saturating_sub(earlier) as f64 * 1e-9
 }
@@ -59,14 +61,8 @@ pub enum Source {
 
 impl Source {
     /// Every source, in the order of the listing.
-    pub const ALL: [Self; 6] = [
-        Self::Keyboard,
-        Self::Gamepad,
-        Self::SpaceMouse,
-        Self::Spacenavd,
-        Self::Bicycle,
-        Self::Settings,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Keyboard, Self::Gamepad, Self::SpaceMouse, Self::Spacenavd, Self::Bicycle, Self::Settings];
 
     /// The name in recordings and messages.
     pub fn name(self) -> &'static str {
@@ -112,29 +108,17 @@ pub struct Sample {
 impl Sample {
     /// A device that has just been opened.
     pub fn opened(at: Nanos, source: Source) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Opened,
-        }
+        Self { at, source, signal: Signal::Opened }
     }
 
     /// Bytes from a device.
     pub fn bytes(at: Nanos, source: Source, bytes: impl Into<Box<[u8]>>) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Bytes(bytes.into()),
-        }
+        Self { at, source, signal: Signal::Bytes(bytes.into()) }
     }
 
     /// A device that has gone. For the keyboard: the window lost the focus.
     pub fn closed(at: Nanos, source: Source) -> Self {
-        Self {
-            at,
-            source,
-            signal: Signal::Closed,
-        }
+        Self { at, source, signal: Signal::Closed }
     }
 
     /// A key of the window pressed or released.

@@ -1,15 +1,17 @@
 //! A SpaceMouse as raw HID reports.
 //!
-//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350 at full deflection.
-//! Report 1 carries the shifts, and on newer devices the turns as well; on older ones these come in report 2. Which kind it is
-//! shows in the length of report 1, not in the product's number: firmware differs. Report 3 holds the buttons.
+//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350
+//! at full deflection. Report 1 carries the shifts, and on newer devices the turns as well; on
+//! older ones these come in report 2. Which kind it is shows in the length of report 1, not in the
+//! product's number: firmware differs. Report 3 holds the buttons.
 //!
-//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. Should these be lost, flight must not go on for ever: after
-//! half a second of silence the cap counts as released.
+//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. Should these be
+//! lost, flight must not go on for ever: after half a second of silence the cap counts as released.
 
 use crate::action::Action;
 use crate::config::AxisTable;
 use crate::decoder::{Actions, Decoder, Faults};
+use crate::filters::with_dead_zone;
 use crate::sample::{Nanos, seconds_between};
 
 /// Nominal full deflection; a hard push exceeds it.
@@ -25,12 +27,6 @@ const BUTTONS: [Action; 2] = [Action::TogglePause, Action::ToggleHelp];
 /// What button `index` does when pressed, on either back end.
 pub(crate) fn button(index: usize) -> Option<Action> {
     BUTTONS.get(index).copied()
-}
-
-/// The value with a dead zone about zero, continuous at its edge and clamped to −1 to 1.
-pub(crate) fn with_dead_zone(value: f64, zone: f64) -> f64 {
-    let outside = ((value.abs() - zone) / (1.0 - zone)).clamp(0.0, 1.0);
-    outside.copysign(value)
 }
 
 /// The six controls for a device's axes and their full deflection.
@@ -51,13 +47,7 @@ pub struct SpaceMouse {
 impl SpaceMouse {
     /// A decoder at rest.
     pub fn new(table: AxisTable) -> Self {
-        Self {
-            table,
-            axes: [0; 6],
-            last_motion: 0,
-            buttons: 0,
-            faults: Faults::default(),
-        }
+        Self { table, axes: [0; 6], last_motion: 0, buttons: 0, faults: Faults::default() }
     }
 
     /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
@@ -76,16 +66,10 @@ impl SpaceMouse {
     }
 
     fn buttons(&mut self, bits: &[u8], actions: &mut Actions) {
-        let held = bits
-            .iter()
-            .rev()
-            .fold(0_u64, |held, &byte| held << 8 | u64::from(byte));
+        let held = bits.iter().rev().fold(0_u64, |held, &byte| held << 8 | u64::from(byte));
         let pressed = held & !self.buttons;
         self.buttons = held;
-        (0..BUTTONS.len())
-            .filter(|index| pressed >> index & 1 == 1)
-            .filter_map(button)
-            .for_each(|it| actions.push(it));
+        (0..BUTTONS.len()).filter(|index| pressed >> index & 1 == 1).filter_map(button).for_each(|it| actions.push(it));
     }
 }
 
@@ -126,9 +110,7 @@ mod tests {
     }
 
     fn hex(text: &str) -> Vec<u8> {
-        text.split(' ')
-            .map(|byte| u8::from_str_radix(byte, 16).unwrap())
-            .collect()
+        text.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
     }
 
     #[test]
@@ -138,10 +120,7 @@ mod tests {
         mouse.bytes(0, &hex("02 20 00 00 00 17 00"), &mut actions);
         assert_eq!(mouse.axes, [18, 0, 248, 32, 0, 23]);
         let [right, up, back, nose_up, nose_left, roll_left] = mouse.deflection(0);
-        assert_eq!(
-            [right, back, roll_left],
-            [(18.0 / 350.0 - 0.03) / 0.97, 0.0, 0.0]
-        );
+        assert_eq!([right, back, roll_left], [(18.0 / 350.0 - 0.03) / 0.97, 0.0, 0.0]);
         assert_eq!(up, -(248.0 / 350.0 - 0.03) / 0.97);
         assert!(nose_up > 0.0 && nose_left < 0.0);
     }
@@ -149,17 +128,9 @@ mod tests {
     #[test]
     fn combined_reports_of_a_wireless() {
         let (mut mouse, mut actions) = decoder();
-        mouse.bytes(
-            0,
-            &hex("01 16 00 00 00 00 00 00 00 00 00 00 00"),
-            &mut actions,
-        );
+        mouse.bytes(0, &hex("01 16 00 00 00 00 00 00 00 00 00 00 00"), &mut actions);
         assert_eq!(mouse.axes, [22, 0, 0, 0, 0, 0]);
-        mouse.bytes(
-            0,
-            &hex("01 00 00 00 00 00 00 00 00 00 00 a2 fe"),
-            &mut actions,
-        );
+        mouse.bytes(0, &hex("01 00 00 00 00 00 00 00 00 00 00 a2 fe"), &mut actions);
         assert_eq!(mouse.axes, [0, 0, 0, 0, 0, -350]);
         assert_eq!(mouse.deflection(0)[4], 1.0);
     }
@@ -167,19 +138,10 @@ mod tests {
     #[test]
     fn buttons_act_once_when_pressed() {
         let (mut mouse, mut actions) = decoder();
-        for report in [
-            "03 01 00",
-            "03 01 00",
-            "03 00 00",
-            "03 03 00",
-            "03 00 10 00 00 00 00",
-        ] {
+        for report in ["03 01 00", "03 01 00", "03 00 00", "03 03 00", "03 00 10 00 00 00 00"] {
             mouse.bytes(0, &hex(report), &mut actions);
         }
-        assert_eq!(
-            actions.take(),
-            [Action::TogglePause, Action::TogglePause, Action::ToggleHelp]
-        );
+        assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause, Action::ToggleHelp]);
         assert_eq!(mouse.faults().number(), 0);
     }
 
@@ -209,13 +171,7 @@ mod tests {
     #[test]
     fn odd_reports_are_counted_and_others_passed_over() {
         let (mut mouse, mut actions) = decoder();
-        for report in [
-            "01",
-            "01 00",
-            "02 00 00 00 00 00 00 00",
-            "03",
-            "03 00 00 00 00 00 00 00 00 00",
-        ] {
+        for report in ["01", "01 00", "02 00 00 00 00 00 00 00", "03", "03 00 00 00 00 00 00 00 00 00"] {
             mouse.bytes(0, &hex(report), &mut actions);
         }
         mouse.bytes(0, &[], &mut actions);

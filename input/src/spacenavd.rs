@@ -1,11 +1,12 @@
 //! A SpaceMouse through the spacenavd daemon's socket.
 //!
-//! Events are eight 32-bit integers in the machine's order (every machine we run on is little-endian): word 0 says what it is
-//! (0 motion, 1 press, 2 release, others passed over); a motion's words 1 to 6 are three shifts and three turns, ±500 at full
-//! deflection; a button's word 1 is its number. The stream may be cut anywhere.
+//! Events are eight 32-bit integers in the machine's order (every machine we run on is
+//! little-endian): word 0 says what it is (0 motion, 1 press, 2 release, others passed over); a
+//! motion's words 1 to 6 are three shifts and three turns, ±500 at full deflection; a button's word
+//! 1 is its number. The stream may be cut anywhere.
 //!
-//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent for seconds:
-//! silence means nothing here.
+//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent
+//! for seconds: silence means nothing here.
 
 use crate::config::AxisTable;
 use crate::decoder::{Actions, Decoder, Faults};
@@ -36,12 +37,7 @@ pub struct Spacenavd {
 impl Spacenavd {
     /// A decoder at rest.
     pub fn new(table: AxisTable) -> Self {
-        Self {
-            table,
-            partial: Vec::new(),
-            axes: [0; 6],
-            faults: Faults::default(),
-        }
+        Self { table, partial: Vec::new(), axes: [0; 6], faults: Faults::default() }
     }
 
     /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
@@ -58,9 +54,7 @@ impl Spacenavd {
                 }
             }
             kind if PASSED_OVER.contains(&kind) || kind >> 16 == REPLY => {}
-            kind => self
-                .faults
-                .count(format!("an event of unknown kind {kind}")),
+            kind => self.faults.count(format!("an event of unknown kind {kind}")),
         }
     }
 }
@@ -105,10 +99,7 @@ mod tests {
     );
 
     fn captured() -> Vec<u8> {
-        (0..CAPTURED.len())
-            .step_by(2)
-            .map(|at| u8::from_str_radix(&CAPTURED[at..at + 2], 16).unwrap())
-            .collect()
+        (0..CAPTURED.len()).step_by(2).map(|at| u8::from_str_radix(&CAPTURED[at..at + 2], 16).unwrap()).collect()
     }
 
     #[test]
@@ -116,8 +107,7 @@ mod tests {
         let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes, [100, -50, -25, 7, -8, -300]);
-        let expected =
-            [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
+        let expected = [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
         for (control, expected) in daemon.deflection().iter().zip(expected) {
             assert!((control - expected).abs() < 1e-15);
         }
@@ -131,18 +121,14 @@ mod tests {
     #[test]
     fn events_do_not_depend_on_the_cut() {
         for size in 1..=70 {
-            let (mut daemon, mut actions) =
-                (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+            let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
             let mut seen = Vec::new();
             for chunk in captured().chunks(size) {
                 daemon.bytes(0, chunk, &mut actions);
                 seen.push(daemon.axes);
             }
             assert_eq!(actions.take(), [Action::TogglePause], "cut at {size}");
-            assert!(
-                size > 32 || seen.contains(&[100, -50, -25, 7, -8, -300]),
-                "cut at {size}"
-            );
+            assert!(size > 32 || seen.contains(&[100, -50, -25, 7, -8, -300]), "cut at {size}");
             assert_eq!(daemon.axes, [0; 6]);
         }
     }

@@ -13,6 +13,7 @@
 #![expect(clippy::unwrap_used, reason = "a benchmark that cannot run stops")]
 
 use std::hint::black_box;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
@@ -255,8 +256,27 @@ fn criterion_figures(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// What the figures belong to.
+fn print_heading() {
+    let commit = Command::new("git").args(["describe", "--always", "--dirty"]).output();
+    let commit =
+        commit.map_or_else(|_| "unknown".into(), |output| String::from_utf8_lossy(&output.stdout).into_owned());
+    let processors = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let processor = processors.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown");
+    println!(
+        "commit {}, processor {}, {:?}",
+        commit.trim(),
+        processor.trim_matches([' ', '\t', ':']),
+        Instructions::fastest()
+    );
+}
+
 fn main() {
-    print_shares();
+    // Not when cargo only tests that the benchmark runs.
+    if std::env::args().any(|argument| argument == "--bench") {
+        print_heading();
+        print_shares();
+    }
     let mut criterion = Criterion::default().configure_from_args();
     criterion_figures(&mut criterion);
     criterion.final_summary();

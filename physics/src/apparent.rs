@@ -25,7 +25,7 @@ pub struct Source {
 /// What an observer sees of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apparent {
-    /// Apparent position relative to the observer, in the axes of the pure boost into his frame, metres. The light
+    /// Apparent position relative to the observer, in the axes of the pure boost into that frame, metres. The light
     /// seen left it.
     pub position: DVec3,
     /// Doppler factor D = ν_observed / ν_emitted.

@@ -13,7 +13,8 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// A velocity as the spatial part of the four-velocity in units of c: u = γβ = dx/dτ.
 ///
-/// Always finite and at most [`Celerity::LIMIT`].
+/// Always finite, and at most [`Celerity::LIMIT`] where it was given from outside; what [`compose`](crate::compose)
+/// makes of two such is still finite.
 ///
 /// # Example
 ///

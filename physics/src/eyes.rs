@@ -1,8 +1,8 @@
 //! Two eyes: the pair of events from which a stereo picture is taken.
 //!
-//! The eyes of one observer look at the same moment of his own time. In the world the two events are further apart
-//! along the motion than the eyes are, by γ, and the one ahead is later, so each eye sees a world of its own age (B
-//! 5.2).
+//! The eyes of one observer look at the same moment of the observer's own time. In the world the two events are further
+//! apart along the motion than the eyes are, by γ, and the one ahead is later, so each eye sees a world of its own age
+//! (B 5.2).
 
 use glam::DVec3;
 use thiserror::Error;

@@ -8,7 +8,7 @@ use std::ops::{Add, Mul, Sub};
 
 use dashu_float::FBig;
 use physics::glam::DVec3;
-use physics::{Aberration, Celerity, Event, Observer, Source, apparent, compose};
+use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, Source, apparent, compose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use support::{EPSILON, celerity, direction, direction_off, seeded, size, vector};
@@ -240,6 +240,48 @@ fn moving_source_appears_where_600_bits_put_it() {
             });
         }
         worst.check(&format!("moving, |u| from 1e{decade}"));
+    }
+}
+
+#[test]
+fn boosted_vector_is_that_of_600_bits() {
+    /// A few roundings of the larger of time and place.
+    const TOLERANCE: f64 = 8.0 * EPSILON;
+    /// What t − h loses at 106 bits, to be multiplied by κ.
+    const SPLIT: f64 = EPSILON * EPSILON;
+    let mut random = seeded(25);
+    for case in 0..800 {
+        let u = celerity(&mut random, -8.0..12.0);
+        let r = displacement(&mut random, u, case);
+        // Anywhere, or on the light cone up to rounding and beyond, where t − h is all that is left.
+        let t = match case / 4 % 3 {
+            0 => r.length() * random.random_range(-2.0..2.0),
+            1 => r.length(),
+            _ => r.length() * (1.0 + size(&mut random, -15.0..0.0)),
+        };
+        let seen = Boost::observer_from_world(u).apply(FourVector { t, r });
+
+        let split = SPLIT * u.gamma() * r.length();
+        let (u, r, t) = (RealVec::new(u.vector()), RealVec::new(r), real(t));
+        let (gamma, along) = (gamma(&u), u.dot(&r));
+        let place = &r + &(&u * &(&along / (real(1.0) + &gamma) - &t));
+        let time = gamma * t - along;
+        let error = to_f64(&(&RealVec::new(seen.r) - &place).length()) + to_f64(&(real(seen.t) - &time)).abs();
+        let scale = to_f64(&place.length()).max(to_f64(&time).abs());
+        assert!(error < TOLERANCE * scale + split, "{case} {u:?} {error:e} {scale:e}");
+    }
+}
+
+#[test]
+fn beta_gives_the_celerity_of_600_bits() {
+    const TOLERANCE: f64 = 4.0 * EPSILON;
+    let mut random = seeded(26);
+    for _ in 0..400 {
+        let beta = Beta::new(direction(&mut random) * (1.0 - size(&mut random, -15.0..0.0))).unwrap();
+        let vector = RealVec::new(beta.vector());
+        let exact = &vector * &(real(1.0) / (real(1.0) - vector.dot(&vector)).sqrt());
+        let error = (&RealVec::new(beta.celerity().vector()) - &exact).length() / exact.length();
+        assert!(to_f64(&error) < TOLERANCE, "{beta:?} {error}");
     }
 }
 

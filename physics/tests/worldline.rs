@@ -11,7 +11,7 @@ use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
     Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, State, Thrust, Transport, WorldlineError, travel,
 };
-use physics::{Celerity, Event};
+use physics::{Boost, Celerity, Event, FourVector};
 use support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
@@ -369,6 +369,57 @@ fn left_over_angle_decays_when_speed_returns() {
         assert_eq!((end.orientation * DVec3::NEG_Z).z > 0.0, reversed);
         assert_eq!(end.celerity, start.celerity);
     }
+}
+
+#[test]
+fn thrust_reversed_at_every_leap_keeps_the_ship_at_hand() {
+    // Bang-bang control in leaps of 1e-6 to 10: each pair of equal opposite leaps ends at rest.
+    let mut random = seeded(16);
+    for (name, integrator) in [("exact", &Exact as &dyn Integrator), ("dopri5", &DormandPrince::default())] {
+        let mut state = State::default();
+        for _ in 0..200 {
+            let (leap, acceleration) = (size(&mut random, -6.0..1.0), direction(&mut random));
+            for sign in [1.0, -1.0] {
+                state = integrator.step(&state, leap, &push(sign * acceleration)).unwrap();
+            }
+        }
+        assert!(state.celerity.magnitude() < 1e-3, "{name} {state:?}");
+    }
+}
+
+#[test]
+fn head_aboard_has_the_tetrad_of_both_boosts() {
+    /// A few roundings at the size that the two boosts stretch to.
+    const TOLERANCE: f64 = 32.0 * EPSILON;
+    let mut random = seeded(17);
+    for _ in 0..500 {
+        let event = Event { ct: 3.0, position: vector(&mut random, 0.0..1.0) };
+        let vehicle = State::new(event, celerity(&mut random, -2.0..2.0), orientation(&mut random));
+        let head = celerity(&mut random, -2.0..1.0);
+        let aboard = vehicle.aboard(DVec3::ZERO, head);
+        assert_eq!(aboard.event(), event);
+        let input = FourVector { t: 1.0, r: direction(&mut random) };
+        let world_from = |state: &State, vector: FourVector| {
+            let turned = FourVector { t: vector.t, r: state.orientation * vector.r };
+            state.observer().observer_from_world().inverse().apply(turned)
+        };
+        let in_vehicle = Boost::observer_from_world(head).inverse().apply(input);
+        let difference = world_from(&aboard, input) - world_from(&vehicle, in_vehicle);
+        let scale = 4.0 * vehicle.celerity.gamma() * head.gamma();
+        assert!(difference.r.length() + difference.t.abs() < TOLERANCE * scale, "{vehicle:?} {head:?}");
+    }
+}
+
+#[test]
+fn head_ahead_in_the_vehicle_is_further_on_and_later_in_the_world() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let celerity = Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap();
+    // The nose, −z, turned onto the motion, −x.
+    let vehicle = State::new(Event::default(), celerity, DQuat::from_rotation_y(quarter));
+    let head = vehicle.aboard(DVec3::new(0.0, 0.0, -4.0), Celerity::ZERO);
+    assert!(head.position.distance(DVec3::new(-5.0, 0.0, 0.0)) < 8.0 * EPSILON);
+    assert!((head.ct - 3.0).abs() < 8.0 * EPSILON);
+    assert_eq!((head.celerity, head.orientation), (vehicle.celerity, vehicle.orientation));
 }
 
 #[test]

@@ -20,6 +20,26 @@ pub enum SceneChoice {
     File(PathBuf),
 }
 
+impl SceneChoice {
+    /// The choice by its name on the command line and in recordings.
+    pub fn from_name(name: &str) -> Self {
+        match name {
+            "town" => Self::Town,
+            "lattice" => Self::Lattice,
+            file => Self::File(file.into()),
+        }
+    }
+
+    /// The name by which it is found again.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Town => "town".to_owned(),
+            Self::Lattice => "lattice".to_owned(),
+            Self::File(path) => std::path::absolute(path).as_ref().unwrap_or(path).display().to_string(),
+        }
+    }
+}
+
 /// A scene and its speed of light.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "World")]
@@ -37,10 +57,6 @@ pub struct WorldOptions {
 
 fn scene() -> impl TypedValueParser<Value = SceneChoice> {
     PathBufValueParser::new().try_map(|path| {
-        Ok::<_, Infallible>(match path.to_str() {
-            Some("town") => SceneChoice::Town,
-            Some("lattice") => SceneChoice::Lattice,
-            _ => SceneChoice::File(path),
-        })
+        Ok::<_, Infallible>(path.to_str().map_or_else(|| SceneChoice::File(path.clone()), SceneChoice::from_name))
     })
 }

@@ -78,9 +78,7 @@ impl Darkroom {
         let mapped = self.readback.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
         let mut picture = RgbaImage::new(self.screen.width(), self.screen.height());
         let row_length = self.screen.width() as usize * 4;
-        for (row, source) in
-            picture.chunks_exact_mut(row_length).zip(mapped.chunks_exact(self.row_bytes as usize))
-        {
+        for (row, source) in picture.chunks_exact_mut(row_length).zip(mapped.chunks_exact(self.row_bytes as usize)) {
             row.copy_from_slice(&source[..row_length]);
         }
         drop(mapped);

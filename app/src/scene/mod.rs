@@ -7,6 +7,8 @@
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
 
+pub mod check;
+pub mod collision;
 pub mod export;
 pub mod gltf;
 pub mod lattice;
@@ -197,6 +199,16 @@ impl Default for Lighting {
     }
 }
 
+/// A scene that breaks a promise of its types.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("scene \"{scene}\" is damaged: {fault}; make it anew or load it from a file")]
+pub struct SceneFault {
+    /// Name of the scene.
+    pub scene: String,
+    /// What is wrong, and with which mesh, material or texture.
+    pub fault: String,
+}
+
 impl Scene {
     /// Number of vertices in all meshes.
     pub fn vertex_count(&self) -> usize {
@@ -208,10 +220,20 @@ impl Scene {
         self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
     }
 
-    /// The first promise of these types that the data breaks, as a sentence: array lengths and indices, not coordinates.
+    /// Checks what these types promise: array lengths and indices, not coordinates.
     ///
     /// Loaders keep the promises; this is the door for scenes made by hand, so that what lies behind it may index freely.
-    pub fn fault(&self) -> Option<String> {
+    ///
+    /// # Errors
+    /// The first broken promise.
+    pub fn validate(&self) -> Result<(), SceneFault> {
+        match self.fault() {
+            None => Ok(()),
+            Some(fault) => Err(SceneFault { scene: self.name.clone(), fault }),
+        }
+    }
+
+    fn fault(&self) -> Option<String> {
         let texture = |texture: &Texture| {
             let bytes = u64::from(texture.width) * u64::from(texture.height) * 4;
             (bytes != texture.rgba.len() as u64).then(|| {

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{MAX_TRIANGLES, Mesh, Scene};
+use super::{MAX_TRIANGLES, Mesh, Scene, SceneFault};
 
 /// How many steps of f32 an edge must span. The rounding of midpoints then stays well below what a split shortens an edge by.
 const STEPS_PER_EDGE: f32 = 16.0;
@@ -58,13 +58,8 @@ pub enum RefineError {
         enough: f32,
     },
     /// The scene breaks a promise of its types.
-    #[error("scene \"{scene}\" is damaged: {fault}")]
-    Damaged {
-        /// Name of the scene.
-        scene: String,
-        /// What is wrong.
-        fault: String,
-    },
+    #[error(transparent)]
+    Damaged(#[from] SceneFault),
 }
 
 /// The same scene with no edge longer than `edge` metres.
@@ -83,9 +78,7 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
     if !(edge.is_finite() && edge > 0.0) {
         return Err(RefineError::Edge(edge));
     }
-    if let Some(fault) = scene.fault() {
-        return Err(RefineError::Damaged { scene: scene.name.clone(), fault });
-    }
+    scene.validate()?;
     let rule = Rule::new(f64::from(edge));
     for mesh in &scene.meshes {
         let enough = STEPS_PER_EDGE * rule.coarsest_step(mesh);

@@ -2,7 +2,7 @@
 
 use super::gltf::{self, GltfError, Stage};
 use super::refine::{RefineError, refine};
-use super::{Scene, lattice::Lattice};
+use super::{Scene, lattice::Lattice, town};
 use crate::command::SceneChoice;
 use crate::progress;
 
@@ -17,7 +17,7 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, GltfError> {
     match choice {
         SceneChoice::Town => {
             let spinner = progress::spinner("building the old town");
-            let scene = Lattice::default().build();
+            let scene = town::build(TOWN_SEED);
             spinner.finish_and_clear();
             Ok(scene)
         }

@@ -35,10 +35,6 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-    /// Whether a text field or the like wants the keys.
-    pub fn wants_keys(&self) -> bool {
-        self.context.egui_wants_keyboard_input()
-    }
 
     /// Lays out and draws `contents` over what is in `target`.
     pub fn draw(
@@ -57,8 +53,10 @@ impl Interface {
         let screen =
             ScreenDescriptor { size_in_pixels: [size.width, size.height], pixels_per_point: output.pixels_per_point };
 
-        for (id, delta) in &output.textures_delta.set {
-            self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+        for (id, deltas) in &output.textures_delta.set {
+            for delta in deltas {
+                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+            }
         }
         let uploads = self.renderer.update_buffers(&gpu.device, &gpu.queue, encoder, &shapes, &screen);
         gpu.queue.submit(uploads);

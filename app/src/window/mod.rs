@@ -21,8 +21,10 @@ use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::resolve::Resolver;
 use crate::renderers::target::{Format, Radiance};
 use crate::scene::Scene;
+pub use hud::Readings;
 use input::{Action, Sample, Source};
 use interface::Interface;
+pub use panel::Ride as RidePanel;
 use panel::Settings;
 use std::sync::Arc;
 use winit::application::ApplicationHandler;
@@ -50,9 +52,10 @@ pub fn has_display() -> bool {
 pub fn run(options: &RideOptions, scene: Scene, live: Live) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Poll);
-    let mut application = Application { options: options.clone(), waiting: Some((scene, live)), open: None, failed: None };
+    let mut application =
+        Application { options: options.clone(), waiting: Some((scene, live)), open: None, failed: None };
     events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
-    let finished = application.open.map_or(Ok(()), |open| open.ride.live.finish());
+    let finished = application.open.map_or(Ok(()), |mut open| open.ride.live.finish());
     application.failed.map_or(finished, Err)
 }
 
@@ -117,9 +120,8 @@ impl Open {
 
         // The surface decides which device can draw in it.
         let instance = wgpu::Instance::new(descriptor());
-        let surface = instance
-            .create_surface(Arc::clone(&window))
-            .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
+        let surface =
+            instance.create_surface(Arc::clone(&window)).map_err(|error| GpuError::NoAdapter(error.to_string()))?;
         let gpu = Gpu::with_instance(instance, Some(&surface))?;
         let size = window.inner_size();
         let mut configuration = surface
@@ -235,14 +237,19 @@ impl Open {
         let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
 
         // Devices to light, on one page: frame.rs.
-        let look = Pictured { target: &self.radiance, fov: self.settings.fov, effects: self.settings.effects, latency: self.settings.latency };
+        let look = Pictured {
+            target: &self.radiance,
+            fov: self.settings.fov,
+            effects: self.settings.effects,
+            latency: self.settings.latency,
+        };
         let Some(events) = self.ride.frame(&self.gpu, &look)? else { return Ok(false) };
         for action in events {
             match action {
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
-                    let told = photo::take(&self.gpu, &self.radiance, &self.resolver);
+                    let told = photo::take(&self.gpu, &self.radiance).unwrap_or_else(|error| error.to_string());
                     self.ride.live.tell(told);
                 }
                 _ => {}

@@ -50,11 +50,9 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
             Grid::new("settings").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| {
                 ui.label("Vehicle");
                 ui.horizontal(|ui| {
-                    for (kind, name) in [
-                        (VehicleKind::Bicycle, "bicycle"),
-                        (VehicleKind::Drive, "drive"),
-                        (VehicleKind::Fly, "fly"),
-                    ] {
+                    for (kind, name) in
+                        [(VehicleKind::Bicycle, "bicycle"), (VehicleKind::Drive, "drive"), (VehicleKind::Fly, "fly")]
+                    {
                         if ui.selectable_label(ride.vehicle == kind, name).clicked() {
                             actions.push(Action::Vehicle(kind));
                         }
@@ -142,16 +140,13 @@ const KEYS: [(&str, &str); 18] = [
 ];
 
 fn help(ui: &Ui, open: &mut bool) {
-    Window::new("Keys").open(open).anchor(Align2::CENTER_CENTER, [0.0, -20.0]).resizable(false).show(
-        ui.ctx(),
-        |ui| {
-            Grid::new("keys").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
-                for (keys, meaning) in KEYS {
-                    ui.label(RichText::new(keys).monospace().strong());
-                    ui.label(meaning);
-                    ui.end_row();
-                }
-            });
-        },
-    );
+    Window::new("Keys").open(open).anchor(Align2::CENTER_CENTER, [0.0, -20.0]).resizable(false).show(ui.ctx(), |ui| {
+        Grid::new("keys").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
+            for (keys, meaning) in KEYS {
+                ui.label(RichText::new(keys).monospace().strong());
+                ui.label(meaning);
+                ui.end_row();
+            }
+        });
+    });
 }

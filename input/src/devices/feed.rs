@@ -1,4 +1,5 @@
-//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue behind it.
+//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue
+//! behind it.
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -32,7 +33,8 @@ pub(super) struct Place {
 
 /// An open device.
 pub(super) trait Connection {
-    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none if none came.
+    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none
+    /// if none came.
     ///
     /// # Errors
     /// If the device is gone.
@@ -127,22 +129,8 @@ impl Feed {
             dropped: 0,
             last: Vec::new(),
         };
-        let live = Arc::new(Mutex::new(Live {
-            status,
-            second_began: clock.now(),
-            this_second: 0,
-        }));
-        (
-            Self {
-                clock,
-                queue,
-                oldest: samples.clone(),
-                live: live.clone(),
-                stopped,
-            },
-            samples,
-            live,
-        )
+        let live = Arc::new(Mutex::new(Live { status, second_began: clock.now(), this_second: 0 }));
+        (Self { clock, queue, oldest: samples.clone(), live: live.clone(), stopped }, samples, live)
     }
 
     /// Keeps the device open until the program ends.
@@ -192,13 +180,7 @@ impl Feed {
     fn opened(&self, place: Place) {
         let mut live = lock(&self.live);
         let Place { source, name, path } = place;
-        live.status = Status {
-            source,
-            name,
-            path,
-            state: State::Open,
-            ..live.status.clone()
-        };
+        live.status = Status { source, name, path, state: State::Open, ..live.status.clone() };
         drop(live);
         self.send(Sample::opened(self.clock.now(), source));
     }
@@ -254,20 +236,13 @@ mod tests {
     #[test]
     fn a_flood_drops_the_oldest_and_says_so() {
         let (feed, samples, live, _stop) = feed(4);
-        let dropped: Vec<bool> = (0..10_u8)
-            .map(|n| feed.bytes(Source::Bicycle, &[n]))
-            .collect();
+        let dropped: Vec<bool> = (0..10_u8).map(|n| feed.bytes(Source::Bicycle, &[n])).collect();
         assert_eq!(dropped, [[false; 4].as_slice(), &[true; 6]].concat());
         let kept: Vec<_> = samples.try_iter().map(|sample| sample.signal).collect();
-        let expected: Vec<_> = (6..10_u8)
-            .map(|n| Sample::bytes(0, Source::Bicycle, [n]).signal)
-            .collect();
+        let expected: Vec<_> = (6..10_u8).map(|n| Sample::bytes(0, Source::Bicycle, [n]).signal).collect();
         assert_eq!(kept, expected);
         let status = status(&live, 0);
-        assert_eq!(
-            (status.samples, status.dropped, status.last),
-            (10, 6, vec![9])
-        );
+        assert_eq!((status.samples, status.dropped, status.last), (10, 6, vec![9]));
     }
 
     /// A device that says one thing and goes, a number of times; then it cannot be opened.
@@ -278,11 +253,7 @@ mod tests {
     impl Port for Flaky {
         fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
             self.lives = self.lives.checked_sub(1).ok_or("it is broken")?;
-            let place = Place {
-                source: Source::Bicycle,
-                name: "flaky".into(),
-                path: "nowhere".into(),
-            };
+            let place = Place { source: Source::Bicycle, name: "flaky".into(), path: "nowhere".into() };
             Ok((place, Box::new(Once(Some(self.lives)))))
         }
     }

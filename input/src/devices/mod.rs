@@ -1,13 +1,14 @@
 //! Live devices, each read by a thread of its own.
 //!
-//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first quickly and then every two
-//! seconds; so devices may be plugged and unplugged at any time. What it reads goes, stamped with the ride's clock, into
-//! a bounded queue that the frame loop drains ([`Devices::drain`]). Should the loop stall, a full queue drops its *oldest* sample: no
-//! thread ever waits, the newest state is never lost, and what was dropped is counted. Each device has its own queue, so one that
-//! floods hurts only itself.
+//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first
+//! quickly and then every two seconds; so devices may be plugged and unplugged at any time. What it
+//! reads goes, stamped with the ride's clock, into a bounded queue that the frame loop drains
+//! ([`Devices::drain`]). Should the loop stall, a full queue drops its *oldest* sample: no thread
+//! ever waits, the newest state is never lost, and what was dropped is counted. Each device has its
+//! own queue, so one that floods hurts only itself.
 //!
-//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence what to do about it.
-//! A keyboard's samples come from the window, not from here.
+//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence
+//! what to do about it. A keyboard's samples come from the window, not from here.
 
 mod feed;
 #[cfg(target_os = "linux")]
@@ -102,25 +103,12 @@ impl Devices {
     pub fn open(config: &DevicesConfig, clock: Clock) -> Result<Self, DevicesError> {
         let (stop, stopped) = bounded(0);
         let brake = Arc::new(BrakeSlot::default());
-        let mut devices = Self {
-            clock,
-            lanes: Vec::new(),
-            brake: brake.clone(),
-            stop: Some(stop),
-        };
+        let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
         if let Some(path) = &config.bicycle {
-            devices.start(
-                Source::Bicycle,
-                SerialPort::new(path, config.baud, brake),
-                &stopped,
-            )?;
+            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), &stopped)?;
         }
         if config.space_mouse {
-            devices.start(
-                Source::SpaceMouse,
-                PuckPort::new(config.spacenavd_socket.clone()),
-                &stopped,
-            )?;
+            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), &stopped)?;
         }
         #[cfg(target_os = "linux")]
         if config.gamepad {
@@ -129,25 +117,13 @@ impl Devices {
         Ok(devices)
     }
 
-    fn start(
-        &mut self,
-        source: Source,
-        port: impl Port + 'static,
-        stopped: &Receiver<()>,
-    ) -> Result<(), DevicesError> {
+    fn start(&mut self, source: Source, port: impl Port + 'static, stopped: &Receiver<()>) -> Result<(), DevicesError> {
         let (feed, samples, live) = Feed::new(source, self.clock, QUEUE, stopped.clone());
         let thread = thread::Builder::new()
             .name(source.name().to_owned())
             .spawn(move || feed.run(port))
-            .map_err(|cause| DevicesError::Thread {
-                source_device: source,
-                cause,
-            })?;
-        self.lanes.push(Lane {
-            samples,
-            live,
-            thread,
-        });
+            .map_err(|cause| DevicesError::Thread { source_device: source, cause })?;
+        self.lanes.push(Lane { samples, live, thread });
         Ok(())
     }
 
@@ -162,8 +138,8 @@ impl Devices {
         samples
     }
 
-    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest is sent, and at most
-    /// fifty a second.
+    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest
+    /// is sent, and at most fifty a second.
     pub fn brake(&self, brake: f64) {
         self.brake.set(brake);
     }
@@ -171,10 +147,7 @@ impl Devices {
     /// How the devices are.
     pub fn status(&self) -> Vec<Status> {
         let now = self.clock.now();
-        self.lanes
-            .iter()
-            .map(|lane| feed::status(&lane.live, now))
-            .collect()
+        self.lanes.iter().map(|lane| feed::status(&lane.live, now)).collect()
     }
 }
 

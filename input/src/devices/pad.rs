@@ -11,10 +11,7 @@ use crate::gamepad::{Item, codes};
 use crate::sample::Source;
 
 /// How long a read waits: a tenth of a second.
-const READ_WAIT: Timespec = Timespec {
-    tv_sec: 0,
-    tv_nsec: 100_000_000,
-};
+const READ_WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
 /// Where the system names joysticks, even those we may not read.
 const NAMES: &str = "/dev/input/by-id";
 
@@ -23,28 +20,14 @@ pub(super) struct PadPort;
 
 impl Port for PadPort {
     fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
-        let (path, device) = pads()
-            .into_iter()
-            .next()
-            .ok_or_else(|| match unreadable() {
-                Some(path) => format!(
-                    "{} may not be read: `sudo usermod -aG input $USER`, then log in again",
-                    path.display()
-                ),
-                None => "no gamepad is plugged in".to_owned(),
-            })?;
-        let place = Place {
-            source: Source::Gamepad,
-            name: name(&device),
-            path: path.display().to_string(),
-        };
-        Ok((
-            place,
-            Box::new(Pad {
-                device,
-                report_all: true,
-            }),
-        ))
+        let (path, device) = pads().into_iter().next().ok_or_else(|| match unreadable() {
+            Some(path) => {
+                format!("{} may not be read: `sudo usermod -aG input $USER`, then log in again", path.display())
+            }
+            None => "no gamepad is plugged in".to_owned(),
+        })?;
+        let place = Place { source: Source::Gamepad, name: name(&device), path: path.display().to_string() };
+        Ok((place, Box::new(Pad { device, report_all: true })))
     }
 }
 
@@ -55,9 +38,7 @@ pub(super) fn name(device: &Device) -> String {
 
 /// Every pad that we may read, in a fixed order.
 pub(super) fn pads() -> Vec<(PathBuf, Device)> {
-    let mut pads: Vec<_> = evdev::enumerate()
-        .filter(|(_, device)| layout(device).is_some())
-        .collect();
+    let mut pads: Vec<_> = evdev::enumerate().filter(|(_, device)| layout(device).is_some()).collect();
     pads.sort_by(|(a, _), (b, _)| a.cmp(b));
     pads
 }
@@ -65,16 +46,15 @@ pub(super) fn pads() -> Vec<(PathBuf, Device)> {
 /// A joystick that is there but may not be read.
 fn unreadable() -> Option<PathBuf> {
     let names = Path::new(NAMES).read_dir().ok()?;
-    names.flatten().map(|entry| entry.path()).find(|path| {
-        path.to_string_lossy().ends_with("-event-joystick") && std::fs::File::open(path).is_err()
-    })
+    names
+        .flatten()
+        .map(|entry| entry.path())
+        .find(|path| path.to_string_lossy().ends_with("-event-joystick") && std::fs::File::open(path).is_err())
 }
 
 /// Whether it is a gamepad or a joystick.
 fn layout(device: &Device) -> Option<Item> {
-    let has_stick = device
-        .supported_absolute_axes()?
-        .contains(AbsoluteAxisCode::ABS_X);
+    let has_stick = device.supported_absolute_axes()?.contains(AbsoluteAxisCode::ABS_X);
     let buttons = device.supported_keys()?;
     if has_stick && buttons.contains(KeyCode(codes::SOUTH)) {
         Some(Item::Gamepad)
@@ -98,21 +78,11 @@ impl Pad {
             layout.encode(bytes);
         }
         for (axis, info) in self.device.get_absinfo()? {
-            let item = Item::Axis {
-                code: axis.0,
-                value: info.value(),
-                least: info.minimum(),
-                most: info.maximum(),
-            };
+            let item = Item::Axis { code: axis.0, value: info.value(), least: info.minimum(), most: info.maximum() };
             item.encode(bytes);
         }
         for key in self.device.get_key_state()?.iter() {
-            Item::Event {
-                kind: codes::KEY,
-                code: key.0,
-                value: 1,
-            }
-            .encode(bytes);
+            Item::Event { kind: codes::KEY, code: key.0, value: 1 }.encode(bytes);
         }
         Ok(())
     }
@@ -130,11 +100,7 @@ impl Connection for Pad {
             Err(error) => return Err(error.into()),
         }
         for event in self.device.fetch_events()? {
-            let item = Item::Event {
-                kind: event.event_type().0,
-                code: event.code(),
-                value: event.value(),
-            };
+            let item = Item::Event { kind: event.event_type().0, code: event.code(), value: event.value() };
             item.encode(bytes);
         }
         Ok(())

@@ -23,35 +23,21 @@ pub struct Plugged {
 pub fn plugged_in() -> Vec<Plugged> {
     let mut plugged: Vec<Plugged> = serial::ports()
         .into_iter()
-        .map(|(path, name)| Plugged {
-            source: Source::Bicycle,
-            name,
-            path,
-            refused: None,
-        })
+        .map(|(path, name)| Plugged { source: Source::Bicycle, name, path, refused: None })
         .collect();
     if let Ok(api) = HidApi::new() {
         plugged.extend(candidates(&api).into_iter().map(|candidate| {
             let refused = candidate.open(&api).err();
             let path = candidate.path.to_string_lossy().into_owned();
-            Plugged {
-                source: Source::SpaceMouse,
-                name: candidate.name,
-                path,
-                refused,
-            }
+            Plugged { source: Source::SpaceMouse, name: candidate.name, path, refused }
         }));
     }
     #[cfg(target_os = "linux")]
-    plugged.extend(
-        super::pad::pads()
-            .into_iter()
-            .map(|(path, device)| Plugged {
-                source: Source::Gamepad,
-                name: super::pad::name(&device),
-                path: path.display().to_string(),
-                refused: None,
-            }),
-    );
+    plugged.extend(super::pad::pads().into_iter().map(|(path, device)| Plugged {
+        source: Source::Gamepad,
+        name: super::pad::name(&device),
+        path: path.display().to_string(),
+        refused: None,
+    }));
     plugged
 }

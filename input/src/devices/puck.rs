@@ -16,9 +16,8 @@ const CONNEXION: u16 = 0x256f;
 /// Usage page and usage of a multi-axis controller.
 const MULTI_AXIS: (u16, u16) = (1, 8);
 /// Mice, keyboards and numpads of the same makers.
-const NOT_A_PUCK: [u16; 12] = [
-    0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668,
-];
+const NOT_A_PUCK: [u16; 12] =
+    [0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668];
 /// How long one read of a single interface waits, milliseconds.
 const READ_WAIT_MS: i32 = 100;
 /// The longest report is 13 bytes.
@@ -41,11 +40,7 @@ impl Candidate {
     /// A sentence that says what to do.
     pub(super) fn open(&self, api: &HidApi) -> Result<HidDevice, String> {
         api.open_path(&self.path).map_err(|error| {
-            format!(
-                "{} may not be read at {} ({error}): {UDEV_RULE}",
-                self.name,
-                self.path.to_string_lossy()
-            )
+            format!("{} may not be read at {} ({error}): {UDEV_RULE}", self.name, self.path.to_string_lossy())
         })
     }
 }
@@ -59,14 +54,8 @@ pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
         .map(|device| {
             let ids = (device.vendor_id(), device.product_id());
             let nameless = || format!("SpaceMouse {:04x}:{:04x}", ids.0, ids.1);
-            let name = device
-                .product_string()
-                .filter(|name| !name.is_empty())
-                .map_or_else(nameless, str::to_owned);
-            Candidate {
-                name,
-                path: device.path().to_owned(),
-            }
+            let name = device.product_string().filter(|name| !name.is_empty()).map_or_else(nameless, str::to_owned);
+            Candidate { name, path: device.path().to_owned() }
         })
         .collect()
 }
@@ -88,23 +77,18 @@ impl PuckPort {
 
     #[cfg(not(unix))]
     fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
-        Err(format!(
-            "there is no spacenavd here ({})",
-            self.socket.display()
-        ))
+        Err(format!("there is no spacenavd here ({})", self.socket.display()))
     }
 }
 
 impl Port for PuckPort {
     fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
-        open_raw().or_else(|raw| {
-            self.through_daemon()
-                .map_err(|daemon| format!("{raw}; {daemon}"))
-        })
+        open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| format!("{raw}; {daemon}")))
     }
 }
 
-/// Opens every interface that may be it: a wireless receiver has several, and only time tells which one it is.
+/// Opens every interface that may be it: a wireless receiver has several, and only time tells which
+/// one it is.
 fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
     let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
     let mut interfaces = Vec::new();
@@ -122,11 +106,7 @@ fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
     let Some(Candidate { name, path }) = found else {
         return Err(why);
     };
-    let place = Place {
-        source: Source::SpaceMouse,
-        name,
-        path: path.to_string_lossy().into_owned(),
-    };
+    let place = Place { source: Source::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
     Ok((place, Box::new(Raw { interfaces })))
 }
 
@@ -137,8 +117,7 @@ struct Raw {
 
 impl Connection for Raw {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
-        let wait_ms =
-            READ_WAIT_MS / i32::try_from(self.interfaces.len().max(1)).unwrap_or(READ_WAIT_MS);
+        let wait_ms = READ_WAIT_MS / i32::try_from(self.interfaces.len().max(1)).unwrap_or(READ_WAIT_MS);
         let mut buffer = [0; BUFFER];
         let mut speaker = None;
         let mut gone = None;

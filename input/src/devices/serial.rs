@@ -49,17 +49,14 @@ pub(super) struct SerialPort {
 
 impl SerialPort {
     pub(super) fn new(path: &str, baud: u32, brake: Arc<BrakeSlot>) -> Self {
-        Self {
-            path: path.to_owned(),
-            baud,
-            brake,
-        }
+        Self { path: path.to_owned(), baud, brake }
     }
 }
 
 impl Port for SerialPort {
     fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
-        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets many a board.
+        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets
+        // many a board.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
             let path = &self.path;
             match error.kind() {
@@ -72,17 +69,8 @@ impl Port for SerialPort {
                 _ => format!("{path} cannot be opened as a serial port: {error}"),
             }
         })?;
-        let place = Place {
-            source: Source::Bicycle,
-            name: "bicycle".to_owned(),
-            path: self.path.clone(),
-        };
-        let wire = Wire {
-            port,
-            brake: self.brake.clone(),
-            sequence: 0,
-            last_command: None,
-        };
+        let place = Place { source: Source::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
+        let wire = Wire { port, brake: self.brake.clone(), sequence: 0, last_command: None };
         Ok((place, Box::new(wire)))
     }
 }
@@ -98,24 +86,30 @@ struct Wire {
 impl Wire {
     /// Sends the newest brake command, unless one has just been sent.
     fn command(&mut self) -> io::Result<()> {
-        if self
-            .last_command
-            .is_some_and(|last| last.elapsed() < COMMAND_EVERY)
-        {
+        if self.last_command.is_some_and(|last| last.elapsed() < COMMAND_EVERY) {
             return Ok(());
         }
-        let Some(brake) = self.brake.take() else {
-            return Ok(());
-        };
-        let line = BrakeCommand {
-            sequence: self.sequence,
-            brake,
+        match self.brake.take() {
+            Some(brake) => self.send(brake),
+            None => Ok(()),
         }
-        .to_line();
+    }
+
+    fn send(&mut self, brake: f64) -> io::Result<()> {
+        let line = BrakeCommand { sequence: self.sequence, brake }.to_line();
         self.sequence = self.sequence.wrapping_add(1);
         self.last_command = Some(Instant::now());
         // A box that does not listen misses a command; the checksum tells it of half a one.
         passing(self.port.write_all(line.as_bytes()))
+    }
+}
+
+impl Drop for Wire {
+    /// Nobody is left to brake for.
+    fn drop(&mut self) {
+        if self.last_command.is_some() {
+            let _ = self.send(0.0);
+        }
     }
 }
 
@@ -137,12 +131,7 @@ impl Connection for Wire {
 /// Takes what will pass for no error.
 pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     match outcome {
-        Err(error)
-            if matches!(
-                error.kind(),
-                ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted
-            ) =>
-        {
+        Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
             Ok(())
         }
         outcome => outcome,
@@ -160,9 +149,9 @@ pub(super) fn ports() -> Vec<(String, String)> {
         .into_iter()
         .map(|port| {
             let name = match port.port_type {
-                serialport::SerialPortType::UsbPort(usb) => usb
-                    .product
-                    .unwrap_or_else(|| format!("USB {:04x}:{:04x}", usb.vid, usb.pid)),
+                serialport::SerialPortType::UsbPort(usb) => {
+                    usb.product.unwrap_or_else(|| format!("USB {:04x}:{:04x}", usb.vid, usb.pid))
+                }
                 _ => "serial port".to_owned(),
             };
             (port.port_name, name)

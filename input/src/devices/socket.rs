@@ -34,18 +34,8 @@ impl Daemon {
                 }
                 _ => format!("spacenavd cannot be reached at {place}: {error}"),
             })?;
-        let place = Place {
-            source: Source::Spacenavd,
-            name: "SpaceMouse through spacenavd".to_owned(),
-            path: place,
-        };
-        Ok((
-            place,
-            Box::new(Self {
-                stream,
-                partial: Vec::new(),
-            }),
-        ))
+        let place = Place { source: Source::Spacenavd, name: "SpaceMouse through spacenavd".to_owned(), path: place };
+        Ok((place, Box::new(Self { stream, partial: Vec::new() })))
     }
 }
 
@@ -61,5 +51,27 @@ impl Connection for Daemon {
         let whole = self.partial.len() - self.partial.len() % EVENT_LENGTH;
         bytes.extend(self.partial.drain(..whole));
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    #[test]
+    fn samples_are_whole_events() {
+        let (mut daemon, stream) = UnixStream::pair().unwrap();
+        stream.set_read_timeout(Some(READ_WAIT)).unwrap();
+        let mut reader = Daemon { stream, partial: Vec::new() };
+        let mut bytes = Vec::new();
+        for (sent, given) in [(40, 32), (20, 32), (4, 64), (0, 64)] {
+            daemon.write_all(&vec![7; sent]).unwrap();
+            reader.read(&mut bytes).unwrap();
+            assert_eq!(bytes.len(), given);
+        }
+        drop(daemon);
+        assert!(reader.read(&mut bytes).is_err());
     }
 }

@@ -6,13 +6,15 @@
 //! | `/controls` | every frame | what the desk made of them |
 //! | `/observer` | every frame | where and how fast the observer was afterwards |
 //!
-//! A replay feeds the raw bytes to a desk, asks it at the recorded frame times, and must get the recorded observer to the
-//! last bit: [`FrameRecord::first_difference`]. Messages are JSON with a JSON schema; numbers keep every bit (the shortest text that
-//! reads back the same). Log times are nanoseconds since the ride began. Messages of all channels are numbered as one
-//! sequence, so that a lost one shows.
+//! A replay feeds the raw bytes to a desk, asks it at the recorded frame times, and must get the
+//! recorded observer to the last bit: [`FrameRecord::first_difference`]. Messages are JSON with a
+//! JSON schema; numbers keep every bit (the shortest text that reads back the same). Log times are
+//! nanoseconds since the ride began. Messages of all channels are numbered as one sequence, so that
+//! a lost one shows.
 //!
-//! The first record is a metadata record that holds the [`Header`] with a checksum; then follow chunks of at most half a second, each whole and
-//! with its own checksum. A crash therefore loses at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
+//! The first record is a metadata record that holds the [`Header`] with a checksum; then follow
+//! chunks of at most half a second, each whole and with its own checksum. A crash therefore loses
+//! at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
 
 mod reader;
 mod record;
@@ -27,8 +29,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use reader::{Entry, Recording};
-pub use record::{ControlsRecord, Difference, FrameRecord};
+pub use reader::Recording;
+pub use record::{ControlsRecord, Difference, Entry, FrameRecord};
 pub use writer::Recorder;
 
 use crate::action::VehicleKind;
@@ -65,7 +67,8 @@ pub struct Header {
     pub step_s: f64,
     /// How the devices are read.
     pub desk: DeskConfig,
-    /// Whatever else decides the ride, by name: the seed of a built-in scene, the place of the start.
+    /// Whatever else decides the ride, by name: the seed of a built-in scene, the place of the
+    /// start.
     pub settings: BTreeMap<String, String>,
 }
 
@@ -166,10 +169,6 @@ pub enum RecordingError {
 
 impl RecordingError {
     fn io(path: &Path, action: &'static str, cause: io::Error) -> Self {
-        Self::Io {
-            path: path.to_owned(),
-            action,
-            cause,
-        }
+        Self::Io { path: path.to_owned(), action, cause }
     }
 }

@@ -1,32 +1,22 @@
 //! Reading a recording, also one that is damaged or still being written.
 //!
-//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before anything in
-//! it is believed, messages must follow each other without a gap, and the data as a whole has a checksum at its end. At the first
-//! thing that is wrong the reader says what and where, and stops; everything it gave before is good.
+//! The file is read once from front to back, a chunk at a time. A chunk is checked against its
+//! checksum before anything in it is believed, messages must follow each other without a gap, and
+//! the data as a whole has a checksum at its end. At the first thing that is wrong the reader says
+//! what and where, and stops; everything it gave before is good.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
-use super::record::{ControlsRecord, FrameRecord, SampleRecord, Topic};
+use super::record::{Entry, SampleRecord, Topic};
 use super::records::{Record, Records};
 use super::wire::{Fields, opcode};
 use super::{Header, RecordingError};
-use crate::sample::Sample;
 
-/// One message of a recording.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Entry {
-    /// A device said something.
-    Sample(Sample),
-    /// What the desk made of it.
-    Controls(ControlsRecord),
-    /// Where the observer was after the frame.
-    Frame(FrameRecord),
-}
-
-/// A recording that is being read: its header, and an iterator over its entries in the order in which they were made.
+/// A recording that is being read: its header, and an iterator over its entries in the order in
+/// which they were made.
 ///
 /// The last item is an error if the file does not end as it should; all before it may be used.
 #[derive(Debug)]
@@ -44,17 +34,11 @@ impl Recording {
     /// Opens a recording and reads its header.
     ///
     /// # Errors
-    /// If it cannot be opened, is no recording of this program or of another format, or is damaged within the header.
+    /// If it cannot be opened, is no recording of this program or of another format, or is damaged
+    /// within the header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let (records, header) = Records::open(path)?;
-        Ok(Self {
-            records,
-            header,
-            channels: BTreeMap::new(),
-            sequence: 0,
-            entries: VecDeque::new(),
-            end: None,
-        })
+        Ok(Self { records, header, channels: BTreeMap::new(), sequence: 0, entries: VecDeque::new(), end: None })
     }
 
     /// What the ride depends on besides its samples.
@@ -68,23 +52,19 @@ impl Recording {
         match record.opcode {
             opcode::CHUNK => self.chunk(&record)?,
             opcode::SCHEMA | opcode::CHANNEL | opcode::MESSAGE => {
-                self.inner(record.opcode, &record.body)
-                    .map_err(|what| self.records.damaged(record.offset, what))?;
+                self.inner(record.opcode, &record.body).map_err(|what| self.records.damaged(record.offset, what))?;
             }
             opcode::DATA_END => {
-                return match Fields(&record.body).u32() {
-                    Some(checksum) if checksum == record.checksum_before || checksum == 0 => {
-                        Ok(false)
-                    }
-                    _ => Err(self
-                        .records
-                        .damaged(record.offset, "the data does not match its checksum")),
+                let mut fields = Fields(&record.body);
+                let checksum = fields.u32();
+                return if checksum == Some(record.checksum_before) && fields.0.is_empty() {
+                    Ok(false)
+                } else {
+                    Err(self.records.damaged(record.offset, "the data does not match its checksum"))
                 };
             }
             opcode::FOOTER => {
-                return Err(self
-                    .records
-                    .damaged(record.offset, "the end of the data is missing"));
+                return Err(self.records.damaged(record.offset, "the end of the data is missing"));
             }
             // Indexes, attachments and what others may add.
             _ => {}
@@ -104,9 +84,7 @@ impl Recording {
             return Err(damaged("the chunk is shorter than it says".to_owned()));
         };
         if !compression.is_empty() {
-            return Err(damaged(format!(
-                "compressed with {compression:?}; recordings are not compressed"
-            )));
+            return Err(damaged(format!("compressed with {compression:?}; recordings are not compressed")));
         }
         if checksum != crc32fast::hash(content) {
             return Err(damaged("the chunk does not match its checksum".to_owned()));
@@ -138,10 +116,7 @@ impl Recording {
             Some((id, fields.text()?))
         })();
         let (id, name) = parts.ok_or("a channel is shorter than it says")?;
-        self.channels.insert(
-            id,
-            Topic::ALL.into_iter().find(|topic| topic.name() == name),
-        );
+        self.channels.insert(id, Topic::ALL.into_iter().find(|topic| topic.name() == name));
         Ok(())
     }
 
@@ -155,25 +130,16 @@ impl Recording {
         let (channel, sequence) = parts.ok_or("a message is shorter than its header")?;
         let expected = self.sequence;
         if sequence != expected {
-            return Err(format!(
-                "message {sequence} follows where {expected} should: some are missing"
-            ));
+            return Err(format!("message {sequence} follows where {expected} should: some are missing"));
         }
         self.sequence = self.sequence.wrapping_add(1);
 
         let text = fields.0;
-        let topic = self
-            .channels
-            .get(&channel)
-            .ok_or_else(|| format!("message {sequence} is of no channel"))?;
+        let topic = self.channels.get(&channel).ok_or_else(|| format!("message {sequence} is of no channel"))?;
         self.entries.push_back(match topic {
             Some(Topic::Samples) => {
                 let record: SampleRecord = parse(sequence, text)?;
-                Entry::Sample(
-                    record
-                        .try_into()
-                        .map_err(|what| format!("message {sequence}: {what}"))?,
-                )
+                Entry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
             }
             Some(Topic::Controls) => Entry::Controls(parse(sequence, text)?),
             Some(Topic::Frames) => Entry::Frame(parse(sequence, text)?),

@@ -1,5 +1,7 @@
 //! What is written for a frame and a sample, and the JSON schemas that describe it.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::controls::Controls;
@@ -8,9 +10,10 @@ use crate::sample::{Nanos, Sample, Signal, Source};
 /// The observer after a frame's steps.
 ///
 /// # Frames, units
-/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the physics. The celerity is
-/// in units of the speed of light. The orientation is the quaternion (x, y, z, w) that takes the pilot's axes to the
-/// axes of the comoving frame that is a pure boost of the world's.
+/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the
+/// physics. The celerity is in units of the speed of light. The orientation is the quaternion (x,
+/// y, z, w) that takes the pilot's axes to the axes of the comoving frame that is a pure boost of
+/// the world's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameRecord {
@@ -52,8 +55,8 @@ pub struct Difference {
 }
 
 impl FrameRecord {
-    /// Every real number by name.
-    fn numbers(&self) -> impl Iterator<Item = (String, f64)> {
+    /// Every real number, with its place.
+    fn numbers(&self) -> impl Iterator<Item = (Place, f64)> {
         let vectors: [(&str, &[f64]); 9] = [
             ("proper_time", std::slice::from_ref(&self.proper_time)),
             ("ct", std::slice::from_ref(&self.ct)),
@@ -65,21 +68,16 @@ impl FrameRecord {
             ("road", std::slice::from_ref(&self.road)),
             ("odometer", std::slice::from_ref(&self.odometer)),
         ];
-        vectors.into_iter().flat_map(|(name, vector)| {
-            vector.iter().enumerate().map(move |(index, &number)| {
-                let name = if vector.len() > 1 {
-                    format!("{name}[{index}]")
-                } else {
-                    name.to_owned()
-                };
-                (name, number)
-            })
+        vectors.into_iter().flat_map(|(field, vector)| {
+            let place = move |index| Place { field, index: (vector.len() > 1).then_some(index) };
+            vector.iter().enumerate().map(move |(index, &number)| (place(index), number))
         })
     }
 
     /// The first number that JSON cannot carry.
     pub(super) fn not_finite(&self) -> Option<(String, f64)> {
-        self.numbers().find(|(_, number)| !number.is_finite())
+        let found = self.numbers().find(|(_, number)| !number.is_finite());
+        found.map(|(place, number)| (place.to_string(), number))
     }
 
     /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
@@ -89,27 +87,32 @@ impl FrameRecord {
             ("at", self.at, replayed.at),
             ("steps", self.steps, replayed.steps),
         ];
-        if let Some((field, ours, theirs)) =
-            counts.into_iter().find(|(_, ours, theirs)| ours != theirs)
-        {
+        if let Some((field, ours, theirs)) = counts.into_iter().find(|(_, ours, theirs)| ours != theirs) {
             let (recorded, replayed) = (ours.to_string(), theirs.to_string());
-            return Some(Difference {
-                field: field.to_owned(),
-                recorded,
-                replayed,
-            });
+            return Some(Difference { field: field.to_owned(), recorded, replayed });
         }
-        self.numbers()
-            .zip(replayed.numbers())
-            .find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits())
-            .map(|((field, ours), (_, theirs))| {
+        self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
+            |((place, ours), (_, theirs))| {
                 let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
-                Difference {
-                    field,
-                    recorded,
-                    replayed,
-                }
-            })
+                Difference { field: place.to_string(), recorded, replayed }
+            },
+        )
+    }
+}
+
+/// A number's place in a frame record.
+#[derive(Clone, Copy)]
+struct Place {
+    field: &'static str,
+    index: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.index {
+            Some(index) => write!(formatter, "{}[{index}]", self.field),
+            None => formatter.write_str(self.field),
+        }
     }
 }
 
@@ -123,6 +126,17 @@ pub struct ControlsRecord {
     /// Its answer.
     #[serde(flatten)]
     pub controls: Controls,
+}
+
+/// One message of a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// A device said something.
+    Sample(Sample),
+    /// What the desk made of it.
+    Controls(ControlsRecord),
+    /// Where the observer was after the frame.
+    Frame(FrameRecord),
 }
 
 /// What happened, as it is written.
@@ -151,12 +165,7 @@ impl From<&Sample> for SampleRecord {
             Signal::Bytes(bytes) => (Kind::Bytes, bytes),
             Signal::Closed => (Kind::Closed, &[]),
         };
-        Self {
-            at: sample.at,
-            source: sample.source,
-            kind,
-            bytes: hex(bytes),
-        }
+        Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
     }
 }
 
@@ -169,11 +178,7 @@ impl TryFrom<SampleRecord> for Sample {
             Kind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
             Kind::Closed => Signal::Closed,
         };
-        Ok(Self {
-            at: record.at,
-            source: record.source,
-            signal,
-        })
+        Ok(Self { at: record.at, source: record.source, signal })
     }
 }
 
@@ -183,21 +188,12 @@ pub(super) fn hex(bytes: &[u8]) -> String {
 }
 
 fn unhex(text: &str) -> Result<Box<[u8]>, String> {
-    let digits: Option<Vec<u8>> = text
-        .chars()
-        .map(|digit| {
-            digit
-                .to_digit(16)
-                .and_then(|digit| u8::try_from(digit).ok())
-        })
-        .collect();
+    let digits: Option<Vec<u8>> =
+        text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
     match digits {
-        Some(digits) if digits.len().is_multiple_of(2) => Ok(digits
-            .as_chunks()
-            .0
-            .iter()
-            .map(|[high, low]| high << 4 | low)
-            .collect()),
+        Some(digits) if digits.len().is_multiple_of(2) => {
+            Ok(digits.as_chunks().0.iter().map(|[high, low]| high << 4 | low).collect())
+        }
         _ => Err(format!("{text:?} is not a row of hexadecimal bytes")),
     }
 }
@@ -234,18 +230,13 @@ impl Topic {
 
 #[cfg(test)]
 mod tests {
-    //! Every field must take part in the comparison, and be known to the schema: one that is not would differ unseen, or
-    //! would not be plotted.
+    //! Every field must take part in the comparison, and be known to the schema: one that is not
+    //! would differ unseen, or would not be plotted.
     use super::*;
     use serde_json::Value;
 
     fn frame() -> FrameRecord {
-        FrameRecord {
-            frame: 3,
-            position: [0.1, -0.0, 1e-300],
-            orientation: [0.0, 0.0, 0.0, 1.0],
-            ..Default::default()
-        }
+        FrameRecord { frame: 3, position: [0.1, -0.0, 1e-300], orientation: [0.0, 0.0, 0.0, 1.0], ..Default::default() }
     }
 
     /// Calls `each` with the record changed in one number, for every number in it.
@@ -261,10 +252,7 @@ mod tests {
                 for (index, element) in elements.iter().enumerate() {
                     let mut changed = value.clone();
                     changed[key][index] = nudge(element);
-                    each(
-                        format!("{key}[{index}]"),
-                        serde_json::from_value(changed).unwrap(),
-                    );
+                    each(format!("{key}[{index}]"), serde_json::from_value(changed).unwrap());
                 }
             } else {
                 changed[key] = nudge(field);
@@ -293,10 +281,7 @@ mod tests {
         let mut changed = frame();
         changed.position[1] = 0.0;
         let difference = frame().first_difference(&changed).unwrap();
-        assert_eq!(
-            (difference.recorded.as_str(), difference.replayed.as_str()),
-            ("-0.0", "0.0")
-        );
+        assert_eq!((difference.recorded.as_str(), difference.replayed.as_str()), ("-0.0", "0.0"));
     }
 
     #[test]
@@ -305,10 +290,7 @@ mod tests {
         record.position = [f64::MIN_POSITIVE / 3.0, -0.0, 1.0 / 3.0];
         record.celerity = [1e12 + 1.0 / 1024.0, f64::MAX, f64::EPSILON];
         let text = serde_json::to_string(&record).unwrap();
-        assert_eq!(
-            record.first_difference(&serde_json::from_str(&text).unwrap()),
-            None
-        );
+        assert_eq!(record.first_difference(&serde_json::from_str(&text).unwrap()), None);
     }
 
     #[test]

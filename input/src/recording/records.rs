@@ -5,9 +5,7 @@ use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use super::wire::{Fields, MAGIC, RECORD_HEADER, opcode, record_header};
-use super::{
-    Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION,
-};
+use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
 
 /// No record of ours comes near; a length beyond this is damage.
 const LONGEST_RECORD: u64 = 64 << 20;
@@ -53,13 +51,7 @@ impl Records {
             return Err(RecordingError::Empty { path: owned });
         }
         let checksum = crc32fast::Hasher::new();
-        let mut records = Self {
-            path: owned,
-            file: BufReader::new(file),
-            length,
-            offset: 0,
-            checksum,
-        };
+        let mut records = Self { path: owned, file: BufReader::new(file), length, offset: 0, checksum };
         records.magic()?;
         records.profile()?;
         let header = records.header()?;
@@ -68,11 +60,7 @@ impl Records {
 
     /// That the file is wrong at `offset`.
     pub(super) fn damaged(&self, offset: u64, what: impl Into<String>) -> RecordingError {
-        RecordingError::Damaged {
-            path: self.path.clone(),
-            offset,
-            what: what.into(),
-        }
+        RecordingError::Damaged { path: self.path.clone(), offset, what: what.into() }
     }
 
     /// The next record.
@@ -81,10 +69,7 @@ impl Records {
     /// If the file ends before the record does, or its length cannot be right.
     pub(super) fn next(&mut self) -> Result<Record, RecordingError> {
         let (offset, checksum_before) = (self.offset, self.checksum.clone().finalize());
-        let cut_off = RecordingError::CutOff {
-            path: self.path.clone(),
-            offset,
-        };
+        let cut_off = RecordingError::CutOff { path: self.path.clone(), offset };
         let left = self.length - self.offset;
         let mut header = [0; RECORD_HEADER];
         let Some(left) = left.checked_sub(header.len() as u64) else {
@@ -93,36 +78,22 @@ impl Records {
         self.read(&mut header)?;
         let (opcode, length) = record_header(header);
         if opcode == 0 || length > LONGEST_RECORD {
-            return Err(self.damaged(
-                offset,
-                format!("a record of kind {opcode} and {length} bytes"),
-            ));
+            return Err(self.damaged(offset, format!("a record of kind {opcode} and {length} bytes")));
         }
         if length > left {
             return Err(cut_off);
         }
-        let mut body =
-            vec![0; usize::try_from(length).expect("64 MiB fit into memory's addresses")];
+        let mut body = vec![0; usize::try_from(length).expect("64 MiB fit into memory's addresses")];
         self.read(&mut body)?;
-        Ok(Record {
-            offset,
-            opcode,
-            body,
-            checksum_before,
-        })
+        Ok(Record { offset, opcode, body, checksum_before })
     }
 
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), RecordingError> {
-        self.file
-            .read_exact(bytes)
-            .map_err(|cause| match cause.kind() {
-                // It was longer when it was opened.
-                io::ErrorKind::UnexpectedEof => RecordingError::CutOff {
-                    path: self.path.clone(),
-                    offset: self.offset,
-                },
-                _ => RecordingError::io(&self.path, "read", cause),
-            })?;
+        self.file.read_exact(bytes).map_err(|cause| match cause.kind() {
+            // It was longer when it was opened.
+            io::ErrorKind::UnexpectedEof => RecordingError::CutOff { path: self.path.clone(), offset: self.offset },
+            _ => RecordingError::io(&self.path, "read", cause),
+        })?;
         self.checksum.update(bytes);
         self.offset += bytes.len() as u64;
         Ok(())
@@ -133,28 +104,15 @@ impl Records {
         if self.length >= magic.len() as u64 {
             self.read(&mut magic)?;
         }
-        if magic == *MAGIC {
-            Ok(())
-        } else {
-            Err(RecordingError::NotMcap {
-                path: self.path.clone(),
-            })
-        }
+        if magic == *MAGIC { Ok(()) } else { Err(RecordingError::NotMcap { path: self.path.clone() }) }
     }
 
     fn profile(&mut self) -> Result<(), RecordingError> {
         let record = self.next()?;
-        let profile = if record.opcode == opcode::HEADER {
-            Fields(&record.body).text()
-        } else {
-            None
-        };
+        let profile = if record.opcode == opcode::HEADER { Fields(&record.body).text() } else { None };
         match profile {
             Some(PROFILE) => Ok(()),
-            Some(profile) => Err(RecordingError::Foreign {
-                path: self.path.clone(),
-                profile: profile.to_owned(),
-            }),
+            Some(profile) => Err(RecordingError::Foreign { path: self.path.clone(), profile: profile.to_owned() }),
             None => Err(self.damaged(record.offset, "the MCAP header cannot be read")),
         }
     }
@@ -174,18 +132,12 @@ impl Records {
             Some(VERSION) => {}
             found => {
                 let found = found.unwrap_or_default().to_owned();
-                return Err(RecordingError::Version {
-                    path: self.path.clone(),
-                    found,
-                });
+                return Err(RecordingError::Version { path: self.path.clone(), found });
             }
         }
-        let text =
-            value(KEY_HEADER).ok_or_else(|| damaged(format!("`{KEY_HEADER}` is missing")))?;
+        let text = value(KEY_HEADER).ok_or_else(|| damaged(format!("`{KEY_HEADER}` is missing")))?;
         if value(KEY_CHECKSUM) != Some(&format!("{:08x}", crc32fast::hash(text.as_bytes()))) {
-            return Err(damaged(format!(
-                "`{KEY_HEADER}` does not match its checksum"
-            )));
+            return Err(damaged(format!("`{KEY_HEADER}` does not match its checksum")));
         }
         serde_json::from_str(text).map_err(|error| damaged(format!("`{KEY_HEADER}`: {error}")))
     }

@@ -1,8 +1,9 @@
 //! The bytes of MCAP, as far as we read them.
 //!
-//! A file is a magic number and records, each an opcode, a length and a body; a chunk's body holds records again. Every length
-//! is checked against what is there before it is believed, so a hostile file costs no more memory than its own size.
-//! The layout is that of the MCAP specification, version 0.
+//! A file is a magic number and records, each an opcode, a length and a body; a chunk's body holds
+//! records again. Every length is checked against what is there before it is believed, so a hostile
+//! file costs no more memory than its own size. The layout is that of the MCAP specification,
+//! version 0.
 
 /// What a file begins with.
 pub(super) const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";

@@ -1,9 +1,9 @@
 //! Writing a recording while the ride goes on.
 //!
-//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON and writes. Every half
-//! second it closes the chunk and hands it to the disk. A queue that is full means that the disk has stalled for many seconds:
-//! since a recording with a gap would not replay, recording then stops with an error instead of losing something or of
-//! stopping the ride.
+//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON
+//! and writes. Every half second it closes the chunk and hands it to the disk. A queue that is full
+//! means that the disk has stalled for many seconds: since a recording with a gap would not replay,
+//! recording then stops with an error instead of losing something or of stopping the ride.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -18,10 +18,8 @@ use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
-use super::record::{ControlsRecord, FrameRecord, SampleRecord, Topic};
-use super::{
-    Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION,
-};
+use super::record::{ControlsRecord, Entry, FrameRecord, SampleRecord, Topic};
+use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
 use crate::controls::Controls;
 use crate::sample::{Nanos, Sample};
 
@@ -32,15 +30,14 @@ const QUEUE: usize = 32_768;
 
 /// What is put into the queue.
 enum Message {
-    Sample(Sample),
-    Controls(ControlsRecord),
-    Frame(FrameRecord),
+    One(Entry),
+    Many(Vec<Entry>),
 }
 
 /// A recording that is being made.
 ///
-/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the controls and the
-/// observer of the frame.
+/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the
+/// controls and the observer of the frame.
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
@@ -54,39 +51,19 @@ impl Recorder {
     /// # Errors
     /// If the file exists already, or the system does not let us create or write it.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
-        let file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(path)
-            .map_err(|cause| match cause.kind() {
-                io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory {
-                    path: path.to_owned(),
-                },
-                io::ErrorKind::AlreadyExists => RecordingError::Exists {
-                    path: path.to_owned(),
-                },
-                _ => RecordingError::io(path, "create", cause),
-            })?;
-        let failed = |error| failure(path, error);
-        let file_to_sync = file
-            .try_clone()
-            .map_err(|cause| failed(McapError::Io(cause)))?;
-        let mut writer = Writer::new(file, header).map_err(failed)?;
+        let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
+        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
+            io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
+            io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
+            _ => RecordingError::io(path, "create", cause),
+        })?;
+        let mut writer = Writer::new(file, header).map_err(|error| failure(path, error))?;
         let (queue, messages) = bounded(QUEUE);
         let thread = thread::Builder::new()
             .name("recorder".to_owned())
-            .spawn(move || {
-                write_until_closed(&messages, &mut writer, &file_to_sync)?;
-                writer.mcap.finish()?;
-                file_to_sync.sync_all()?;
-                Ok(())
-            })
+            .spawn(move || write_until_closed(&messages, &mut writer))
             .map_err(|cause| RecordingError::io(path, "start the thread that writes", cause))?;
-        Ok(Self {
-            path: path.to_owned(),
-            queue: Some(queue),
-            thread: Some(thread),
-        })
+        Ok(Self { path: path.to_owned(), queue: Some(queue), thread: Some(thread) })
     }
 
     /// Records a sample.
@@ -94,24 +71,15 @@ impl Recorder {
     /// # Errors
     /// If writing has failed, or does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Message::Sample(sample.clone()))
+        self.push(Message::One(Entry::Sample(sample.clone())))
     }
 
     /// Records what the desk said for a frame.
     ///
     /// # Errors
     /// As for [`sample`](Self::sample).
-    pub fn controls(
-        &mut self,
-        frame: u64,
-        at: Nanos,
-        controls: &Controls,
-    ) -> Result<(), RecordingError> {
-        self.push(Message::Controls(ControlsRecord {
-            frame,
-            at,
-            controls: controls.clone(),
-        }))
+    pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
+        self.push(Message::One(Entry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
     }
 
     /// Records the observer after a frame.
@@ -119,14 +87,21 @@ impl Recorder {
     /// # Errors
     /// If a number is not finite; else as for [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
-        if let Some((field, value)) = record.not_finite() {
-            return Err(RecordingError::NotFinite {
-                frame: record.frame,
-                field,
-                value,
-            });
+        check(record)?;
+        self.push(Message::One(Entry::Frame(record.clone())))
+    }
+
+    /// Records what happened before the file was created, however much; to be called first.
+    ///
+    /// # Errors
+    /// As for [`frame`](Self::frame).
+    pub fn past(&mut self, entries: Vec<Entry>) -> Result<(), RecordingError> {
+        for entry in &entries {
+            if let Entry::Frame(record) = entry {
+                check(record)?;
+            }
         }
-        self.push(Message::Frame(record.clone()))
+        self.push(Message::Many(entries))
     }
 
     /// Writes what still waits, the index and the end of the file.
@@ -139,9 +114,7 @@ impl Recorder {
 
     fn push(&mut self, message: Message) -> Result<(), RecordingError> {
         let Some(queue) = &self.queue else {
-            return Err(RecordingError::Stopped {
-                path: self.path.clone(),
-            });
+            return Err(RecordingError::Stopped { path: self.path.clone() });
         };
         match queue.try_send(message) {
             Ok(()) => Ok(()),
@@ -149,15 +122,11 @@ impl Recorder {
                 // Leave the thread to its disk.
                 self.queue = None;
                 self.thread = None;
-                Err(RecordingError::TooSlow {
-                    path: self.path.clone(),
-                })
+                Err(RecordingError::TooSlow { path: self.path.clone() })
             }
             Err(TrySendError::Disconnected(_)) => {
                 self.close()?;
-                Err(RecordingError::Stopped {
-                    path: self.path.clone(),
-                })
+                Err(RecordingError::Stopped { path: self.path.clone() })
             }
         }
     }
@@ -170,18 +139,31 @@ impl Recorder {
         };
         match thread.join() {
             Ok(outcome) => outcome.map_err(|error| failure(&self.path, error)),
-            Err(_) => Err(failure(
-                &self.path,
-                McapError::Io(io::Error::other("the thread that writes has died")),
-            )),
+            Err(_) => Err(failure(&self.path, McapError::Io(io::Error::other("the thread that writes has died")))),
         }
     }
 }
 
 impl Drop for Recorder {
-    /// Finishes the file; who wants to know whether that went well calls [`finish`](Recorder::finish).
+    /// Finishes the file; who wants to know whether that went well calls
+    /// [`finish`](Recorder::finish).
     fn drop(&mut self) {
         let _ = self.close();
+    }
+}
+
+/// The header as JSON. A number that is not finite is written as none, so it is read back to see.
+fn text(header: &Header) -> Result<String, serde_json::Error> {
+    let text = serde_json::to_string(header)?;
+    serde_json::from_str::<Header>(&text)?;
+    Ok(text)
+}
+
+/// That every number can be read back.
+fn check(record: &FrameRecord) -> Result<(), RecordingError> {
+    match record.not_finite() {
+        Some((field, value)) => Err(RecordingError::NotFinite { frame: record.frame, field, value }),
+        None => Ok(()),
     }
 }
 
@@ -194,28 +176,13 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
 }
 
 /// Writes the messages until the queue is closed, and flushes now and then.
-fn write_until_closed(
-    messages: &Receiver<Message>,
-    writer: &mut Writer,
-    file: &File,
-) -> Result<(), McapError> {
-    let mut flushed = Instant::now();
-    let mut waiting = false;
+fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer) -> Result<(), McapError> {
     loop {
-        match messages.recv_timeout(FLUSH_EVERY.saturating_sub(flushed.elapsed())) {
-            Ok(message) => {
-                writer.write(&message)?;
-                waiting = true;
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Ok(()),
-        }
-        if flushed.elapsed() >= FLUSH_EVERY {
-            if std::mem::take(&mut waiting) {
-                writer.mcap.flush()?;
-                file.sync_data()?;
-            }
-            flushed = Instant::now();
+        match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
+            Ok(Message::One(entry)) => writer.write(&entry)?,
+            Ok(Message::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
+            Err(RecvTimeoutError::Timeout) => writer.flush()?,
+            Err(RecvTimeoutError::Disconnected) => return writer.finish(),
         }
     }
 }
@@ -223,34 +190,31 @@ fn write_until_closed(
 /// The file, and the numbers of its channels.
 struct Writer {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
+    /// The same file, to see it onto the disk.
+    file: File,
     channels: [u16; Topic::ALL.len()],
     sequence: u32,
+    flushed: Instant,
+    is_flushed: bool,
 }
 
 impl Writer {
-    /// Writes everything that comes before the first message. Chunks are put together in memory and written whole, so
-    /// that the file never holds half of one that looks complete.
-    fn new(file: File, header: &Header) -> Result<Self, McapError> {
+    /// Writes everything that comes before the first message. Chunks are put together in memory and
+    /// written whole, so that the file never holds half of one that looks complete.
+    fn new(file: File, header: String) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)
             .library(format!("{PROFILE} {}", env!("CARGO_PKG_VERSION")))
             .compression(None)
             .disable_seeking(true)
-            .create(NoSeek::new(BufWriter::new(file)))?;
+            .create(NoSeek::new(BufWriter::new(file.try_clone()?)))?;
 
-        let header = serde_json::to_string(header).map_err(io::Error::other)?;
         let metadata = BTreeMap::from([
             (KEY_VERSION.to_owned(), VERSION.to_owned()),
-            (
-                KEY_CHECKSUM.to_owned(),
-                format!("{:08x}", crc32fast::hash(header.as_bytes())),
-            ),
+            (KEY_CHECKSUM.to_owned(), format!("{:08x}", crc32fast::hash(header.as_bytes()))),
             (KEY_HEADER.to_owned(), header),
         ]);
-        mcap.write_metadata(&Metadata {
-            name: METADATA.to_owned(),
-            metadata,
-        })?;
+        mcap.write_metadata(&Metadata { name: METADATA.to_owned(), metadata })?;
 
         let mut channels = [0; Topic::ALL.len()];
         for (channel, topic) in channels.iter_mut().zip(Topic::ALL) {
@@ -259,34 +223,84 @@ impl Writer {
             *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
         }
         mcap.flush()?;
-        Ok(Self {
-            mcap,
-            channels,
-            sequence: 0,
-        })
+        Ok(Self { mcap, file, channels, sequence: 0, flushed: Instant::now(), is_flushed: true })
     }
 
-    fn write(&mut self, message: &Message) -> Result<(), McapError> {
-        match message {
-            Message::Sample(sample) => {
-                self.put(Topic::Samples, sample.at, &SampleRecord::from(sample))
-            }
-            Message::Controls(record) => self.put(Topic::Controls, record.at, record),
-            Message::Frame(record) => self.put(Topic::Frames, record.at, record),
+    /// Writes an entry, and hands the chunk to the disk if it is time.
+    fn write(&mut self, entry: &Entry) -> Result<(), McapError> {
+        match entry {
+            Entry::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
+            Entry::Controls(record) => self.put(Topic::Controls, record.at, record),
+            Entry::Frame(record) => self.put(Topic::Frames, record.at, record),
+        }?;
+        self.is_flushed = false;
+        if self.flushed.elapsed() < FLUSH_EVERY { Ok(()) } else { self.flush() }
+    }
+
+    /// Closes the chunk, if there is one, and hands it to the disk.
+    fn flush(&mut self) -> Result<(), McapError> {
+        if !std::mem::replace(&mut self.is_flushed, true) {
+            self.mcap.flush()?;
+            self.file.sync_data()?;
         }
+        self.flushed = Instant::now();
+        Ok(())
+    }
+
+    /// Writes the index and the end of the file.
+    fn finish(&mut self) -> Result<(), McapError> {
+        self.mcap.finish()?;
+        self.file.sync_all()?;
+        Ok(())
     }
 
     fn put(&mut self, topic: Topic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
         let text = serde_json::to_vec(record).map_err(io::Error::other)?;
         let channel_id = self.channels[topic as usize];
-        let header = MessageHeader {
-            channel_id,
-            sequence: self.sequence,
-            log_time: at,
-            publish_time: at,
-        };
+        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: at, publish_time: at };
         self.mcap.write_to_known_channel(&header, &text)?;
         self.sequence = self.sequence.wrapping_add(1);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A recorder that cannot write must say so once, with the cause, and must never stop the ride.
+    use super::*;
+    use crate::sample::Source;
+
+    fn recorder(queue: Sender<Message>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
+        Recorder { path: PathBuf::from("ride.mcap"), queue: Some(queue), thread }
+    }
+
+    #[test]
+    fn a_stalled_disk_ends_the_recording_not_the_ride() {
+        let (queue, _never_read) = bounded(1);
+        let mut recorder = recorder(queue, None);
+        let sample = Sample::opened(0, Source::Bicycle);
+        recorder.sample(&sample).unwrap();
+        assert!(matches!(recorder.sample(&sample), Err(RecordingError::TooSlow { .. })));
+        assert!(matches!(recorder.sample(&sample), Err(RecordingError::Stopped { .. })));
+    }
+
+    #[test]
+    fn a_failed_write_is_told_with_its_cause() {
+        let (queue, messages) = bounded(1);
+        drop(messages);
+        let thread = thread::spawn(|| Err(McapError::Io(io::Error::other("no space left"))));
+        let mut recorder = recorder(queue, Some(thread));
+        let error = recorder.sample(&Sample::opened(0, Source::Bicycle)).unwrap_err();
+        assert_eq!(error.to_string(), "cannot write ride.mcap: no space left");
+        assert!(recorder.finish().is_ok());
+    }
+
+    #[test]
+    fn a_number_that_json_cannot_carry_is_named() {
+        let (queue, _messages) = bounded(1);
+        let mut record = FrameRecord { frame: 7, ..Default::default() };
+        record.celerity[1] = f64::NAN;
+        let error = recorder(queue, None).frame(&record).unwrap_err();
+        assert_eq!(error.to_string(), "frame 7 cannot be recorded: celerity[1] is NaN");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::kernel::{AtRest, ExactAstern, Formula, LightCone};
+use super::formula::{AtRest, ExactAstern, Formula, LightCone};
 use super::lanes::{AlignedLine, Lanes, OutputLine};
 use super::plan::{Form, Plan};
 use super::simd;

@@ -12,8 +12,8 @@ use super::vertices::Sphere;
 /// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
 ///
 /// D = γ − |u| cos δ at an angle δ off astern. Over all directions the least D is 1/κ, so that a slow eye needs nothing
-/// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 9.6°.
-const LEAST_DOPPLER: f64 = 1.0 / 6.0;
+/// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 14.5°.
+const LEAST_DOPPLER: f64 = 0.25;
 
 /// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
 pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn slow_eyes_and_resting_eyes_take_the_cheap_forms() {
-        assert_eq!(moving_along_x(2.9).form(&sphere(-10.0, 0.0, 1.0)), Form::LightCone);
+        assert_eq!(moving_along_x(1.8).form(&sphere(-10.0, 0.0, 1.0)), Form::LightCone);
         assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), Form::AtRest);
     }
 

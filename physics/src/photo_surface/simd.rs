@@ -1,8 +1,8 @@
 //! Everything that needs `unsafe`: x86 vector registers, stores past the caches, and write-only memory.
 //!
-//! The register types implement [`Lanes`] by one instruction an operation. They are safe to use because they
-//! are private to the kernel and only [`avx2`] and [`avx512`] name them: every method is inlined into one of
-//! these two, which are entered after the processor was asked (see [`Instructions`]).
+//! The register types implement `Lanes` by one instruction an operation. They are safe to use because they
+//! are private to the kernel and only `x86::avx2` and `x86::avx512` name them: every method is inlined into one
+//! of these two, which are entered after the processor was asked (see [`Instructions`]).
 
 use std::mem::MaybeUninit;
 
@@ -72,7 +72,7 @@ pub(super) fn aligned<const N: usize>(
     mut streams: [&mut [OutputLine]; N],
 ) -> Result<[&mut [AlignedLine]; N], [&mut [OutputLine]; N]> {
     fn cast(lines: &mut [OutputLine]) -> &mut [AlignedLine] {
-        // SAFETY: both types are 64 bytes of possibly uninitialised values.
+        // SAFETY: both types are as many values, none of which need be initialised.
         unsafe { lines.align_to_mut() }.1
     }
     if streams.iter_mut().all(|lines| cast(lines).len() == lines.len()) { Ok(streams.map(cast)) } else { Err(streams) }

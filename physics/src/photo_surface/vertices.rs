@@ -1,8 +1,8 @@
 //! The vertices of a mesh at rest in the world, laid out for the kernel.
 //!
 //! Three streams of f32 hold the coordinates relative to one f64 origin, so that a mesh a million metres from
-//! the world's origin keeps its detail. Streams are made of 64-byte lines, a cache line and a vector register
-//! wide, the last one padded: the kernel loads whole aligned lines and needs no special case at the end. Every
+//! the world's origin keeps its detail. Streams are made of lines, as many vertices as the kernel takes at a
+//! time, the last one padded: it loads whole aligned lines and needs no special case at the end. Every
 //! chunk of [`CHUNK`] vertices carries a bounding sphere, which tells the kernel once per frame whether any
 //! of them lies so nearly astern that the exact form is needed.
 
@@ -13,10 +13,10 @@ use super::PhotoSurfaceError;
 /// Vertices in a chunk: the unit of work of a thread. The speed is the same from 2,000 to 32,000.
 pub const CHUNK: usize = 8192;
 
-/// Vertices in a line.
+/// Vertices in a line: two of the widest registers.
 pub(super) const LINE: usize = 32;
 
-/// Sixteen values of one coordinate, aligned to a cache line.
+/// A line of one coordinate, aligned to a cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(super) struct Line(pub(super) [f32; LINE]);

@@ -50,6 +50,7 @@ impl<F: Fn(&State) -> Thrust> Control for F {
 }
 
 /// Asks the control, and passes on only what is finite.
+#[inline]
 pub(super) fn finite_thrust(control: &dyn Control, state: &State) -> Result<Thrust, WorldlineError> {
     let thrust = control.thrust(state);
     if thrust.acceleration.is_finite() && thrust.turn_rate.is_finite() {

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::WorldlineError;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::{Celerity, Event, Observer};
+use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
 ///
@@ -59,7 +59,23 @@ impl State {
         Observer { event: self.event(), celerity: self.celerity }
     }
 
+    /// The state of a head within the vehicle, at the same time for the vehicle (W 6.3).
+    ///
+    /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
+    /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
+    /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
+    pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
+        let world_from_vehicle = self.observer().observer_from_world().inverse();
+        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: self.orientation * place });
+        let Event { ct, position } = self.event() + displacement;
+        let head = Celerity::from_finite(self.orientation * celerity.vector());
+        let Composition { celerity, wigner } = compose(self.celerity, head);
+        let orientation = wigner.inverse() * self.orientation;
+        Self { ct, position, celerity, orientation, ..*self }
+    }
+
     /// The state after a step, if it is finite.
+    #[inline]
     pub(super) fn advanced(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
         let lost = self.remainder;
         let proper_time = DoubleDouble::sum(self.proper_time, step + lost.proper_time);
@@ -80,6 +96,7 @@ impl State {
     }
 
     /// A state within a step, only to ask a control and take rates there.
+    #[inline]
     pub(super) fn staged(&self, span: f64, increment: &Increment) -> Result<Self, WorldlineError> {
         Ok(Self {
             proper_time: self.proper_time + span,
@@ -90,6 +107,7 @@ impl State {
     }
 
     /// This state with the increment's celerity and orientation.
+    #[inline]
     fn turned(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
         let celerity = Celerity::new(increment.celerity).map_err(|_| self.overflow(step))?;
         let orientation = unit_quaternion(increment.orientation).ok_or_else(|| self.overflow(step))?;
@@ -102,6 +120,7 @@ impl State {
 }
 
 /// The quaternion at length 1; untouched, to the bit, where it is that long already.
+#[inline]
 fn unit_quaternion(quaternion: DQuat) -> Option<DQuat> {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let squared = quaternion.length_squared();

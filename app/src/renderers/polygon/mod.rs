@@ -113,6 +113,19 @@ impl PolygonRenderer {
         self.photo_surface.receive()
     }
 
+    /// Waits for the oldest photo-surface begun, and throws it away.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if there is none.
+    pub fn discard(&mut self) -> Result<(), GpuError> {
+        self.photo_surface.discard()
+    }
+
+    /// Triangles that every draw takes.
+    pub fn triangle_count(&self) -> u64 {
+        self.geometry.indices.size() / 12
+    }
+
     /// Makes a photo-surface the one that draws show.
     pub fn upload(&self, encoder: &mut wgpu::CommandEncoder, transformed: Transformed) {
         self.photo_surface.upload(encoder, transformed);

@@ -125,6 +125,15 @@ impl PhotoSurface {
         self.finished.recv().map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))
     }
 
+    /// Waits for the oldest photo-surface under way, and frees its buffer, which is still mapped.
+    ///
+    /// # Errors
+    /// As [`PhotoSurface::receive`].
+    pub fn discard(&mut self) -> Result<(), GpuError> {
+        let transformed = self.receive()?;
+        self.freed.send(transformed.staging).map_err(|_| GpuError::Lost("the buffers' channel is closed".to_owned()))
+    }
+
     /// Puts a photo-surface where draws find it, and sends its buffer back round once the GPU is done with it.
     pub fn upload(&self, encoder: &mut wgpu::CommandEncoder, transformed: Transformed) {
         let staging = transformed.staging;

@@ -27,7 +27,9 @@ use rayon::prelude::*;
 use self::container::Document;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
+use super::collision::Collision;
 use super::{MAX_TRIANGLES, Mesh, Scene, Start};
+use crate::vehicle::Surroundings;
 
 /// The most meshes a scene may have, one for each primitive and instance.
 const MAX_MESHES: usize = 1_000_000;
@@ -203,7 +205,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     if extras.start.is_none()
         && let Some(camera) = placements.iter().find(|placement| placement.camera)
     {
-        scene.start = start_at(camera.transform);
+        scene.start = start_below(camera.transform, &scene);
     }
     Ok(scene)
 }
@@ -260,9 +262,13 @@ fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize
     if document.json.meshes[mesh].primitives.len() > 1 { format!("{name} #{primitive}") } else { name }
 }
 
-fn start_at(camera: DAffine3) -> Start {
+/// On the ground below a camera, or at the camera where there is none, looking where it looks.
+fn start_below(camera: DAffine3, scene: &Scene) -> Start {
     let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
-    Start { position: camera.translation, look }
+    let collision = Collision::new(scene).expect("loaded scenes keep the promises of their types");
+    let ground = collision.height_below(camera.translation);
+    let height = ground.map_or(camera.translation.y, |ground| ground.height);
+    Start { position: camera.translation.with_y(height), look }
 }
 
 /// Extensions that are drawn.

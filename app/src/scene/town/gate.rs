@@ -1,8 +1,9 @@
 //! The gate tower astride the street.
 
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec3, vec3};
 
-use super::builder::{Builder, Corner, Frame};
+use super::builder::{Builder, Frame};
+use super::facade::Bay;
 use super::masonry::{Arch, panel};
 use super::paint::timber;
 use super::surface::Surface;
@@ -22,7 +23,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         let face = frame.rotated(turn).at(0.0, -0.1, half);
         arch.face(builder, Surface::Rubble, stone, &face);
         // A ring of dressed stone about the opening, and slits above it.
-        let ring = Arch { wall: [-2.7, 2.7], top: 5.35, middle: 0.0, half: 2.2, spring: 2.5, depth: 0.12 };
+        let ring = Arch { wall: [-2.7, 2.7], top: 5.35, middle: 0.0, half: 2.25, spring: 2.5, depth: 0.12 };
         ring.face(builder, Surface::Ashlar, Vec3::ONE, &face.at(0.0, 0.0, 0.12));
         ring.vault(builder, Surface::Ashlar, Vec3::ONE, &face.at(0.0, 0.0, 0.12));
         for (a, b) in [(-2.7, -2.7), (2.7, 2.7)] {
@@ -55,22 +56,9 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         let w = wide + out;
         let bays = (2.0 * w / 2.4).round() as usize;
         for k in 0..bays {
-            let cell = if k == 0 || k + 1 == bays { timber::BLIND[0] } else { timber::WINDOWS[1] } as f32
-                / timber::BAYS as f32;
-            let x = |k: usize| -w + 2.0 * w * k as f32 / bays as f32;
-            let corner = |x: f32, y: f32, u: f32, v: f32| {
-                Corner::new(face.point(x, y, 0.0), vec2(cell + u / timber::BAYS as f32, v))
-            };
-            builder.face(
-                Surface::Front(1),
-                Vec3::ONE,
-                &[
-                    corner(x(k), 0.0, 0.0, 1.0),
-                    corner(x(k + 1), 0.0, 1.0, 1.0),
-                    corner(x(k + 1), TOP, 1.0, 0.0),
-                    corner(x(k), TOP, 0.0, 0.0),
-                ],
-            );
+            let cell = if k == 0 || k + 1 == bays { timber::BLIND[0] } else { timber::WINDOWS[1] };
+            let across = [k, k + 1].map(|k| -w + 2.0 * w * k as f32 / bays as f32);
+            Bay { surface: Surface::Front(1), tint: Vec3::ONE, cell, across, height: [0.0, TOP] }.build(builder, &face);
         }
         let under = [
             face.point(-w, 0.0, 0.0),
@@ -91,15 +79,8 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         builder.facing(Surface::Tiles, tint, &slope, frame.out * side + Vec3::Y);
         let hip = [p(side * x, low, -z), p(side * x, low, z), p(side * ridge, ROOF, 0.0)];
         builder.facing(Surface::Tiles, tint, &hip, frame.right * side + Vec3::Y);
-        for at in [side * ridge] {
-            builder.turned(
-                Surface::Gold,
-                Vec3::ONE,
-                &frame.at(at, STONE + TOP + ROOF - 0.1, 0.0),
-                6,
-                &[(0.05, 0.0), (0.16, 0.35), (0.03, 0.6), (0.0, 1.5)],
-            );
-        }
+        let ball = frame.at(side * ridge, STONE + TOP + ROOF - 0.1, 0.0);
+        builder.turned(Surface::Gold, Vec3::ONE, &ball, 6, &[(0.05, 0.0), (0.16, 0.35), (0.03, 0.6), (0.0, 1.5)]);
     }
     builder.metric(Surface::Planks, Vec3::splat(0.5), &[p(-x, low, -z), p(x, low, -z), p(x, low, z), p(-x, low, z)]);
 }

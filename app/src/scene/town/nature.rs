@@ -1,6 +1,6 @@
 //! Trees, ivy and flowers, and the country round the town: meadows that rise to wooded hills.
 
-use glam::{Vec2, Vec3, vec2, vec3};
+use glam::{IVec2, Vec2, Vec3, vec2, vec3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -15,37 +15,32 @@ pub(super) const MIDDLE: Vec2 = vec2(48.0, -4.0);
 /// Where the country begins to rise, metres from the middle.
 const PLAIN: f32 = 150.0;
 
-/// A lime tree: a trunk and sprays of leaves that face outwards from the crown's middle.
-pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, dice: &mut ChaCha8Rng) {
+/// A lime tree: a trunk and `sprays` of leaves that face outwards from the middles of three lobes.
+pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u32, dice: &mut ChaCha8Rng) {
     let radius = height * 0.30;
-    let crown = frame.at(0.0, height * 0.62, 0.0).origin;
-    builder.turned(
-        Surface::Bark,
-        Vec3::ONE,
-        frame,
-        6,
-        &[(0.34, -0.2), (0.22, 0.5), (0.17, height * 0.35), (0.08, height * 0.7)],
-    );
-    let sprays = 22;
+    let crown = frame.point(0.0, height * 0.62, 0.0);
+    builder.turned(Surface::Bark, Vec3::ONE, frame, 6, &[(0.34, -0.2), (0.2, 0.6), (0.12, height * 0.6)]);
+    let start: f32 = dice.random_range(0.0..1.0);
+    let size = radius * 3.3 / (sprays as f32).sqrt();
     for k in 0..sprays {
-        // Points of a spiral on the sphere, evenly dense.
+        // Lobes round the crown's axis at different heights; points of a spiral on each, evenly dense.
+        let lobe = k % 3;
+        let c = circle(start + lobe as f32 / 3.0) * 0.38 * radius;
+        let middle = crown + vec3(c.x, (lobe as f32 - 0.8) * 0.34 * radius, c.y);
         let y = 1.0 - 2.0 * (k as f32 + 0.5) / sprays as f32;
-        let c = circle(0.381_966 * k as f32 + dice.random_range(-0.04..0.04)) * (1.0 - y * y).sqrt();
+        let c = circle(0.381_966 * (k / 3) as f32 + start + dice.random_range(-0.05..0.05)) * (1.0 - y * y).sqrt();
         let out = vec3(c.x, y, c.y);
-        let reach = radius * dice.random_range(0.62..0.86);
-        let middle = crown + out * vec3(1.0, 1.2, 1.0) * reach;
-        let facing = (out
-            + 0.5 * vec3(dice.random_range(-1.0..1.0), dice.random_range(-0.4..0.6), dice.random_range(-1.0..1.0)))
-        .normalize();
-        let side = facing.any_orthonormal_vector();
-        let up = facing.cross(side);
-        let size = radius * dice.random_range(0.62..0.85);
+        let at = middle + out * radius * dice.random_range(0.48..0.72);
+        let stray = vec3(dice.random_range(-0.5..0.5), dice.random_range(-0.2..0.3), dice.random_range(-0.5..0.5));
+        let facing = (out + stray).normalize();
+        let (side, up) = facing.any_orthonormal_pair();
+        let size = size * dice.random_range(0.85..1.15);
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b): (f32, f32)| {
-            let at = middle + (side * a + up * b) * size - facing * 0.25 * size;
-            let light = 0.62 + 0.38 * smoothstep(-1.0, 0.8, (at.y - crown.y) / radius);
+            let at = at + (side * a + up * b) * size - facing * 0.2 * size;
+            let light = 0.55 + 0.45 * smoothstep(-1.1, 0.8, (at.y - crown.y) / radius);
             Corner { at, uv: vec2(0.5 + 0.5 * a, 0.5 - 0.5 * b), light }
         });
-        let normals = corners.map(|corner| (corner.at - crown + Vec3::Y * 0.5).normalize());
+        let normals = corners.map(|corner| (corner.at - middle + Vec3::Y * 0.4).normalize());
         let tint = Vec3::ONE.lerp(vec3(1.15, 1.1, 0.75), dice.random_range(0.0..1.0));
         builder.smooth_face(Surface::Leaves, tint, &corners, &normals);
     }
@@ -64,7 +59,28 @@ pub(super) fn ivy(builder: &mut Builder, frame: &Frame, x: f32, width: f32, heig
 /// A window box with flowers; `frame` lies on the wall below the middle of the sill.
 pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice: &mut ChaCha8Rng) {
     let half = width / 2.0;
-    builder.beam(Surface::Planks, vec3(0.9, 0.75, 0.6), frame, vec3(-half, -0.02, 0.0), vec3(half, 0.16, 0.2));
+    let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
+    let wood = vec3(0.9, 0.75, 0.6);
+    let (low, high, deep) = (-0.02, 0.16, 0.2);
+    builder.metric(
+        Surface::Planks,
+        wood,
+        &[p(-half, low, deep), p(half, low, deep), p(half, high, deep), p(-half, high, deep)],
+    );
+    builder.metric(
+        Surface::Planks,
+        wood * 0.6,
+        &[p(-half, low, 0.0), p(half, low, 0.0), p(half, low, deep), p(-half, low, deep)],
+    );
+    for side in [-1.0, 1.0] {
+        let x = side * half;
+        builder.facing(
+            Surface::Planks,
+            wood,
+            &[p(x, low, 0.0), p(x, low, deep), p(x, high, deep), p(x, high, 0.0)],
+            frame.right * side,
+        );
+    }
     let start: f32 = dice.random_range(0.0..0.4);
     let corner = |s: f32, t: f32, z: f32| {
         Corner::new(frame.point((s - 0.5) * (width + 0.12), -0.02 + 0.44 * t, z), vec2(start + 0.6 * s, 0.95 - 0.9 * t))
@@ -81,52 +97,63 @@ pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice:
     );
 }
 
-/// Height of the country at a distance from the middle of the town.
-fn rise(p: Vec2) -> f32 {
-    let distance = p.distance(MIDDLE);
-    let hills = 70.0 + 55.0 * cloud(p / 230.0, glam::IVec2::splat(64), 2, 5);
-    hills * smoothstep(PLAIN, 520.0, distance)
-}
-
-/// Meadows under and round the town, hills beyond.
-pub(super) fn country(builder: &mut Builder) {
-    const RINGS: [f32; 14] =
-        [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 205.0, 270.0, 350.0, 440.0, 560.0];
-    const SPOKES: u32 = 36;
-    builder.district("country");
-    let at = |ring: usize, spoke: u32| {
-        let p = MIDDLE + RINGS[ring] * circle((spoke % SPOKES) as f32 / SPOKES as f32);
-        vec3(p.x, ground(p) + rise(p) - 0.22, p.y)
-    };
-    for ring in 0..RINGS.len() - 1 {
-        let surface = if RINGS[ring] < PLAIN { Surface::Grass } else { Surface::Hills };
-        // Distance pales the hills.
-        let far = smoothstep(PLAIN, 560.0, RINGS[ring]);
-        let tint = Vec3::ONE.lerp(vec3(0.95, 1.05, 1.30), far);
-        for spoke in 0..SPOKES {
-            let corners = [at(ring, spoke + 1), at(ring, spoke), at(ring + 1, spoke), at(ring + 1, spoke + 1)];
-            let unique = if ring == 0 { &corners[1..] } else { &corners[..] };
-            let faces: &[&[Vec3]] = if ring == 0 {
-                &[unique]
-            } else {
-                &[&[corners[0], corners[1], corners[2]], &[corners[0], corners[2], corners[3]]]
-            };
-            for face in faces {
-                let tile = surface.tile();
-                let corners: Vec<Corner> = face.iter().map(|&at| Corner::new(at, vec2(at.x, at.z) / tile)).collect();
-                let flat = builder_normal(face);
-                let normals: Vec<Vec3> = face.iter().map(|_| flat).collect();
-                if flat.y > 0.0 {
-                    builder.smooth_face(surface, tint, &corners, &normals);
-                } else {
-                    let corners: Vec<Corner> = corners.into_iter().rev().collect();
-                    builder.smooth_face(surface, tint, &corners, &normals.iter().map(|n| -*n).collect::<Vec<_>>());
-                }
-            }
-        }
+/// A tub with a flowering shrub.
+pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
+    builder.prism(Surface::Paint, vec3(0.42, 0.19, 0.11), frame, 6, [0.26, 0.33], [-0.02, 0.5]);
+    for turn in [0.05, 0.22, 0.38] {
+        let leaf = frame.rotated(turn);
+        let start: f32 = dice.random_range(0.0..0.3);
+        let corner = |s: f32, t: f32| Corner {
+            at: leaf.point(s - 0.5, 0.38 + 0.85 * t, 0.0),
+            uv: vec2(start + 0.7 * s, 0.9 - 0.9 * t),
+            light: 0.7 + 0.3 * t,
+        };
+        builder.face(
+            Surface::Flowers,
+            Vec3::ONE,
+            &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
+        );
     }
 }
 
-fn builder_normal(face: &[Vec3]) -> Vec3 {
-    (face[1] - face[0]).cross(face[2] - face[0]).normalize_or(Vec3::Y)
+/// Height of the country, below the streets so that it never shows through them.
+fn country_height(p: Vec2) -> f32 {
+    let hills = 70.0 + 55.0 * cloud(p / 230.0, IVec2::splat(64), 2, 5);
+    ground(p) - 0.22 + hills * smoothstep(PLAIN, 520.0, p.distance(MIDDLE))
+}
+
+/// A point of the country and its normal.
+fn country_point(p: Vec2) -> (Vec3, Vec3) {
+    let slope = |step: Vec2| (country_height(p + step) - country_height(p - step)) / 8.0;
+    (vec3(p.x, country_height(p), p.y), vec3(-slope(vec2(4.0, 0.0)), 1.0, -slope(vec2(0.0, 4.0))).normalize())
+}
+
+/// Meadows under and round the town, woods and clearings on the hills beyond.
+pub(super) fn country(builder: &mut Builder) {
+    const RINGS: [f32; 14] =
+        [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 195.0, 250.0, 320.0, 410.0, 540.0];
+    const SPOKES: u32 = 27;
+    builder.district("country");
+    for pair in RINGS.windows(2) {
+        let (near, far) = (pair[0], pair[1]);
+        // Distance pales the hills.
+        let tint = Vec3::ONE.lerp(vec3(0.95, 1.05, 1.30), smoothstep(PLAIN, 560.0, near));
+        for spoke in 0..SPOKES {
+            let at =
+                |radius: f32, step: u32| MIDDLE + radius * circle(((spoke + step) % SPOKES) as f32 / SPOKES as f32);
+            let places = [at(near, 1), at(near, 0), at(far, 0), at(far, 1)];
+            let places = if near > 0.0 { &places[..] } else { &places[1..] };
+            let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.12;
+            let surface = if near < PLAIN || clearing { Surface::Grass } else { Surface::Hills };
+            let (corners, normals): (Vec<Corner>, Vec<Vec3>) = places
+                .iter()
+                .map(|&p| {
+                    let (at, normal) = country_point(p);
+                    (Corner::new(at, p / surface.tile()), normal)
+                })
+                .rev()
+                .unzip();
+            builder.smooth_face(surface, tint, &corners, &normals);
+        }
+    }
 }

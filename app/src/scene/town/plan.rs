@@ -57,8 +57,6 @@ pub(super) struct Station {
     pub(super) ahead: Vec2,
     /// Distance of the house fronts to the left and right.
     pub(super) width: [f32; 2],
-    /// Distance ridden from the first station.
-    pub(super) along: f32,
 }
 
 impl Station {
@@ -149,6 +147,15 @@ impl Plan {
     /// A station in the middle of the gate.
     pub(super) fn gate_station(&self) -> Station {
         self.way[(self.gate[0] + self.gate[1]) / 2]
+    }
+
+    /// Where lines of pennants hang across the street: on both ways out of the square and before the gate.
+    pub(super) fn festive_stations(&self) -> Vec<&Station> {
+        let [leave, enter] = self.street;
+        [leave + 3, leave + 8, leave + 13, self.gate[0] - 12, self.gate[0] - 7, enter - 13, enter - 8, enter - 3]
+            .into_iter()
+            .map(|k| &self.way[k])
+            .collect()
     }
 
     /// Point of a house front beside station `k`.
@@ -280,7 +287,7 @@ fn way() -> Vec<Station> {
             let index = along.partition_point(|&s| s <= wanted) - 1;
             let s = &fine[index];
             let ahead = (place(&fine[(index + 1) % fine.len()]) - place(s)).normalize_or(Vec2::NEG_Y);
-            Station { at: place(s), ahead, width: [s[2], s[3]], along: wanted }
+            Station { at: place(s), ahead, width: [s[2], s[3]] }
         })
         .collect();
     // Directions from the neighbours, so that they belong to the points themselves.

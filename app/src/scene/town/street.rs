@@ -35,8 +35,7 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
     let mut strip = |surface, a: f32, b: f32, ha: f32, hb: f32, la: f32, lb: f32| {
         strips.push(Strip { surface, across: [a, b], height: [ha, hb], light: [la, lb] });
     };
-    strip(Surface::Slabs, -left - UNDER, -left, step, step, 0.5, 0.5);
-    strip(Surface::Slabs, -left, -l - KERB, step, step, 0.5, 0.95);
+    strip(Surface::Slabs, -left - UNDER, -l - KERB, step, step, 0.0, 0.95);
     strip(Surface::Ashlar, -l - KERB, -l, step, step, 0.9, 0.9);
     strip(Surface::Ashlar, -l, -l, step, gutter, 0.75, 0.6);
     strip(Surface::Cobbles, -l, -l + 0.4, gutter, 0.0, 0.72, 0.96);
@@ -45,8 +44,7 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
     strip(Surface::Cobbles, r - 0.4, r, 0.0, gutter, 0.96, 0.72);
     strip(Surface::Ashlar, r, r, gutter, step, 0.6, 0.75);
     strip(Surface::Ashlar, r, r + KERB, step, step, 0.9, 0.9);
-    strip(Surface::Slabs, r + KERB, right, step, step, 0.95, 0.5);
-    strip(Surface::Slabs, right, right + UNDER, step, step, 0.5, 0.5);
+    strip(Surface::Slabs, r + KERB, right + UNDER, step, step, 0.95, 0.0);
     strips
 }
 
@@ -87,6 +85,9 @@ pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
     }
 }
 
+/// Width of the border of slabs along the fronts of the square, metres.
+const BORDER: f32 = 1.8;
+
 /// Paves the market square: setts inside, a border of slabs along the fronts.
 pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     builder.district("market square");
@@ -94,38 +95,36 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     let count = outline.len();
     let inner: Vec<Vec2> = (0..count)
         .map(|k| {
-            let (a, p, b) = (outline[(k + count - 1) % count], outline[k], outline[(k + 1) % count]);
-            let (into, onward) = ((p - a).normalize(), (b - p).normalize());
-            let (m, n) = (into.perp(), onward.perp());
-            let bisector = (m + n) / (1.0 + m.dot(n)).max(0.5);
-            p - bisector * 1.6
+            let (before, (p, here), next) = (outline[(k + count - 1) % count], outline[k], outline[(k + 1) % count].0);
+            // The point at each side's own distance from the sides that meet here.
+            let (m, n) = ((p - before.0).normalize().perp(), (next - p).normalize().perp());
+            let (a, b) = (before.1, here);
+            let turn = m.perp_dot(n);
+            if turn.abs() < 0.1 { p + n * b } else { p + (m.perp() * -b + n.perp() * a) / turn }
         })
         .collect();
     for k in 0..count {
         let next = (k + 1) % count;
-        let corners = [(outline[k], 0.55), (outline[next], 0.55), (inner[next], 1.0), (inner[k], 1.0)];
-        builder.lit(
-            Surface::Slabs,
-            Vec3::ONE,
-            &corners.map(|(p, light)| (on_ground(p), light)).into_iter().rev().collect::<Vec<_>>(),
-        );
+        if outline[k].1 > 0.0 {
+            let corners = [(inner[k], 1.0), (inner[next], 1.0), (outline[next].0, 0.55), (outline[k].0, 0.55)];
+            builder.lit(Surface::Slabs, Vec3::ONE, &corners.map(|(p, light)| (on_ground(p), light)));
+        }
     }
     for triangle in triangulate(&inner) {
         builder.metric(Surface::Setts, Vec3::ONE, &triangle.map(on_ground));
     }
 }
 
-/// Corners of the square, house fronts and street mouths, clockwise on a map.
-fn square_outline(plan: &Plan) -> Vec<Vec2> {
+/// Corners of the square, clockwise on a map, each with the width of the border along the side that begins there: none
+/// across the mouths of the streets.
+fn square_outline(plan: &Plan) -> Vec<(Vec2, f32)> {
     let mut outline = vec![];
-    let at_square = |lot: &&Lot| lot.at_square || matches!(lot.kind, Use::TownHall | Use::Church);
     for row in &plan.rows {
-        // The row begins in the street or at the square; either way its lots at the square follow one another.
+        // The row's lots at the square follow one another.
+        let at_square = |lot: &&Lot| lot.at_square || matches!(lot.kind, Use::TownHall | Use::Church);
         let lots: Vec<_> = row.iter().filter(at_square).collect();
-        for lot in &lots {
-            outline.push(lot.front[0]);
-        }
-        outline.extend(lots.last().map(|lot| lot.front[1]));
+        outline.extend(lots.iter().map(|lot| (lot.front[0], BORDER)));
+        outline.extend(lots.last().map(|lot| (lot.front[1], 0.0)));
     }
     outline
 }

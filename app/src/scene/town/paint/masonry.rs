@@ -79,8 +79,8 @@ pub(in crate::scene::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -
         let across = p.x - (column + 0.5) * SPAN;
         // Rings of a circle about the middle of the column, cut off at its sides.
         let rise = RISE * SPAN * (1.0 - (across / (0.5 * SPAN)).powi(2));
-        let ring = 0.1;
-        let rings = (tile.y / ring) as i32;
+        let rings = (tile.y / 0.1).round() as i32;
+        let ring = tile.y / rings as f32;
         let height = (p.y - rise) / ring;
         let row = height.floor();
         let slope = 2.0 * RISE * across.abs() / (0.25 * SPAN);
@@ -90,15 +90,14 @@ pub(in crate::scene::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -
         let shift = chance(wrapped.x, wrapped.y, seed) * 0.1;
         let k = ((along + shift) / 0.105).floor();
         let place = vec2(((along + shift) / 0.105 - k) * 2.0 - 1.0, (height - row) * 2.0 - 1.0);
-        let side = (0.5 * SPAN - across.abs()) / 0.05;
         let q = (place.abs() - vec2(0.62, 0.62)).max(Vec2::ZERO).length() - 0.26;
-        let distance = (q * 0.05 / stretch).max(-side * 0.05 + 0.006);
+        let distance = q * 0.05 / stretch;
         let id = ivec2(wrapped.x * 64 + k as i32, wrapped.y);
         let own = chance(id.x, id.y, seed + 1);
         let hue = chance(id.x, id.y, seed + 2);
         let base = vec3(0.55, 0.53, 0.50).lerp(vec3(0.60, 0.54, 0.46), hue) * (0.78 + 0.30 * own);
-        let grit = 1.0 + 0.09 * noise(p * 100.0, ivec2(720, 720), seed + 3);
-        let worn = 1.0 + 0.14 * cloud(p / 1.2, ivec2(6, 6), 3, seed + 5);
+        let grit = 1.0 + 0.09 * noise(p * 100.0, ivec2(576, 576), seed + 3);
+        let worn = 1.0 + 0.14 * cloud(p / 1.44, ivec2(4, 4), 3, seed + 5);
         let relief = 0.78 + 0.22 * smoothstep(0.0, -0.018, distance) + 0.03 * place.y;
         let joint = vec3(0.33, 0.31, 0.27) * grit;
         joint.lerp(base * relief * grit, smoothstep(0.002, -0.006, distance)) * worn
@@ -231,8 +230,8 @@ pub(in crate::scene::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -
         let gap = smoothstep(0.97, 0.90, at.x.abs());
         let tail = smoothstep(0.0, 0.18, if under > 0.0 { 1.0 } else { round(at) });
         let shadow = if under > 0.0 { 0.62 } else { 1.0 - 0.25 * smoothstep(0.75, 1.0, at.y) };
-        let weather = cloud(p * 0.7, ivec2(3, 3), 4, seed + 4);
-        let lichen = smoothstep(0.15, 0.5, cloud(p * 5.0, ivec2(22, 22), 3, seed + 5) + 0.3 * weather);
+        let weather = cloud(p / 1.44, ivec2(3, 3), 4, seed + 4);
+        let lichen = smoothstep(0.15, 0.5, cloud(p / 0.216, ivec2(20, 20), 3, seed + 5) + 0.3 * weather);
         let grit = 1.0 + 0.08 * noise(p * 60.0, ivec2(259, 259), seed + 3);
         let colour = base * (0.80 + 0.30 * own) * grit * (1.0 + 0.22 * weather);
         colour.lerp(vec3(0.45, 0.42, 0.32), 0.35 * lichen) * (0.55 + 0.45 * gap) * shadow * (0.80 + 0.20 * tail)
@@ -256,9 +255,29 @@ pub(in crate::scene::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) 
         let board = (p.x / 0.2).floor();
         let within = p.x / 0.2 - board;
         let own = chance(board as i32, 3, seed);
-        let grain = noise(vec2(p.x * 60.0, p.y * 2.0 + own * 40.0), ivec2(120, 4000), seed + 1)
+        let grain = noise(vec2(p.x * 60.0, p.y * 2.0 + own * 40.0), ivec2(120, 4), seed + 1)
             + 0.6 * noise(vec2(p.x * 150.0, p.y * 5.0), ivec2(300, 10), seed + 2);
         let base = vec3(0.42, 0.31, 0.22) * (0.85 + 0.3 * own) * (1.0 + 0.14 * grain);
         base * (0.45 + 0.55 * smoothstep(0.0, 0.05, within.min(1.0 - within)))
+    })
+}
+
+/// Staves of a barrel with four hoops, from its foot to its rim.
+pub(in crate::scene::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+    Canvas::new(pixels, tile, |p| {
+        let q = p / tile;
+        let stave = (q.x * 6.0).floor();
+        let within = (q.x * 6.0).fract();
+        let grain = noise(vec2(q.x * 60.0, q.y * 4.0), ivec2(60, 4), seed)
+            + 0.6 * noise(vec2(q.x * 120.0, q.y * 9.0), ivec2(120, 9), seed + 1);
+        let own = 0.85 + 0.3 * chance(stave as i32, 2, seed);
+        let wood = vec3(0.52, 0.36, 0.23)
+            * own
+            * (1.0 + 0.13 * grain)
+            * (0.5 + 0.5 * smoothstep(0.0, 0.08, within.min(1.0 - within)));
+        let hoop = [0.07, 0.27, 0.73, 0.93].iter().map(|&y| (q.y - y).abs()).fold(1.0, f32::min);
+        let iron = vec3(0.20, 0.20, 0.21) * (1.0 + 0.2 * grain);
+        wood.lerp(iron, smoothstep(0.03, 0.025, hoop))
+            * (0.7 + 0.3 * smoothstep(0.025, 0.05, (hoop - 0.028).abs() + 0.02))
     })
 }

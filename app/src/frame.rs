@@ -1,0 +1,155 @@
+//! One frame, from device to light: the whole program on one page.
+//!
+//! ```text
+//! devices ─► samples ─► controls ─► vehicle: RK4 in proper time ─► worldline ─► observer ─► eye
+//!     ─► photo-surface of the scene (rayon, beside the render thread, into mapped buffers)
+//!         ─► draw ─► tone and curve of the screen ─► window
+//! ```
+
+use crate::command::Latency;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::live::{Live, gaze};
+use crate::pace::Pace;
+use crate::render::shot;
+use crate::renderers::Effects;
+use crate::renderers::polygon::PolygonRenderer;
+use crate::renderers::target::Radiance;
+use crate::simulation::Frame;
+use crate::views::Gaze;
+use crate::window::{Readings, RidePanel};
+use glam::DVec2;
+use input::Action;
+use std::collections::VecDeque;
+
+/// Where a frame goes, and how it is drawn.
+pub struct Pictured<'a> {
+    /// What is drawn into.
+    pub target: &'a Radiance,
+    /// Vertical field of view, degrees.
+    pub fov: f64,
+    /// What relativity does to the picture.
+    pub effects: Effects,
+    /// Whether the next photo-surface is worked out while this one is drawn.
+    pub latency: Latency,
+}
+
+/// A ride and what draws it.
+pub struct Ride {
+    /// Devices, simulation, log.
+    pub live: Live,
+    renderer: PolygonRenderer,
+    /// Whose photo-surfaces are under way, oldest first.
+    under_way: VecDeque<Gaze>,
+    /// Whose photo-surface is drawn.
+    shown: Option<Gaze>,
+    /// Vertices that have no place in it.
+    not_finite: usize,
+    /// The newest frame.
+    pub frame: Option<Frame>,
+    /// How long each stage takes.
+    pub pace: Pace,
+}
+
+impl Ride {
+    /// A ride that is about to begin.
+    pub fn new(renderer: PolygonRenderer, live: Live) -> Self {
+        Self {
+            live,
+            renderer,
+            under_way: VecDeque::new(),
+            shown: None,
+            not_finite: 0,
+            frame: None,
+            pace: Pace::default(),
+        }
+    }
+
+    /// Advances the ride to this moment and draws it. Returns what the rider wants of the program, `None` at the end.
+    ///
+    /// # Errors
+    /// A lost device, or a recording that cannot be replayed.
+    pub fn frame(&mut self, gpu: &Gpu, pictured: &Pictured<'_>) -> Result<Option<Vec<Action>>, Error> {
+        self.pace.begin();
+
+        // Devices to observer: samples, controls, vehicle, worldline.
+        let Some(frame) = self.live.frame()? else { return Ok(None) };
+        let newest = gaze(&frame)?;
+        let actions = frame.controls.actions.clone();
+        self.frame = Some(frame);
+        self.pace.stage("ride");
+
+        // The photo-surface of the newest eye, on its own thread; shown is the oldest one that is ready by now.
+        if pictured.effects == Effects::Geometry {
+            self.renderer.submit(gpu, newest.eye)?;
+            self.under_way.push_back(newest);
+            let ahead = usize::from(pictured.latency == Latency::Overlap);
+            while self.under_way.len() > ahead || self.shown.is_none() {
+                let transformed = self.renderer.receive()?;
+                self.pace.transformed(transformed.duration);
+                self.not_finite = transformed.stats.not_finite();
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                self.renderer.upload(&mut encoder, transformed);
+                gpu.queue.submit([encoder.finish()]);
+                self.shown = self.under_way.pop_front();
+            }
+        } else {
+            self.shown = None;
+            for _ in self.under_way.drain(..) {
+                self.renderer.discard()?;
+            }
+        }
+        let shown = self.shown.unwrap_or(newest);
+        self.pace.stage("wait");
+
+        // Draw it.
+        let shot = shot(&shown, pictured.fov, pictured.effects);
+        let view = shot.camera.view(pictured.target.size, DVec2::ZERO, shot.motion);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.renderer.draw(gpu, &mut encoder, pictured.target, &view, shot.positions, shot.eye);
+        gpu.queue.submit([encoder.finish()]);
+        self.pace.stage("draw");
+        Ok(Some(actions))
+    }
+
+    /// What the display at the edges shows.
+    pub fn readings(&self) -> Readings {
+        let Some(frame) = &self.frame else { return Readings::default() };
+        let celerity = frame.eye.observer.celerity;
+        let world = frame.vehicle.world();
+        let mut notices = self.live.told();
+        if self.not_finite > 0 {
+            notices.push(format!("{} vertices are nowhere and not drawn", self.not_finite));
+        }
+        if frame.time_scale != 1.0 {
+            notices.push(format!("own time × {:.2}", frame.time_scale));
+        }
+        Readings {
+            beta: celerity.beta().vector().length(),
+            gamma: celerity.gamma(),
+            rapidity: celerity.rapidity(),
+            speed_of_light: world.speed_of_light_m_s(),
+            own_clock_s: frame.vehicle.odometer().own_s,
+            world_clock_s: frame.vehicle.odometer().world_s,
+            road_m: frame.vehicle.odometer().road_m,
+            own_m: frame.vehicle.odometer().own_m,
+            frame_rate: self.pace.frame_rate(),
+            stages_ms: self.pace.stages_ms(),
+            notices,
+            paused: frame.paused,
+            recording: self.live.is_recording(),
+        }
+    }
+
+    /// What the settings panel shows of the ride.
+    pub fn panel(&self, gpu: &Gpu) -> RidePanel {
+        let vehicle = self.frame.as_ref().map(|frame| &frame.vehicle);
+        RidePanel {
+            vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
+            time_scale: self.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
+            speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.world().speed_of_light_m_s()),
+            devices: self.live.devices(),
+            drawing: format!("{} triangles on {}", self.renderer.triangle_count(), gpu.description()),
+        }
+    }
+}

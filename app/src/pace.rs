@@ -1,0 +1,62 @@
+//! How long each stage of a frame takes, smoothed for reading.
+
+use std::time::{Duration, Instant};
+
+/// How much of an older value is kept from one frame to the next.
+const KEPT: f64 = 0.9;
+
+/// Timers of one frame after another.
+#[derive(Debug, Default)]
+pub struct Pace {
+    began: Option<Instant>,
+    stage_began: Option<Instant>,
+    frame_ms: f64,
+    stages: Vec<(&'static str, f64)>,
+}
+
+impl Pace {
+    /// A frame begins, and with it the last one has ended.
+    pub fn begin(&mut self) {
+        let now = Instant::now();
+        if let Some(began) = self.began.replace(now) {
+            let milliseconds = (now - began).as_secs_f64() * 1e3;
+            self.frame_ms = if self.frame_ms == 0.0 { milliseconds } else { mixed(self.frame_ms, milliseconds) };
+        }
+        self.stage_began = Some(now);
+    }
+
+    /// A stage has ended, and the next begins.
+    pub fn stage(&mut self, name: &'static str) {
+        let now = Instant::now();
+        if let Some(began) = self.stage_began.replace(now) {
+            self.note(name, now - began);
+        }
+    }
+
+    /// The transform, which runs beside the others, took this long.
+    pub fn transformed(&mut self, duration: Duration) {
+        self.note("transform", duration);
+    }
+
+    fn note(&mut self, name: &'static str, duration: Duration) {
+        let milliseconds = duration.as_secs_f64() * 1e3;
+        match self.stages.iter_mut().find(|stage| stage.0 == name) {
+            Some(stage) => stage.1 = mixed(stage.1, milliseconds),
+            None => self.stages.push((name, milliseconds)),
+        }
+    }
+
+    /// Frames a second.
+    pub fn frame_rate(&self) -> f64 {
+        if self.frame_ms > 0.0 { 1e3 / self.frame_ms } else { 0.0 }
+    }
+
+    /// Name and milliseconds of each stage.
+    pub fn stages_ms(&self) -> Vec<(&'static str, f64)> {
+        self.stages.clone()
+    }
+}
+
+fn mixed(old: f64, new: f64) -> f64 {
+    KEPT * old + (1.0 - KEPT) * new
+}

@@ -1,0 +1,19 @@
+//! A photo of what the window shows, without the display at its edges.
+
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::live::unused;
+use crate::render::save;
+use crate::renderers::picture::Darkroom;
+use crate::renderers::target::Radiance;
+
+/// Writes `photo-001.png`, or the next number, and says so.
+///
+/// # Errors
+/// A lost device, or a folder that cannot be written to.
+pub fn take(gpu: &Gpu, radiance: &Radiance) -> Result<String, Error> {
+    let picture = Darkroom::new(gpu, radiance.size, radiance.format.colour).develop(gpu, radiance.result())?;
+    let path = unused("photo", "png");
+    save(&picture, &path)?;
+    Ok(format!("photo: {}", path.display()))
+}

@@ -1,0 +1,120 @@
+//! One line of JSON as a tree that forgets nothing: keys in their order, doubled ones too.
+//!
+//! The tree of `serde_json` keeps the last of two equal keys in silence; a question must not be read that way.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+
+use super::ProbeError;
+
+/// A JSON value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Node {
+    Null,
+    Boolean(bool),
+    Number(f64),
+    Text(String),
+    List(Vec<Node>),
+    Object(Vec<(String, Node)>),
+}
+
+/// Reads a line.
+///
+/// Numbers are rounded to the nearest f64. One that is too large for any is an error, and so is nesting deeper than a
+/// hundred-odd brackets.
+pub(super) fn parse(line: &str) -> Result<Node, ProbeError> {
+    serde_json::from_str(line).map_err(|error| {
+        // The parser counts columns in bytes, and ends its sentence with the place.
+        let column = error.column();
+        let before = String::from_utf8_lossy(&line.as_bytes()[..column.min(line.len())]);
+        let sentence = error.to_string();
+        let reason = sentence.split(" at line ").next().unwrap_or_default().to_owned();
+        ProbeError::NotJson { reason, column, near: last_characters(&before).to_owned() }
+    })
+}
+
+/// The end of a text, short enough to quote.
+fn last_characters(text: &str) -> &str {
+    const MOST: usize = 32;
+    text.char_indices().rev().nth(MOST - 1).map_or(text, |(start, _)| &text[start..])
+}
+
+/// A text in quotation marks, cut if it is too long to quote.
+pub(super) fn quoted(text: &str) -> String {
+    const MOST: usize = 64;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{:?} and more", &text[..end]),
+        None => format!("{text:?}"),
+    }
+}
+
+impl fmt::Display for Node {
+    /// What the value is, in words, for error messages.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Null => write!(f, "null"),
+            Self::Boolean(value) => write!(f, "{value}"),
+            Self::Number(number) => write!(f, "{number:?}"),
+            Self::Text(text) => write!(f, "the text {}", quoted(text)),
+            Self::List(entries) => write!(f, "a list of {}", entries.len()),
+            Self::Object(_) => write!(f, "an object"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Node {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NodeVisitor)
+    }
+}
+
+struct NodeVisitor;
+
+impl<'de> Visitor<'de> for NodeVisitor {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Node, E> {
+        Ok(Node::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Boolean(value))
+    }
+
+    fn visit_u64<E>(self, number: u64) -> Result<Node, E> {
+        Ok(Node::Number(number as f64))
+    }
+
+    fn visit_i64<E>(self, number: i64) -> Result<Node, E> {
+        Ok(Node::Number(number as f64))
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Node, E> {
+        Ok(Node::Number(number))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Node, E> {
+        Ok(Node::Text(text.to_owned()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(entry) = list.next_element()? {
+            entries.push(entry);
+        }
+        Ok(Node::List(entries))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Node, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(entry) = object.next_entry()? {
+            entries.push(entry);
+        }
+        Ok(Node::Object(entries))
+    }
+}

@@ -1,0 +1,199 @@
+//! Typed values out of a question's tree, each with the path that an error message names.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+use physics::{Beta, Celerity, CelerityError, Event, Observer};
+
+use super::ProbeError;
+use super::json::{Node, quoted};
+
+const NUMBER: &str = "a number";
+const VECTOR: &str = "a list of three numbers [x, y, z]";
+const DIRECTION: &str = "a direction: a list of three numbers [x, y, z], not all zero";
+const VELOCITY: &str = "a celerity, three numbers [x, y, z] (or the key \"beta\" instead)";
+const OBSERVER: &str = "an object with the keys position, time (default 0), celerity or beta";
+const SOURCE: &str = "an object with the keys position, celerity or beta";
+const OBJECT: &str = "an object";
+
+/// A value and its path in the question.
+pub(super) struct Place<'a> {
+    path: String,
+    node: &'a Node,
+}
+
+/// An object in the question, no key of which is doubled.
+pub(super) struct Keys<'a> {
+    path: String,
+    entries: &'a [(String, Node)],
+}
+
+impl<'a> Place<'a> {
+    pub(super) fn wrong(&self, expected: &'static str) -> ProbeError {
+        ProbeError::Wrong { key: self.path.clone(), found: self.node.to_string(), expected }
+    }
+
+    pub(super) fn number(&self) -> Result<f64, ProbeError> {
+        match self.node {
+            Node::Number(number) => Ok(*number),
+            _ => Err(self.wrong(NUMBER)),
+        }
+    }
+
+    /// A number that `accepts` it.
+    pub(super) fn number_that(&self, accepts: impl Fn(f64) -> bool, expected: &'static str) -> Result<f64, ProbeError> {
+        self.number().ok().filter(|number| accepts(*number)).ok_or_else(|| self.wrong(expected))
+    }
+
+    pub(super) fn text(&self, expected: &'static str) -> Result<&'a str, ProbeError> {
+        match self.node {
+            Node::Text(text) => Ok(text),
+            _ => Err(self.wrong(expected)),
+        }
+    }
+
+    /// The entries of a list of any length.
+    pub(super) fn list(&self, expected: &'static str) -> Result<Vec<Place<'a>>, ProbeError> {
+        let Node::List(entries) = self.node else { return Err(self.wrong(expected)) };
+        Ok(entries.iter().enumerate().map(|(index, node)| self.entry(index, node)).collect())
+    }
+
+    /// The entries of a list of this length.
+    pub(super) fn list_of<const N: usize>(&self, expected: &'static str) -> Result<[Place<'a>; N], ProbeError> {
+        match self.node {
+            Node::List(entries) if entries.len() == N => {
+                Ok(std::array::from_fn(|index| self.entry(index, &entries[index])))
+            }
+            _ => Err(self.wrong(expected)),
+        }
+    }
+
+    fn entry(&self, index: usize, node: &'a Node) -> Self {
+        Self { path: format!("{}[{index}]", self.path), node }
+    }
+
+    pub(super) fn vector(&self) -> Result<DVec3, ProbeError> {
+        let [x, y, z] = self.list_of(VECTOR)?;
+        Ok(DVec3::new(x.number()?, y.number()?, z.number()?))
+    }
+
+    /// A vector of which only the direction counts: brought to a length whose square neither overflows nor vanishes.
+    pub(super) fn direction(&self) -> Result<DVec3, ProbeError> {
+        /// 2⁶⁰⁰: a power of two, so that nothing is rounded.
+        const STRETCH: f64 = f64::from_bits((1023 + 600) << 52);
+        const SHORT: f64 = 1e-150;
+        let vector = self.vector()?;
+        match vector.abs().max_element() {
+            0.0 => Err(ProbeError::Wrong { key: self.path.clone(), found: "zero".to_owned(), expected: DIRECTION }),
+            largest if largest < SHORT => Ok(vector * STRETCH),
+            largest if largest > 1.0 / SHORT => Ok(vector / STRETCH),
+            _ => Ok(vector),
+        }
+    }
+
+    /// An object that has none but the known keys.
+    pub(super) fn object(&self, expected: &'static str, known: &[&str]) -> Result<Keys<'a>, ProbeError> {
+        let Node::Object(entries) = self.node else { return Err(self.wrong(expected)) };
+        let keys = Keys::new(self.path.clone(), entries)?;
+        keys.only(known)?;
+        Ok(keys)
+    }
+
+    fn velocity_from(&self, convert: fn(DVec3) -> Result<Celerity, CelerityError>) -> Result<Celerity, ProbeError> {
+        convert(self.vector()?).map_err(|reason| ProbeError::Velocity { key: self.path.clone(), reason })
+    }
+
+    /// A velocity under a key of its own: three numbers are a celerity; an object says which it is.
+    pub(super) fn velocity(&self) -> Result<Celerity, ProbeError> {
+        match self.node {
+            Node::Object(_) => self.object(OBJECT, &["celerity", "beta"])?.velocity(),
+            _ => self.velocity_from(Celerity::new),
+        }
+    }
+
+    pub(super) fn observer(&self) -> Result<Observer, ProbeError> {
+        let keys = self.object(OBSERVER, &["position", "time", "celerity", "beta"])?;
+        let ct = keys.optional("time").map_or(Ok(0.0), |time| time.number())?;
+        let position = keys.required("position", VECTOR)?.vector()?;
+        Ok(Observer { event: Event { ct, position }, celerity: keys.velocity()? })
+    }
+}
+
+impl<'a> Keys<'a> {
+    /// The keys of the whole line.
+    pub(super) fn of_line(node: &'a Node) -> Result<Self, ProbeError> {
+        match node {
+            Node::Object(entries) => Self::new(String::new(), entries),
+            _ => Err(ProbeError::NotAnObject { found: node.to_string() }),
+        }
+    }
+
+    fn new(path: String, entries: &'a [(String, Node)]) -> Result<Self, ProbeError> {
+        let keys = Self { path, entries };
+        let mut seen = HashSet::new();
+        match entries.iter().find(|(key, _)| !seen.insert(key)) {
+            Some((key, _)) => Err(ProbeError::Doubled { key: keys.path_of(key) }),
+            None => Ok(keys),
+        }
+    }
+
+    /// Fails if there is any other key than these.
+    pub(super) fn only(&self, known: &[&str]) -> Result<(), ProbeError> {
+        match self.entries.iter().find(|(key, _)| !known.contains(&key.as_str())) {
+            Some((key, _)) => Err(ProbeError::Unknown { key: self.path_of(key), known: known.join(", ") }),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn optional(&self, key: &str) -> Option<Place<'a>> {
+        let (_, node) = self.entries.iter().find(|(name, _)| name == key)?;
+        Some(Place { path: self.path_of(key), node })
+    }
+
+    pub(super) fn required(&self, key: &str, expected: &'static str) -> Result<Place<'a>, ProbeError> {
+        self.optional(key).ok_or_else(|| ProbeError::Missing { key: self.path_of(key), expected })
+    }
+
+    pub(super) fn number(&self, key: &str) -> Result<f64, ProbeError> {
+        self.required(key, NUMBER)?.number()
+    }
+
+    pub(super) fn direction(&self, key: &str) -> Result<DVec3, ProbeError> {
+        self.required(key, DIRECTION)?.direction()
+    }
+
+    pub(super) fn vector(&self, key: &str) -> Result<DVec3, ProbeError> {
+        self.required(key, VECTOR)?.vector()
+    }
+
+    /// The keys of a source.
+    pub(super) fn source(&self, key: &str) -> Result<Keys<'a>, ProbeError> {
+        self.required(key, SOURCE)?.object(SOURCE, &["position", "celerity", "beta"])
+    }
+
+    pub(super) fn observer(&self, key: &str) -> Result<Observer, ProbeError> {
+        self.required(key, OBSERVER)?.observer()
+    }
+
+    /// `celerity`, or `beta` instead of it, if either is there.
+    pub(super) fn optional_velocity(&self) -> Result<Option<Celerity>, ProbeError> {
+        match (self.optional("celerity"), self.optional("beta")) {
+            (Some(celerity), Some(beta)) => Err(ProbeError::TwoVelocities { celerity: celerity.path, beta: beta.path }),
+            (Some(celerity), None) => celerity.velocity_from(Celerity::new).map(Some),
+            (None, Some(beta)) => beta.velocity_from(|vector| Beta::new(vector).map(Beta::celerity)).map(Some),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// `celerity`, or `beta` instead of it.
+    pub(super) fn velocity(&self) -> Result<Celerity, ProbeError> {
+        let missing = || ProbeError::Missing { key: self.path_of("celerity"), expected: VELOCITY };
+        self.optional_velocity()?.ok_or_else(missing)
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        let plain = key.chars().all(|character| character.is_ascii_alphanumeric() || character == '_');
+        let key = if plain && key.len() <= 64 { key.to_owned() } else { quoted(key) };
+        if self.path.is_empty() { key } else { format!("{}.{key}", self.path) }
+    }
+}

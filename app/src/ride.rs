@@ -1,0 +1,146 @@
+//! `rapidity ride`: puts the ride together, and opens a window on it, or films it where there is no display.
+
+use crate::command::{IntegratorName, RideOptions, SceneChoice, Transport, VehicleName};
+use crate::error::Error;
+use crate::film_ride;
+use crate::live::Live;
+use crate::log::Log;
+use crate::progress;
+use crate::scene::collision::Collision;
+use crate::scene::{Scene, source};
+use crate::simulation::{Replay, Setup, Simulation, Start};
+use crate::vehicle::{IntegratorKind, Nose, Surroundings, VehicleSettings, World};
+use crate::window;
+use glam::DVec3;
+use input::devices::{Devices, DevicesConfig};
+use input::recording::Recording;
+use input::{Action, Clock, DeskConfig, Sample, VehicleKind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where a ride is filmed that has no display and names no file.
+const FILM: &str = "ride.mp4";
+
+/// Carries out `rapidity ride`.
+///
+/// # Errors
+/// Whatever keeps the ride from beginning, or ends it.
+pub fn ride(options: &RideOptions) -> Result<(), Error> {
+    if options.verify {
+        return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
+    }
+    if options.out.is_none() && window::has_display() {
+        let (scene, live) = begin(options)?;
+        let scene = source::refined(&scene, options.world.edge)?;
+        return window::run(options, scene, live);
+    }
+    let path = options.out.clone().unwrap_or_else(|| {
+        eprintln!("no display: filming the ride into {FILM}");
+        PathBuf::from(FILM)
+    });
+    film_ride::film(options, &path)
+}
+
+/// Computes a recorded ride again, and compares it bit for bit.
+fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
+    let (_, replay) = recorded(path, &options.world.scene)?;
+    let frames = replay.verify()?;
+    println!("{}: {frames} frames, identical to the bit", path.display());
+    Ok(())
+}
+
+/// The scene, and a ride in it that is about to begin: live, or recorded.
+fn begin(options: &RideOptions) -> Result<(Scene, Live), Error> {
+    if let Some(path) = &options.replay {
+        let (scene, replay) = recorded(path, &options.world.scene)?;
+        return Ok((scene, Live::recorded(replay, options.seconds)));
+    }
+    let scene = source::load(&options.world.scene)?;
+    let clock = Clock::start();
+    let (simulation, log) = prepared(options, &scene)?;
+    let devices = Devices::open(&devices_config(options), clock)?;
+    let mut live = Live::present(simulation, devices, clock, log, options.seconds);
+    if let Some(path) = &options.record {
+        live.record(path)?;
+    }
+    for action in first_actions(options) {
+        live.say(|at| Sample::action(at, &action));
+    }
+    Ok((scene, live))
+}
+
+/// A recording's scene, and the ride in it once more.
+///
+/// # Errors
+/// The recording or its scene cannot be read.
+pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Error> {
+    let recording = Recording::open(path)?;
+    // A scene that is named overrides the recorded one, whose file may have moved.
+    let choice = match choice {
+        SceneChoice::Town => SceneChoice::from_name(&recording.header().scene),
+        named => named.clone(),
+    };
+    let scene = source::load(&choice)?;
+    let surroundings = surroundings(&scene)?;
+    Ok((scene, Replay::new(recording, surroundings)?))
+}
+
+/// A simulation at its beginning, and the log of it.
+///
+/// # Errors
+/// Settings that cannot be used, or a scene without sound geometry.
+pub fn prepared(options: &RideOptions, scene: &Scene) -> Result<(Simulation, Log), Error> {
+    let setup = setup(options, scene)?;
+    let header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
+    Ok((Simulation::new(setup, surroundings(scene)?)?, Log::new(header)))
+}
+
+/// What the vehicle stands on and runs into.
+fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
+    let spinner = progress::spinner("finding ground and walls");
+    let collision = Collision::new(scene)?;
+    spinner.finish_and_clear();
+    Ok(Arc::new(collision))
+}
+
+fn setup(options: &RideOptions, scene: &Scene) -> Result<Setup, Error> {
+    let kind = match options.vehicle.vehicle {
+        VehicleName::Bicycle => VehicleKind::Bicycle,
+        VehicleName::Drive => VehicleKind::Drive,
+        VehicleName::Fly => VehicleKind::Fly,
+    };
+    let mut vehicle = VehicleSettings::default();
+    vehicle.integrator = match options.vehicle.integrator {
+        IntegratorName::Rk4 => IntegratorKind::Rk4,
+        IntegratorName::Exact => IntegratorKind::Exact,
+        IntegratorName::Dopri5 => IntegratorKind::DormandPrince,
+    };
+    vehicle.flight.nose = match options.vehicle.transport {
+        Transport::Gyroscopic => Nose::Gyroscopic,
+        Transport::Facing => Nose::FacesMotion,
+    };
+    // One who flies begins at his eye, the others on the ground.
+    let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };
+    Ok(Setup {
+        world: World::new(options.world.speed_of_light)?,
+        kind,
+        start: Start::at_rest(scene.start.position + eye, scene.start.look),
+        vehicle,
+        desk: DeskConfig::default(),
+    })
+}
+
+/// What the command line asks of the simulation while it runs.
+pub fn first_actions(options: &RideOptions) -> Vec<Action> {
+    let scale = options.vehicle.time_scale;
+    if scale == 1.0 { Vec::new() } else { vec![Action::TimeScale(scale)] }
+}
+
+/// Which devices the command line names.
+pub fn devices_config(options: &RideOptions) -> DevicesConfig {
+    DevicesConfig {
+        bicycle: options.devices.bicycle.clone(),
+        space_mouse: options.devices.spacemouse || window::has_display(),
+        ..Default::default()
+    }
+}

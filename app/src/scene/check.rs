@@ -1,0 +1,294 @@
+//! Is this scene any good? What is in it, and what a visitor would stumble over.
+//!
+//! Notices come from the file (what is not drawn); warnings are found here, in the scene as it is drawn. Neither
+//! keeps a scene from being shown.
+
+use std::fmt;
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::collision::Collision;
+use super::gltf::{GltfError, load};
+use super::{Scene, SceneFault};
+use crate::vehicle::Surroundings;
+
+/// Scenes smaller or larger than this, in metres, are probably not measured in metres.
+const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// The file gives no scene.
+    #[error(transparent)]
+    Load(#[from] GltfError),
+    /// The scene breaks a promise of its types.
+    #[error(transparent)]
+    Damaged(#[from] SceneFault),
+}
+
+/// What is in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Its name.
+    pub name: String,
+    /// Number of meshes.
+    pub meshes: usize,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of materials.
+    pub materials: usize,
+    /// Number of textures.
+    pub textures: usize,
+    /// Size of all textures without mipmaps, in bytes.
+    pub texture_bytes: usize,
+    /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
+    pub bounds: Option<[DVec3; 2]>,
+    /// Length of the longest finite edge, in metres: what `refine` would split first.
+    pub longest_edge: f64,
+    /// What the file asked for and is not drawn.
+    pub notices: Vec<String>,
+    /// What a visitor would stumble over, with advice.
+    pub warnings: Vec<String>,
+}
+
+/// Loads a file and reports on it.
+///
+/// # Errors
+/// [`CheckError`] if the file gives no scene.
+pub fn check(path: &Path) -> Result<Report, CheckError> {
+    Ok(Report::new(&load(path, |_| {})?)?)
+}
+
+impl Report {
+    /// Looks at every triangle once.
+    ///
+    /// # Errors
+    /// [`SceneFault`] if the scene breaks a promise of its types.
+    pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
+        let collision = Collision::new(scene)?;
+        let survey = Survey::of(scene);
+        let bounds = survey.bounds.map(|bounds| bounds.map(|corner| scene.origin + corner));
+        Ok(Self {
+            name: scene.name.clone(),
+            meshes: scene.meshes.len(),
+            triangles: scene.triangle_count(),
+            vertices: scene.vertex_count(),
+            materials: scene.materials.len(),
+            textures: scene.textures.len(),
+            texture_bytes: scene.textures.iter().map(|texture| texture.rgba.len()).sum(),
+            bounds,
+            longest_edge: survey.longest_edge,
+            notices: scene.notices.clone(),
+            warnings: warnings(scene, &survey, &collision),
+        })
+    }
+}
+
+/// What counting all triangles shows.
+#[derive(Default)]
+struct Survey {
+    /// Relative to the scene's origin.
+    bounds: Option<[DVec3; 2]>,
+    longest_edge: f64,
+    without_area: usize,
+    not_finite: usize,
+    inside_out: usize,
+}
+
+impl Survey {
+    fn of(scene: &Scene) -> Self {
+        let mut survey = Self::default();
+        for mesh in &scene.meshes {
+            for &position in mesh.positions.iter().filter(|position| position.is_finite()) {
+                let position = position.as_dvec3();
+                let [least, most] = survey.bounds.unwrap_or([position; 2]);
+                survey.bounds = Some([least.min(position), most.max(position)]);
+            }
+            for corners in mesh.indices.as_chunks::<3>().0 {
+                let corners = corners.map(|corner| corner as usize);
+                let [a, b, c] = corners.map(|corner| mesh.positions[corner].as_dvec3());
+                let face = (b - a).cross(c - a);
+                if !face.is_finite() {
+                    survey.not_finite += 1;
+                    continue;
+                }
+                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+                survey.longest_edge = survey.longest_edge.max(longest);
+                let normal: DVec3 = corners.iter().map(|&corner| mesh.normals[corner].as_dvec3()).sum();
+                survey.without_area += usize::from(face == DVec3::ZERO);
+                survey.inside_out += usize::from(face.dot(normal) < 0.0);
+            }
+        }
+        survey
+    }
+}
+
+fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut warn = |holds: bool, warning: String| {
+        if holds {
+            warnings.push(warning);
+        }
+    };
+    let Survey { without_area, not_finite, inside_out, .. } = *survey;
+    warn(scene.triangle_count() == 0, "there is nothing to draw: the scene has no triangles".into());
+    warn(
+        not_finite > 0,
+        format!("triangles with corners that are nowhere (not finite): {not_finite}; they are not drawn"),
+    );
+    warn(without_area > 0, format!("triangles without area: {without_area}; remove them to save time"));
+    let advice = "their light falls on the wrong side; turn their winding or their normals";
+    warn(inside_out > 0, format!("triangles that face away from their normals: {inside_out}; {advice}"));
+    if let Some([least, most]) = survey.bounds {
+        let size = (most - least).max_element();
+        let advice = "lengths are metres; scale the scene if they were not";
+        warn(!PLAUSIBLE_SIZE.contains(&size), format!("the scene is {size} m large: {advice}"));
+    }
+    let grounded = |point: DVec3| collision.height_below(point).is_some();
+    let advice = "a vehicle on wheels stays at its height";
+    let solid = scene.meshes.iter().any(|mesh| mesh.solid);
+    warn(!solid, format!("no mesh is solid: {advice} and passes through everything"));
+    warn(solid && !grounded(scene.start.position), format!("there is no ground below the start: {advice}"));
+    let airborne = scene.circuit.iter().filter(|&&point| !grounded(point)).count();
+    let points = scene.circuit.len();
+    warn(
+        solid && airborne > 0,
+        format!("points of the circuit without ground below: {airborne} of {points}; {advice}"),
+    );
+    warnings
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "scene       {}", self.name)?;
+        writeln!(f, "triangles   {}, {} vertices, {} meshes", self.triangles, self.vertices, self.meshes)?;
+        let megabytes = self.texture_bytes as f64 / 1e6;
+        writeln!(f, "materials   {}, {} textures of {megabytes:.1} MB", self.materials, self.textures)?;
+        if let Some([least, most]) = self.bounds {
+            let size = most - least;
+            writeln!(f, "size        {:.3} × {:.3} × {:.3} m (x, y, z)", size.x, size.y, size.z)?;
+            writeln!(f, "from        {:.3}, {:.3}, {:.3} m", least.x, least.y, least.z)?;
+            writeln!(f, "to          {:.3}, {:.3}, {:.3} m", most.x, most.y, most.z)?;
+        }
+        writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
+        for notice in &self.notices {
+            writeln!(f, "not drawn:  {notice}")?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "warning:    {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A report counts what is there and warns of what is wrong, of nothing else. A wrong one would miss a hole below the
+    //! start, or cry wolf over a sound scene.
+
+    use glam::{Vec2, Vec3};
+
+    use super::*;
+    use crate::scene::{Material, Mesh, Texture};
+
+    /// A square of ground, 10 m wide, in two triangles.
+    fn ground() -> Scene {
+        let positions = [(-5, -5), (-5, 5), (5, 5), (5, -5)].map(|(x, z)| Vec3::new(x as f32, 0.0, z as f32));
+        let mesh = Mesh {
+            name: "ground".into(),
+            positions: positions.to_vec(),
+            normals: vec![Vec3::Y; 4],
+            uvs: vec![Vec2::ZERO; 4],
+            colours: vec![[1.0; 4]; 4],
+            indices: vec![0, 1, 2, 0, 2, 3],
+            solid: true,
+            ..Mesh::default()
+        };
+        let texture = Texture {
+            name: "grass".into(),
+            width: 4,
+            height: 2,
+            rgba: vec![0; 32],
+            wrap: Default::default(),
+            nearest: false,
+        };
+        Scene {
+            name: "meadow".into(),
+            origin: DVec3::new(0.0, 100.0, 0.0),
+            textures: vec![texture],
+            materials: vec![Material::default()],
+            meshes: vec![mesh],
+            start: crate::scene::Start { position: DVec3::new(0.0, 100.0, 0.0), look: DVec3::NEG_Z },
+            circuit: vec![DVec3::new(1.0, 100.0, 1.0)],
+            ..Scene::default()
+        }
+    }
+
+    fn warning(change: impl Fn(&mut Scene)) -> String {
+        let mut scene = ground();
+        change(&mut scene);
+        let [warning] = Report::new(&scene).unwrap().warnings.try_into().expect("one warning");
+        warning
+    }
+
+    #[test]
+    fn a_sound_scene_is_counted_and_not_warned_of() {
+        let report = Report::new(&ground()).unwrap();
+        assert_eq!((report.meshes, report.triangles, report.vertices), (1, 2, 4));
+        assert_eq!((report.materials, report.textures, report.texture_bytes), (1, 1, 32));
+        assert_eq!(report.bounds, Some([DVec3::new(-5.0, 100.0, -5.0), DVec3::new(5.0, 100.0, 5.0)]));
+        assert_eq!(report.longest_edge, 200_f64.sqrt());
+        assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    }
+
+    #[test]
+    fn what_is_wrong_is_warned_of() {
+        assert!(warning(|scene| scene.meshes[0].indices.extend([0, 0, 1])).starts_with("triangles without area: 1;"));
+        assert!(warning(|scene| scene.meshes[0].indices.swap(0, 1)).contains("face away from their normals: 1;"));
+        assert!(warning(|scene| scene.start.position.x = 6.0).contains("no ground below the start"));
+        assert!(warning(|scene| scene.circuit.push(DVec3::ZERO)).contains("without ground below: 1 of 2;"));
+        assert!(warning(|scene| scene.meshes[0].solid = false).contains("no mesh is solid"));
+        let far = |scene: &mut Scene| {
+            scene.meshes[0].positions.push(Vec3::X * 1e6);
+            scene.meshes[0].normals.push(Vec3::Y);
+            scene.meshes[0].uvs.push(Vec2::ZERO);
+            scene.meshes[0].colours.push([1.0; 4]);
+        };
+        assert!(warning(far).contains("lengths are metres"));
+        let nowhere = |scene: &mut Scene| {
+            far(scene);
+            scene.meshes[0].positions[4] = Vec3::NAN;
+            scene.meshes[0].indices.extend([0, 1, 4]);
+        };
+        assert!(warning(nowhere).contains("nowhere (not finite): 1;"));
+    }
+
+    #[test]
+    fn an_empty_scene_says_so() {
+        let report = Report::new(&Scene::default()).unwrap();
+        assert!(report.warnings[0].contains("nothing to draw"));
+        assert_eq!(report.bounds, None);
+    }
+
+    #[test]
+    fn a_file_is_reported_as_it_is_drawn() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let path = folder.path().join("meadow.glb");
+        crate::scene::export::write_glb(&ground(), &path).unwrap();
+        let mut expected = Report::new(&ground()).unwrap();
+        // The texture is drawn by no material, so it is not loaded.
+        (expected.textures, expected.texture_bytes) = (0, 0);
+        let report = check(&path).unwrap();
+        assert_eq!(report, expected);
+        let text = report.to_string();
+        assert!(text.contains("2, 4 vertices, 1 meshes") && text.contains("10.000 × 0.000 × 10.000 m"), "{text}");
+    }
+
+    #[test]
+    fn a_file_that_is_no_scene_is_an_error() {
+        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(GltfError::Read { .. }))));
+    }
+}

@@ -1,0 +1,372 @@
+//! What a vehicle stands on and what it bumps into.
+//!
+//! The solid meshes' triangles are sorted once: those that a wheel can roll on (floors) and steep ones (walls). A bounding volume
+//! hierarchy over each finds the few that matter in microseconds, as it is asked in every step of the worldline.
+//!
+//! A kerb of up to [`STEP`] is climbed: the ground is looked for from that far above the wheel, and walls below it do not count.
+//! Triangles that share an edge agree on which side of it a point lies, to the last bit, so that nothing falls through a
+//! seam.
+
+use glam::{DVec2, DVec3};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::query::Ray;
+
+use super::{Scene, SceneFault};
+use crate::vehicle::{Ground, Surroundings, Wall};
+
+/// The highest step that a vehicle climbs, in metres.
+pub const STEP: f64 = 0.2;
+
+/// How far up a vehicle with its rider bumps into things, in metres above the ground.
+pub const BODY: f64 = 1.8;
+
+/// Triangles whose unit normal has less than this upwards or downwards are walls: steeper than 60°.
+const STEEP: f64 = 0.5;
+
+/// The solid part of a scene, ready to be asked. Positions are world metres.
+pub struct Collision {
+    origin: DVec3,
+    floors: Surfaces,
+    walls: Surfaces,
+}
+
+impl Collision {
+    /// Sorts a scene's solid triangles. Those without area or with a vertex that is not finite are left out.
+    ///
+    /// # Errors
+    /// [`SceneFault`] if the scene breaks a promise of its types.
+    pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
+        scene.validate()?;
+        let (mut floors, mut walls) = (Vec::new(), Vec::new());
+        for mesh in scene.meshes.iter().filter(|mesh| mesh.solid) {
+            for corners in mesh.indices.as_chunks::<3>().0 {
+                let triangle = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+                match normal(triangle) {
+                    Some(normal) if normal.y.abs() < STEEP => walls.push(triangle),
+                    Some(_) => floors.push(triangle),
+                    None => {}
+                }
+            }
+        }
+        Ok(Self { origin: scene.origin, floors: Surfaces::new(floors), walls: Surfaces::new(walls) })
+    }
+}
+
+impl Surroundings for Collision {
+    /// The highest floor that is not more than [`STEP`] above a point, or `None` if there is nothing below.
+    fn height_below(&self, position: DVec3) -> Option<Ground> {
+        let from = position - self.origin + STEP * DVec3::Y;
+        if self.floors.triangles.is_empty() || !from.is_finite() {
+            return None;
+        }
+        let ray = Ray::new(vector(from), vector(DVec3::NEG_Y));
+        let (index, depth) = self.floors.hierarchy.cast_ray(&ray, f64::MAX, |index, _| {
+            let depth = from.y - height(self.floors.triangles[index as usize], plan(from))?;
+            (depth >= 0.0).then_some(depth)
+        })?;
+        let normal = normal(self.floors.triangles[index as usize])?;
+        Some(Ground { height: position.y + STEP - depth, normal: normal * normal.y.signum() })
+    }
+
+    /// The nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
+    ///
+    /// A vehicle may lean on it softly: the normal is horizontal and points away from the wall, on either side of it.
+    fn nearest_wall(&self, position: DVec3, radius: f64) -> Option<Wall> {
+        let foot = position - self.origin;
+        let (lowest, highest) = (foot.y + STEP, foot.y + BODY);
+        if self.walls.triangles.is_empty() || !foot.is_finite() || radius.is_nan() {
+            return None;
+        }
+        let corner = DVec3::new(foot.x - radius, lowest, foot.z - radius);
+        let opposite = DVec3::new(foot.x + radius, highest, foot.z + radius);
+        let reach = Aabb::new(vector(corner), vector(opposite));
+        let nearest = self.walls.hierarchy.intersect_aabb(&reach).filter_map(|index| {
+            let slab = between(self.walls.triangles[index as usize], lowest, highest);
+            let point = nearest_in_plan(&slab, plan(foot))?;
+            Some((point.distance(plan(foot)), index, point))
+        });
+        let (distance, index, point) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        let away = (plan(foot) - point).try_normalize().or_else(|| {
+            let normal = normal(self.walls.triangles[index as usize])?;
+            plan(normal).try_normalize()
+        })?;
+        (distance <= radius).then_some(Wall { distance, normal: DVec3::new(away.x, 0.0, away.y) })
+    }
+}
+
+/// Triangles, relative to the scene's origin, and what finds them.
+struct Surfaces {
+    triangles: Vec<[DVec3; 3]>,
+    hierarchy: Bvh,
+}
+
+impl Surfaces {
+    fn new(triangles: Vec<[DVec3; 3]>) -> Self {
+        let boxes: Vec<Aabb> =
+            triangles.iter().map(|&[a, b, c]| Aabb::new(vector(a.min(b).min(c)), vector(a.max(b).max(c)))).collect();
+        Self { hierarchy: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), triangles }
+    }
+}
+
+fn vector(v: DVec3) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}
+
+/// Seen from above: x and z.
+fn plan(v: DVec3) -> DVec2 {
+    DVec2::new(v.x, v.z)
+}
+
+/// The unit normal, or `None` if there is no area or no number.
+fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    (b - a).cross(c - a).try_normalize()
+}
+
+/// Twice the area of the triangle a, b, p in plan: which side of a–b is p on. Swapping a and b changes the sign and no bit.
+fn side(a: DVec3, b: DVec3, p: DVec2) -> f64 {
+    let (a, b) = (plan(a) - p, plan(b) - p);
+    a.x * b.y - a.y * b.x
+}
+
+/// The y of a triangle above or below a point in plan, if the point is in it or on its edge.
+fn height([a, b, c]: [DVec3; 3], p: DVec2) -> Option<f64> {
+    let weights = [side(b, c, p), side(c, a, p), side(a, b, p)];
+    let within = weights.iter().all(|&weight| weight >= 0.0) || weights.iter().all(|&weight| weight <= 0.0);
+    let [u, v, w] = weights;
+    let sum = u + v + w;
+    (within && sum != 0.0).then(|| (u * a.y + v * b.y + w * c.y) / sum)
+}
+
+/// The part of a triangle between two heights, a convex polygon; empty if it only touches them.
+fn between(triangle: [DVec3; 3], lowest: f64, highest: f64) -> Vec<DVec3> {
+    let above = clip(&triangle, |corner| corner.y - lowest);
+    clip(&above, |corner| highest - corner.y)
+}
+
+/// The part of a convex polygon where a linear function is not negative (Sutherland–Hodgman); empty if that has no extent.
+fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut clipped = Vec::with_capacity(polygon.len() + 1);
+    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    for (&from, &to) in ends {
+        let (start, end) = (inside(from), inside(to));
+        if start >= 0.0 {
+            clipped.push(from);
+        }
+        if (start > 0.0 && end < 0.0) || (start < 0.0 && end > 0.0) {
+            clipped.push(from.lerp(to, start / (start - end)));
+        }
+    }
+    if !clipped.iter().any(|&corner| inside(corner) > 0.0) {
+        clipped.clear();
+    }
+    clipped
+}
+
+/// The point of a convex polygon nearest to another point, both in plan.
+fn nearest_in_plan(polygon: &[DVec3], p: DVec2) -> Option<DVec2> {
+    let edges = || polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let sides = || edges().map(|(&a, &b)| side(a, b, p));
+    if !polygon.is_empty() && (sides().all(|side| side > 0.0) || sides().all(|side| side < 0.0)) {
+        return Some(p);
+    }
+    let nearest_on_edge = |(&a, &b): (&DVec3, &DVec3)| {
+        let (a, along) = (plan(a), plan(b) - plan(a));
+        let length_squared = along.length_squared();
+        let share = if length_squared > 0.0 { ((p - a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+        a + share * along
+    };
+    edges().map(nearest_on_edge).min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
+}
+
+#[cfg(test)]
+mod tests {
+    //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls through
+    //! seams, stops at kerbs, stands on walls, or pushes a rider into the house.
+
+    use glam::Vec3;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::scene::{Material, Mesh};
+
+    /// f32 coordinates of a few metres, computed with in f64.
+    const TOLERANCE: f64 = 1e-6;
+
+    fn mesh(triangles: &[[Vec3; 3]], solid: bool) -> Mesh {
+        let positions = triangles.concat();
+        let count = positions.len();
+        Mesh {
+            name: "test".into(),
+            normals: vec![Vec3::Y; count],
+            uvs: vec![Default::default(); count],
+            colours: vec![[1.0; 4]; count],
+            indices: (0..count as u32).collect(),
+            positions,
+            solid,
+            ..Mesh::default()
+        }
+    }
+
+    fn collision(origin: DVec3, meshes: Vec<Mesh>) -> Collision {
+        let scene = Scene { origin, materials: vec![Material::default()], meshes, ..Scene::default() };
+        Collision::new(&scene).unwrap()
+    }
+
+    /// The six faces of a box.
+    fn cuboid(least: Vec3, most: Vec3) -> Vec<[Vec3; 3]> {
+        let corner = |i: usize| {
+            let pick = |bit: usize, axis: usize| if i >> bit & 1 == 0 { least[axis] } else { most[axis] };
+            Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2))
+        };
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).map(|t| t.map(corner)).collect()
+    }
+
+    /// Houses at x < −5 and x > 5, a kerb of 15 cm at 4 < x < 5, a step of 50 cm at z < −20.
+    fn street(origin: DVec3) -> Collision {
+        let floor = cuboid(Vec3::new(-20.0, -1.0, -50.0), Vec3::new(20.0, 0.0, 50.0));
+        let left = cuboid(Vec3::new(-15.0, 0.0, -50.0), Vec3::new(-5.0, 8.0, 50.0));
+        let right = cuboid(Vec3::new(5.0, 0.0, -50.0), Vec3::new(15.0, 8.0, 50.0));
+        let kerb = cuboid(Vec3::new(4.0, 0.0, -50.0), Vec3::new(5.0, 0.15, 50.0));
+        let step = cuboid(Vec3::new(-5.0, 0.0, -50.0), Vec3::new(4.0, 0.5, -20.0));
+        let solid = [floor, left, right, kerb, step].map(|triangles| mesh(&triangles, true));
+        let tree = mesh(&cuboid(Vec3::new(0.0, 0.0, 0.0), Vec3::new(1.0, 3.0, 1.0)), false);
+        collision(origin, solid.into_iter().chain([tree]).collect())
+    }
+
+    #[test]
+    fn the_street_carries() {
+        let ground = street(DVec3::ZERO).height_below(DVec3::new(2.5, 0.0, 3.0)).unwrap();
+        assert_eq!(ground, Ground { height: 0.0, normal: DVec3::Y });
+    }
+
+    #[test]
+    fn a_fall_ends_on_the_roof() {
+        let ground = street(DVec3::ZERO).height_below(DVec3::new(7.0, 100.0, 3.0)).unwrap();
+        assert!((ground.height - 8.0).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn kerbs_are_climbed_and_do_not_push() {
+        let street = street(DVec3::ZERO);
+        let ground = street.height_below(DVec3::new(4.2, 0.0, 0.0)).unwrap();
+        assert!((ground.height - 0.15).abs() < TOLERANCE);
+        assert_eq!(street.nearest_wall(DVec3::new(3.9, 0.0, 0.0), 0.5), None);
+    }
+
+    #[test]
+    fn high_steps_are_walls() {
+        let street = street(DVec3::ZERO);
+        let wall = street.nearest_wall(DVec3::new(0.0, 0.0, -19.7), 0.5).unwrap();
+        assert!((wall.distance - 0.3).abs() < TOLERANCE);
+        assert_eq!(wall.normal, DVec3::Z);
+        let on_top = DVec3::new(0.0, 0.5, -20.3);
+        assert!((street.height_below(on_top).unwrap().height - 0.5).abs() < TOLERANCE);
+        assert_eq!(street.nearest_wall(on_top, 0.5), None, "from above it is none");
+    }
+
+    #[test]
+    fn houses_push_away_from_themselves() {
+        let street = street(DVec3::ZERO);
+        let left = street.nearest_wall(DVec3::new(-4.5, 0.0, 0.0), 1.0).unwrap();
+        assert_eq!(left, Wall { distance: 0.5, normal: DVec3::X });
+        let right = street.nearest_wall(DVec3::new(4.5, 0.15, 0.0), 1.0).unwrap();
+        assert_eq!(right, Wall { distance: 0.5, normal: DVec3::NEG_X });
+        assert_eq!(street.nearest_wall(DVec3::new(-3.5, 0.0, 0.0), 1.0), None, "out of reach");
+    }
+
+    #[test]
+    fn what_hangs_above_the_head_is_no_wall() {
+        let sign = mesh(&cuboid(Vec3::new(0.0, 1.9, 0.0), Vec3::new(1.0, 2.5, 1.0)), true);
+        let collision = collision(DVec3::ZERO, vec![sign]);
+        assert_eq!(collision.nearest_wall(DVec3::new(-0.1, 0.0, 0.5), 1.0), None);
+        assert!(collision.nearest_wall(DVec3::new(-0.1, 0.2, 0.5), 1.0).is_some(), "on a step it is");
+    }
+
+    #[test]
+    fn trees_that_are_not_solid_do_not_count() {
+        assert_eq!(street(DVec3::ZERO).nearest_wall(DVec3::new(-0.1, 0.0, 0.5), 1.0), None);
+    }
+
+    #[test]
+    fn slopes_have_their_height_and_normal() {
+        // Up by 1 m over 2 m.
+        let [a, b, c] = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 4.0), Vec3::new(4.0, 2.0, 0.0)];
+        for triangle in [[a, b, c], [a, c, b]] {
+            let ground = collision(DVec3::ZERO, vec![mesh(&[triangle], true)]);
+            let ground = ground.height_below(DVec3::new(1.0, 0.5, 1.0)).unwrap();
+            assert!((ground.height - 0.5).abs() < TOLERANCE);
+            assert!(ground.normal.distance(DVec3::new(-1.0, 2.0, 0.0).normalize()) < TOLERANCE);
+        }
+    }
+
+    #[test]
+    fn nothing_falls_through_a_seam() {
+        // A fan of thin triangles round a point: every query lies on an edge, but for rounding.
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let rim: Vec<Vec3> = (0..64).map(|i| Vec3::new((i as f32 * 0.1).cos(), 0.0, (i as f32 * 0.1).sin())).collect();
+        let centre = Vec3::new(0.013, 0.0, -0.007);
+        let fan: Vec<[Vec3; 3]> = rim.windows(2).map(|pair| [centre, pair[1], pair[0]]).collect();
+        let ground = collision(DVec3::ZERO, vec![mesh(&fan, true)]);
+        for _ in 0..100_000 {
+            let towards = rim[random.random_range(1..62)].as_dvec3();
+            let point = centre.as_dvec3().lerp(towards, random.random_range(0.0..0.9));
+            assert!(ground.height_below(point).is_some(), "{point} fell through");
+        }
+    }
+
+    #[test]
+    fn far_worlds_are_the_same() {
+        let origin = DVec3::new(1e9, -3e6, 7e8);
+        let (near, far) = (street(DVec3::ZERO), street(origin));
+        for point in [DVec3::new(4.5, 0.125, 0.0), DVec3::new(-4.5, 0.0, 2.0)] {
+            let (a, b) = (near.nearest_wall(point, 1.0).unwrap(), far.nearest_wall(origin + point, 1.0).unwrap());
+            assert!((a.distance - b.distance).abs() < TOLERANCE);
+            let (a, b) = (near.height_below(point).unwrap(), far.height_below(origin + point).unwrap());
+            assert!((a.height + origin.y - b.height).abs() < TOLERANCE);
+        }
+    }
+
+    #[test]
+    fn emptiness_and_nonsense_are_answered_with_nothing() {
+        let empty = collision(DVec3::ZERO, Vec::new());
+        assert_eq!(empty.height_below(DVec3::ZERO), None);
+        assert_eq!(empty.nearest_wall(DVec3::ZERO, 1.0), None);
+        let line = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
+        let degenerate = [line, [Vec3::ZERO; 3], [Vec3::NAN, Vec3::X, Vec3::Z], [Vec3::INFINITY, Vec3::X, Vec3::Z]];
+        let nothing = collision(DVec3::ZERO, vec![mesh(&degenerate, true)]);
+        assert_eq!(nothing.height_below(DVec3::X), None);
+        let street = street(DVec3::ZERO);
+        assert_eq!(street.height_below(DVec3::NAN), None);
+        assert_eq!(street.nearest_wall(DVec3::ZERO, f64::NAN), None);
+        assert_eq!(street.height_below(DVec3::new(1e3, 0.0, 0.0)), None, "beyond the edge of the world");
+    }
+
+    #[test]
+    fn agrees_with_trying_every_triangle() {
+        let mut random = ChaCha8Rng::seed_from_u64(8);
+        let triangles: Vec<[Vec3; 3]> = (0..2000)
+            .map(|_| {
+                let centre = (Vec3::from_array(random.random()) - 0.5) * 20.0;
+                [(); 3].map(|()| centre + Vec3::from_array(random.random()))
+            })
+            .collect();
+        let collision = collision(DVec3::ZERO, vec![mesh(&triangles, true)]);
+        let mut hits = 0;
+        for _ in 0..1000 {
+            let point = (DVec3::from_array(random.random()) - 0.5) * 20.0;
+            let heights = collision.floors.triangles.iter().filter_map(|&triangle| height(triangle, plan(point)));
+            let highest = heights.filter(|&height| height <= point.y + STEP).reduce(f64::max);
+            let found = collision.height_below(point).map(|ground| ground.height);
+            hits += usize::from(found.is_some());
+            match (found, highest) {
+                (Some(found), Some(highest)) => assert!((found - highest).abs() < TOLERANCE),
+                (found, highest) => assert_eq!(found, highest),
+            }
+        }
+        assert!(hits > 100, "only {hits} of the points had ground below them");
+    }
+}

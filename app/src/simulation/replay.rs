@@ -1,0 +1,124 @@
+//! Replay: a recorded ride once more, from its raw bytes, and the proof that it is the same to the bit.
+
+use std::sync::Arc;
+
+use input::recording::{Difference, Entry, Recording, RecordingError};
+use input::{Controls, Sample};
+use thiserror::Error;
+
+use super::{Frame, Setup, SetupError, Simulation};
+use crate::vehicle::Surroundings;
+
+/// A recorded ride that is being simulated again, frame by frame.
+///
+/// A recording holds, for each frame in this order, the samples handed to [`Simulation::frame`], the controls, and the [`Frame::record`].
+pub struct Replay<Entries = Recording> {
+    simulation: Simulation,
+    entries: Entries,
+    frames: u64,
+}
+
+impl Replay<Recording> {
+    /// Begins the recorded ride again, in the scene that the header names.
+    ///
+    /// # Errors
+    /// The header does not hold a ride of this program.
+    pub fn new(recording: Recording, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
+        let setup = Setup::from_header(recording.header())?;
+        Self::of(recording, setup, surroundings)
+    }
+}
+
+impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
+    /// The same for entries from elsewhere.
+    ///
+    /// # Errors
+    /// The setup cannot be used.
+    pub fn of(entries: Entries, setup: Setup, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
+        Ok(Self { simulation: Simulation::new(setup, surroundings)?, entries, frames: 0 })
+    }
+
+    /// The ride so far.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The next frame, none after the last.
+    ///
+    /// # Errors
+    /// The recording is damaged here; all before may be used.
+    pub fn next_frame(&mut self) -> Result<Option<Replayed>, ReplayError> {
+        let mut samples: Vec<Sample> = Vec::new();
+        let mut controls = None;
+        for entry in self.entries.by_ref() {
+            match entry {
+                Ok(Entry::Sample(sample)) => samples.push(sample),
+                Ok(Entry::Controls(record)) => controls = Some(record.controls),
+                Ok(Entry::Frame(recorded)) => {
+                    let frame = self.simulation.frame(recorded.at, &samples);
+                    let difference = controls
+                        .and_then(|controls| controls_difference(&controls, &frame.controls))
+                        .or_else(|| recorded.first_difference(&frame.record));
+                    self.frames += 1;
+                    return Ok(Some(Replayed { frame, difference }));
+                }
+                Err(cause) => return Err(ReplayError::Recording { frames: self.frames, cause: Box::new(cause) }),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Simulates all that is left, and says how many frames there were, all of them the same as recorded.
+    ///
+    /// # Errors
+    /// The first difference, or the place where the recording is damaged.
+    pub fn verify(mut self) -> Result<u64, ReplayError> {
+        while let Some(Replayed { frame, difference }) = self.next_frame()? {
+            if let Some(difference) = difference {
+                return Err(ReplayError::Differs { frame: frame.record.frame, difference });
+            }
+        }
+        Ok(self.frames)
+    }
+}
+
+/// A frame that was simulated again.
+#[derive(Clone, Debug)]
+pub struct Replayed {
+    /// What the simulation shows.
+    pub frame: Frame,
+    /// Where that is not what was recorded.
+    pub difference: Option<Difference>,
+}
+
+fn controls_difference(recorded: &Controls, replayed: &Controls) -> Option<Difference> {
+    (recorded != replayed).then(|| Difference {
+        field: "controls".to_owned(),
+        recorded: format!("{recorded:?}"),
+        replayed: format!("{replayed:?}"),
+    })
+}
+
+/// Why a replay is not the ride that was recorded.
+#[derive(Debug, Error)]
+pub enum ReplayError {
+    /// A number differs.
+    #[error(
+        "the replay differs from the recording in frame {frame}: {} was {}, is {}; was it recorded with this version, and is the scene the same?",
+        difference.field, difference.recorded, difference.replayed
+    )]
+    Differs {
+        /// Number of the first frame that differs.
+        frame: u64,
+        /// Its first field that differs.
+        difference: Difference,
+    },
+    /// The recording cannot be read further.
+    #[error("after {frames} frames: {cause}")]
+    Recording {
+        /// Frames that were simulated before.
+        frames: u64,
+        /// What is wrong.
+        cause: Box<RecordingError>,
+    },
+}

@@ -1,0 +1,103 @@
+//! Driving and flying (W 6.2, 6.3): three proper accelerations, roll, rudder and brake.
+//!
+//! The stick's three shifts are proper accelerations along the pilot's right, up and backward. Its twist rolls about the axis of motion. The nose is
+//! turned to face the motion by lateral acceleration, or held by gyroscopes ([`Transport`]). For those whose device has no shifts to
+//! the side, nose up and nose left steer like a rudder: a turn Ω of the motion is the acceleration Ω × u, no more than full thrust, so that near rest
+//! the nose turns on the spot and at high celerity the motion bends as slowly as it must. Driving is flying without vertical thrust, level, and on the
+//! ground where there is any.
+
+use glam::DVec3;
+use physics::worldline::{Control, FacingMotion, State, Thrust, Transport};
+
+use super::ground::{Course, heading, upright};
+use super::settings::{FlightSettings, Nose};
+use super::wishes::Wishes;
+use super::world::World;
+
+/// The celerity below which the nose no longer follows the motion.
+const SOFTENING: f64 = 0.05;
+/// How fast an angle between nose and motion decays, per second of own time.
+const ALIGNMENT_PER_S: f64 = 2.0;
+/// A pulled brake decelerates by this many full thrusts.
+const BRAKE_THRUSTS: f64 = 2.0;
+/// The celerity below which the brake fades, so that the vehicle comes to rest smoothly.
+const STICTION: f64 = 0.02;
+
+/// The controls of a driven or flown vehicle during one step.
+pub(super) struct Flight<'a> {
+    settings: &'a FlightSettings,
+    world: World,
+    wishes: &'a Wishes,
+    transport: Transport,
+    /// Where the ground leads, for one who drives.
+    course: Option<Course>,
+}
+
+impl<'a> Flight<'a> {
+    pub(super) fn new(settings: &'a FlightSettings, world: World, wishes: &'a Wishes, course: Option<Course>) -> Self {
+        let alignment = ALIGNMENT_PER_S / world.speed_of_light_m_s();
+        let transport = match settings.nose {
+            Nose::FacesMotion => Transport::FacingMotion(FacingMotion { softening: SOFTENING, alignment }),
+            Nose::Gyroscopic => Transport::Gyroscopic,
+        };
+        Self { settings, world, wishes, transport, course }
+    }
+
+    /// The acceleration that turns the motion along with the rudder, pilot's axes, per second.
+    fn rudder_per_s(&self, rudder: DVec3, u: DVec3) -> DVec3 {
+        let full = self.settings.thrust_per_s;
+        let wanted = rudder.cross(u);
+        wanted * (full / full.hypot(wanted.length()))
+    }
+
+    /// The acceleration that keeps one who drives on the ground, world axes, per second.
+    fn ground_per_s(&self, course: &Course, state: &State) -> DVec3 {
+        let Some(direction) = state.celerity.direction() else { return DVec3::ZERO };
+        let u = state.celerity.magnitude();
+        let slope = direction.y.clamp(-1.0, 1.0).asin();
+        let rate = course.pitch_rate_rad_s(slope, self.world.metres_per_own_second(u));
+        (DVec3::Y - direction * direction.y) * (rate * u)
+    }
+}
+
+impl Control for Flight<'_> {
+    fn thrust(&self, state: &State) -> Thrust {
+        let c = self.world.speed_of_light_m_s();
+        let pilot_from_world = state.orientation.inverse();
+        let u = pilot_from_world * state.celerity.vector();
+        let turn = self.wishes.turn * self.settings.turn_rad_s;
+        let mut thrust = self.wishes.thrust * self.settings.thrust_per_s;
+        if self.course.is_some() {
+            thrust.y = 0.0;
+        }
+
+        // Brake against the motion.
+        thrust -= u * (BRAKE_THRUSTS * self.settings.thrust_per_s * self.wishes.brake / u.length().max(STICTION));
+
+        let on_the_spot = match self.settings.nose {
+            Nose::Gyroscopic => turn,
+            Nose::FacesMotion => {
+                let rudder = DVec3 { z: 0.0, ..turn };
+                thrust += self.rudder_per_s(rudder, u);
+                let still = SOFTENING * SOFTENING / (SOFTENING * SOFTENING + u.length_squared());
+                rudder * still + DVec3::Z * turn.z
+            }
+        };
+        let mut thrust = self.transport.thrust(state, thrust / c);
+        thrust.turn_rate += on_the_spot / c;
+        if let Some(course) = &self.course {
+            thrust.acceleration += pilot_from_world * self.ground_per_s(course, state) / c;
+        }
+        thrust
+    }
+}
+
+/// Keeps one who drives level, whatever the ground does.
+pub(super) fn level(state: &mut State) {
+    /// A tilt that rounding makes.
+    const ROUNDING: f64 = 1e-14;
+    let up = state.orientation * DVec3::Y;
+    if up.x.hypot(up.z) > ROUNDING {
+        state.orientation = upright(heading(state.orientation));
+    }
+}

@@ -1,0 +1,350 @@
+//! The vehicle: from what the rider wants to the worldline he gets.
+//!
+//! # How it works
+//!
+//! One controller, three ways to drive ([`VehicleKind`]). Each turns the rider's [`Controls`] into a thrust and a turn rate in the pilot's own axes, which
+//! an integrator of [`physics::worldline`] makes into a worldline in proper time, the user's own time (B 2.7, 5.6.1):
+//!
+//! | kind | controls | keeps to |
+//! |---|---|---|
+//! | bicycle | wheel speed, handlebar, brake (`bicycle`) | the ground, the street |
+//! | drive | two thrusts, rudder, brake (`flight`) | the ground, the street |
+//! | fly | three thrusts, roll, rudder, brake (`flight`) | nothing |
+//!
+//! The celerity is never set by hand, save for constraints that are named as such: wheels do not slip (`bicycle::roll`), walls hold (`walls`), the
+//! rapidity is capped at [`RAPIDITY_CAP`]. So nothing jumps, at rest, in reverse or at extreme speed; only a change of kind and a restart may.
+//!
+//! A step depends on nothing but the vehicle, the controls and the [`Surroundings`]; the same calls give the same bits.
+//!
+//! # Example
+//!
+//! ```
+//! use input::{Controls, VehicleKind};
+//! use rapidity::vehicle::{OpenPlane, Vehicle, VehicleSettings, World};
+//!
+//! let mut bicycle = Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, Default::default(), VehicleSettings::default())?;
+//! let pedalling = Controls { wheel_speed: Some(25.0 / 3.0), ..Default::default() };
+//! for _ in 0..20 * 240 {
+//!     bicycle.step(1.0 / 240.0, &pedalling, &OpenPlane);
+//! }
+//! // A wheel at the speed of light on the rider's clock is a celerity of 1: 0.71 of the speed of light.
+//! assert!((bicycle.state().celerity.magnitude() - 1.0).abs() < 1e-9);
+//! # Ok::<(), rapidity::vehicle::SettingsError>(())
+//! ```
+
+mod bicycle;
+mod eye;
+mod flight;
+mod ground;
+mod notice;
+mod odometer;
+mod settings;
+mod surroundings;
+mod walls;
+mod wishes;
+mod world;
+
+use glam::DVec3;
+use input::{Controls, VehicleKind};
+use physics::Celerity;
+use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, State};
+
+pub use eye::Eye;
+pub use notice::Notice;
+pub use odometer::Odometer;
+pub use settings::{BicycleSettings, FlightSettings, IntegratorKind, Nose, SettingsError, VehicleSettings};
+pub use surroundings::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};
+pub use world::{World, WorldError};
+
+use bicycle::{Bicycle, roll};
+use flight::{Flight, level};
+use ground::{Course, heading, placed, upright};
+use wishes::Wishes;
+
+/// The largest rapidity that a vehicle reaches, γ = 2.7e11: there and back, f64 is off by |δu| ≈ εγ = 6e-5 (NUMERICS).
+pub const RAPIDITY_CAP: f64 = 27.0;
+
+/// Longer steps are cut, seconds of own time.
+const LONGEST_STEP_S: f64 = 1.0 / 240.0;
+/// More pieces than this are not computed for one step.
+const MOST_PIECES: f64 = 64.0;
+/// The sine of a slope that no road has.
+const STEEPEST_ROAD: f64 = 0.9;
+/// More strides than this are not computed between walls for one piece of a step.
+const MOST_STRIDES: usize = 64;
+
+/// A bicycle, a car or a spaceship, and the worldline it has followed so far.
+#[derive(Clone, Debug)]
+pub struct Vehicle {
+    world: World,
+    kind: VehicleKind,
+    settings: VehicleSettings,
+    state: State,
+    odometer: Odometer,
+    /// A wall keeps it from going where it points.
+    blocked: bool,
+    resistance: f64,
+    notices: Vec<Notice>,
+}
+
+impl Vehicle {
+    /// A vehicle in this state, its odometer at zero.
+    ///
+    /// # Errors
+    /// A setting cannot be used.
+    pub fn new(
+        world: World,
+        kind: VehicleKind,
+        state: State,
+        settings: VehicleSettings,
+    ) -> Result<Self, SettingsError> {
+        settings.check()?;
+        let odometer = Odometer::default();
+        Ok(Self { world, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
+    }
+
+    /// Where the reference point is in spacetime: on the ground for one who rides or drives, the pilot's eye for one who flies. The orientation is that
+    /// of the pilot's axes: right, up, backward.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// How it is driven.
+    pub fn kind(&self) -> VehicleKind {
+        self.kind
+    }
+
+    /// The world's speed of light.
+    pub fn world(&self) -> World {
+        self.world
+    }
+
+    /// How it responds.
+    pub fn settings(&self) -> &VehicleSettings {
+        &self.settings
+    }
+
+    /// Distances and times since the start.
+    pub fn odometer(&self) -> &Odometer {
+        &self.odometer
+    }
+
+    /// What the rider should be told about the last step.
+    pub fn notices(&self) -> &[Notice] {
+        &self.notices
+    }
+
+    /// What the ergometer's brake should do, 0 to 1, from the lever and from what the bicycle feels (B 5.6.1).
+    pub fn resistance(&self) -> f64 {
+        self.resistance
+    }
+
+    /// The eye of the one who rides, drives or flies.
+    pub fn eye(&self) -> Eye {
+        Eye::at_rest_in(&self.state, self.eye_offset())
+    }
+
+    /// Changes the speed of light. Celerity and place stay what they are.
+    pub fn set_world(&mut self, world: World) {
+        self.world = world;
+    }
+
+    /// Changes the way to drive. Taking off, the eye stays where it is; a bicycle and a car are set upright on the ground below, where there is any,
+    /// with what they keep of their celerity.
+    pub fn set_kind(&mut self, kind: VehicleKind, surroundings: &dyn Surroundings) {
+        if kind == self.kind {
+            return;
+        }
+        if kind == VehicleKind::Fly {
+            let event = self.eye().observer.event;
+            (self.state.ct, self.state.position) = (event.ct, event.position);
+        }
+        self.kind = kind;
+        self.settle(surroundings);
+    }
+
+    /// Puts a vehicle that belongs there upright on the ground.
+    pub fn settle(&mut self, surroundings: &dyn Surroundings) {
+        self.blocked = false;
+        if self.kind == VehicleKind::Fly {
+            return;
+        }
+        self.state.position = placed(surroundings, self.state.position);
+        self.state.orientation = upright(heading(self.state.orientation));
+        self.constrain();
+    }
+
+    /// Moves on by `own_s` seconds of the vehicle's own time.
+    ///
+    /// Whatever the controls hold, the state stays finite: what is not a number counts as let go, and a step that cannot be integrated is not taken
+    /// ([`Vehicle::notices`]). A step longer than a 240th of a second is cut into such; no more than 64 of them are taken.
+    pub fn step(&mut self, own_s: f64, controls: &Controls, surroundings: &dyn Surroundings) {
+        self.notices.clear();
+        let wishes = Wishes::new(controls);
+        if wishes.contained || !(own_s.is_finite() && own_s >= 0.0) {
+            self.tell(Notice::ControlsNotFinite);
+        }
+        if !(own_s.is_finite() && own_s > 0.0) {
+            return;
+        }
+        /// A quotient this little above a whole number is that number.
+        const ROUNDING: f64 = 1e-9;
+        let own_s = own_s.min(MOST_PIECES * LONGEST_STEP_S);
+        let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().max(1.0);
+        for _ in 0..pieces as usize {
+            match self.kind {
+                VehicleKind::Fly => self.fly(own_s / pieces, &wishes),
+                VehicleKind::Bicycle | VehicleKind::Drive => self.ride(own_s / pieces, &wishes, surroundings),
+            }
+        }
+    }
+
+    /// One piece of a step through free space.
+    fn fly(&mut self, own_s: f64, wishes: &Wishes) {
+        self.resistance = 0.0;
+        let settings = self.settings;
+        self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, None));
+    }
+
+    /// One piece of a step on the ground, in strides that no wall is thinner than.
+    fn ride(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
+        let mut left_s = own_s;
+        let mut wall = walls::nearest(surroundings, self.state.position, self.way_m(own_s));
+        for stride in 1.. {
+            self.keep_clear(wall, left_s);
+            // As far as is free, or to the end of the step.
+            let free_m = walls::stride_m(wall, self.way_m(left_s));
+            if stride == MOST_STRIDES && self.way_m(left_s) > free_m {
+                self.state.celerity = walls::slowed(self.state.celerity, free_m, left_s, self.world);
+                self.tell(Notice::HeldByWalls);
+            }
+            let way_m = self.way_m(left_s);
+            let span_s = if way_m > free_m { left_s * (free_m / way_m) } else { left_s };
+
+            let before = self.state.position;
+            self.drive_on(span_s, wishes, surroundings);
+            match walls::settled(surroundings, wall, self.state.position, self.way_m(left_s)) {
+                Some((position, wall_there)) => {
+                    self.state.position = position;
+                    wall = wall_there;
+                }
+                None => {
+                    self.state.position = before;
+                    self.state.celerity = Celerity::ZERO;
+                }
+            }
+            if span_s >= left_s || stride == MOST_STRIDES {
+                return;
+            }
+            left_s -= span_s;
+        }
+    }
+
+    /// One stride on the ground, walls left aside.
+    fn drive_on(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
+        let (direction, backward) = self.road_direction();
+        let course = Course::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
+        let settings = self.settings;
+        if self.kind == VehicleKind::Drive {
+            self.resistance = 0.0;
+            self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, Some(course)));
+        } else {
+            let course = if backward { course.reversed() } else { course };
+            let forward = self.forward();
+            let control = Bicycle::new(&settings.bicycle, self.world, wishes, course, self.blocked, forward);
+            self.resistance = control.resistance(forward);
+            self.integrate(own_s, &control);
+        }
+        self.constrain();
+    }
+
+    /// Integrates the worldline, caps the rapidity, and turns the odometer.
+    fn integrate(&mut self, own_s: f64, control: &dyn Control) {
+        let before = self.state.celerity;
+        let step = self.world.metres(own_s);
+        let taken = match self.settings.integrator {
+            IntegratorKind::Rk4 => Rk4.step(&self.state, step, control),
+            IntegratorKind::Exact => Exact.step(&self.state, step, control),
+            IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
+        };
+        let taken = taken.or_else(|_| {
+            self.tell(Notice::TakenByRk4);
+            Rk4.step(&self.state, step, control)
+        });
+        match taken {
+            Ok(state) => self.state = state,
+            Err(_) => return self.tell(Notice::NotIntegrated),
+        }
+        let capped = self.state.celerity.capped(RAPIDITY_CAP);
+        if capped != self.state.celerity {
+            self.state.celerity = capped;
+            self.tell(Notice::RapidityCapped);
+        }
+        self.odometer.count(self.world, own_s, before, self.state.celerity);
+    }
+
+    /// What a vehicle on the ground cannot do: slip sideways, lean, tilt.
+    fn constrain(&mut self) {
+        match self.kind {
+            VehicleKind::Bicycle => roll(&mut self.state),
+            VehicleKind::Drive => level(&mut self.state),
+            VehicleKind::Fly => {}
+        }
+    }
+
+    /// Takes away what is too fast into the wall. A car slides along it; the frame of a bicycle has to be turned first, and turns as it rolls.
+    fn keep_clear(&mut self, wall: Option<Wall>, own_s: f64) {
+        let celerity = self.state.celerity.vector();
+        let wall = wall.filter(|wall| walls::excess(wall, celerity, self.world) > 0.0);
+        self.blocked = wall.is_some();
+        let Some(wall) = wall else { return };
+        let slid = walls::slid(&wall, celerity, self.world);
+        let kept = if self.kind == VehicleKind::Bicycle {
+            let rolled_m = self.world.metres_per_own_second(slid.length()) * own_s;
+            let angle_rad = (rolled_m / walls::DEFLECTION_RADIUS_M).min(walls::FASTEST_DEFLECTION_RAD_S * own_s);
+            let motion = turned_towards(celerity, slid, angle_rad);
+            self.state.orientation = upright(if self.forward() < 0.0 { -motion } else { motion });
+            motion * walls::limited_along(&wall, motion, slid.length(), self.world)
+        } else {
+            slid
+        };
+        self.state.celerity = Celerity::new(kept).unwrap_or(Celerity::ZERO);
+    }
+
+    /// The celerity along the nose.
+    fn forward(&self) -> f64 {
+        self.state.celerity.vector().dot(self.state.orientation * DVec3::NEG_Z)
+    }
+
+    /// The direction of the motion, or of the nose at rest, not steeper than a road is; and whether the motion is backward.
+    fn road_direction(&self) -> (DVec3, bool) {
+        let backward = self.forward() < 0.0;
+        let nose = heading(self.state.orientation);
+        let motion = self.state.celerity.direction().unwrap_or(nose);
+        (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
+    }
+
+    /// Road that goes by in a time at the present celerity, metres.
+    fn way_m(&self, own_s: f64) -> f64 {
+        self.world.metres(own_s) * self.state.celerity.magnitude()
+    }
+
+    fn eye_offset(&self) -> DVec3 {
+        if self.kind == VehicleKind::Fly { DVec3::ZERO } else { DVec3::from_array(self.settings.eye_m) }
+    }
+
+    fn tell(&mut self, notice: Notice) {
+        if !self.notices.contains(&notice) {
+            self.notices.push(notice);
+        }
+    }
+}
+
+/// The unit vector along `from`, turned towards `to` by `angle_rad` or until it is there.
+fn turned_towards(from: DVec3, to: DVec3, angle_rad: f64) -> DVec3 {
+    let from = from.normalize_or_zero();
+    let Some(to) = to.try_normalize() else { return from };
+    let Some(across) = (to - from * from.dot(to)).try_normalize() else { return from };
+    let angle_rad = angle_rad.min(from.angle_between(to));
+    from * angle_rad.cos() + across * angle_rad.sin()
+}

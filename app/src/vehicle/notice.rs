@@ -1,0 +1,35 @@
+//! What a rider should be told while he rides.
+
+use std::fmt;
+
+use super::RAPIDITY_CAP;
+
+/// Something about the last step that is not as it was asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notice {
+    /// The rapidity has reached its cap.
+    RapidityCapped,
+    /// A control was no finite number and counted as let go.
+    ControlsNotFinite,
+    /// The chosen integrator gave up on a step, and RK4 took it.
+    TakenByRk4,
+    /// A step could not be integrated and was not taken.
+    NotIntegrated,
+    /// The walls stand too close for this celerity.
+    HeldByWalls,
+    /// A speed of light was asked for with which no world can be computed.
+    SpeedOfLightRefused,
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RapidityCapped => write!(formatter, "rapidity capped at {RAPIDITY_CAP}"),
+            Self::ControlsNotFinite => write!(formatter, "a control is not a finite number: it counts as let go"),
+            Self::TakenByRk4 => write!(formatter, "the chosen integrator gave up on a step: RK4 took it"),
+            Self::NotIntegrated => write!(formatter, "a step could not be computed: the vehicle waits"),
+            Self::HeldByWalls => write!(formatter, "too fast for these walls: slowed down"),
+            Self::SpeedOfLightRefused => write!(formatter, "no world can be computed with such a speed of light"),
+        }
+    }
+}

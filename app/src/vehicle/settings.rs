@@ -1,0 +1,180 @@
+//! What can be set about the vehicles. All of it decides where a ride goes, so all of it belongs into a recording.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// How the vehicles respond.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct VehicleSettings {
+    /// The bicycle.
+    pub bicycle: BicycleSettings,
+    /// Driving and flying.
+    pub flight: FlightSettings,
+    /// How the worldline is integrated.
+    pub integrator: IntegratorKind,
+    /// Where the eye of the rider or driver is from the reference point on the ground, metres: right, up, backward.
+    pub eye_m: [f64; 3],
+}
+
+impl Default for VehicleSettings {
+    /// Eyes 1.6 m above the ground.
+    fn default() -> Self {
+        Self {
+            bicycle: BicycleSettings::default(),
+            flight: FlightSettings::default(),
+            integrator: IntegratorKind::default(),
+            eye_m: [0.0, 1.6, 0.0],
+        }
+    }
+}
+
+impl VehicleSettings {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// Names the first that cannot be used.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        let Self { bicycle, flight, integrator: _, eye_m } = self;
+        let positive = [
+            ("bicycle.wheelbase_m", bicycle.wheelbase_m),
+            ("bicycle.pedal_response_s", bicycle.pedal_response_s),
+            ("bicycle.coast_response_s", bicycle.coast_response_s),
+            ("bicycle.drag_m_s2", bicycle.drag_m_s2),
+            ("bicycle.stop_m_s2", bicycle.stop_m_s2),
+            ("flight.thrust_per_s", flight.thrust_per_s),
+            ("flight.turn_rad_s", flight.turn_rad_s),
+        ];
+        for (key, value) in positive {
+            if !(MODEST.contains(&value)) {
+                return Err(SettingsError { key, value, expected: "a number from 0.001 to 1000" });
+            }
+        }
+        match eye_m.iter().find(|offset| !(-FARTHEST_EYE_M..=FARTHEST_EYE_M).contains(*offset)) {
+            Some(&value) => Err(SettingsError { key: "eye_m", value, expected: "three numbers from -1000 to 1000" }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What is asked of every positive setting; a vehicle outside would be none to ride.
+const MODEST: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+/// No eye is farther than this from its vehicle, metres.
+const FARTHEST_EYE_M: f64 = 1e3;
+
+/// A setting that cannot be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("vehicle setting {key} is {value}: expected {expected}")]
+pub struct SettingsError {
+    /// Its full name.
+    pub key: &'static str,
+    /// What it is set to.
+    pub value: f64,
+    /// What would do.
+    pub expected: &'static str,
+}
+
+/// The bicycle of B 5.6.1. Speeds and accelerations are those that the rider measures: road by his own clock.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BicycleSettings {
+    /// Distance of the axles, metres.
+    pub wheelbase_m: f64,
+    /// How soon the bicycle has taken up a faster pedalling, seconds (time constant).
+    pub pedal_response_s: f64,
+    /// How soon it gives way to a slower one, seconds (time constant): it rolls on.
+    pub coast_response_s: f64,
+    /// Deceleration with the brake lever half pulled, the end of its first stage, m/s².
+    pub drag_m_s2: f64,
+    /// Deceleration with the lever pulled through, the end of its second stage, m/s².
+    pub stop_m_s2: f64,
+}
+
+impl Default for BicycleSettings {
+    /// A heavy bicycle.
+    fn default() -> Self {
+        Self { wheelbase_m: 1.1, pedal_response_s: 0.7, coast_response_s: 3.0, drag_m_s2: 1.0, stop_m_s2: 6.0 }
+    }
+}
+
+/// Driving and flying (W 6.2, 6.3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlightSettings {
+    /// Proper acceleration at full deflection, as rapidity gained per second of own time.
+    pub thrust_per_s: f64,
+    /// Turn rate at full deflection, radians per second of own time.
+    pub turn_rad_s: f64,
+    /// Which way the nose points.
+    pub nose: Nose,
+}
+
+impl Default for FlightSettings {
+    /// u = 1, that is β = 0.71, after three seconds: asinh 1 / 3 s.
+    fn default() -> Self {
+        Self { thrust_per_s: 0.294, turn_rad_s: 1.0, nose: Nose::default() }
+    }
+}
+
+/// Which way the nose of a driven or flown vehicle points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Nose {
+    /// Turned to face the motion by lateral acceleration (W 6.2).
+    #[default]
+    FacesMotion,
+    /// Held by gyroscopes: it turns only when told to, and by Thomas precession (Fermi–Walker transport).
+    Gyroscopic,
+}
+
+/// How the worldline is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IntegratorKind {
+    /// Classical Runge–Kutta.
+    #[default]
+    Rk4,
+    /// Exact for constant controls, midpoint for others.
+    Exact,
+    /// Adaptive (DOPRI5).
+    DormandPrince,
+}
+
+impl IntegratorKind {
+    /// The name in recordings and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rk4 => "rk4",
+            Self::Exact => "exact",
+            Self::DormandPrince => "dormand_prince",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_sound_and_survive_their_text() {
+        let settings = VehicleSettings::default();
+        assert_eq!(settings.check(), Ok(()));
+        let text = serde_json::to_string(&settings).unwrap();
+        assert_eq!(serde_json::from_str::<VehicleSettings>(&text).unwrap(), settings);
+    }
+
+    #[test]
+    fn a_setting_that_cannot_be_used_is_named() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let mut settings = VehicleSettings::default();
+            settings.bicycle.wheelbase_m = bad;
+            assert_eq!(settings.check().unwrap_err().key, "bicycle.wheelbase_m");
+            let mut settings = VehicleSettings::default();
+            settings.flight.turn_rad_s = bad;
+            assert_eq!(settings.check().unwrap_err().key, "flight.turn_rad_s");
+        }
+        let mut settings = VehicleSettings::default();
+        settings.eye_m[2] = f64::NAN;
+        assert_eq!(settings.check().unwrap_err().key, "eye_m");
+    }
+}

@@ -1,0 +1,107 @@
+//! The speed of light of a world, and the conversions that it makes possible.
+//!
+//! Physics has no metres per second: times are lengths of light travel, velocities are celerities. Wheels, brakes and clocks on a
+//! wall know nothing of that. Here, and only here, one becomes the other.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A world, as far as its unit of time is concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
+pub struct World {
+    speed_of_light_m_s: f64,
+}
+
+impl World {
+    /// The slowest light, m/s: a thousandth of a snail's pace keeps every conversion finite.
+    pub const SLOWEST_M_S: f64 = 1e-6;
+    /// The fastest light, m/s: beyond it nothing relativistic is left to see.
+    pub const FASTEST_M_S: f64 = 1e12;
+    /// The old town of B 5.6.1: 30 km/h.
+    pub const OLD_TOWN: Self = Self { speed_of_light_m_s: 30.0 / 3.6 };
+
+    /// A world in which light goes at this speed.
+    ///
+    /// # Errors
+    /// The speed lies outside [`World::SLOWEST_M_S`] to [`World::FASTEST_M_S`], or is not a number.
+    pub fn new(speed_of_light_m_s: f64) -> Result<Self, WorldError> {
+        if (Self::SLOWEST_M_S..=Self::FASTEST_M_S).contains(&speed_of_light_m_s) {
+            Ok(Self { speed_of_light_m_s })
+        } else {
+            Err(WorldError { speed_of_light_m_s })
+        }
+    }
+
+    /// c in m/s.
+    pub fn speed_of_light_m_s(self) -> f64 {
+        self.speed_of_light_m_s
+    }
+
+    /// A time in seconds as the way of light, metres.
+    pub fn metres(self, seconds: f64) -> f64 {
+        seconds * self.speed_of_light_m_s
+    }
+
+    /// A time in metres of light travel in seconds.
+    pub fn seconds(self, metres: f64) -> f64 {
+        metres / self.speed_of_light_m_s
+    }
+
+    /// Metres of road per second of the rider's own time as a celerity.
+    pub fn celerity(self, metres_per_own_second: f64) -> f64 {
+        metres_per_own_second / self.speed_of_light_m_s
+    }
+
+    /// A celerity as metres of road per second of the rider's own time.
+    pub fn metres_per_own_second(self, celerity: f64) -> f64 {
+        celerity * self.speed_of_light_m_s
+    }
+}
+
+impl TryFrom<f64> for World {
+    type Error = WorldError;
+    fn try_from(speed_of_light_m_s: f64) -> Result<Self, WorldError> {
+        Self::new(speed_of_light_m_s)
+    }
+}
+
+impl From<World> for f64 {
+    fn from(world: World) -> Self {
+        world.speed_of_light_m_s
+    }
+}
+
+/// A speed of light with which no world can be computed.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "the speed of light is {speed_of_light_m_s} m/s: expected {:e} to {:e} m/s",
+    World::SLOWEST_M_S,
+    World::FASTEST_M_S
+)]
+pub struct WorldError {
+    /// What was given.
+    pub speed_of_light_m_s: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_become_metres_and_metres_per_second_celerities() {
+        let world = World::new(8.0).unwrap();
+        assert_eq!((world.metres(2.5), world.seconds(20.0)), (20.0, 2.5));
+        assert_eq!((world.celerity(6.0), world.metres_per_own_second(0.75)), (0.75, 6.0));
+        // 30 km/h.
+        assert!((World::OLD_TOWN.metres(3600.0) - 30_000.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn light_that_stands_still_or_is_no_number_is_refused() {
+        for speed in [0.0, -1.0, 1e-7, 1e13, f64::NAN, f64::INFINITY] {
+            assert!(World::new(speed).is_err(), "{speed}");
+        }
+        assert!(serde_json::from_str::<World>("0.0").is_err());
+    }
+}

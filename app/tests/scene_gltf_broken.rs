@@ -1,0 +1,225 @@
+//! Files that are no scenes, or say so falsely: each ends in a sentence that names the file and the place, none in a panic
+//! or in more memory than a scene may have.
+//!
+//! A wrong loader would believe an offset, a count or a picture's size before it has looked, walk in circles, or
+//! take half a file for a whole one.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
+mod scene_file;
+
+use std::path::Path;
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rapidity::scene::gltf::load;
+use scene_file::{File, load_bytes, png, write};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// How many broken files are tried in each of two ways.
+const BROKEN_FILES: usize = 2000;
+
+#[test]
+fn files_that_are_no_scenes_are_refused_with_advice() {
+    let folder = TempDir::new().unwrap();
+    let refused = |path: &Path, words: &str| {
+        let error = load(path, |_| {}).unwrap_err().to_string();
+        assert!(error.contains(words) && error.contains(&*path.to_string_lossy()), "{error}");
+    };
+    refused(&folder.path().join("nowhere.glb"), "check the name");
+    refused(folder.path(), "is not a file");
+    refused(&write(&folder, "empty.glb", b""), "is empty");
+    refused(&write(&folder, "text.gltf", b"once upon a time"), "neither a .glb nor JSON");
+    refused(&write(&folder, "cut.gltf", b"{ \"asset\": { \"version\": "), "not glTF 2.0");
+    refused(&write(&folder, "other.gltf", b"{ \"name\": 1 }"), "missing field `asset`");
+    refused(&write(&folder, "old.gltf", b"{ \"asset\": { \"version\": \"1.0\" }, \"nodes\": {} }"), "version is 1.0");
+    refused(&write(&folder, "bare.gltf", b"{ \"asset\": { \"version\": \"2.0\" } }"), "nothing to draw");
+    let whole = File::triangle().glb();
+    refused(&write(&folder, "short.glb", &whole[..whole.len() - 8]), "cut short");
+    refused(&write(&folder, "magic.glb", b"glTF"), "cut short");
+    refused(&write(&folder, "v1.glb", b"glTF\x01\0\0\0\x0c\0\0\0"), "version 1");
+}
+
+#[test]
+fn contradictions_are_named_with_their_place() {
+    let refused = |change: fn(&mut File), words: &[&str]| {
+        let mut file = File::triangle();
+        change(&mut file);
+        let error = file.error();
+        assert!(words.iter().all(|word| error.contains(word)), "{words:?} are not in: {error}");
+    };
+    refused(|file| file.json["nodes"][0]["mesh"] = json!(5), &["nodes[0].mesh", "no number 5 among 1"]);
+    refused(|file| file.json["scene"] = json!(3), &["at scene", "no number 3"]);
+    refused(|file| file.json["scenes"][0]["nodes"] = json!([9]), &["nodes[9]"]);
+    refused(|file| file.json["nodes"][0]["children"] = json!([0]), &["nodes[0]", "its own ancestor"]);
+    refused(|file| file.json["scenes"][0]["nodes"] = json!([0, 0]), &["nodes[0]", "two parents"]);
+    refused(|file| file.primitive()["attributes"] = json!({}), &["meshes[0].primitives[0]", "POSITION is missing"]);
+    refused(|file| file.primitive()["attributes"]["POSITION"] = json!(77), &["no number 77"]);
+    refused(|file| file.primitive()["material"] = json!(0), &["material", "no number 0 among 0"]);
+    refused(|file| file.primitive()["mode"] = json!(7), &["mode"]);
+    refused(|file| file.indices(&[0, 1, 3]), &["indices", "vertex 3 of 3"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(4), &["accessors[0]", "4 elements"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(0), &["accessors[0]", "no elements"]);
+    refused(|file| file.json["accessors"][0]["count"] = json!(u64::MAX), &["accessors[0]", "too large"]);
+    refused(|file| file.json["accessors"][0]["byteOffset"] = json!(u64::MAX), &["accessors[0]"]);
+    refused(|file| file.json["accessors"][0]["type"] = json!("VEC2"), &["accessors[0]", "Vec2"]);
+    refused(|file| file.json["accessors"][0]["componentType"] = json!(1), &["accessors[0]", "unknown"]);
+    refused(|file| file.json["bufferViews"][0]["byteLength"] = json!(999), &["bufferViews[0]", "999 bytes"]);
+    refused(|file| file.json["bufferViews"][0]["byteOffset"] = json!(u64::MAX), &["bufferViews[0]"]);
+    refused(|file| file.json["bufferViews"][0]["byteStride"] = json!(8), &["accessors[0]", "every 8 bytes"]);
+    refused(|file| file.json["bufferViews"][0]["buffer"] = json!(1), &["bufferViews[0]", "no number 1"]);
+    refused(|file| file.json["buffers"][0]["byteLength"] = json!(1000), &["buffers[0]", "cut short"]);
+    refused(|file| file.json["buffers"][0]["uri"] = json!("data:text/plain,abc"), &["buffers[0]", "base64"]);
+    refused(|file| file.json["buffers"][0]["uri"] = json!("https://example.org/a.bin"), &["buffers[0]", "beside"]);
+    refused(|file| file.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]), &["KHR_draco"]);
+    refused(|file| file.primitive()["mode"] = json!(0), &["nothing to draw"]);
+    refused(|file| file.json["scenes"][0]["extras"] = json!({ "rapidity": { "sun": 1 } }), &["extras.rapidity", "sun"]);
+    refused(
+        |file| {
+            let normals = file.floats("VEC3", &[0.0, 1.0, 0.0]);
+            file.attribute("NORMAL", normals);
+        },
+        &["NORMAL", "1 entries for 3 positions"],
+    );
+}
+
+#[test]
+fn a_bomb_of_instances_is_refused_before_it_goes_off() {
+    // Ten thousand nodes, each with a mesh whose ten thousand primitives share one accessor.
+    let mut file = File::triangle();
+    let primitive = file.primitive().clone();
+    file.json["meshes"][0]["primitives"] = json!(vec![primitive; 10_000]);
+    file.json["nodes"] = json!(vec![json!({ "mesh": 0 }); 10_000]);
+    file.json["scenes"][0]["nodes"] = json!((0..10_000).collect::<Vec<_>>());
+    let error = file.error();
+    assert!(error.contains("too large"), "{error}");
+}
+
+#[test]
+fn a_picture_bomb_is_refused_before_it_is_decoded() {
+    let mut file = File::triangle();
+    let texture = file.texture(json!({}));
+    file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
+    // The size stands at byte 16 of a PNG, behind its signature; its checksum is at 29.
+    let mut bomb = png(1, 1, &[0; 4]);
+    bomb[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
+    let checksum = crc32(&bomb[12..29]);
+    bomb[29..33].copy_from_slice(&checksum.to_be_bytes());
+    let view = file.view(&bomb);
+    file.json["images"][0]["bufferView"] = json!(view);
+    let error = file.error();
+    assert!(error.contains("65536 × 65536"), "{error}");
+}
+
+/// The checksum of PNG chunks (ISO 3309).
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
+    })
+}
+
+/// A file in which nearly everything that is read occurs.
+fn rich_file() -> File {
+    let mut file = File::triangle();
+    let normals = file.floats("VEC3", &[[0.0, 0.0, 1.0]; 3].concat());
+    file.attribute("NORMAL", normals);
+    let uvs = file.floats("VEC2", &[0.0; 6]);
+    file.attribute("TEXCOORD_0", uvs);
+    let colours = file.accessor(&[255; 12], 5121, "VEC4", 3);
+    file.attribute("COLOR_0", colours);
+    file.indices(&[0, 1, 2, 2]);
+    file.primitive()["mode"] = json!(5);
+    let texture = file.texture(json!({ "wrapS": 33071 }));
+    let extensions = json!({ "KHR_texture_transform": { "scale": [2, 2] } });
+    file.material(
+        json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }),
+    );
+    let (indices, values) = (file.view(&[1, 2]), file.view(&[0; 24]));
+    file.json["accessors"][0]["sparse"] = json!({
+        "count": 2,
+        "indices": { "bufferView": indices, "componentType": 5121 },
+        "values": { "bufferView": values },
+    });
+    file.json["nodes"] = json!([
+        { "translation": [1, 2, 3], "children": [1], "extras": { "rapidity": { "solid": false } } },
+        { "rotation": [0, 0, 0, 1], "scale": [1, 1, -1], "mesh": 0 },
+    ]);
+    file.json["scenes"][0]["extras"] = json!({ "rapidity": { "origin": [0, 0, 0], "circuit": [[1, 2, 3]] } });
+    file
+}
+
+/// Loads what may be broken: any result will do if it is sound.
+fn survive(bytes: &[u8]) -> bool {
+    match load_bytes(bytes) {
+        Ok(scene) => {
+            assert_eq!(scene.validate(), Ok(()));
+            true
+        }
+        Err(error) => {
+            assert!(error.to_string().contains("scene.glb"), "{error}");
+            false
+        }
+    }
+}
+
+#[test]
+fn broken_bytes_never_panic() {
+    let whole = rich_file().glb();
+    assert!(survive(&whole));
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for _ in 0..BROKEN_FILES {
+        let mut bytes = whole.clone();
+        for _ in 0..random.random_range(1..4) {
+            let place = random.random_range(0..bytes.len());
+            bytes[place] = random.random();
+        }
+        survive(&bytes);
+    }
+}
+
+#[test]
+fn files_cut_anywhere_are_refused() {
+    let whole = rich_file().glb();
+    for length in 0..whole.len() {
+        assert!(!survive(&whole[..length]), "{length} of {} bytes were taken for a scene", whole.len());
+    }
+}
+
+#[test]
+fn lying_numbers_never_panic() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let lies = [json!(-1), json!(0), json!(1), json!(3), json!(255), json!(65536), json!(u32::MAX), json!(u64::MAX)];
+    let more =
+        [json!(1e300), json!(-0.5), json!(null), json!([]), json!({}), json!("x"), json!([1e300, 0, 0]), json!([0])];
+    let lies: Vec<Value> = lies.into_iter().chain(more).collect();
+    let mut loaded = 0;
+    for _ in 0..BROKEN_FILES {
+        let mut file = rich_file();
+        for _ in 0..random.random_range(1..3) {
+            let lie = lies[random.random_range(0..lies.len())].clone();
+            corrupt(&mut file.json, &mut random, lie);
+        }
+        loaded += usize::from(survive(&file.glb()));
+    }
+    assert!(loaded > 0 && loaded < BROKEN_FILES, "{loaded} of {BROKEN_FILES} were taken for scenes");
+}
+
+/// Replaces a random value somewhere in a JSON tree.
+fn corrupt(value: &mut Value, random: &mut impl Rng, lie: Value) {
+    let child = match value {
+        Value::Array(items) if !items.is_empty() => {
+            let index = random.random_range(0..items.len());
+            items.get_mut(index)
+        }
+        Value::Object(items) if !items.is_empty() => {
+            let index = random.random_range(0..items.len());
+            items.values_mut().nth(index)
+        }
+        _ => None,
+    };
+    match child {
+        Some(child) => corrupt(child, random, lie),
+        None => *value = lie,
+    }
+}

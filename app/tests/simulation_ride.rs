@@ -1,0 +1,318 @@
+//! The ride is a function of setup, samples and frame times: the same in, the same out, to the last bit.
+//!
+//! A program with a clock, a thread or an unordered map in the path would differ from run to run; one that added up rounded intervals would depend on the
+//! frame rate; one that replayed decoded values instead of raw bytes would not notice a decoder that has changed.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use input::recording::{Entry, FrameRecord, Recorder, Recording, RecordingError};
+use input::{Action, DeskConfig, Key, Nanos, SECOND, Sample, VehicleKind};
+use rapidity::simulation::{Frame, Replay, ReplayError, Setup, Simulation, Start};
+use rapidity::vehicle::{Notice, OpenPlane, VehicleSettings, World};
+
+fn setup(kind: VehicleKind) -> Setup {
+    Setup {
+        world: World::OLD_TOWN,
+        kind,
+        start: Start::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.0)),
+        vehicle: VehicleSettings::default(),
+        desk: DeskConfig::default(),
+    }
+}
+
+fn simulation(kind: VehicleKind) -> Simulation {
+    Simulation::new(setup(kind), Arc::new(OpenPlane)).unwrap()
+}
+
+/// Someone rides by keys, brakes, switches to flying, slows time down and comes back.
+fn busy_ride() -> Vec<Sample> {
+    let tenth = |n: u64| n * SECOND / 10;
+    vec![
+        Sample::key(tenth(1), Key::W, true),
+        Sample::key(tenth(15), Key::A, true),
+        Sample::key(tenth(23), Key::A, false),
+        Sample::key(tenth(40), Key::Space, true),
+        Sample::key(tenth(45), Key::Space, false),
+        Sample::action(tenth(50), &Action::Vehicle(VehicleKind::Fly)),
+        Sample::key(tenth(51), Key::R, true),
+        Sample::key(tenth(55), Key::Q, true),
+        Sample::action(tenth(60), &Action::TimeScale(0.3)),
+        Sample::key(tenth(63), Key::P, true),
+        Sample::key(tenth(64), Key::Period, true),
+        Sample::key(tenth(65), Key::P, false),
+        Sample::key(tenth(66), Key::P, true),
+        Sample::action(tenth(70), &Action::SpeedOfLight(3.0)),
+        Sample::action(tenth(75), &Action::Vehicle(VehicleKind::Bicycle)),
+    ]
+}
+
+/// Frames at these times, each given the samples up to then.
+fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoIterator<Item = Nanos>) -> Vec<Frame> {
+    let mut samples = samples.iter().peekable();
+    let mut ride = |at| {
+        let mut due = Vec::new();
+        while let Some(sample) = samples.next_if(|sample: &&Sample| sample.at <= at) {
+            due.push(sample.clone());
+        }
+        simulation.frame(at, &due)
+    };
+    times.into_iter().map(&mut ride).collect()
+}
+
+/// Sixty frames a second for this long, none of them quite on time.
+fn times(seconds: u64) -> impl Iterator<Item = Nanos> {
+    (0..=60 * seconds).map(|n| n * SECOND / 60 + n * 7919 % 2_000_000)
+}
+
+fn records(frames: &[Frame]) -> Vec<FrameRecord> {
+    frames.iter().map(|frame| frame.record.clone()).collect()
+}
+
+fn assert_same(a: &[FrameRecord], b: &[FrameRecord]) {
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
+        assert_eq!(a.first_difference(b), None, "frame {}", a.frame);
+    }
+}
+
+#[test]
+fn the_same_ride_has_the_same_bits() {
+    let ride = || records(&frames(&mut simulation(VehicleKind::Bicycle), &busy_ride(), times(9)));
+    let first = ride();
+    assert_same(&first, &ride());
+    let end = &first[first.len() - 1];
+    assert!(end.road > 20.0 && end.rapidity > 0.1, "something happens: {end:?}");
+}
+
+#[test]
+fn the_ride_does_not_depend_on_the_number_of_threads() {
+    let ride = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| records(&frames(&mut simulation(VehicleKind::Bicycle), &busy_ride(), times(9))))
+    };
+    assert_same(&ride(1), &ride(2));
+}
+
+#[test]
+fn the_ticks_do_not_depend_on_the_frame_rate() {
+    let end = 9 * SECOND;
+    let states: Vec<_> = [30, 60, 144, 1000]
+        .map(|rate| {
+            let mut simulation = simulation(VehicleKind::Bicycle);
+            frames(&mut simulation, &busy_ride(), (0..=9 * rate).map(|n| n * SECOND / rate).chain([end]));
+            *simulation.vehicle().state()
+        })
+        .to_vec();
+    assert!(states.windows(2).all(|pair| pair[0] == pair[1]), "{states:?}");
+}
+
+#[test]
+fn samples_that_come_early_or_out_of_order_wait_their_turn() {
+    let ride = busy_ride();
+    let punctual = frames(&mut simulation(VehicleKind::Bicycle), &ride, times(9));
+    let mut early = simulation(VehicleKind::Bicycle);
+    let shuffled: Vec<Sample> = ride.iter().rev().cloned().collect();
+    let mut all_at_once = times(9).enumerate();
+    let early: Vec<FrameRecord> =
+        all_at_once.by_ref().map(|(n, at)| early.frame(at, if n == 0 { &shuffled } else { &[] }).record).collect();
+    assert_same(&records(&punctual), &early);
+}
+
+#[test]
+fn own_time_is_real_time_times_the_scale() {
+    let mut simulation = simulation(VehicleKind::Fly);
+    let samples =
+        [Sample::action(2 * SECOND, &Action::TimeScale(0.25)), Sample::action(4 * SECOND, &Action::ScaleTime(4.0))];
+    let ride = frames(&mut simulation, &samples, times(6));
+    // Two seconds at the full rate, two at a quarter, two at the full rate again; a tick is 1/240 s.
+    let own_s = ride[ride.len() - 1].vehicle.odometer().own_s;
+    assert!((own_s - 4.5).abs() < 2.0 / 240.0, "{own_s}");
+    assert_eq!(ride[180].time_scale, 0.25);
+    // No time scale runs away.
+    let faster = [Sample::action(6 * SECOND, &Action::TimeScale(1e300))];
+    assert_eq!(simulation.frame(7 * SECOND, &faster).time_scale, 16.0);
+}
+
+#[test]
+fn what_is_shown_moves_on_between_ticks() {
+    let mut simulation = simulation(VehicleKind::Bicycle);
+    frames(&mut simulation, &[Sample::key(0, Key::W, true)], times(3));
+    let (at, tick) = (4 * SECOND, SECOND / 240);
+    frames(&mut simulation, &[], (3..=4).map(|n| n * SECOND).chain([at]));
+    let shown: Vec<f64> = (0..=6).map(|n| simulation.frame(at + n * tick / 3, &[]).record.road).collect();
+    let strides: Vec<f64> = shown.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // A third of a tick each, at a steadily growing speed.
+    let mean = (shown[6] - shown[0]) / 6.0;
+    assert!(mean > 0.0);
+    assert!(strides.iter().all(|stride| (stride / mean - 1.0).abs() < 0.01), "{strides:?}");
+}
+
+#[test]
+fn a_pause_stands_and_a_step_steps() {
+    let mut simulation = simulation(VehicleKind::Bicycle);
+    let samples = [
+        Sample::key(0, Key::W, true),
+        Sample::key(2 * SECOND, Key::P, true),
+        Sample::key(3 * SECOND, Key::Period, true),
+        Sample::key(4 * SECOND, Key::P, false),
+        Sample::key(4 * SECOND, Key::P, true),
+    ];
+    let ride = frames(&mut simulation, &samples, (0..300).map(|n| n * SECOND / 60));
+    let proper_time = |second: usize| ride[60 * second - 5].record.proper_time;
+    let tick = World::OLD_TOWN.metres(1.0 / 240.0);
+    assert!(ride[150].paused && !ride[100].paused && !ride[290].paused);
+    assert_eq!(
+        ride[125].record.first_difference(&FrameRecord {
+            frame: 125,
+            at: ride[125].record.at,
+            ..ride[170].record.clone()
+        }),
+        None
+    );
+    assert!((proper_time(4) - ride[150].record.proper_time - tick).abs() < 1e-12, "one step");
+    assert!((proper_time(5) - proper_time(4)) > 0.8 * World::OLD_TOWN.metres(1.0) - 30.0 * tick, "it runs again");
+    assert_eq!(ride.iter().map(|frame| frame.controls.actions.len()).sum::<usize>(), 3, "each action is told once");
+}
+
+#[test]
+fn a_restart_is_a_new_ride_in_the_same_world() {
+    let mut simulation = simulation(VehicleKind::Fly);
+    let begin = simulation.vehicle().eye();
+    let samples = [
+        Sample::key(0, Key::R, true),
+        Sample::action(SECOND, &Action::SpeedOfLight(2.0)),
+        Sample::key(2 * SECOND, Key::R, false),
+        Sample::key(3 * SECOND, Key::Backspace, true),
+    ];
+    let ride = frames(&mut simulation, &samples, times(2));
+    assert!(ride[100].record.position[1] > 0.1);
+    let ride = frames(&mut simulation, &samples[2..], (20..=32).map(|n| n * SECOND / 10));
+    let end = &ride[ride.len() - 1];
+    assert_eq!(end.eye.observer.event.position, begin.observer.event.position);
+    assert!(end.vehicle.odometer().own_s < 0.6 && end.vehicle.odometer().road_m == 0.0);
+    assert_eq!(end.vehicle.world().speed_of_light_m_s(), 2.0);
+}
+
+#[test]
+fn a_stall_is_not_caught_up_with() {
+    let mut simulation = simulation(VehicleKind::Fly);
+    let frame = simulation.frame(10 * SECOND, &[]);
+    assert_eq!((frame.record.steps, frame.dropped_ticks), (60, 2340));
+    let frame = simulation.frame(10 * SECOND + SECOND / 60 + 1, &[]);
+    assert_eq!((frame.record.steps, frame.dropped_ticks), (4, 0));
+}
+
+#[test]
+fn a_speed_of_light_that_makes_no_world_is_refused() {
+    let mut simulation = simulation(VehicleKind::Fly);
+    let frame = simulation.frame(SECOND / 10, &[Sample::action(0, &Action::SpeedOfLight(1e-300))]);
+    assert_eq!(frame.notices, [Notice::SpeedOfLightRefused]);
+    assert_eq!(frame.vehicle.world(), World::OLD_TOWN);
+}
+
+#[test]
+fn any_bytes_from_any_device_make_a_finite_ride() {
+    use rand::{RngExt, SeedableRng};
+    let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(11);
+    for kind in [VehicleKind::Bicycle, VehicleKind::Drive, VehicleKind::Fly] {
+        let mut simulation = simulation(kind);
+        for n in 0..300u64 {
+            let at = n * SECOND / 60;
+            let samples: Vec<Sample> = (0..random.random_range(0..8))
+                .map(|_| {
+                    let source = input::Source::ALL[random.random_range(0..input::Source::ALL.len())];
+                    let bytes: Vec<u8> = (0..random.random_range(0..40)).map(|_| random.random()).collect();
+                    Sample::bytes(random.random_range(0..2 * at + 1), source, bytes)
+                })
+                .collect();
+            let record = simulation.frame(at, &samples).record;
+            let numbers = [record.ct, record.proper_time, record.rapidity, record.road, record.odometer];
+            assert!(numbers.iter().chain(&record.position).chain(&record.orientation).all(|value| value.is_finite()));
+        }
+    }
+}
+
+/// The ride as a recording in memory.
+fn entries(setup: &Setup, samples: &[Sample]) -> Vec<Entry> {
+    let mut simulation = Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap();
+    let mut entries = Vec::new();
+    let mut left = samples;
+    for at in times(9) {
+        let due = left.iter().take_while(|sample| sample.at <= at).count();
+        entries.extend(left[..due].iter().cloned().map(Entry::Sample));
+        entries.push(Entry::Frame(simulation.frame(at, &left[..due]).record));
+        left = &left[due..];
+    }
+    entries
+}
+
+fn verify(setup: &Setup, entries: Vec<Entry>) -> Result<u64, ReplayError> {
+    let entries = entries.into_iter().map(Ok::<_, RecordingError>);
+    Replay::of(entries, setup.clone(), Arc::new(OpenPlane)).unwrap().verify()
+}
+
+#[test]
+fn a_replay_is_the_ride() {
+    let setup = setup(VehicleKind::Bicycle);
+    assert_eq!(verify(&setup, entries(&setup, &busy_ride())).unwrap(), 541);
+}
+
+#[test]
+fn the_last_bit_of_any_frame_shows_with_its_number() {
+    let setup = setup(VehicleKind::Bicycle);
+    let mut entries = entries(&setup, &busy_ride());
+    let changed = entries
+        .iter_mut()
+        .find_map(|entry| match entry {
+            Entry::Frame(record) if record.frame == 300 => Some(record),
+            _ => None,
+        })
+        .unwrap();
+    changed.celerity[2] = f64::from_bits(changed.celerity[2].to_bits() ^ 1);
+    match verify(&setup, entries) {
+        Err(ReplayError::Differs { frame: 300, difference }) => assert_eq!(difference.field, "celerity[2]"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn another_byte_is_another_ride() {
+    let setup = setup(VehicleKind::Bicycle);
+    let recorded = entries(&setup, &busy_ride());
+    let changed = recorded.into_iter().map(|entry| match entry {
+        // He steers to the right where he steered to the left.
+        Entry::Sample(sample) if sample.at == 15 * SECOND / 10 => Entry::Sample(Sample::key(sample.at, Key::D, true)),
+        other => other,
+    });
+    assert!(matches!(verify(&setup, changed.collect()), Err(ReplayError::Differs { frame: 90..93, .. })));
+}
+
+#[test]
+fn a_ride_replays_from_its_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("ride.mcap");
+    let setup = setup(VehicleKind::Bicycle);
+    let mut simulation = Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap();
+    let mut recorder = Recorder::create(&path, &setup.header("0.1.0", "plane")).unwrap();
+    let (ride, mut given) = (busy_ride(), 0);
+    for at in times(9) {
+        let due = ride[given..].iter().take_while(|sample| sample.at <= at).count();
+        let samples = &ride[given..given + due];
+        samples.iter().for_each(|sample| recorder.sample(sample).unwrap());
+        let frame = simulation.frame(at, samples);
+        recorder.controls(frame.record.frame, at, &frame.controls).unwrap();
+        recorder.frame(&frame.record).unwrap();
+        given += due;
+    }
+    recorder.finish().unwrap();
+
+    let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
+    assert_eq!(replay.verify().unwrap(), 541);
+
+    // Cut off: what is there is the same ride, and the end is told.
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
+    assert!(matches!(replay.verify(), Err(ReplayError::Recording { frames: 0..541, .. })));
+}

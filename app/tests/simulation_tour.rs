@@ -1,0 +1,152 @@
+//! The built-in tour: sensor lines through the real decoder take a bicycle round a closed way.
+//!
+//! A wrong sign of the handlebar or of the yaw leaves the way at the first bend; a rider without foresight is carried out of the bends.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use input::{DeskConfig, SECOND, VehicleKind};
+use rapidity::simulation::{Frame, Setup, Simulation, Start, Tour};
+use rapidity::vehicle::{OpenPlane, VehicleSettings, World};
+
+/// Way that is followed to within this, metres.
+const ON_THE_WAY_M: f64 = 1.0;
+
+/// A rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides; the sharpest radius is 6 m.
+fn circuit() -> Vec<DVec3> {
+    let mut points = Vec::new();
+    let mut position = DVec3::ZERO;
+    let mut heading = 0.0f64; // To the left of −z.
+    let mut go = |length: f64, turn: f64| {
+        let steps = (length / 1.5).ceil();
+        for _ in 0..steps as usize {
+            heading += 0.5 * turn / steps;
+            position += DVec3::new(-heading.sin(), 0.0, -heading.cos()) * (length / steps);
+            heading += 0.5 * turn / steps;
+            points.push(position);
+        }
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let bend = |radius: f64, turn: f64| (radius * turn.abs(), turn);
+    for (length, turn) in [
+        (40.0, 0.0),
+        bend(6.0, quarter),
+        (18.0, 0.0),
+        bend(6.0, quarter),
+        (14.0, 0.0),
+        // The S: out and back in.
+        bend(8.0, -0.5),
+        bend(8.0, 1.0),
+        bend(8.0, -0.5),
+        (40.0 - 14.0 - 32.0 * 0.5f64.sin(), 0.0),
+        bend(6.0, quarter),
+        (18.0, 0.0),
+        bend(6.0, quarter),
+    ] {
+        if length > 0.0 {
+            go(length, turn);
+        }
+    }
+    assert!(position.length() < 0.1, "the way is closed: {position}");
+    points
+}
+
+fn setup(circuit: &[DVec3]) -> Setup {
+    Setup {
+        world: World::OLD_TOWN,
+        kind: VehicleKind::Bicycle,
+        start: Start::at_rest(circuit[0], circuit[1] - circuit[0]),
+        vehicle: VehicleSettings::default(),
+        desk: DeskConfig::default(),
+    }
+}
+
+fn ride(seconds: u64) -> Vec<Frame> {
+    let circuit = circuit();
+    let setup = setup(&circuit);
+    let mut tour = Tour::new(&circuit).unwrap();
+    let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
+    (0..=60 * seconds)
+        .map(|n| {
+            let at = n * SECOND / 60;
+            let samples = tour.samples(simulation.vehicle(), at);
+            simulation.frame(at, &samples)
+        })
+        .collect()
+}
+
+fn distance_to(circuit: &[DVec3], position: DVec3) -> f64 {
+    let next = circuit.iter().skip(1).chain(circuit.first());
+    circuit
+        .iter()
+        .zip(next)
+        .map(|(&from, &to)| {
+            let share = ((position - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+            position.distance(from.lerp(to, share))
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn the_tour_laps_the_circuit_and_keeps_to_it() {
+    let circuit = circuit();
+    let frames = ride(120);
+    let mut farthest = 0.0f64;
+    for frame in &frames {
+        let position = frame.vehicle.state().position;
+        farthest = farthest.max(distance_to(&circuit, position));
+    }
+    assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
+    // More than two rounds, each point of the circuit passed.
+    let end = &frames[frames.len() - 1];
+    assert!(end.record.road > 2.0 * 150.0, "{} m", end.record.road);
+    for point in &circuit {
+        let nearest = frames.iter().map(|frame| frame.vehicle.state().position.distance(*point));
+        assert!(nearest.fold(f64::INFINITY, f64::min) < 1.0 + ON_THE_WAY_M);
+    }
+}
+
+#[test]
+fn speed_rises_gently_from_rest_to_the_cruise() {
+    let frames = ride(30);
+    let mut before = 0.0;
+    for frame in &frames {
+        let celerity = frame.record.celerity.iter().map(|u| u * u).sum::<f64>().sqrt();
+        // 3 m/s² over a sixtieth of a second.
+        assert!(celerity - before < 3.0 / 60.0 / World::OLD_TOWN.speed_of_light_m_s(), "{before} to {celerity}");
+        before = celerity;
+    }
+    let at = |second: usize| World::OLD_TOWN.metres_per_own_second(frames[60 * second].record.rapidity.sinh());
+    assert!(at(1) < 1.5 && at(4) > 1.0, "{} {}", at(1), at(4));
+    let fastest = (0..30).map(at).fold(0.0, f64::max);
+    assert!((0.9 * Tour::CRUISE_M_S..1.05 * Tour::CRUISE_M_S).contains(&fastest), "{fastest}");
+}
+
+#[test]
+fn the_sensors_lines_are_all_understood() {
+    let circuit = circuit();
+    let setup = setup(&circuit);
+    let mut tour = Tour::new(&circuit).unwrap();
+    let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
+    let mut lines = 0;
+    for n in 0..600 {
+        let samples = tour.samples(simulation.vehicle(), n * SECOND / 60);
+        lines += samples.len();
+        simulation.frame(n * SECOND / 60, &samples);
+    }
+    assert_eq!(lines, 1 + 999, "a hundred a second");
+    assert_eq!(simulation.desk().faults(input::Source::Bicycle).number(), 0);
+}
+
+#[test]
+fn a_tour_repeats_to_the_bit() {
+    let (a, b) = (ride(20), ride(20));
+    assert!(a.iter().zip(&b).all(|(a, b)| a.record.first_difference(&b.record).is_none()));
+}
+
+#[test]
+fn what_cannot_be_toured_is_refused() {
+    assert!(Tour::new(&[]).is_none());
+    assert!(Tour::new(&circuit()[..2]).is_none());
+    assert!(Tour::new(&[DVec3::X, DVec3::Y, DVec3::INFINITY]).is_none());
+}

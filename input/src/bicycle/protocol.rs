@@ -1,0 +1,101 @@
+//! The three kinds of line that a bicycle may send; [the decoder](super) says what they are for.
+
+use crate::line::{LineError, unseal};
+
+/// A line that has been understood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Line {
+    /// A `B1` line.
+    Pulses {
+        /// The box's clock when it was sent, µs.
+        now_us: u32,
+        /// Pulses of the wheel so far, and when the last one was.
+        wheel: Count,
+        /// Pulses of the crank so far, and when the last one was.
+        crank: Count,
+        /// Reading of the steering sensor.
+        steer: f64,
+        /// Reading of the brake sensor.
+        brake: f64,
+    },
+    /// A four-field line.
+    Interval {
+        /// Between the last two pulses of the wheel, µs.
+        interval_us: u32,
+        /// Since the last pulse, µs.
+        age_us: u32,
+        /// Steering.
+        steer: f64,
+        /// Brake.
+        brake: f64,
+    },
+    /// A single number.
+    Bare(f64),
+}
+
+/// Pulses counted so far, and when the last one was, on the box's clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Number of pulses; wraps.
+    pub pulses: u32,
+    /// Time of the last one, µs; wraps.
+    pub last_us: u32,
+}
+
+impl Line {
+    /// Reads a line without its end.
+    ///
+    /// # Errors
+    /// If it is none of the three kinds, or a field cannot be read.
+    pub fn parse(line: &str) -> Result<Self, LineError> {
+        let line = line.trim();
+        if line.starts_with("B1,") {
+            return Self::parse_pulses(unseal(line)?);
+        }
+        let fields: Vec<&str> = line.split(',').map(str::trim).collect();
+        match fields[..] {
+            [speed] => Ok(Self::Bare(finite("speed", speed)?)),
+            [interval, age, steer, brake] => Ok(Self::Interval {
+                interval_us: whole("interval_us", interval)?,
+                age_us: whole("age_us", age)?,
+                steer: finite("steer", steer)?,
+                brake: finite("brake", brake)?,
+            }),
+            _ => Err(LineError::Fields {
+                line: line.to_owned(),
+                found: fields.len(),
+                expected: "1 or 4, or a line that begins with `B1,`",
+            }),
+        }
+    }
+
+    fn parse_pulses(text: &str) -> Result<Self, LineError> {
+        let fields: Vec<&str> = text.split(',').collect();
+        let [_, sequence, now, wheel, wheel_last, crank, crank_last, steer, brake] = fields[..] else {
+            return Err(LineError::Fields { line: text.to_owned(), found: fields.len(), expected: "9" });
+        };
+        whole("seq", sequence)?;
+        Ok(Self::Pulses {
+            now_us: whole("t_us", now)?,
+            wheel: Count { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
+            crank: Count { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
+            steer: finite("steer_raw", steer)?,
+            brake: finite("brake_raw", brake)?,
+        })
+    }
+}
+
+fn whole(field: &'static str, text: &str) -> Result<u32, LineError> {
+    text.parse().map_err(|_| LineError::Field {
+        field,
+        text: text.to_owned(),
+        expected: "a whole number from 0 to 4294967295",
+    })
+}
+
+fn finite(field: &'static str, text: &str) -> Result<f64, LineError> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(LineError::Field { field, text: text.to_owned(), expected: "a number" }),
+    }
+}

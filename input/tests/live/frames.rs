@@ -1,0 +1,50 @@
+//! A frame loop for the tests of live devices.
+
+use std::time::{Duration, Instant};
+
+use input::devices::State;
+use input::{Clock, Desk, Devices, DevicesConfig};
+
+/// Longer than any pause before a device is looked for again, on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(8);
+
+/// A frame loop without pictures: it drains the devices into a desk.
+pub struct Loop {
+    /// The ride's clock.
+    pub clock: Clock,
+    /// The devices.
+    pub devices: Devices,
+    /// Their decoders.
+    pub desk: Desk,
+}
+
+impl Loop {
+    /// Starts the devices.
+    pub fn start(config: &DevicesConfig) -> Self {
+        let clock = Clock::start();
+        let devices = Devices::open(config, clock).unwrap();
+        Self { clock, devices, desk: Desk::new(Default::default()).unwrap() }
+    }
+
+    /// Draws frames until the condition holds.
+    pub fn until(&mut self, what: &str, mut holds: impl FnMut(&mut Self) -> bool) {
+        let start = Instant::now();
+        loop {
+            for sample in self.devices.drain() {
+                self.desk.feed(&sample);
+            }
+            if holds(self) {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "waited too long for: {what}; {:?}", self.devices.status());
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// Draws frames until the only device is open, or is not.
+    pub fn until_open(&mut self, open: bool) {
+        self.until(if open { "opening" } else { "closing" }, |it| {
+            (it.devices.status()[0].state == State::Open) == open
+        });
+    }
+}

@@ -1,0 +1,32 @@
+//! Looking for devices on whatever machine this is: nothing that is missing or forbidden may be an
+//! error, and everything must be said in a sentence. A wrong program would panic where the system
+//! lacks a directory, or say nothing.
+
+use std::path::PathBuf;
+
+use crate::frames::Loop;
+use input::DevicesConfig;
+use input::devices::{State, plugged_in};
+
+#[test]
+fn a_machine_without_devices_is_no_error() {
+    let mut looking = Loop::start(&DevicesConfig {
+        bicycle: Some(String::new()),
+        spacenavd_socket: PathBuf::from("/nowhere/spnav.sock"),
+        ..DevicesConfig::default()
+    });
+    looking.until("a word about every device", |it| {
+        it.devices.status().iter().all(|status| match &status.state {
+            State::Open => !status.path.is_empty(),
+            State::Absent(why) => why != "being looked for" && why.contains(' '),
+        })
+    });
+}
+
+#[test]
+fn the_listing_names_what_it_lists() {
+    for device in plugged_in() {
+        assert!(!device.name.is_empty() && !device.path.is_empty(), "{device:?}");
+        assert!(device.refused.is_none_or(|why| why.contains(' ')));
+    }
+}

@@ -1,0 +1,480 @@
+//! Recordings: what is written must be read back to the last bit, by us and by others; of a damaged
+//! file everything before the damage must be given, nothing after it, and nothing false.
+//!
+//! A wrong program would replay a ride that never was, refuse a ride because its last second is
+//! missing, or fall over a hostile file.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use input::recording::{ControlsRecord, Entry, FrameRecord, Header, Recorder, Recording, RecordingError};
+use input::{Controls, Desk, DeskConfig, Key, SECOND, Sample, Source, VehicleKind};
+use proptest::prelude::*;
+
+fn header() -> Header {
+    Header {
+        build: "0.1.0 (test)".to_owned(),
+        scene: "town".to_owned(),
+        speed_of_light_m_s: 30.0 / 3.6,
+        vehicle: VehicleKind::Bicycle,
+        integrator: "rk4".to_owned(),
+        step_s: 1.0 / 240.0,
+        desk: DeskConfig::default(),
+        settings: BTreeMap::from([("seed".to_owned(), "1905".to_owned())]),
+    }
+}
+
+/// A ride of this many frames, and what it records.
+fn ride(frames: u64) -> Vec<Entry> {
+    let mut desk = Desk::new(DeskConfig::default()).unwrap();
+    let mut entries = Vec::new();
+    for frame in 0..frames {
+        let at = frame * SECOND / 60;
+        let sample = match frame {
+            0 => Sample::key(at, Key::W, true),
+            1 => Sample::opened(at, Source::Bicycle),
+            _ => Sample::bytes(at, Source::Bicycle, format!("{frame}\n").into_bytes()),
+        };
+        desk.feed(&sample);
+        entries.push(Entry::Sample(sample));
+        let controls = desk.controls(at);
+        let third = 1.0 / (3.0 + frame as f64);
+        entries.push(Entry::Controls(ControlsRecord { frame, at, controls }));
+        entries.push(Entry::Frame(FrameRecord {
+            frame,
+            at,
+            steps: 4,
+            proper_time: third,
+            position: [-third, -0.0, 1e-300],
+            celerity: [1e12 * third, 0.0, 0.0],
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            ..FrameRecord::default()
+        }));
+    }
+    entries
+}
+
+fn put(recorder: &mut Recorder, entry: &Entry) {
+    match entry {
+        Entry::Sample(sample) => recorder.sample(sample),
+        Entry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls),
+        Entry::Frame(record) => recorder.frame(record),
+    }
+    .unwrap();
+}
+
+fn record(path: &Path, entries: &[Entry]) {
+    let mut recorder = Recorder::create(path, &header()).unwrap();
+    entries.iter().for_each(|entry| put(&mut recorder, entry));
+    recorder.finish().unwrap();
+}
+
+/// Everything that can be read, and how it ended.
+fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
+    let mut recording = match Recording::open(path) {
+        Ok(recording) => recording,
+        Err(error) => return (Vec::new(), Some(error)),
+    };
+    let mut entries = Vec::new();
+    for entry in &mut recording {
+        match entry {
+            Ok(entry) => entries.push(entry),
+            Err(error) => {
+                assert!(recording.next().is_none(), "an error must be the last thing");
+                return (entries, Some(error));
+            }
+        }
+    }
+    assert!(recording.next().is_none());
+    (entries, None)
+}
+
+/// Everything that can be read of these bytes. The tests do this thousands of times: in memory,
+/// where the system offers it.
+fn read_bytes(bytes: &[u8]) -> (Vec<Entry>, Option<RecordingError>) {
+    let memory = Path::new("/dev/shm");
+    let directory = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }.unwrap();
+    let path = directory.path().join("ride.mcap");
+    fs::write(&path, bytes).unwrap();
+    read(&path)
+}
+
+/// A directory, and the path of a recording in it.
+fn place() -> (tempfile::TempDir, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("ride.mcap");
+    (directory, path)
+}
+
+/// The bytes of a short ride, and its entries.
+fn short_ride() -> (Vec<u8>, Vec<Entry>) {
+    let (_directory, path) = place();
+    let entries = ride(3);
+    record(&path, &entries);
+    (fs::read(&path).unwrap(), entries)
+}
+
+#[test]
+fn what_is_written_is_read_to_the_last_bit() {
+    let (_directory, path) = place();
+    let entries = ride(100);
+    record(&path, &entries);
+    assert_eq!(Recording::open(&path).unwrap().header(), &header());
+    let (found, error) = read(&path);
+    assert!(error.is_none(), "{error:?}");
+    assert_eq!(found, entries);
+    for (found, entry) in found.iter().zip(&entries) {
+        if let (Entry::Frame(found), Entry::Frame(entry)) = (found, entry) {
+            assert_eq!(found.first_difference(entry), None);
+        }
+    }
+}
+
+#[test]
+fn a_recording_of_nothing_is_a_recording() {
+    let (_directory, path) = place();
+    record(&path, &[]);
+    let (found, error) = read(&path);
+    assert!(found.is_empty() && error.is_none());
+}
+
+#[test]
+fn samples_out_of_order_stay_in_the_order_of_the_desk() {
+    let (_directory, path) = place();
+    let entries = [3, 1, 2].map(|at| Entry::Sample(Sample::key(at, Key::A, true)));
+    record(&path, &entries);
+    assert_eq!(read(&path).0, entries);
+}
+
+/// A ride of an hour that somebody wants to keep, while it goes on.
+#[test]
+fn what_came_before_the_file_is_written_first_however_much() {
+    let (_directory, path) = place();
+    let press = |at| Entry::Sample(Sample::key(at, Key::W, at % 2 == 0));
+    let past: Vec<_> = (0..50_000).map(press).collect();
+    let mut recorder = Recorder::create(&path, &header()).unwrap();
+    recorder.past(past.clone()).unwrap();
+    (50_000..50_100).for_each(|at| put(&mut recorder, &press(at)));
+    recorder.finish().unwrap();
+    let (found, error) = read(&path);
+    assert!(error.is_none(), "{error:?}");
+    assert_eq!(found.len(), 50_100);
+    assert_eq!(found[..50_000], past);
+}
+
+/// The specification's own library, as an independent reader: Foxglove finds channels, schemas and
+/// times where it looks.
+#[test]
+fn others_read_it_too() {
+    let (_directory, path) = place();
+    let entries = ride(100);
+    record(&path, &entries);
+    let bytes = fs::read(&path).unwrap();
+    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
+    assert_eq!(summary.stats.unwrap().message_count, entries.len() as u64);
+    assert_eq!(summary.metadata_indexes.len(), 1);
+    let mut topics = BTreeMap::new();
+    for message in mcap::MessageStream::new(&bytes).unwrap() {
+        let message = message.unwrap();
+        let schema = message.channel.schema.as_ref().unwrap();
+        assert_eq!((message.channel.message_encoding.as_str(), schema.encoding.as_str()), ("json", "jsonschema"));
+        serde_json::from_slice::<serde_json::Value>(&schema.data).unwrap();
+        let value: serde_json::Value = serde_json::from_slice(&message.data).unwrap();
+        assert_eq!(value["at"], message.log_time);
+        *topics.entry(message.channel.topic.clone()).or_insert(0) += 1;
+    }
+    let expected = ["/controls", "/device/raw", "/observer"].map(|topic| (topic.to_owned(), 100));
+    assert_eq!(topics, BTreeMap::from(expected));
+}
+
+#[test]
+fn the_desk_says_the_same_again() {
+    let (_directory, path) = place();
+    record(&path, &ride(200));
+    let mut recording = Recording::open(&path).unwrap();
+    let mut desk = Desk::new(recording.header().desk.clone()).unwrap();
+    let mut frames = 0;
+    for entry in &mut recording {
+        match entry.unwrap() {
+            Entry::Sample(sample) => desk.feed(&sample),
+            Entry::Controls(record) => assert_eq!(desk.controls(record.at), record.controls, "frame {}", record.frame),
+            Entry::Frame(_) => frames += 1,
+        }
+    }
+    assert_eq!(frames, 200);
+}
+
+/// A crash loses at most the last second: what a copy of the file holds while the ride goes on.
+#[test]
+fn a_file_that_is_being_written_holds_all_but_the_last_second() {
+    let (directory, path) = place();
+    let entries = ride(40);
+    let mut recorder = Recorder::create(&path, &header()).unwrap();
+    entries.iter().for_each(|entry| put(&mut recorder, entry));
+    let written = Instant::now();
+    let copy = directory.path().join("copy.mcap");
+    loop {
+        fs::copy(&path, &copy).unwrap();
+        let (found, error) = read(&copy);
+        assert!(matches!(error, Some(RecordingError::CutOff { .. })), "{error:?}");
+        assert_eq!(found, entries[..found.len()]);
+        if found.len() == entries.len() {
+            break;
+        }
+        // Twice the promise, for a busy machine.
+        assert!(written.elapsed() < Duration::from_secs(2), "{} of {}", found.len(), entries.len());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    drop(recorder);
+    assert!(read(&path).1.is_none(), "a dropped recorder finishes its file");
+}
+
+#[test]
+fn of_a_file_cut_anywhere_everything_before_the_cut_is_read() {
+    let (bytes, entries) = short_ride();
+    let mut most = 0;
+    for length in places(&bytes) {
+        let (found, error) = read_bytes(&bytes[..length]);
+        assert_eq!(found, entries[..found.len()], "cut at {length}");
+        assert!(found.len() >= most, "cut at {length}");
+        most = found.len();
+        match error {
+            // The index was cut, not the data.
+            None => assert_eq!(found.len(), entries.len(), "cut at {length}"),
+            Some(RecordingError::Empty { .. }) => assert_eq!(length, 0),
+            Some(RecordingError::NotMcap { .. }) => assert!(length < 8),
+            Some(RecordingError::CutOff { offset, .. }) => {
+                // The record that is missing or incomplete.
+                let begins = records(&bytes).map(|(begins, _, _)| begins).filter(|&begins| begins <= length).last();
+                assert_eq!(Some(offset as usize), begins, "cut at {length}");
+            }
+            Some(other) => panic!("cut at {length}: {other}"),
+        }
+    }
+    assert_eq!(most, entries.len());
+}
+
+#[test]
+fn a_flipped_bit_anywhere_in_the_data_is_found_and_nothing_false_is_read() {
+    let (bytes, entries) = short_ride();
+    let data_end = data_end(&bytes);
+    for index in places(&bytes) {
+        let mut damaged = bytes.clone();
+        damaged[index] ^= 1 << (index % 8);
+        let (found, error) = read_bytes(&damaged);
+        assert_eq!(found, entries[..found.len()], "bit {} of byte {index}", index % 8);
+        if index < data_end {
+            assert!(error.is_some(), "bit {} of byte {index}", index % 8);
+        } else {
+            assert!(error.is_none() && found.len() == entries.len(), "byte {index}: {error:?}");
+        }
+    }
+}
+
+/// Every byte of the data, and some of the index behind it.
+fn places(bytes: &[u8]) -> impl Iterator<Item = usize> {
+    let data_end = data_end(bytes);
+    (0..data_end).chain((data_end..bytes.len()).step_by(50))
+}
+
+/// Every outermost record: where it begins, of what kind it is, where it ends.
+fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
+    let mut begins = 8;
+    std::iter::from_fn(move || {
+        let header = bytes.get(begins..begins + 9)?;
+        let length = u64::from_le_bytes(header[1..].try_into().unwrap());
+        let record = (begins, header[0], begins + 9 + length as usize);
+        begins = record.2;
+        Some(record)
+    })
+}
+
+/// Where the record that ends the data itself ends.
+fn data_end(bytes: &[u8]) -> usize {
+    records(bytes).find(|(_, kind, _)| *kind == 0x0f).unwrap().2
+}
+
+/// A recording that was cut off has no checksum over the whole, so a lost chunk must show by itself.
+#[test]
+fn a_chunk_that_is_missing_is_noticed() {
+    let (_directory, path) = place();
+    // Three megabytes, in chunks of about one.
+    let loud = |at| Entry::Sample(Sample::bytes(at, Source::Bicycle, vec![0; 4000]));
+    let entries: Vec<_> = (0..375).map(loud).collect();
+    record(&path, &entries);
+    let bytes = fs::read(&path).unwrap();
+    let chunks: Vec<_> = records(&bytes).filter(|(_, kind, _)| *kind == 6).collect();
+    // The first holds the channels only.
+    let [_, _, lost, kept, ..] = chunks[..] else { panic!("{} chunks", chunks.len()) };
+    let holed = [&bytes[..lost.0], &bytes[lost.2..kept.2]].concat();
+    let (found, error) = read_bytes(&holed);
+    assert_eq!(found, entries[..found.len()]);
+    assert!(!found.is_empty() && found.len() < entries.len());
+    let text = error.unwrap().to_string();
+    assert!(text.contains("some are missing"), "{text}");
+}
+
+/// A wrong speed of light must not wait for the end of the ride to be noticed.
+#[test]
+fn a_changed_header_is_refused_at_once() {
+    let (bytes, _) = short_ride();
+    let place_of_scene = bytes.windows(6).position(|text| text == b"\"town\"").unwrap();
+    let mut changed = bytes;
+    changed[place_of_scene + 1] = b'd';
+    let (_directory, path) = place();
+    fs::write(&path, changed).unwrap();
+    let text = Recording::open(&path).unwrap_err().to_string();
+    assert!(text.contains("`header` does not match its checksum"), "{text}");
+}
+
+#[test]
+fn damage_is_told_with_its_place() {
+    let (bytes, _) = short_ride();
+    let place = bytes.windows(7).position(|text| text == b"\"at\":16").unwrap() + 5;
+    let mut damaged = bytes;
+    damaged[place] = b'2';
+    let text = read_bytes(&damaged).1.unwrap().to_string();
+    assert!(text.contains("is damaged at byte") && text.contains("does not match its checksum"), "{text}");
+}
+
+#[test]
+fn other_files_are_told_from_recordings() {
+    let (directory, path) = place();
+    let said = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        Recording::open(&path).unwrap_err().to_string()
+    };
+    assert!(said(b"").contains("is empty"));
+    assert!(said(b"{\"asset\":{\"version\":\"2.0\"}}").contains("is not a recording"));
+    assert!(said(b"\x89MCAP1\r\n").contains("is not a recording"));
+
+    let mut foreign = mcap::WriteOptions::new().profile("ros2").create(std::io::Cursor::new(Vec::new())).unwrap();
+    foreign.finish().unwrap();
+    assert!(said(&foreign.into_inner().into_inner()).contains("of another program (profile \"ros2\""));
+
+    let nameless = mcap::WriteOptions::new().profile("rapidity").create(std::io::Cursor::new(Vec::new()));
+    let mut nameless = nameless.unwrap();
+    nameless.finish().unwrap();
+    assert!(said(&nameless.into_inner().into_inner()).contains("the description of the ride is missing"));
+
+    assert!(Recording::open(directory.path()).unwrap_err().to_string().contains("is a directory"));
+    let missing = directory.path().join("missing.mcap");
+    assert!(Recording::open(&missing).unwrap_err().to_string().starts_with("cannot open"));
+    #[cfg(unix)]
+    assert!(matches!(Recording::open(Path::new("/dev/zero")), Err(RecordingError::NotMcap { .. })));
+}
+
+#[test]
+fn a_later_format_is_named() {
+    let (bytes, _) = short_ride();
+    let (_directory, path) = place();
+    let key = b"format_version\x01\x00\x00\x00";
+    let version = bytes.windows(key.len()).position(|text| text == key).unwrap() + key.len();
+    let mut later = bytes;
+    later[version] = b'2';
+    fs::write(&path, later).unwrap();
+    assert!(Recording::open(&path).unwrap_err().to_string().contains("has format \"2\""));
+}
+
+#[test]
+fn a_header_that_cannot_be_read_back_is_refused_before_the_ride() {
+    let (_directory, path) = place();
+    let nonsense = Header { step_s: f64::NAN, ..header() };
+    let text = Recorder::create(&path, &nonsense).unwrap_err().to_string();
+    assert!(text.starts_with("cannot write") && text.contains("null"), "{text}");
+    assert!(!path.exists(), "the name must stay free");
+}
+
+#[test]
+fn nothing_is_written_over() {
+    let (directory, path) = place();
+    fs::write(&path, "precious").unwrap();
+    assert!(matches!(Recorder::create(&path, &header()), Err(RecordingError::Exists { .. })));
+    assert_eq!(fs::read(&path).unwrap(), b"precious");
+    assert!(matches!(Recorder::create(directory.path(), &header()), Err(RecordingError::Directory { .. })));
+    let nowhere = directory.path().join("no/such/ride.mcap");
+    assert!(Recorder::create(&nowhere, &header()).unwrap_err().to_string().starts_with("cannot create"));
+}
+
+/// Bytes that any device might send, good or bad.
+fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
+    prop_oneof![
+        proptest::collection::vec(any::<u8>(), 0..80),
+        "[0-9,.*B1-]{0,40}\n".prop_map(String::into_bytes),
+        (any::<u32>(), any::<u32>(), any::<i64>()).prop_map(|(count, time, raw)| {
+            input::line::sealed(&format!("B1,0,{time},{count},{time},{count},{time},{raw},{raw}")).into_bytes()
+        }),
+        (0..4_u8, proptest::collection::vec(any::<u8>(), 12)).prop_map(|(id, rest)| [vec![id], rest].concat()),
+    ]
+}
+
+fn any_sample() -> impl Strategy<Value = Sample> {
+    let source = proptest::sample::select(Source::ALL.to_vec());
+    (any::<u64>(), source, any_bytes(), 0..20_u8).prop_map(|(at, source, bytes, kind)| {
+        let at = at % (100 * SECOND);
+        match kind {
+            0 => Sample::opened(at, source),
+            1 => Sample::closed(at, source),
+            _ => Sample::bytes(at, source, bytes),
+        }
+    })
+}
+
+fn is_sound(controls: &Controls) -> bool {
+    let unit = |value: &f64| (-1.0..=1.0).contains(value);
+    controls.wheel_speed.is_none_or(f64::is_finite)
+        && controls.cadence_hz.is_none_or(|cadence| cadence.is_finite() && cadence >= 0.0)
+        && controls.steer_rad.is_finite()
+        && (0.0..=1.0).contains(&controls.brake)
+        && controls.thrust.iter().chain(&controls.turn).all(unit)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever devices send, controls stay in their ranges, and a recording of it gives the same
+    /// controls again.
+    #[test]
+    fn any_noise_gives_sound_controls_and_the_same_again(samples in proptest::collection::vec(any_sample(), 1..60)) {
+        let (_directory, path) = place();
+        let mut desk = Desk::new(DeskConfig::default()).unwrap();
+        let mut recorder = Recorder::create(&path, &header()).unwrap();
+        for (frame, sample) in (0..).zip(&samples) {
+            desk.feed(sample);
+            recorder.sample(sample).unwrap();
+            let controls = desk.controls(sample.at);
+            prop_assert!(is_sound(&controls), "{controls:?}");
+            recorder.controls(frame, sample.at, &controls).unwrap();
+        }
+        recorder.finish().unwrap();
+
+        let mut again = Desk::new(DeskConfig::default()).unwrap();
+        for entry in Recording::open(&path).unwrap() {
+            match entry.unwrap() {
+                Entry::Sample(sample) => again.feed(&sample),
+                Entry::Controls(record) => prop_assert_eq!(again.controls(record.at), record.controls),
+                Entry::Frame(_) => prop_assert!(false, "there was no frame"),
+            }
+        }
+    }
+
+    /// A hostile file ends in an error, whatever its records claim to be and to hold.
+    #[test]
+    fn hostile_files_are_refused(
+        records in proptest::collection::vec((0..20_u8, any::<u64>(), 0..3_u8, any_bytes()), 0..8),
+        whole_start in any::<bool>(),
+    ) {
+        let (bytes, _) = short_ride();
+        let mut hostile = if whole_start { bytes[..bytes.len() / 2].to_vec() } else { bytes[..8].to_vec() };
+        for (kind, claimed, honest, body) in records {
+            hostile.push(kind);
+            let length = if honest > 0 { body.len() as u64 } else { claimed };
+            hostile.extend_from_slice(&length.to_le_bytes());
+            hostile.extend_from_slice(&body);
+        }
+        prop_assert!(read_bytes(&hostile).1.is_some());
+    }
+}
