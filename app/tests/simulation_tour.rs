@@ -13,6 +13,8 @@ use rapidity::vehicle::{OpenPlane, VehicleSettings, World};
 
 /// Way that is followed to within this, metres.
 const ON_THE_WAY_M: f64 = 1.0;
+/// No bend is ridden faster than this, radians per second of own time; at the cruise the sharpest would be 1.16.
+const BEND_RAD_S: f64 = 1.05;
 
 /// A rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides; the sharpest radius is 6 m.
 fn circuit() -> Vec<DVec3> {
@@ -99,6 +101,8 @@ fn the_tour_laps_the_circuit_and_keeps_to_it() {
         farthest = farthest.max(distance_to(&circuit, position));
     }
     assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
+    let turned = frames.windows(60).map(|second| second[0].eye.orientation.angle_between(second[59].eye.orientation));
+    assert!(turned.fold(0.0, f64::max) < BEND_RAD_S, "it is swung round in a bend");
     // More than two rounds, each point of the circuit passed.
     let end = &frames[frames.len() - 1];
     assert!(end.record.road > 2.0 * 150.0, "{} m", end.record.road);
