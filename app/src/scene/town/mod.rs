@@ -44,7 +44,7 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
 /// Builds the old town.
 ///
 /// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs clockwise
-/// on a map, some 450 m, at least 1.2 m clear of anything solid.
+/// on a map, some 415 m, at least 1.5 m clear of anything solid.
 pub fn build(seed: u64) -> Scene {
     let plan = Plan::new(&mut dice(seed, 0));
     let mut builder = Builder::default();
