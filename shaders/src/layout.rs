@@ -29,7 +29,7 @@ pub struct Lighting {
     pub shadow_from_world: Mat4,
     /// Unit vector towards the sun; w = 1 if it casts shadows.
     pub sun_direction: Vec4,
-    /// Linear light on a surface that faces the sun.
+    /// Linear light on a surface that faces the sun; w = depth that it may lie behind the shadow map and still be lit.
     pub sun: Vec4,
     /// On a surface that faces up.
     pub sky: Vec4,

@@ -16,8 +16,8 @@ pub const VIEW_GROUP: u32 = 0;
 pub const MATERIAL_GROUP: u32 = 1;
 /// How far, in shadow-map texels, the sun's shadow is smoothed.
 pub const SHADOW_FILTER_TEXELS: f32 = 0.75;
-/// Depth, as a share of the shadow map's range, that a surface may lie behind the map and still be lit.
-pub const SHADOW_BIAS: f32 = 1.2e-3;
+/// Metres that a surface may lie behind the shadow map and still be lit.
+pub const SHADOW_BIAS_M: f32 = 0.04;
 /// Metres that the point looked up in the shadow map is moved off its surface, so that no surface shades itself.
 pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
 
@@ -61,7 +61,6 @@ pub const MODULES: [Module; 5] = [SURFACE, SKY, SHADOW, RESOLVE, PROBE];
 fn constants() -> String {
     format!(
         "const SHADOW_FILTER_TEXELS: f32 = {SHADOW_FILTER_TEXELS:?};\n\
-         const SHADOW_BIAS: f32 = {SHADOW_BIAS:?};\n\
          const SHADOW_NORMAL_OFFSET_M: f32 = {SHADOW_NORMAL_OFFSET_M:?};\n"
     )
 }

@@ -43,7 +43,7 @@ fn vertex(in: Vertex) -> Fragment {
 fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
     let place = lighting.shadow_from_world * vec4(world + normal * SHADOW_NORMAL_OFFSET_M, 1.0);
     let texel = SHADOW_FILTER_TEXELS / vec2<f32>(textureDimensions(shadow_map));
-    let depth = place.z + SHADOW_BIAS;
+    let depth = place.z + lighting.sun.w;
     var sum = 0.0;
     for (var corner = 0; corner < 4; corner++) {
         let offset = vec2(f32(corner & 1), f32(corner >> 1)) * 2.0 - 1.0;

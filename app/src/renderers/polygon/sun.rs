@@ -103,10 +103,11 @@ impl Light {
 fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
+    let (shadow_from_world, depth_m) = shadow_from_world(scene);
     shaders::Lighting {
-        shadow_from_world: matrix(&shadow_from_world(scene)),
+        shadow_from_world: matrix(&shadow_from_world),
         sun_direction: light.sun_direction.extend(f32::from(u8::from(light.shadows))),
-        sun: colour(light.sun),
+        sun: colour(light.sun).with_w(shaders::SHADOW_BIAS_M / depth_m as f32),
         sky: colour(light.sky),
         ground: colour(light.ground),
         zenith: colour(light.zenith),
@@ -115,20 +116,26 @@ fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
     }
 }
 
-/// From the scene's coordinates to texture coordinates (y down) and reversed depth, the whole scene inside.
-fn shadow_from_world(scene: &Scene) -> DMat4 {
+/// From the scene's coordinates to texture coordinates (y down) and reversed depth, all that is lit inside; and the range of
+/// that depth in metres.
+fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
     let towards_sun = scene.light.sun_direction.as_dvec3().normalize_or(DVec3::Y);
     let side = if towards_sun.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z }.cross(towards_sun).normalize();
     let up = towards_sun.cross(side);
     let sun_from_world =
         DMat4::from_cols(side.extend(0.0), up.extend(0.0), towards_sun.extend(0.0), glam::DVec4::W).transpose();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for position in scene.meshes.iter().flat_map(|mesh| &mesh.positions).filter(|position| position.is_finite()) {
+    let lit = scene.meshes.iter().filter(|mesh| !scene.materials[mesh.material].unlit);
+    for position in lit.flat_map(|mesh| &mesh.positions).filter(|position| position.is_finite()) {
         let place = sun_from_world.transform_point3(position.as_dvec3());
         (low, high) = (low.min(place), high.max(place));
+    }
+    if !low.is_finite() {
+        // Nothing is lit, so nothing looks anything up.
+        return (DMat4::IDENTITY, 1.0);
     }
     let extent = (high - low).max(DVec3::splat(1e-3));
     let texture_from_sun = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0) / extent)
         * DMat4::from_translation(DVec3::new(-low.x, -high.y, -low.z));
-    texture_from_sun * sun_from_world
+    (texture_from_sun * sun_from_world, extent.z)
 }
