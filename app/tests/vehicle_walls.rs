@@ -87,6 +87,8 @@ fn too_fast_for_the_walls_is_told() {
         .collect();
     assert!(told.iter().all(|notice| *notice == Notice::HeldByWalls));
     assert!(bicycle.state().celerity.magnitude() < 20.0);
+    // What is held up is the way, not the rider's clock.
+    assert!((bicycle.odometer().own_s - 241.0 / 240.0).abs() < 1e-9);
 }
 
 #[test]
