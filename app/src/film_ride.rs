@@ -3,7 +3,7 @@
 //! Drawing may be slower than riding, and devices do not wait; so whoever rides live is followed by the clock, and the
 //! film is drawn when he has arrived. A recorded rider and the built-in tour need no clock.
 
-use crate::command::{RideOptions, VehicleName};
+use crate::command::RideOptions;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::live::{Live, gaze};
@@ -15,7 +15,7 @@ use crate::scene::{Scene, source};
 use crate::simulation::{Frame, Simulation, Tour};
 use crate::views::Gaze;
 use input::devices::Devices;
-use input::{Clock, Key, Nanos, SECOND, Sample};
+use input::{Clock, Key, Nanos, SECOND, Sample, VehicleKind};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -133,7 +133,7 @@ fn demonstrate(
     mut log: Log,
     seconds: f64,
 ) -> Result<Reel, Error> {
-    let mut rider = Demonstrator::new(scene, options);
+    let mut rider = Demonstrator::new(scene, &simulation);
     let mut reel = Reel::new(seconds);
     loop {
         let at = reel.due();
@@ -158,9 +158,10 @@ enum Demonstrator {
 }
 
 impl Demonstrator {
-    fn new(scene: &Scene, options: &RideOptions) -> Self {
-        match (options.vehicle.vehicle, Tour::new(&scene.circuit)) {
-            (VehicleName::Bicycle, Some(tour)) => Self::Cyclist(Box::new(tour)),
+    fn new(scene: &Scene, simulation: &Simulation) -> Self {
+        let setup = simulation.setup();
+        match (setup.kind, Tour::new(&scene.circuit)) {
+            (VehicleKind::Bicycle, Some(tour)) => Self::Cyclist(Box::new(tour)),
             _ => Self::Foot { pressed: false },
         }
     }

@@ -75,8 +75,8 @@ impl<'gpu> Cameraman<'gpu> {
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
         }
-        let spinner =
-            progress::spinner(format!("{}: {} triangles to {}", scene.name, scene.triangle_count(), gpu.description()));
+        eprintln!("{}", described(scene, gpu));
+        let spinner = progress::spinner("uploading");
         let renderer = PolygonRenderer::new(gpu, scene, Studio::format(gpu), options.background)?;
         let studio = Studio::new(gpu, options.size, options.samples);
         gpu.wait()?;
@@ -148,6 +148,16 @@ impl<'gpu> Cameraman<'gpu> {
         let shot = shot(gaze, self.options.fov, self.options.effects);
         Ok(self.studio.photograph(self.gpu, &mut self.renderer, &shot)?)
     }
+}
+
+/// What draws the scene, in one line, and why that.
+pub fn described(scene: &Scene, gpu: &Gpu) -> String {
+    format!(
+        "{}: {} triangles by the polygon renderer, which draws every scene so far, on {}",
+        scene.name,
+        scene.triangle_count(),
+        gpu.description()
+    )
 }
 
 /// A gaze through a camera of `fov` degrees.

@@ -108,6 +108,19 @@ fn any_emission_is_read_back_exactly() {
 }
 
 #[test]
+fn colours_above_one_are_kept_for_us_and_clamped_for_others() {
+    let mut scene = scene(DVec3::ZERO);
+    scene.meshes[0].colours[7] = [0.5, 1.7, 1.0, 1.0];
+    let (_folder, path) = written(&scene);
+    assert_eq!(load(&path, |_| {}).unwrap(), scene);
+    let (document, buffers, _) = gltf::import(&path).unwrap();
+    let primitive = document.meshes().next().unwrap().primitives().next().unwrap();
+    let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()]));
+    let colours: Vec<_> = reader.read_colors(0).unwrap().into_rgba_f32().collect();
+    assert_eq!(colours[7], [0.5, 1.0, 1.0, 1.0]);
+}
+
+#[test]
 fn defaults_are_read_back_too() {
     let plain = Scene {
         name: String::new(),
@@ -182,6 +195,7 @@ fn what_gltf_cannot_say_is_refused_by_name() {
     };
     refused(|scene| scene.meshes[0].positions[3].y = f32::NAN, "a position of \"house 1\"");
     refused(|scene| scene.meshes[0].normals[3].y = f32::INFINITY, "a normal of \"house 1\"");
+    refused(|scene| scene.meshes[0].colours[3][1] = -0.5, "a vertex colour of \"house 1\"");
     refused(|scene| scene.materials[1].base_colour[0] = 1.5, "the base colour of \"lamp\"");
     refused(|scene| scene.materials[1].emissive[0] = f32::MAX, "the emission of \"lamp\"");
     refused(|scene| scene.start.look.x = f64::NAN, "the start of \"Marktplatz\"");

@@ -2,6 +2,7 @@
 //! option, what it was, and what was expected. A wrong program would take a negative coordinate for an option,
 //! let |beta| = 1 through, or swallow one of two options that contradict each other.
 
+use crate::renderers::Effects;
 use glam::DVec3;
 
 use super::*;

@@ -55,13 +55,21 @@ impl<'a> Place<'a> {
     /// The entries of a list of any length.
     pub(super) fn list(&self, expected: &'static str) -> Result<Vec<Place<'a>>, ProbeError> {
         let Node::List(entries) = self.node else { return Err(self.wrong(expected)) };
-        let place = |(index, node)| Place { path: format!("{}[{index}]", self.path), node };
-        Ok(entries.iter().enumerate().map(place).collect())
+        Ok(entries.iter().enumerate().map(|(index, node)| self.entry(index, node)).collect())
     }
 
     /// The entries of a list of this length.
     pub(super) fn list_of<const N: usize>(&self, expected: &'static str) -> Result<[Place<'a>; N], ProbeError> {
-        self.list(expected)?.try_into().map_err(|_| self.wrong(expected))
+        match self.node {
+            Node::List(entries) if entries.len() == N => {
+                Ok(std::array::from_fn(|index| self.entry(index, &entries[index])))
+            }
+            _ => Err(self.wrong(expected)),
+        }
+    }
+
+    fn entry(&self, index: usize, node: &'a Node) -> Self {
+        Self { path: format!("{}[{index}]", self.path), node }
     }
 
     pub(super) fn vector(&self) -> Result<DVec3, ProbeError> {

@@ -2,7 +2,8 @@
 //!
 //! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG. What glTF has no words
 //! for (light, start, circuit, what is solid) goes into `extras.rapidity`. Emission above 1 is written as a factor and a
-//! power of two as `KHR_materials_emissive_strength`, so that their product is exact.
+//! power of two as `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
+//! clamped for others and kept in an attribute of our own.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::gltf::extras::{NodeExtras, SceneExtras};
+use super::gltf::extras::{COLOURS, NodeExtras, SceneExtras};
 use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
@@ -149,8 +150,8 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
         ensure(mesh.positions.iter().all(|position| position.is_finite()), "a position", &mesh.name, FINITE)?;
         ensure(mesh.normals.iter().all(|normal| normal.is_finite()), "a normal", &mesh.name, FINITE)?;
         ensure(mesh.uvs.iter().all(|uv| uv.is_finite()), "a texture coordinate", &mesh.name, FINITE)?;
-        let colours = mesh.colours.as_flattened().iter().all(|value| value.is_finite());
-        ensure(colours, "a vertex colour", &mesh.name, FINITE)?;
+        let colours = mesh.colours.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0);
+        ensure(colours, "a vertex colour", &mesh.name, "it is negative or not finite")?;
     }
     Ok(())
 }
@@ -197,7 +198,11 @@ impl File {
             attributes.insert("TEXCOORD_0".into(), json!(self.attribute("VEC2", &mesh.uvs)));
         }
         if mesh.colours.iter().any(|colour| *colour != [1.0; 4]) {
-            attributes.insert("COLOR_0".into(), json!(self.attribute("VEC4", &mesh.colours)));
+            let clamped: Vec<_> = mesh.colours.iter().map(|colour| colour.map(|value| value.min(1.0))).collect();
+            attributes.insert("COLOR_0".into(), json!(self.attribute("VEC4", &clamped)));
+            if clamped != mesh.colours {
+                attributes.insert(format!("_{COLOURS}"), json!(self.attribute("VEC4", &mesh.colours)));
+            }
         }
         let view = self.view(bytemuck::cast_slice(&mesh.indices), Some(ELEMENT_ARRAY_BUFFER));
         let count = mesh.indices.len();

@@ -8,15 +8,21 @@
 //! or know nothing of each other, so no cracks and no T-junctions appear where there were none. A triangle with three split
 //! edges becomes four (red), with two three, with one two (green).
 //!
+//! Where a scene has a circuit, visitors stay near it, and an edge may be longer in proportion as it is further away than
+//! [`NEAR_M`]: what counts is the angle under which it is seen, and a hill on the horizon need not be cut like a kerb.
+//!
 //! It ends: every new edge is half an old one, or at most √3/2 of the longest edge of the triangle it cuts.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::{MAX_TRIANGLES, Mesh, Scene, SceneFault};
+
+/// Metres from the circuit within which edges are as short as asked for.
+pub const NEAR_M: f64 = 8.0;
 
 /// How many steps of f32 an edge must span. The rounding of midpoints then stays well below what a split shortens an edge by.
 const STEPS_PER_EDGE: f32 = 16.0;
@@ -62,7 +68,8 @@ pub enum RefineError {
     Damaged(#[from] SceneFault),
 }
 
-/// The same scene with no edge longer than `edge` metres.
+/// The same scene with no edge longer than `edge` metres; times its distance from the scene's circuit over [`NEAR_M`],
+/// if there is one and it is further away than that.
 ///
 /// Positions, texture coordinates and colours of new vertices are the means of their edge's ends; normals are too, and are
 /// normalised. Vertices are shared within a mesh as they were. Edges with a non-finite end stay as they are, and
@@ -79,7 +86,8 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         return Err(RefineError::Edge(edge));
     }
     scene.validate()?;
-    let rule = Rule::new(f64::from(edge));
+    let circuit: Vec<DVec3> = scene.circuit.iter().map(|&place| place - scene.origin).collect();
+    let rule = Rule::new(f64::from(edge), &circuit);
     for mesh in &scene.meshes {
         let enough = STEPS_PER_EDGE * rule.coarsest_step(mesh);
         if edge < enough {
@@ -90,7 +98,7 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
     if rule.count(scene, limit).is_none() {
         let triangles = rule.at_least(scene).max(limit as u64 + 1);
         let enough = round_lengths_above(edge)
-            .find(|&length| Rule::new(f64::from(length)).count(scene, limit).is_some())
+            .find(|&length| Rule::new(f64::from(length), &circuit).count(scene, limit).is_some())
             .expect("a length above all edges splits none");
         return Err(RefineError::TooMany { scene: scene.name.clone(), edge, triangles, limit, enough });
     }
@@ -107,22 +115,37 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
     })
 }
 
-/// Which edges are split: those of finite length above this one.
+/// Which edges are split: those of finite length above this one, or above its share of their distance.
 #[derive(Clone, Copy)]
-struct Rule {
+struct Rule<'a> {
     edge: f64,
     squared: f64,
+    /// Places from which the scene is seen, relative to its origin; none: from anywhere.
+    circuit: &'a [DVec3],
 }
 
-impl Rule {
-    fn new(edge: f64) -> Self {
-        Self { edge, squared: edge * edge }
+impl<'a> Rule<'a> {
+    fn new(edge: f64, circuit: &'a [DVec3]) -> Self {
+        Self { edge, squared: edge * edge, circuit }
     }
 
     /// The same from either end, as differences and sums of two do not depend on their order.
     fn splits(self, a: Vec3, b: Vec3) -> bool {
         let length_squared = distance_squared(a, b);
-        length_squared > self.squared && length_squared.is_finite()
+        length_squared > self.squared
+            && length_squared.is_finite()
+            && length_squared > self.squared * self.leniency(self.distance(midpoint(a, b).as_dvec3()))
+    }
+
+    /// Metres from the circuit's nearest corner, 0 if there is none.
+    fn distance(self, place: DVec3) -> f64 {
+        let squared = self.circuit.iter().map(|corner| corner.distance_squared(place)).reduce(f64::min);
+        squared.unwrap_or(0.0).sqrt()
+    }
+
+    /// How much longer an edge may be at a distance from the circuit, squared.
+    fn leniency(self, distance: f64) -> f64 {
+        (distance / NEAR_M).max(1.0).powi(2)
     }
 
     /// Where each of a triangle's edges (0–1, 1–2, 2–0) is split.
@@ -162,8 +185,12 @@ impl Rule {
 
     /// A lower bound of that number without counting: no triangle of the result has more area than the equilateral one.
     fn at_least(self, scene: &Scene) -> u64 {
-        let largest = 3.0_f64.sqrt() / 4.0 * self.squared;
-        let bound = |triangle| {
+        let equilateral = 3.0_f64.sqrt() / 4.0 * self.squared;
+        let bound = |triangle: [Vec3; 3]| {
+            // No place of a triangle is further from the circuit than one corner is, plus the longest way from there.
+            let [a, b, c] = triangle;
+            let longest = distance_squared(a, b).max(distance_squared(a, c)).sqrt();
+            let largest = equilateral * self.leniency(self.distance(a.as_dvec3()) + longest);
             let share = area(triangle) / largest;
             if share.is_finite() { share.max(1.0) } else { 1.0 }
         };
@@ -241,7 +268,7 @@ fn divide<V: Copy>(
 }
 
 /// One mesh, refined triangle by triangle, so that neighbours in space stay neighbours in memory.
-fn refine_mesh(mesh: &Mesh, rule: Rule) -> Mesh {
+fn refine_mesh(mesh: &Mesh, rule: Rule<'_>) -> Mesh {
     let mut refined = Mesh { indices: Vec::new(), ..mesh.clone() };
     let mut midpoint_of_edge = HashMap::new();
     let mut stack = Vec::new();
@@ -307,6 +334,31 @@ mod tests {
 
     /// Relative; each split rounds positions to f32.
     const AREA_TOLERANCE: f64 = 1e-5;
+
+    #[test]
+    fn edges_far_from_the_circuit_may_be_longer_in_proportion() {
+        let corners = [(-400.0, -400.0), (400.0, -400.0), (400.0, 400.0), (-400.0, 400.0)];
+        let positions = corners.map(|(x, z)| Vec3::new(x, 0.0, z)).to_vec();
+        let mut scene = Scene { meshes: vec![mesh(positions, vec![0, 2, 1, 0, 3, 2])], ..Default::default() };
+        scene.materials.push(Material::default());
+        scene.circuit = vec![DVec3::new(-20.0, 0.0, 0.0), DVec3::new(20.0, 0.0, 0.0), DVec3::new(0.0, 0.0, 30.0)];
+        let refined = refine(&scene, 0.5).unwrap();
+        let mesh = &refined.meshes[0];
+        let (mut near, mut far) = (0, 0);
+        for [a, b, c] in triangles(mesh) {
+            for (a, b) in [(a, b), (b, c), (c, a)] {
+                let middle = midpoint(a, b).as_dvec3();
+                let distance = scene.circuit.iter().map(|corner| corner.distance(middle)).fold(f64::MAX, f64::min);
+                let length = distance_squared(a, b).sqrt();
+                assert!(length <= 0.5 * (distance / NEAR_M).max(1.0), "{length} m at {distance} m");
+                near += usize::from(distance < NEAR_M);
+                far += usize::from(length > 5.0);
+            }
+        }
+        assert!(near > 1000 && far > 100, "{near} near edges, {far} long ones");
+        // All of it at half a metre would be about ten million.
+        assert!(refined.triangle_count() < 200_000, "{}", refined.triangle_count());
+    }
 
     /// A mesh whose texture coordinates and colours are linear in the position.
     fn mesh(positions: Vec<Vec3>, indices: Vec<u32>) -> Mesh {
@@ -411,7 +463,7 @@ mod tests {
             assert!(longest_edge(&after) <= f64::from(edge));
             let change = total_area(&after) / total_area(&before) - 1.0;
             assert!(change.abs() < AREA_TOLERANCE, "edge {edge}: area changed by {change}");
-            assert_eq!(Rule::new(f64::from(edge)).count(&before, MAX_TRIANGLES), Some(after.triangle_count()));
+            assert_eq!(Rule::new(f64::from(edge), &[]).count(&before, MAX_TRIANGLES), Some(after.triangle_count()));
         }
     }
 
@@ -438,7 +490,7 @@ mod tests {
         for _ in 0..1000 {
             let [a, b] = [(); 2].map(|()| Vec3::from_array(random.random::<[f32; 3]>()) * 1e3);
             assert_eq!(midpoint(a, b).to_array().map(f32::to_bits), midpoint(b, a).to_array().map(f32::to_bits));
-            let rule = Rule::new(500.0);
+            let rule = Rule::new(500.0, &[]);
             assert_eq!(rule.splits(a, b), rule.splits(b, a));
         }
     }

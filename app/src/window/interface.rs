@@ -35,11 +35,6 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-    /// Whether a text field or the like wants the keys.
-    pub fn wants_keys(&self) -> bool {
-        self.context.egui_wants_keyboard_input()
-    }
-
     /// Lays out and draws `contents` over what is in `target`.
     pub fn draw(
         &mut self,
@@ -50,7 +45,7 @@ impl Interface {
         contents: impl FnMut(&mut egui::Ui),
     ) {
         let input = self.state.take_egui_input(window);
-        let output = self.context.run_ui(input, contents);
+        let mut output = self.context.run_ui(input, contents);
         self.state.handle_platform_output(window, output.platform_output);
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
         let size = window.inner_size();
@@ -80,5 +75,6 @@ impl Interface {
         for id in &output.textures_delta.free {
             self.renderer.free_texture(id);
         }
+        output.textures_delta.clear();
     }
 }

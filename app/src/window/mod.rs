@@ -162,9 +162,16 @@ impl Open {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(size),
             WindowEvent::Focused(false) => self.ride.live.say(|at| Sample::closed(at, Source::Keyboard)),
-            WindowEvent::KeyboardInput { event, .. } if !taken && !event.repeat => {
+            WindowEvent::KeyboardInput { event, .. } if !event.repeat => {
                 if let PhysicalKey::Code(code) = event.physical_key {
-                    self.key(events, code, event.state == ElementState::Pressed);
+                    let pressed = event.state == ElementState::Pressed;
+                    if pressed {
+                        self.window_key(events, code);
+                    }
+                    // A slider that was clicked takes the arrows; a key that is let go is let go for everybody.
+                    if !(taken && pressed) {
+                        self.ride_key(code, pressed);
+                    }
                 }
             }
             WindowEvent::RedrawRequested => {
@@ -179,13 +186,15 @@ impl Open {
         Ok(())
     }
 
-    fn key(&mut self, events: &ActiveEventLoop, code: KeyCode, pressed: bool) {
+    /// Keys that mean something to the ride.
+    fn ride_key(&mut self, code: KeyCode, pressed: bool) {
         if let Some(key) = keys::key(code) {
             self.ride.live.say(|at| Sample::key(at, key, pressed));
         }
-        if !pressed {
-            return;
-        }
+    }
+
+    /// Keys that mean something to the window alone.
+    fn window_key(&mut self, events: &ActiveEventLoop, code: KeyCode) {
         match code {
             KeyCode::Escape => events.exit(),
             KeyCode::Tab => self.settings.open = !self.settings.open,

@@ -1,7 +1,7 @@
 //! `polygon`: the photo-surface of every vertex (W 5.1), drawn with ordinary rasterisation.
 //!
 //! Exact at the vertices; between them edges are straight where they should bend, which is what refinement is for.
-//! The transform runs beside the render thread ([`photo_surface`]); it does not depend on where the eye looks, so
+//! The transform runs beside the render thread (`photo_surface`); it does not depend on where the eye looks, so
 //! one [`PolygonRenderer::submit`] serves any number of [`PolygonRenderer::draw`]s. Hidden surfaces by depth are
 //! right as they stand: along one line of sight the nearer apparent position is the later emission (W 5.1.1).
 //!

@@ -11,6 +11,9 @@ use crate::scene::{Lighting, Start};
 /// scene which is saved and loaded stays the same to the bit.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
+/// The vertex attribute, without its leading underscore, that has colours above 1 where glTF's own must be clamped.
+pub(in crate::scene) const COLOURS: &str = "RAPIDITY_COLOR";
+
 /// `extras.rapidity` of a glTF scene.
 #[derive(Debug, Default, PartialEq)]
 pub(in crate::scene) struct SceneExtras {

@@ -8,6 +8,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 
 use super::accessor::{self, Purpose};
 use super::container::Document;
+use super::extras::COLOURS;
 use super::material::Channel;
 use super::{GltfError, Notices};
 use crate::scene::Mesh;
@@ -96,7 +97,8 @@ impl Primitive {
             }
             None => vec![Vec2::ZERO; count],
         };
-        let colours = match attribute(primitive, Semantic::Colors(0)) {
+        let unclamped = attribute(primitive, Semantic::Extras(COLOURS.into()));
+        let colours = match unclamped.or_else(|| attribute(primitive, Semantic::Colors(0))) {
             Some(index) => {
                 let place = format!("{place}.attributes.COLOR_0");
                 let numbers = accessor::read(document, index, &place, Purpose::Colours, |value| value as f32)?;

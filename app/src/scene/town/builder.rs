@@ -111,14 +111,20 @@ impl Builder {
             ..Mesh::default()
         });
         let first = mesh.positions.len() as u32;
-        for (corner, normal) in corners.iter().zip(normals) {
+        let mut count = 0;
+        for (k, (corner, normal)) in corners.iter().zip(normals).enumerate() {
+            // Where a face tapers to nothing, corners fall together.
+            if corner.at == corners[(k + 1) % corners.len()].at {
+                continue;
+            }
+            count += 1;
             mesh.positions.push(corner.at);
             mesh.normals.push(*normal);
             mesh.uvs.push(corner.uv);
             let colour = tint * corner.light;
             mesh.colours.push([colour.x, colour.y, colour.z, 1.0]);
         }
-        for k in 2..corners.len() as u32 {
+        for k in 2..count {
             mesh.indices.extend([first, first + k - 1, first + k]);
         }
     }
@@ -150,8 +156,8 @@ impl Builder {
         self.metric(surface, tint, &corners);
     }
 
-    /// A box between two corners in `frame`, without its underside.
-    pub(super) fn block(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
+    /// The four upright sides of a box between two corners in `frame`.
+    pub(super) fn walls(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
         let p = |x: bool, y: bool, z: bool| {
             let pick = |high_side, low, high| if high_side { high } else { low };
             frame.point(pick(x, low.x, high.x), pick(y, low.y, high.y), pick(z, low.z, high.z))
@@ -162,10 +168,16 @@ impl Builder {
             [p(i, o, i), p(i, o, o), p(i, i, o), p(i, i, i)],
             [p(i, o, o), p(o, o, o), p(o, i, o), p(i, i, o)],
             [p(o, o, o), p(o, o, i), p(o, i, i), p(o, i, o)],
-            [p(o, i, i), p(i, i, i), p(i, i, o), p(o, i, o)],
         ] {
             self.metric(surface, tint, &face);
         }
+    }
+
+    /// A box between two corners in `frame`, without its underside.
+    pub(super) fn block(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
+        self.walls(surface, tint, frame, low, high);
+        let p = |x, z| frame.point(x, high.y, z);
+        self.metric(surface, tint, &[p(low.x, high.z), p(high.x, high.z), p(high.x, low.z), p(low.x, low.z)]);
     }
 
     /// A box with its underside.

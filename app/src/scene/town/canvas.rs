@@ -5,7 +5,7 @@
 //! strokes and noise wrap round the edges, so that pictures tile. Only sums, products, quotients and square
 //! roots are used: the same seed paints the same bits on every machine.
 
-use glam::{IVec2, Vec2, Vec3, Vec4, vec2};
+use glam::{IVec2, Vec2, Vec3, Vec4, ivec2, vec2};
 use rayon::prelude::*;
 
 use crate::scene::{Texture, Wrap};
@@ -102,15 +102,15 @@ impl Canvas {
         }
     }
 
-    /// Fills the inside of an outline: `shade` gives signed distance and colour of a point.
-    pub(super) fn fill(&mut self, area: Area, shade: impl Fn(Vec2) -> (f32, Vec3)) {
+    /// Fills the inside of an outline, given as signed distance, with the colour of a point at that distance.
+    pub(super) fn fill(&mut self, area: Area, outline: impl Fn(Vec2) -> f32, colour: impl Fn(Vec2, f32) -> Vec3) {
         let step = self.pixel();
         let width = step.x.max(step.y);
         self.visit(area.grown(width), |p, pixel| {
-            let (distance, colour) = shade(p);
+            let distance = outline(p);
             let coverage = (0.5 - distance / width).clamp(0.0, 1.0);
             if coverage > 0.0 {
-                let mixed = pixel.truncate().lerp(colour, coverage);
+                let mixed = pixel.truncate().lerp(colour(p, distance), coverage);
                 *pixel = mixed.extend(pixel.w.max(coverage));
             }
         });
@@ -168,17 +168,24 @@ pub(super) fn chance(x: i32, y: i32, seed: u32) -> f32 {
 
 /// Smooth noise in −1…1 on a lattice of unit cells that repeats after `period` cells.
 pub(super) fn noise(p: Vec2, period: IVec2, seed: u32) -> f32 {
-    let floor = p.floor();
-    let f = p - floor;
+    let cell = ivec2(floor(p.x), floor(p.y));
+    let f = p - cell.as_vec2();
     let s = f * f * (3.0 - 2.0 * f);
-    let low = floor.as_ivec2().rem_euclid(period);
-    let high = (low + 1).rem_euclid(period);
-    let row = |y: i32| {
-        let (a, b) = (chance(low.x, y, seed), chance(high.x, y, seed));
+    let low = cell.rem_euclid(period);
+    let next = |low: i32, period: i32| if low + 1 == period { 0 } else { low + 1 };
+    let (x, y) = (next(low.x, period.x), next(low.y, period.y));
+    let row = |row: i32| {
+        let (a, b) = (chance(low.x, row, seed), chance(x, row, seed));
         a + (b - a) * s.x
     };
-    let (a, b) = (row(low.y), row(high.y));
+    let (a, b) = (row(low.y), row(y));
     2.0 * (a + (b - a) * s.y) - 1.0
+}
+
+/// The whole number below, without a call into a mathematics library.
+fn floor(x: f32) -> i32 {
+    let whole = x as i32;
+    if (whole as f32) > x { whole - 1 } else { whole }
 }
 
 /// Lattice that never repeats within a picture.

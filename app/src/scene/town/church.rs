@@ -4,7 +4,7 @@ use glam::{Vec3, vec3};
 
 use super::builder::{Builder, Frame};
 use super::masonry::{disc, panel};
-use super::paint::openings::{LANCET, PORTAL};
+use super::paint::tracery::{LANCET, PORTAL};
 use super::roof::Roof;
 use super::surface::Surface;
 
@@ -111,7 +111,7 @@ fn nave(builder: &mut Builder, frame: &Frame) {
         overhang: [0.45, 0.25, 0.25],
         hips: [None, None],
         surface: Surface::Tiles,
-        near: true,
+        near: Some((frame.origin, frame.out, 60.0)),
         tint: vec3(0.86, 0.80, 0.78),
     };
     roof.build(builder);

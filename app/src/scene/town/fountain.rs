@@ -26,8 +26,9 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame) {
     for quarter in 0..4 {
         let face = frame.rotated(quarter as f32 / 4.0);
         builder.beam(Surface::Iron, stone, &face, vec3(-0.03, 1.52, 0.5), vec3(0.03, 1.58, 1.25));
-        // Jets, as thin as the water falls.
-        builder.beam(Surface::Water, vec3(1.5, 1.6, 1.7), &face, vec3(-0.025, 1.05, 1.22), vec3(0.025, 1.53, 1.27));
+        // A jet falls from each spout.
+        let jet = [face.point(0.0, 1.55, 1.25), face.point(0.0, 1.05, 1.5)];
+        builder.rod(Surface::Lantern, vec3(0.9, 1.05, 1.3), jet[0], jet[1], 0.025);
         builder.turned(
             Surface::Gold,
             stone,

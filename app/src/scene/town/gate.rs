@@ -1,8 +1,9 @@
 //! The gate tower astride the street.
 
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec3, vec3};
 
-use super::builder::{Builder, Corner, Frame};
+use super::builder::{Builder, Frame};
+use super::facade::Bay;
 use super::masonry::{Arch, panel};
 use super::paint::timber;
 use super::surface::Surface;
@@ -55,22 +56,9 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, depth: f32) {
         let w = wide + out;
         let bays = (2.0 * w / 2.4).round() as usize;
         for k in 0..bays {
-            let cell = if k == 0 || k + 1 == bays { timber::BLIND[0] } else { timber::WINDOWS[1] } as f32
-                / timber::BAYS as f32;
-            let x = |k: usize| -w + 2.0 * w * k as f32 / bays as f32;
-            let corner = |x: f32, y: f32, u: f32, v: f32| {
-                Corner::new(face.point(x, y, 0.0), vec2(cell + u / timber::BAYS as f32, v))
-            };
-            builder.face(
-                Surface::Front(1),
-                Vec3::ONE,
-                &[
-                    corner(x(k), 0.0, 0.0, 1.0),
-                    corner(x(k + 1), 0.0, 1.0, 1.0),
-                    corner(x(k + 1), TOP, 1.0, 0.0),
-                    corner(x(k), TOP, 0.0, 0.0),
-                ],
-            );
+            let cell = if k == 0 || k + 1 == bays { timber::BLIND[0] } else { timber::WINDOWS[1] };
+            let across = [k, k + 1].map(|k| -w + 2.0 * w * k as f32 / bays as f32);
+            Bay { surface: Surface::Front(1), tint: Vec3::ONE, cell, across, height: [0.0, TOP] }.build(builder, &face);
         }
         let under = [
             face.point(-w, 0.0, 0.0),

@@ -3,15 +3,20 @@
 //! A front is put together from the bays of its pictures, so that no two houses look alike although pictures are
 //! shared. The lot's quadrilateral is kept for the walls, so that neighbours leave no gap.
 
-use glam::{Vec2, Vec3, vec2, vec3};
+use glam::{Vec3, vec3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::builder::{Builder, Corner, Frame, Tint};
-use super::paint::{openings, timber};
+use super::builder::{Builder, Frame, Tint};
+use super::facade::{Bay, Gable, ground_bays, upper_bays};
+use super::paint::{ground_floors, timber};
 use super::plan::{Lot, ground};
-use super::roof::{Roof, chimney, clip, dormer};
+use super::roof::{Roof, chimney, dormer};
 use super::surface::Surface;
+
+/// Depth of a house that has room for it, and width of a bay, metres.
+const DEPTH: f32 = 9.0;
+const BAY: f32 = 2.4;
 
 /// Decides how houses look, and remembers the last one so that neighbours differ.
 #[derive(Default)]
@@ -35,6 +40,29 @@ pub(super) struct House {
     pub(super) windows: Vec<f32>,
 }
 
+/// A storey from its floor to its ceiling, and how far it juts out.
+struct Storey {
+    bottom: f32,
+    top: f32,
+    juts: f32,
+}
+
+/// A house in the making.
+struct Design {
+    frame: Frame,
+    width: f32,
+    depth: f32,
+    /// How far the side walls lean to the right per metre of depth.
+    lean: [f32; 2],
+    bays: usize,
+    front: usize,
+    ground_floor: usize,
+    tint: Tint,
+    /// Colour of walls without a picture of their own.
+    wall: Tint,
+    storeys: Vec<Storey>,
+}
+
 /// sRGB to linear, by a cubic that errs by less than 0.01.
 pub(super) fn linear(colour: Vec3) -> Vec3 {
     colour * (colour * (colour * 0.305_306 + 0.682_171) + 0.012_523)
@@ -49,170 +77,216 @@ pub(super) fn roof_tint(dice: &mut ChaCha8Rng) -> Tint {
 impl Builders {
     /// Builds a house on a lot.
     pub(super) fn house(&mut self, builder: &mut Builder, lot: &Lot, dice: &mut ChaCha8Rng) -> House {
-        // Choose what it is made of.
+        let design = self.design(lot, dice);
+        let plan = ground_bays(design.bays, dice);
+        design.build_ground_floor(builder, &plan);
+        let windows = design.build_storeys(builder, dice);
+        design.build_plain_walls(builder);
+        if design.width < 6.4 || (design.width < 8.6 && dice.random_bool(0.6)) {
+            design.roof_across(builder, dice);
+        } else {
+            design.roof_along(builder, dice);
+        }
+        let bay = design.width / design.bays as f32;
+        House {
+            frame: design.frame,
+            width: design.width,
+            bays: plan.iter().enumerate().map(|(k, &cell)| ((k as f32 + 0.5) * bay, cell)).collect(),
+            jetty: design.storeys[1].juts,
+            ground_floor: design.storeys[0].top,
+            windows,
+        }
+    }
+
+    /// Chooses what a house is made of and how high it is, unlike its neighbour.
+    fn design(&mut self, lot: &Lot, dice: &mut ChaCha8Rng) -> Design {
         let pick = |dice: &mut ChaCha8Rng, count: usize, last: usize| (last + dice.random_range(1..count)) % count;
-        let front = pick(dice, timber::HOUSE_FRONTS, self.last_front);
-        let ground_floor = pick(dice, openings::GROUND_FLOORS.len(), self.last_ground_floor);
-        (self.last_front, self.last_ground_floor) = (front, ground_floor);
-        let timbered = timber::FRONTS[front].is_timbered();
-        let tint = Vec3::splat(dice.random_range(0.90..1.04))
-            * if timbered { Vec3::ONE } else { Vec3::ONE.lerp(pastel(dice), 0.8) };
-        let wall = tint * linear(timber::FRONTS[front].plaster());
+        self.last_front = pick(dice, timber::HOUSE_FRONTS, self.last_front);
+        self.last_ground_floor = pick(dice, ground_floors::GROUND_FLOORS.len(), self.last_ground_floor);
+        let front = &timber::FRONTS[self.last_front];
+        let wash = if front.is_timbered() { Vec3::ONE } else { Vec3::ONE.lerp(pastel(dice), 0.8) };
+        let tint = wash * dice.random_range(0.90..1.04);
+
+        // Place it on its lot.
         let [a, b] = lot.front;
-        let base = ground(a).min(ground(b)) - 0.03;
         let width = a.distance(b);
         let direction = (b - a) / width;
         let right = vec3(direction.x, 0.0, direction.y);
-        let frame = Frame { origin: vec3(a.x, base, a.y), right, up: Vec3::Y, out: right.cross(Vec3::Y) };
-        let depth = depth_of(lot, width, direction);
+        let base = ground(a).min(ground(b)) - 0.03;
         let lean = lot.sides.map(|side| side.dot(direction));
-        let bays = (width / 2.4).round().max(1.0) as usize;
+        let closing = lean[0] - lean[1];
 
         // Stack the storeys.
         let first = dice.random_range(2.9..3.3);
         let upper = if lot.at_square { dice.random_range(2..4) } else { [1, 2, 2, 2, 3][dice.random_range(0..5)] };
-        let storey: f32 = dice.random_range(2.5..2.8);
-        let mut height = first + storey * upper as f32;
+        let mut height = first + dice.random_range(2.5..2.8) * upper as f32;
         if (height - self.last_height).abs() < 0.35 {
             height += 0.5;
         }
         self.last_height = height;
         let storey = (height - first) / upper as f32;
-        let jetty = if timbered { dice.random_range(0.16..0.34) } else { 0.0 };
-        let mut levels = vec![(0.0, first, 0.0)];
-        for k in 0..upper {
+        let jetty = if front.is_timbered() { dice.random_range(0.16..0.34) } else { 0.0 };
+        let mut storeys = vec![Storey { bottom: 0.0, top: first, juts: 0.0 }];
+        storeys.extend((0..upper).map(|k| {
             let bottom = first + storey * k as f32;
-            let juts = jetty * if k == 0 { 1.0 } else { 1.0 + 0.45 * k as f32 };
-            levels.push((bottom, bottom + storey, juts));
-        }
+            Storey { bottom, top: bottom + storey, juts: jetty * (1.0 + 0.45 * k as f32) }
+        }));
 
-        // Front walls, bay by bay.
-        let plan = ground_bays(bays, dice);
-        let bay = width / bays as f32;
-        let mut windows = vec![];
+        Design {
+            frame: Frame { origin: vec3(a.x, base, a.y), right, up: Vec3::Y, out: right.cross(Vec3::Y) },
+            width,
+            depth: if closing > 0.0 { (0.6 * width / closing).min(DEPTH) } else { DEPTH },
+            lean,
+            bays: (width / BAY).round().max(1.0) as usize,
+            front: self.last_front,
+            ground_floor: self.last_ground_floor,
+            tint,
+            wall: tint * linear(front.plaster()) * 0.92,
+            storeys,
+        }
+    }
+}
+
+impl Design {
+    /// Height of the walls, and how far the uppermost storey juts out.
+    fn top(&self) -> (f32, f32) {
+        let top = &self.storeys[self.storeys.len() - 1];
+        (top.top, top.juts)
+    }
+
+    /// A point of the left (0) or right (1) edge of the back wall.
+    fn back(&self, side: usize, y: f32) -> Vec3 {
+        self.frame.point(side as f32 * self.width + self.lean[side] * self.depth, y, -self.depth)
+    }
+
+    /// Upper corners of the walls: left and right in front, right and left at the back.
+    fn upper_corners(&self) -> [Vec3; 4] {
+        let (y, z) = self.top();
+        [self.frame.point(0.0, y, z), self.frame.point(self.width, y, z), self.back(1, y), self.back(0, y)]
+    }
+
+    /// Left and right ends of a bay.
+    fn across(&self, k: usize) -> [f32; 2] {
+        [k, k + 1].map(|k| self.width * k as f32 / self.bays as f32)
+    }
+
+    fn build_ground_floor(&self, builder: &mut Builder, plan: &[usize]) {
         for (k, &cell) in plan.iter().enumerate() {
-            let x = k as f32 * bay;
-            storey_bay(
-                builder,
-                Surface::GroundFloor(ground_floor),
-                Vec3::ONE.lerp(tint, 0.5),
-                &frame,
-                [x, x + bay],
-                [0.0, first],
-                0.0,
-                cell,
-            );
+            let surface = Surface::GroundFloor(self.ground_floor);
+            let tint = Vec3::ONE.lerp(self.tint, 0.5);
+            let height = [0.0, self.storeys[0].top];
+            Bay { surface, tint, cell, across: self.across(k), height }.build(builder, &self.frame);
         }
-        for (level, &(bottom, top, juts)) in levels.iter().enumerate().skip(1) {
-            let cells = upper_bays(bays, dice);
-            for (k, &cell) in cells.iter().enumerate() {
-                let x = k as f32 * bay;
-                if level == 1 && timber::WINDOWS.contains(&cell) {
-                    windows.push(x + bay / 2.0);
+    }
+
+    /// Builds the fronts of the upper storeys and what one sees from below; returns the middles of first-floor windows.
+    fn build_storeys(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) -> Vec<f32> {
+        let mut windows = vec![];
+        for pair in self.storeys.windows(2) {
+            let (below, storey) = (&pair[0], &pair[1]);
+            let plane = self.frame.at(0.0, 0.0, storey.juts);
+            for (k, cell) in upper_bays(self.bays, dice).into_iter().enumerate() {
+                let across = self.across(k);
+                if below.bottom == 0.0 && timber::WINDOWS.contains(&cell) {
+                    windows.push((across[0] + across[1]) / 2.0);
                 }
-                storey_bay(builder, Surface::Front(front), tint, &frame, [x, x + bay], [bottom, top], juts, cell);
+                let height = [storey.bottom, storey.top];
+                Bay { surface: Surface::Front(self.front), tint: self.tint, cell, across, height }
+                    .build(builder, &plane);
             }
-            let before = levels[level - 1].2;
-            if juts > before {
-                let under = |x: f32, z: f32| frame.point(x, bottom, z);
-                builder.lit(
-                    Surface::Planks,
-                    Vec3::splat(0.9),
-                    &[
-                        (under(0.0, before), 0.35),
-                        (under(width, before), 0.35),
-                        (under(width, juts), 0.8),
-                        (under(0.0, juts), 0.8),
-                    ],
-                );
-            }
-        }
-
-        // Party walls and the back.
-        let back =
-            |side: usize, y: f32| frame.point(if side == 0 { 0.0 } else { width } + lean[side] * depth, y, -depth);
-        for &(bottom, top, juts) in &levels {
-            for (side, x) in [0.0, width].into_iter().enumerate() {
+            if storey.juts > below.juts {
+                let under = |x: f32, z: f32, light: f32| (self.frame.point(x, storey.bottom, z), light);
+                let (w, inner, outer) = (self.width, below.juts, storey.juts);
                 let corners =
-                    [back(side, bottom), frame.point(x, bottom, juts), frame.point(x, top, juts), back(side, top)];
-                builder.facing(Surface::Plaster, wall * 0.92, &corners, frame.right * (2.0 * side as f32 - 1.0));
+                    [under(0.0, inner, 0.35), under(w, inner, 0.35), under(w, outer, 0.8), under(0.0, outer, 0.8)];
+                builder.lit(Surface::Planks, Vec3::splat(0.9), &corners);
             }
         }
-        builder.facing(
-            Surface::Plaster,
-            wall * 0.9,
-            &[back(1, 0.0), back(0, 0.0), back(0, height), back(1, height)],
-            -frame.out,
-        );
+        windows
+    }
 
-        // The roof, its ridge across the street or along it.
-        let juts = levels[levels.len() - 1].2;
-        let walls =
-            [frame.point(0.0, height, juts), frame.point(width, height, juts), back(1, height), back(0, height)];
-        let gable_to_street = if width > 8.6 {
-            false
-        } else if width < 6.4 {
-            true
-        } else {
-            dice.random_bool(0.6)
-        };
-        let roof_colour = roof_tint(dice);
-        let pitch = dice.random_range(1.15..1.45);
-        if gable_to_street {
-            let hip = dice.random_bool(0.3).then_some(0.62);
-            let roof = Roof {
-                walls,
-                height: pitch * width / 2.0,
-                overhang: [0.22, 0.38, 0.15],
-                hips: [hip, None],
-                surface: Surface::Tiles,
-                near: true,
-                tint: roof_colour,
-            };
-            gable(
-                builder,
-                Surface::Front(front),
-                tint,
-                &frame,
-                &Gable { width, height: roof.height, bottom: height, juts, bays, timbered, hip },
-                dice,
-            );
-            let [_, end] = roof.ridge();
-            builder.facing(Surface::Plaster, wall * 0.9, &[walls[2], walls[3], end], -frame.out);
-            roof.build(builder);
-            let across = frame.at(
-                width / 2.0 + dice.random_range(-0.9..0.9),
-                height + roof.height - 1.6,
-                -depth * dice.random_range(0.3..0.7),
-            );
-            chimney(builder, &across, 2.4, Vec3::splat(0.9));
-        } else {
-            let span = depth + juts;
-            let roof = Roof {
-                walls: [walls[1], walls[2], walls[3], walls[0]],
-                height: pitch * span / 2.0,
-                overhang: [0.42, 0.12, 0.12],
-                hips: [None, None],
-                surface: Surface::Tiles,
-                near: true,
-                tint: roof_colour,
-            };
-            let [right_end, left_end] = roof.ridge();
-            builder.facing(Surface::Plaster, wall * 0.9, &[walls[1], walls[2], right_end], frame.right);
-            builder.facing(Surface::Plaster, wall * 0.9, &[walls[3], walls[0], left_end], -frame.right);
-            roof.build(builder);
-            let slope = 2.0 * roof.height / span;
-            let dormers = if width > 7.4 { dice.random_range(1..4) } else { dice.random_range(1..3) };
-            for k in 0..dormers {
-                let x = width * (k as f32 + 0.5) / dormers as f32;
-                let inset = 0.75;
-                dormer(builder, &frame.at(x, height + 0.1 + inset * slope, juts - inset), slope, front, roof_colour);
+    /// Party walls and the back.
+    fn build_plain_walls(&self, builder: &mut Builder) {
+        let p = |x: f32, y: f32, z: f32| self.frame.point(x, y, z);
+        for storeys in self.storeys.chunk_by(|a, b| a.juts == b.juts) {
+            let (bottom, top, z) = (storeys[0].bottom, storeys[storeys.len() - 1].top, storeys[0].juts);
+            for (side, x) in [0.0, self.width].into_iter().enumerate() {
+                let corners = [self.back(side, bottom), p(x, bottom, z), p(x, top, z), self.back(side, top)];
+                let out = self.frame.right * (2.0 * side as f32 - 1.0);
+                builder.facing(Surface::Plaster, self.wall, &corners, out);
             }
-            let x = width * dice.random_range(0.15..0.85);
-            chimney(builder, &frame.at(x, height + roof.height - 1.3, juts - span * 0.56), 2.3, Vec3::splat(0.9));
         }
-        let middles = plan.iter().enumerate().map(|(k, &cell)| ((k as f32 + 0.5) * bay, cell)).collect();
-        House { frame, width, bays: middles, jetty: levels[1].2, ground_floor: first, windows }
+        let (top, _) = self.top();
+        let corners = [self.back(1, 0.0), self.back(0, 0.0), self.back(0, top), self.back(1, top)];
+        builder.facing(Surface::Plaster, self.wall, &corners, -self.frame.out);
+    }
+
+    /// A roof whose gable looks onto the street.
+    fn roof_across(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) {
+        let (top, juts) = self.top();
+        let walls = self.upper_corners();
+        let hip = dice.random_bool(0.3).then_some(0.62);
+        let roof = Roof {
+            walls,
+            height: dice.random_range(1.15..1.45) * self.width / 2.0,
+            overhang: [0.22, 0.38, 0.15],
+            hips: [hip, None],
+            surface: Surface::Tiles,
+            near: Some((self.frame.origin, self.frame.out, 3.0)),
+            tint: roof_tint(dice),
+        };
+        roof.build(builder);
+        let gable = Gable {
+            surface: Surface::Front(self.front),
+            tint: self.tint,
+            width: self.width,
+            height: roof.height,
+            bays: self.bays,
+            timbered: timber::FRONTS[self.front].is_timbered(),
+            hip,
+        };
+        gable.build(builder, &self.frame.at(0.0, top, juts), dice);
+        let [_, end] = roof.ridge();
+        builder.facing(Surface::Plaster, self.wall, &[walls[2], walls[3], end], -self.frame.out);
+        let x = self.width / 2.0 + dice.random_range(-0.9..0.9);
+        let z = -self.depth * dice.random_range(0.3..0.7);
+        if dice.random_bool(0.7) {
+            chimney(builder, &self.frame.at(x, top + roof.height - 1.6, z), 2.4, Vec3::splat(0.9));
+        }
+    }
+
+    /// A roof whose eaves run along the street, with dormers.
+    fn roof_along(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) {
+        let (top, juts) = self.top();
+        let [a, b, c, d] = self.upper_corners();
+        let span = self.depth + juts;
+        let tint = roof_tint(dice);
+        let roof = Roof {
+            walls: [b, c, d, a],
+            height: dice.random_range(1.15..1.45) * span / 2.0,
+            overhang: [0.42, 0.12, 0.12],
+            hips: [None, None],
+            surface: Surface::Tiles,
+            near: Some((self.frame.origin, self.frame.out, 3.0)),
+            tint,
+        };
+        roof.build(builder);
+        let [right_end, left_end] = roof.ridge();
+        builder.facing(Surface::Plaster, self.wall, &[b, c, right_end], self.frame.right);
+        builder.facing(Surface::Plaster, self.wall, &[d, a, left_end], -self.frame.right);
+        let slope = 2.0 * roof.height / span;
+        let inset = 0.75;
+        let dormers = dice.random_range(1..if self.width > 7.4 { 4 } else { 3 });
+        for k in 0..dormers {
+            let x = self.width * (k as f32 + 0.5) / dormers as f32;
+            let foot = self.frame.at(x, top + 0.1 + inset * slope, juts - inset);
+            dormer(builder, &foot, slope, self.front, tint);
+        }
+        if dice.random_bool(0.7) {
+            let x = self.width * dice.random_range(0.15..0.85);
+            let foot = self.frame.at(x, top + roof.height - 1.3, juts - span * 0.56);
+            chimney(builder, &foot, 2.3, Vec3::splat(0.9));
+        }
     }
 }
 
@@ -226,126 +300,4 @@ fn pastel(dice: &mut ChaCha8Rng) -> Tint {
         vec3(1.0, 0.86, 0.55),
         vec3(1.0, 1.0, 1.0),
     ][dice.random_range(0..6)]
-}
-
-/// Depth of a house: about nine metres, less where its side lines run together.
-fn depth_of(lot: &Lot, width: f32, direction: Vec2) -> f32 {
-    let closing = lot.sides[0].dot(direction) - lot.sides[1].dot(direction);
-    if closing > 0.0 { (0.6 * width / closing).min(9.0) } else { 9.0 }
-}
-
-/// What the bays of a ground floor are: always a door, otherwise windows and shops.
-fn ground_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
-    use openings::{ARCH, BARE, DOOR, GROUND_WINDOWS, SHOP};
-    let mut cells: Vec<usize> = (0..bays)
-        .map(|_| match dice.random_range(0..10) {
-            0..3 => SHOP,
-            3..5 => GROUND_WINDOWS[1],
-            5..9 => GROUND_WINDOWS[0],
-            _ => BARE,
-        })
-        .collect();
-    let place = dice.random_range(0..bays);
-    cells[place] = if dice.random_bool(0.35) { ARCH } else { DOOR };
-    if cells[place] == ARCH && bays > 2 {
-        cells[(place + 1) % bays] = DOOR;
-    }
-    cells
-}
-
-/// What the bays of an upper storey are: windows, with braced bays at the corners of wide fronts; symmetric.
-fn upper_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
-    let window = timber::WINDOWS[dice.random_range(0..timber::WINDOWS.len())];
-    let other = timber::WINDOWS[dice.random_range(0..timber::WINDOWS.len())];
-    let blind = timber::BLIND[dice.random_range(0..timber::BLIND.len())];
-    let braced = bays > 2 && dice.random_bool(0.45);
-    (0..bays)
-        .map(|k| {
-            let from_edge = k.min(bays - 1 - k);
-            match from_edge {
-                0 if braced => blind,
-                0 => window,
-                _ => other,
-            }
-        })
-        .collect()
-}
-
-/// One bay of a storey.
-#[expect(clippy::too_many_arguments, reason = "a bay is where, how large and what; a struct would only rename them")]
-fn storey_bay(
-    builder: &mut Builder,
-    surface: Surface,
-    tint: Tint,
-    frame: &Frame,
-    [left, right]: [f32; 2],
-    [bottom, top]: [f32; 2],
-    juts: f32,
-    cell: usize,
-) {
-    let bays = timber::BAYS as f32;
-    let [u0, u1] = [cell as f32 / bays, (cell + 1) as f32 / bays];
-    let corner = |x: f32, y: f32, u: f32, v: f32| Corner::new(frame.point(x, y, juts), vec2(u, v));
-    builder.face(
-        surface,
-        tint,
-        &[
-            corner(left, bottom, u0, 1.0),
-            corner(right, bottom, u1, 1.0),
-            corner(right, top, u1, 0.0),
-            corner(left, top, u0, 0.0),
-        ],
-    );
-}
-
-/// A gable over the street.
-struct Gable {
-    width: f32,
-    height: f32,
-    bottom: f32,
-    juts: f32,
-    bays: usize,
-    timbered: bool,
-    hip: Option<f32>,
-}
-
-/// The storeys of a gable, cut off by the roof.
-fn gable(builder: &mut Builder, surface: Surface, tint: Tint, frame: &Frame, gable: &Gable, dice: &mut ChaCha8Rng) {
-    const STOREY: f32 = 2.45;
-    let middle = gable.width / 2.0;
-    let bay = gable.width / gable.bays as f32;
-    let top = gable.height * gable.hip.unwrap_or(1.0);
-    let wide_at = |y: f32| gable.width * (1.0 - y / gable.height);
-    let needed = if gable.timbered { 1.35 } else { 2.2 };
-    let rows = (top / STOREY).ceil() as usize;
-    for row in 0..rows {
-        let low = row as f32 * STOREY;
-        let high = (low + STOREY).min(top);
-        let free = wide_at(low + 2.1);
-        let windows =
-            if low + 2.1 > top || free < needed { 0 } else { (((free - needed) / bay) as usize + 1).min(gable.bays) };
-        let windows_cell = if gable.timbered && free < 2.6 { 1 } else { timber::WINDOWS[dice.random_range(0..4)] };
-        let blind = timber::BLIND[dice.random_range(0..2)];
-        let reach = gable.bays as i32 + 1;
-        for k in -reach..=reach {
-            let left = middle + (k as f32 - windows as f32 / 2.0) * bay;
-            let cell = if (0..windows as i32).contains(&k) { windows_cell } else { blind };
-            let square = [vec2(left, low), vec2(left + bay, low), vec2(left + bay, high), vec2(left, high)];
-            // Below the roof's two slopes: x/middle ≥ y/height on the left, mirrored on the right.
-            let steep = vec2(-1.0 / middle, 1.0 / gable.height);
-            let cut = clip(&square, steep, 0.0);
-            let cut = clip(&cut, vec2(1.0 / middle, 1.0 / gable.height), 2.0);
-            if cut.len() < 3 {
-                continue;
-            }
-            let corners: Vec<Corner> = cut
-                .iter()
-                .map(|p| {
-                    let u = (cell as f32 + (p.x - left) / bay) / timber::BAYS as f32;
-                    Corner::new(frame.point(p.x, gable.bottom + p.y, gable.juts), vec2(u, 1.0 - (p.y - low) / STOREY))
-                })
-                .collect();
-            builder.face(surface, tint, &corners);
-        }
-    }
 }

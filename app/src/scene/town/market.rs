@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::builder::{Builder, Corner, Frame};
 use super::surface::Surface;
+use super::turn::circle;
 
 const OAK: Vec3 = vec3(1.0, 0.9, 0.8);
 
@@ -85,11 +86,8 @@ fn crate_of(builder: &mut Builder, frame: &Frame, kind: f32) {
 
 /// A barrel on its end.
 pub(super) fn barrel(builder: &mut Builder, frame: &Frame) {
-    let staves = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
-    builder.turned(Surface::Planks, vec3(1.2, 0.95, 0.75), frame, 7, &staves);
-    for y in [0.17, 0.7] {
-        builder.turned(Surface::Iron, Vec3::ONE, frame, 7, &[(0.315, y), (0.325, y + 0.06)]);
-    }
+    let outline = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
+    builder.turned(Surface::Staves, Vec3::ONE, frame, 7, &outline);
 }
 
 /// A bench with a back.
@@ -103,4 +101,29 @@ pub(super) fn bench(builder: &mut Builder, frame: &Frame) {
     let plank = vec3(1.25, 0.95, 0.7);
     builder.beam(Surface::Planks, plank, frame, vec3(-0.95, 0.42, -0.2), vec3(0.95, 0.47, 0.22));
     builder.beam(Surface::Planks, plank, frame, vec3(-0.95, 0.62, -0.2), vec3(0.95, 0.86, -0.16));
+}
+
+/// A round table with stools under a parasol; `number` chooses its cloth.
+pub(super) fn table(builder: &mut Builder, frame: &Frame, number: usize) {
+    let wood = vec3(1.2, 0.95, 0.75);
+    let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
+    builder.rod(Surface::Iron, Vec3::ONE, p(0.0, 0.0, 0.0), p(0.0, 2.75, 0.0), 0.05);
+    builder.prism(Surface::Planks, wood, frame, 8, [0.48, 0.48], [0.72, 0.76]);
+    for k in 0..3 {
+        let c = circle(k as f32 / 3.0) * 0.85;
+        builder.prism(Surface::Planks, wood, &frame.at(c.x, 0.0, c.y), 5, [0.14, 0.19], [0.0, 0.46]);
+    }
+    const PANELS: u32 = 8;
+    let stripe = (number % 4) as f32 / 4.0;
+    let rim = |k: u32| {
+        let c = circle(k as f32 / PANELS as f32) * 1.45;
+        p(c.x, 2.15, c.y)
+    };
+    for k in 0..PANELS {
+        // White and coloured panels take turns.
+        let u = 0.25 * (2 * (k % 2)) as f32 + 0.02;
+        let corner = |at: Vec3, s: f32, t: f32| Corner::new(at, vec2(u + 0.2 * s, stripe + 0.03 + 0.19 * t));
+        let corners = [corner(rim(k + 1), 0.0, 1.0), corner(rim(k), 1.0, 1.0), corner(p(0.0, 2.7, 0.0), 0.5, 0.0)];
+        builder.face(Surface::Awning, Vec3::ONE, &corners);
+    }
 }

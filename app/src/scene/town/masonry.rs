@@ -41,12 +41,12 @@ impl Arch {
         for [a, b] in [[left, l], [r, right]] {
             if b > a {
                 let corners = [
+                    (p(a, self.spring), 1.0),
                     (p(a, 0.0), 0.7),
                     (p(b, 0.0), 0.7),
                     (p(b, self.spring), 1.0),
                     (p(b, self.top), 1.0),
                     (p(a, self.top), 1.0),
-                    (p(a, self.spring), 1.0),
                 ];
                 builder.lit(surface, tint, &corners);
             }

@@ -7,6 +7,7 @@
 mod builder;
 mod canvas;
 mod church;
+mod facade;
 mod fountain;
 mod furniture;
 mod gate;
@@ -18,13 +19,14 @@ mod paint;
 mod plan;
 mod roof;
 mod skyline;
+mod square;
 mod street;
 mod surface;
 mod town_hall;
 mod turn;
 
 use glam::{DVec3, Vec3};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::scene::{Lighting, Scene, Start};
@@ -42,7 +44,7 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
 /// Builds the old town.
 ///
 /// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs clockwise
-/// on a map, some 450 m, at least 1.2 m clear of anything solid.
+/// on a map, some 415 m, at least 1.5 m clear of anything solid.
 pub fn build(seed: u64) -> Scene {
     let plan = Plan::new(&mut dice(seed, 0));
     let mut builder = Builder::default();
@@ -77,14 +79,17 @@ pub fn build(seed: u64) -> Scene {
     let gate = plan.gate_station();
     let ahead = Vec3::new(gate.ahead.x, 0.0, gate.ahead.y);
     gate::build(&mut builder, &Frame::facing(on_ground(gate.at), -ahead), plan::GATE_DEPTH);
-    furnish_square(&mut builder, &mut dice(seed, 3));
+    square::furnish(&mut builder, &mut dice(seed, 3));
+    for (number, station) in plan.festive_stations().into_iter().enumerate() {
+        furniture::bunting(&mut builder, station, number);
+    }
 
     // Close the view.
     let mut dice = dice(seed, 4);
     skyline::second_row(&mut builder, &plan, &mut dice);
     skyline::yards(&mut builder, &mut dice);
     skyline::town_wall(&mut builder);
-    nature::country(&mut builder);
+    nature::country(&mut builder, &daylight());
 
     // Paint the surfaces and hand everything over.
     let (materials, textures) = surface::materials(seed as u32);
@@ -101,38 +106,6 @@ pub fn build(seed: u64) -> Scene {
         circuit,
         notices: vec![],
     }
-}
-
-/// Sets up what stands on the market square.
-fn furnish_square(builder: &mut Builder, dice: &mut ChaCha8Rng) {
-    builder.district("market square");
-    let place = |x: f32, z: f32, turns: f32| Frame::turned(Vec3::new(x, 0.0, z), turns);
-    fountain::build(builder, &place(-6.0, 1.0, 0.25));
-    for (x, z, turns) in [
-        (-15.0, 16.0, 0.22),
-        (-11.0, 18.5, 0.30),
-        (-16.5, -13.0, 0.27),
-        (-12.0, -16.5, 0.20),
-        (-7.0, -17.0, 0.26),
-        (-5.5, 17.5, 0.28),
-    ] {
-        market::stall(builder, &place(x, z, turns), dice);
-    }
-    for (x, z) in [(14.5, -15.5), (14.0, 16.5), (14.8, 21.5), (-19.5, 20.5)] {
-        let frame = place(x, z, 0.0);
-        nature::tree(builder, &frame, dice.random_range(8.0..10.5), dice);
-        masonry::basin(builder, surface::Surface::Ashlar, &frame, 8, [1.0, 0.8], [0.0, 0.42]);
-    }
-    for (x, z, turns) in [(12.4, -15.5, 0.75), (12.0, 16.5, 0.75), (-1.0, 4.6, 0.3)] {
-        market::bench(builder, &place(x, z, turns));
-    }
-    for (x, z) in [(-1.2, -9.0), (-1.0, 12.0), (11.5, 9.5), (11.5, -9.5)] {
-        furniture::lamp_post(builder, &place(x, z, 0.25));
-    }
-    for (x, z) in [(-13.2, 14.3), (-13.9, 14.9), (-9.4, -15.0)] {
-        market::barrel(builder, &place(x, z, 0.1));
-    }
-    fountain::well(builder, &place(12.0, -20.5, 0.1));
 }
 
 /// A clear late morning: the sun stands in the south-east.

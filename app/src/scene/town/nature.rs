@@ -9,43 +9,41 @@ use super::canvas::{cloud, smoothstep};
 use super::plan::ground;
 use super::surface::Surface;
 use super::turn::circle;
+use crate::scene::Lighting;
 
 /// Middle of the town.
 pub(super) const MIDDLE: Vec2 = vec2(48.0, -4.0);
 /// Where the country begins to rise, metres from the middle.
 const PLAIN: f32 = 150.0;
+/// Where the hills are highest and the country ends.
+const HORIZON: f32 = 340.0;
 
-/// A lime tree: a trunk and sprays of leaves that face outwards from the crown's middle.
-pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, dice: &mut ChaCha8Rng) {
+/// A lime tree: a trunk and `sprays` of leaves that face outwards from the middles of three lobes.
+pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u32, dice: &mut ChaCha8Rng) {
     let radius = height * 0.30;
-    let crown = frame.at(0.0, height * 0.62, 0.0).origin;
-    builder.turned(
-        Surface::Bark,
-        Vec3::ONE,
-        frame,
-        6,
-        &[(0.34, -0.2), (0.22, 0.5), (0.17, height * 0.35), (0.08, height * 0.7)],
-    );
-    let sprays = 30;
+    let crown = frame.point(0.0, height * 0.62, 0.0);
+    builder.turned(Surface::Bark, Vec3::ONE, frame, 6, &[(0.34, -0.2), (0.2, 0.6), (0.12, height * 0.6)]);
+    let start: f32 = dice.random_range(0.0..1.0);
+    let size = radius * 3.3 / (sprays as f32).sqrt();
     for k in 0..sprays {
-        // Points of a spiral on the sphere, evenly dense.
+        // Lobes round the crown's axis at different heights; points of a spiral on each, evenly dense.
+        let lobe = k % 3;
+        let c = circle(start + lobe as f32 / 3.0) * 0.38 * radius;
+        let middle = crown + vec3(c.x, (lobe as f32 - 0.8) * 0.34 * radius, c.y);
         let y = 1.0 - 2.0 * (k as f32 + 0.5) / sprays as f32;
-        let c = circle(0.381_966 * k as f32 + dice.random_range(-0.04..0.04)) * (1.0 - y * y).sqrt();
+        let c = circle(0.381_966 * (k / 3) as f32 + start + dice.random_range(-0.05..0.05)) * (1.0 - y * y).sqrt();
         let out = vec3(c.x, y, c.y);
-        let reach = radius * dice.random_range(0.55..0.92);
-        let middle = crown + out * vec3(1.0, 1.2, 1.0) * reach;
-        let facing = (out
-            + 0.5 * vec3(dice.random_range(-1.0..1.0), dice.random_range(-0.4..0.6), dice.random_range(-1.0..1.0)))
-        .normalize();
-        let side = facing.any_orthonormal_vector();
-        let up = facing.cross(side);
-        let size = radius * dice.random_range(0.48..0.68);
+        let at = middle + out * radius * dice.random_range(0.48..0.72);
+        let stray = vec3(dice.random_range(-0.5..0.5), dice.random_range(-0.2..0.3), dice.random_range(-0.5..0.5));
+        let facing = (out + stray).normalize();
+        let (side, up) = facing.any_orthonormal_pair();
+        let size = size * dice.random_range(0.85..1.15);
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b): (f32, f32)| {
-            let at = middle + (side * a + up * b) * size - facing * 0.25 * size;
-            let light = 0.62 + 0.38 * smoothstep(-1.0, 0.8, (at.y - crown.y) / radius);
+            let at = at + (side * a + up * b) * size - facing * 0.2 * size;
+            let light = 0.55 + 0.45 * smoothstep(-1.1, 0.8, (at.y - crown.y) / radius);
             Corner { at, uv: vec2(0.5 + 0.5 * a, 0.5 - 0.5 * b), light }
         });
-        let normals = corners.map(|corner| (corner.at - crown + Vec3::Y * 0.5).normalize());
+        let normals = corners.map(|corner| (corner.at - middle + Vec3::Y * 0.4).normalize());
         let tint = Vec3::ONE.lerp(vec3(1.15, 1.1, 0.75), dice.random_range(0.0..1.0));
         builder.smooth_face(Surface::Leaves, tint, &corners, &normals);
     }
@@ -102,10 +100,29 @@ pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice:
     );
 }
 
+/// A tub with a flowering shrub.
+pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
+    builder.prism(Surface::Paint, vec3(0.42, 0.19, 0.11), frame, 6, [0.26, 0.33], [-0.02, 0.5]);
+    for turn in [0.05, 0.22, 0.38] {
+        let leaf = frame.rotated(turn);
+        let start: f32 = dice.random_range(0.0..0.3);
+        let corner = |s: f32, t: f32| Corner {
+            at: leaf.point(s - 0.5, 0.38 + 0.85 * t, 0.0),
+            uv: vec2(start + 0.7 * s, 0.9 - 0.9 * t),
+            light: 0.7 + 0.3 * t,
+        };
+        builder.face(
+            Surface::Flowers,
+            Vec3::ONE,
+            &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
+        );
+    }
+}
+
 /// Height of the country, below the streets so that it never shows through them.
 fn country_height(p: Vec2) -> f32 {
-    let hills = 70.0 + 55.0 * cloud(p / 230.0, IVec2::splat(64), 2, 5);
-    ground(p) - 0.22 + hills * smoothstep(PLAIN, 520.0, p.distance(MIDDLE))
+    let hills = 62.0 + 40.0 * cloud(p / 150.0, IVec2::splat(64), 2, 5);
+    ground(p) - 0.22 + hills * smoothstep(PLAIN, HORIZON, p.distance(MIDDLE))
 }
 
 /// A point of the country and its normal.
@@ -115,27 +132,38 @@ fn country_point(p: Vec2) -> (Vec3, Vec3) {
 }
 
 /// Meadows under and round the town, woods and clearings on the hills beyond.
-pub(super) fn country(builder: &mut Builder) {
-    const RINGS: [f32; 14] =
-        [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 195.0, 250.0, 320.0, 410.0, 540.0];
-    const SPOKES: u32 = 36;
+///
+/// The hills send out the light of `daylight` as if they were unlit: they are beyond the reach of any shadow, and the sun's
+/// depth map need not cover them.
+pub(super) fn country(builder: &mut Builder, daylight: &Lighting) {
+    const RINGS: [f32; 13] = [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 185.0, 225.0, 275.0, HORIZON];
+    const SPOKES: u32 = 27;
     builder.district("country");
+    let irradiance = |normal: Vec3| {
+        let [sun, sky, ground] = [daylight.sun, daylight.sky, daylight.ground].map(Vec3::from);
+        sun * normal.dot(daylight.sun_direction).max(0.0) + ground.lerp(sky, 0.5 + 0.5 * normal.y)
+    };
+    let level = irradiance(Vec3::Y);
     for pair in RINGS.windows(2) {
         let (near, far) = (pair[0], pair[1]);
-        // Distance pales the hills.
-        let tint = Vec3::ONE.lerp(vec3(0.95, 1.05, 1.30), smoothstep(PLAIN, 560.0, near));
         for spoke in 0..SPOKES {
             let at =
                 |radius: f32, step: u32| MIDDLE + radius * circle(((spoke + step) % SPOKES) as f32 / SPOKES as f32);
             let places = [at(near, 1), at(near, 0), at(far, 0), at(far, 1)];
             let places = if near > 0.0 { &places[..] } else { &places[1..] };
-            let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.12;
-            let surface = if near < PLAIN || clearing { Surface::Grass } else { Surface::Hills };
+            let hill = near >= PLAIN;
+            let surface = if hill { Surface::Hills } else { Surface::Grass };
+            // Clearings are lighter; distance pales everything.
+            let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.10;
+            let wood = if clearing { vec3(0.72, 0.66, 0.66) } else { vec3(0.36, 0.40, 0.50) };
+            let pale = wood.lerp(vec3(0.55, 0.62, 0.85), 0.6 * smoothstep(PLAIN, HORIZON, near));
+            let tint = if hill { pale * level } else { Vec3::ONE };
             let (corners, normals): (Vec<Corner>, Vec<Vec3>) = places
                 .iter()
                 .map(|&p| {
                     let (at, normal) = country_point(p);
-                    (Corner::new(at, p / surface.tile()), normal)
+                    let light = if hill { irradiance(normal).y / level.y } else { 1.0 };
+                    (Corner { at, uv: p / surface.tile(), light }, normal)
                 })
                 .rev()
                 .unzip();

@@ -149,6 +149,15 @@ impl Plan {
         self.way[(self.gate[0] + self.gate[1]) / 2]
     }
 
+    /// Where lines of pennants hang across the street: on both ways out of the square and before the gate.
+    pub(super) fn festive_stations(&self) -> Vec<&Station> {
+        let [leave, enter] = self.street;
+        [leave + 3, leave + 8, leave + 13, self.gate[0] - 12, self.gate[0] - 7, enter - 13, enter - 8, enter - 3]
+            .into_iter()
+            .map(|k| &self.way[k])
+            .collect()
+    }
+
     /// Point of a house front beside station `k`.
     fn front(&self, side: usize, k: usize) -> Vec2 {
         let station = &self.way[k];

@@ -1,6 +1,6 @@
 //! Roofs with overhanging eaves, dormers and chimneys.
 
-use glam::{Vec2, Vec3, vec2, vec3};
+use glam::{Vec3, vec2, vec3};
 
 use super::builder::{Builder, Corner, Frame, Tint};
 use super::paint::timber;
@@ -20,8 +20,8 @@ pub(super) struct Roof {
     /// Share of the gable's height from which a hip leans back, at the first gable and at the other.
     pub(super) hips: [Option<f32>; 2],
     pub(super) surface: Surface,
-    /// Whether it is seen from so near that underside and edges matter.
-    pub(super) near: bool,
+    /// Where it is seen from so near that underside and edges matter: from a point's side, and how far behind it.
+    pub(super) near: Option<(Vec3, Vec3, f32)>,
     pub(super) tint: Tint,
 }
 
@@ -80,17 +80,18 @@ impl Roof {
         }
         let drop = Vec3::Y * THICKNESS;
         builder.metric(self.surface, self.tint, &top);
-        if !self.near {
-            return;
+        let Some((origin, out, reach)) = self.near else { return };
+        if top.iter().any(|corner| (*corner - origin).dot(out) > -1.5) {
+            let below: Vec<_> = top.iter().rev().map(|&corner| (corner - drop, 0.5)).collect();
+            builder.lit(Surface::Planks, Vec3::splat(0.8), &below);
         }
-        let below: Vec<_> = top.iter().rev().map(|&corner| (corner - drop, 0.5)).collect();
-        builder.lit(Surface::Planks, Vec3::splat(0.8), &below);
         let high = top.iter().map(|corner| corner.y).fold(f32::MIN, f32::max);
         let count = top.len();
         for k in 0..count {
             let (p, q) = (top[k], top[(k + 1) % count]);
             let at_ridge = p.y.min(q.y) > high - 0.02 || (ridge_edges == 2 && p.y.max(q.y) > high - 0.02);
-            if !at_ridge {
+            let hidden = ((p + q) / 2.0 - origin).dot(out) < -reach;
+            if !(at_ridge || hidden) {
                 builder.metric(Surface::Planks, Vec3::splat(0.75), &[p - drop, q - drop, q, p]);
             }
         }
@@ -135,24 +136,9 @@ pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: us
 
 /// A chimney through the roof; `frame`'s origin lies at its foot.
 pub(super) fn chimney(builder: &mut Builder, frame: &Frame, height: f32, tint: Tint) {
-    builder.block(Surface::Rubble, tint, frame, vec3(-0.33, 0.0, -0.28), vec3(0.33, height, 0.28));
-    builder.beam(Surface::Ashlar, tint * 0.9, frame, vec3(-0.4, height, -0.35), vec3(0.4, height + 0.12, 0.35));
-    let pot = Vec3::new(0.5, 0.24, 0.15);
-    builder.prism(Surface::Paint, pot, frame, 4, [0.16, 0.12], [height + 0.12, height + 0.5]);
-}
-
-/// Keeps the part of a convex polygon where `normal · p ≤ offset`.
-pub(super) fn clip(polygon: &[Vec2], normal: Vec2, offset: f32) -> Vec<Vec2> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (k, &p) in polygon.iter().enumerate() {
-        let q = polygon[(k + 1) % polygon.len()];
-        let (a, b) = (normal.dot(p) - offset, normal.dot(q) - offset);
-        if a <= 0.0 {
-            kept.push(p);
-        }
-        if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
-            kept.push(p.lerp(q, a / (a - b)));
-        }
+    builder.walls(Surface::Rubble, tint, frame, vec3(-0.33, 0.0, -0.28), vec3(0.33, height, 0.28));
+    builder.block(Surface::Ashlar, tint * 0.9, frame, vec3(-0.4, height, -0.35), vec3(0.4, height + 0.12, 0.35));
+    if height > 2.35 {
+        builder.prism(Surface::Paint, vec3(0.5, 0.24, 0.15), frame, 4, [0.16, 0.12], [height + 0.12, height + 0.5]);
     }
-    kept
 }

@@ -5,10 +5,11 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::builder::{Builder, Frame};
+use super::canvas::Area;
 use super::house::{linear, roof_tint};
 use super::nature::{MIDDLE, tree};
 use super::paint::timber::FRONTS;
-use super::plan::{Lot, Plan, Use, on_ground};
+use super::plan::{Lot, Plan, SQUARE, Use, on_ground};
 use super::roof::Roof;
 use super::surface::Surface;
 use super::turn::circle;
@@ -26,10 +27,12 @@ pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8R
         for lot in row.iter().filter(|lot| lot.kind == Use::House) {
             let place = behind(lot, dice.random_range(17.0..20.0));
             let inside = ((place - MIDDLE) / WALL).length() < 0.88;
+            let [west, east, north, south] = SQUARE;
+            let at_square = Area::new(west, north, east - west, south - north).distance(place) < 18.0;
             let churchyard = place.x > 18.0 && place.x < 66.0 && place.y.abs() < 18.0;
             let free = plan.way.iter().all(|station| station.at.distance_squared(place) > 19.0 * 19.0)
                 && built.iter().all(|other| other.distance_squared(place) > 10.5 * 10.5);
-            if !(inside && free) || churchyard {
+            if !(inside && free) || churchyard || at_square {
                 continue;
             }
             built.push(place);
@@ -37,7 +40,7 @@ pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8R
             let out = vec3(-direction.y, 0.0, direction.x);
             let frame = Frame::facing(on_ground(place), out).rotated(dice.random_range(-0.03..0.03));
             if dice.random_bool(0.22) {
-                tree(builder, &frame, dice.random_range(9.0..13.0), dice);
+                tree(builder, &frame, dice.random_range(9.0..13.0), 16, dice);
             } else {
                 let frame = if dice.random_bool(0.5) { frame.rotated(0.25) } else { frame };
                 plain_house(builder, &frame, dice);
@@ -65,7 +68,7 @@ fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
         overhang: [0.3, 0.3, 0.3],
         hips: [None, dice.random_bool(0.5).then_some(0.5)],
         surface: Surface::Tiles,
-        near: false,
+        near: None,
         tint: roof_tint(dice),
     };
     roof.build(builder);
@@ -99,7 +102,7 @@ pub(super) fn yards(builder: &mut Builder, dice: &mut ChaCha8Rng) {
         (72.0, 28.0),
     ] {
         let place = vec2(x + dice.random_range(-3.0..3.0), z + dice.random_range(-3.0..3.0));
-        tree(builder, &Frame::turned(on_ground(place), 0.0), dice.random_range(8.0..13.0), dice);
+        tree(builder, &Frame::turned(on_ground(place), 0.0), dice.random_range(8.0..13.0), 16, dice);
     }
 }
 

@@ -85,45 +85,51 @@ pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
     }
 }
 
+/// Width of the border of slabs along the fronts of the square, metres.
+const BORDER: f32 = 1.8;
+
 /// Paves the market square: setts inside, a border of slabs along the fronts.
 pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     builder.district("market square");
     let outline = square_outline(plan);
     let count = outline.len();
-    let inner: Vec<Vec2> = (0..count)
+    // Inner corners of the border: where the side before ends and where the side after begins. They are one, except where
+    // the border stops at a street.
+    let inner: Vec<[Vec2; 2]> = (0..count)
         .map(|k| {
-            let (a, p, b) = (outline[(k + count - 1) % count], outline[k], outline[(k + 1) % count]);
-            let (into, onward) = ((p - a).normalize(), (b - p).normalize());
-            let (m, n) = (into.perp(), onward.perp());
-            let bisector = (m + n) / (1.0 + m.dot(n)).max(0.5);
-            p - bisector * 1.6
+            let ((before, width), (p, next_width)) = (outline[(k + count - 1) % count], outline[k]);
+            let (m, n) = ((p - before).normalize().perp(), (outline[(k + 1) % count].0 - p).normalize().perp());
+            if width == next_width {
+                [p + (m + n) * width / (1.0 + m.dot(n)); 2]
+            } else {
+                [p + m * width, p + n * next_width]
+            }
         })
         .collect();
     for k in 0..count {
         let next = (k + 1) % count;
-        let corners = [(outline[k], 0.55), (outline[next], 0.55), (inner[next], 1.0), (inner[k], 1.0)];
-        builder.lit(
-            Surface::Slabs,
-            Vec3::ONE,
-            &corners.map(|(p, light)| (on_ground(p), light)).into_iter().rev().collect::<Vec<_>>(),
-        );
+        if outline[k].1 > 0.0 {
+            let corners = [(inner[k][1], 1.0), (inner[next][0], 1.0), (outline[next].0, 0.55), (outline[k].0, 0.55)];
+            builder.lit(Surface::Slabs, Vec3::ONE, &corners.map(|(p, light)| (on_ground(p), light)));
+        }
     }
-    for triangle in triangulate(&inner) {
+    let mut middle: Vec<Vec2> = inner.into_iter().flatten().collect();
+    middle.dedup();
+    for triangle in triangulate(&middle) {
         builder.metric(Surface::Setts, Vec3::ONE, &triangle.map(on_ground));
     }
 }
 
-/// Corners of the square, house fronts and street mouths, clockwise on a map.
-fn square_outline(plan: &Plan) -> Vec<Vec2> {
+/// Corners of the square, clockwise on a map, each with the width of the border along the side that begins there: none
+/// across the mouths of the streets.
+fn square_outline(plan: &Plan) -> Vec<(Vec2, f32)> {
     let mut outline = vec![];
-    let at_square = |lot: &&Lot| lot.at_square || matches!(lot.kind, Use::TownHall | Use::Church);
     for row in &plan.rows {
-        // The row begins in the street or at the square; either way its lots at the square follow one another.
+        // The row's lots at the square follow one another.
+        let at_square = |lot: &&Lot| lot.at_square || matches!(lot.kind, Use::TownHall | Use::Church);
         let lots: Vec<_> = row.iter().filter(at_square).collect();
-        for lot in &lots {
-            outline.push(lot.front[0]);
-        }
-        outline.extend(lots.last().map(|lot| lot.front[1]));
+        outline.extend(lots.iter().map(|lot| (lot.front[0], BORDER)));
+        outline.extend(lots.last().map(|lot| (lot.front[1], 0.0)));
     }
     outline
 }

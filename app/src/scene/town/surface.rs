@@ -7,7 +7,7 @@ use glam::{Vec2, vec2};
 use rayon::prelude::*;
 
 use super::canvas::Canvas;
-use super::paint::{masonry, nature, openings, timber};
+use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
 use crate::scene::{Alpha, Material, Texture, Wrap};
 
 /// A kind of surface.
@@ -21,7 +21,7 @@ pub(super) enum Surface {
     Plaster,
     /// A storey of a house front, by its number in [`timber::FRONTS`].
     Front(usize),
-    /// A ground floor, by its number in [`openings::GROUND_FLOORS`].
+    /// A ground floor, by its number in [`ground_floors::GROUND_FLOORS`].
     GroundFloor(usize),
     Tiles,
     Slate,
@@ -38,6 +38,7 @@ pub(super) enum Surface {
     Clock,
     Lancet,
     Portal,
+    Staves,
     Bark,
     Leaves,
     Flowers,
@@ -54,6 +55,7 @@ struct Recipe {
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
     alpha: Alpha,
+    unlit: bool,
     double_sided: bool,
 }
 
@@ -63,10 +65,10 @@ impl Surface {
         use Surface::*;
         let mut all = vec![
             Cobbles, Setts, Slabs, Ashlar, Rubble, Plaster, Tiles, Slate, Planks, Paint, Iron, Gold, Lantern, Water,
-            Awning, Produce, Signs, Clock, Lancet, Portal, Bark, Leaves, Flowers, Ivy, Grass, Hills,
+            Awning, Produce, Signs, Clock, Lancet, Portal, Staves, Bark, Leaves, Flowers, Ivy, Grass, Hills,
         ];
         all.extend((0..timber::FRONTS.len()).map(Front));
-        all.extend((0..openings::GROUND_FLOORS.len()).map(GroundFloor));
+        all.extend((0..ground_floors::GROUND_FLOORS.len()).map(GroundFloor));
         all
     }
 
@@ -83,11 +85,12 @@ impl Surface {
             Surface::Slabs => vec2(4.0, 4.0),
             Surface::Ashlar | Surface::Rubble | Surface::Plaster => vec2(4.0, 4.0),
             Surface::Front(_) => timber::STRIP,
-            Surface::GroundFloor(_) => openings::STRIP,
+            Surface::GroundFloor(_) => ground_floors::STRIP,
             Surface::Tiles => vec2(4.32, 4.32),
             Surface::Slate => vec2(3.0, 3.0),
             Surface::Planks | Surface::Bark => vec2(2.0, 2.0),
             Surface::Water => vec2(3.0, 3.0),
+            Surface::Staves => vec2(0.72, 0.925),
             Surface::Grass => vec2(9.0, 9.0),
             Surface::Hills => vec2(60.0, 60.0),
             _ => Vec2::ONE,
@@ -122,6 +125,7 @@ impl Surface {
             base_colour: [1.0; 4],
             wrap: [Wrap::Repeat; 2],
             alpha: Alpha::Opaque,
+            unlit: false,
             double_sided: false,
         };
         let clamped = [Wrap::Clamp; 2];
@@ -145,7 +149,7 @@ impl Surface {
             Surface::GroundFloor(number) => Recipe {
                 name: format!("ground floor {}", number + 1),
                 picture: Some(Box::new(move |seed| {
-                    openings::ground_floor(&openings::GROUND_FLOORS[number], seed + 47 * number as u32)
+                    ground_floors::ground_floor(&ground_floors::GROUND_FLOORS[number], seed + 47 * number as u32)
                 })),
                 wrap: [Wrap::Repeat, Wrap::Clamp],
                 ..plain
@@ -155,25 +159,26 @@ impl Surface {
             Surface::Gold => Recipe { base_colour: [0.75, 0.48, 0.10, 1.0], ..plain },
             Surface::Lantern => Recipe { base_colour: [0.80, 0.74, 0.55, 1.0], ..plain },
             Surface::Water => Recipe { picture: square(256, nature::water), ..plain },
-            Surface::Awning => Recipe { picture: square(256, openings::awning), double_sided: true, ..plain },
+            Surface::Awning => Recipe { picture: square(256, signs::awning), double_sided: true, ..plain },
             Surface::Produce => Recipe { picture: square(512, nature::produce), ..plain },
-            Surface::Signs => Recipe { picture: square(512, openings::signs), double_sided: true, ..plain },
-            Surface::Clock => Recipe { picture: square(512, openings::clock), wrap: clamped, ..plain },
+            Surface::Signs => Recipe { picture: square(512, signs::signs), double_sided: true, ..plain },
+            Surface::Clock => Recipe { picture: square(512, signs::clock), wrap: clamped, ..plain },
             Surface::Lancet => Recipe {
-                picture: Some(Box::new(|seed| openings::lancet([512, 1024], openings::LANCET, seed))),
+                picture: Some(Box::new(|seed| tracery::lancet([512, 1024], tracery::LANCET, seed))),
                 ..cut_out
             },
             Surface::Portal => Recipe {
-                picture: Some(Box::new(|seed| openings::portal([512, 512], openings::PORTAL, seed))),
+                picture: Some(Box::new(|seed| tracery::portal([512, 512], tracery::PORTAL, seed))),
                 wrap: clamped,
                 ..plain
             },
+            Surface::Staves => Recipe { picture: square(256, masonry::staves), ..plain },
             Surface::Bark => Recipe { picture: square(256, nature::bark), ..plain },
             Surface::Leaves => Recipe { picture: square(512, nature::leaves), double_sided: true, ..cut_out },
             Surface::Flowers => Recipe { picture: square(512, nature::flowers), double_sided: true, ..cut_out },
             Surface::Ivy => Recipe { picture: square(512, nature::ivy), double_sided: true, ..cut_out },
             Surface::Grass => Recipe { picture: square(512, nature::grass), ..plain },
-            Surface::Hills => Recipe { picture: square(512, nature::woods), ..plain },
+            Surface::Hills => Recipe { picture: square(512, nature::woods), unlit: true, ..plain },
         }
     }
 
@@ -206,6 +211,7 @@ pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
             base_colour: recipe.base_colour,
             base_colour_texture,
             alpha: recipe.alpha,
+            unlit: recipe.unlit,
             double_sided: recipe.double_sided,
             ..Material::default()
         });

@@ -1,11 +1,13 @@
 //! The town hall on the west side of the square: an arcade, two storeys of tall windows, stepped gables, a clock, a turret.
 
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec3, vec3};
 
-use super::builder::{Builder, Corner, Frame};
+use super::builder::{Builder, Frame};
+use super::facade::Bay;
+use super::furniture;
 use super::house::linear;
 use super::masonry::{Arch, disc, stepped_gable, window_panel};
-use super::paint::{openings, timber};
+use super::paint::{ground_floors, timber};
 use super::roof::{Roof, dormer};
 use super::surface::Surface;
 
@@ -26,28 +28,24 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
     arcade(builder, frame, width);
 
     // The storeys, in bays of their own picture.
-    let bays = (width / 2.6).round() as u32;
+    let bays = (width / 2.6).round() as usize;
     for storey in 0..STOREYS {
         let low = FIRST + STOREY * storey as f32;
         for k in 0..bays {
-            let cell = timber::WINDOWS[(k % 2) as usize] as f32 / timber::BAYS as f32;
-            let corner = |x: u32, y: f32, u: f32, v: f32| {
-                Corner::new(
-                    frame.point(width * x as f32 / bays as f32, y, 0.0),
-                    vec2(cell + u / timber::BAYS as f32, v),
-                )
-            };
-            let corners = [
-                corner(k, low, 0.0, 1.0),
-                corner(k + 1, low, 1.0, 1.0),
-                corner(k + 1, low + STOREY, 1.0, 0.0),
-                corner(k, low + STOREY, 0.0, 0.0),
-            ];
-            builder.face(Surface::Front(timber::TOWN_HALL), Vec3::ONE, &corners);
+            let cell = timber::WINDOWS[k % 2];
+            let across = [k, k + 1].map(|k| width * k as f32 / bays as f32);
+            let height = [low, low + STOREY];
+            Bay { surface: Surface::Front(timber::TOWN_HALL), tint: Vec3::ONE, cell, across, height }
+                .build(builder, frame);
         }
     }
     for level in [FIRST, FIRST + STOREY] {
         builder.beam(Surface::Ashlar, Vec3::ONE, frame, vec3(0.0, level - 0.22, -0.1), vec3(width, level + 0.1, 0.16));
+    }
+
+    // Banners between the windows.
+    for (k, x) in [0.13, 0.5, 0.87].into_iter().enumerate() {
+        furniture::banner(builder, &frame.at(width * x, FIRST + 1.1, 0.3), [0.95, 4.9], k);
     }
 
     // Sides, back and roof.
@@ -82,7 +80,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
         overhang: [0.35, 0.0, 0.0],
         hips: [None, None],
         surface: Surface::Tiles,
-        near: true,
+        near: Some((frame.origin, frame.out, 4.0)),
         tint,
     };
     roof.build(builder);
@@ -147,20 +145,12 @@ fn arcade(builder: &mut Builder, frame: &Frame, width: f32) {
         }
 
         // The wall behind.
-        let bays = timber::BAYS as f32;
-        let cells = [openings::GROUND_WINDOWS[1], if k % 2 == 0 { openings::ARCH } else { openings::SHOP }];
-        for (j, cell) in cells.into_iter().enumerate() {
-            let x = left + span / 2.0 * j as f32;
-            let u = cell as f32 / bays;
-            let corner = |x: f32, y: f32, u: f32, v: f32| Corner { at: p(x, y, -ARCADE), uv: vec2(u, v), light: 0.62 };
-            let next = x + span / 2.0;
-            let corners = [
-                corner(x, 0.0, u, 1.0),
-                corner(next, 0.0, u + 1.0 / bays, 1.0),
-                corner(next, FIRST - 0.2, u + 1.0 / bays, 0.0),
-                corner(x, FIRST - 0.2, u, 0.0),
-            ];
-            builder.face(Surface::GroundFloor(1), Vec3::ONE, &corners);
+        let behind = frame.at(0.0, 0.0, -ARCADE);
+        let second = if k % 2 == 0 { ground_floors::ARCH } else { ground_floors::SHOP };
+        for (j, cell) in [ground_floors::GROUND_WINDOWS[1], second].into_iter().enumerate() {
+            let across = [j, j + 1].map(|j| left + span / 2.0 * j as f32);
+            let (surface, tint) = (Surface::GroundFloor(1), Vec3::splat(0.62));
+            Bay { surface, tint, cell, across, height: [0.0, FIRST - 0.2] }.build(builder, &behind);
         }
     }
     builder.lit(

@@ -90,9 +90,8 @@ pub(in crate::scene::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -
         let shift = chance(wrapped.x, wrapped.y, seed) * 0.1;
         let k = ((along + shift) / 0.105).floor();
         let place = vec2(((along + shift) / 0.105 - k) * 2.0 - 1.0, (height - row) * 2.0 - 1.0);
-        let side = (0.5 * SPAN - across.abs()) / 0.05;
         let q = (place.abs() - vec2(0.62, 0.62)).max(Vec2::ZERO).length() - 0.26;
-        let distance = (q * 0.05 / stretch).max(-side * 0.05 + 0.006);
+        let distance = q * 0.05 / stretch;
         let id = ivec2(wrapped.x * 64 + k as i32, wrapped.y);
         let own = chance(id.x, id.y, seed + 1);
         let hue = chance(id.x, id.y, seed + 2);
@@ -260,5 +259,25 @@ pub(in crate::scene::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) 
             + 0.6 * noise(vec2(p.x * 150.0, p.y * 5.0), ivec2(300, 10), seed + 2);
         let base = vec3(0.42, 0.31, 0.22) * (0.85 + 0.3 * own) * (1.0 + 0.14 * grain);
         base * (0.45 + 0.55 * smoothstep(0.0, 0.05, within.min(1.0 - within)))
+    })
+}
+
+/// Staves of a barrel with four hoops, from its foot to its rim.
+pub(in crate::scene::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+    Canvas::new(pixels, tile, |p| {
+        let q = p / tile;
+        let stave = (q.x * 6.0).floor();
+        let within = (q.x * 6.0).fract();
+        let grain = noise(vec2(q.x * 60.0, q.y * 4.0), ivec2(60, 4), seed)
+            + 0.6 * noise(vec2(q.x * 120.0, q.y * 9.0), ivec2(120, 9), seed + 1);
+        let own = 0.85 + 0.3 * chance(stave as i32, 2, seed);
+        let wood = vec3(0.52, 0.36, 0.23)
+            * own
+            * (1.0 + 0.13 * grain)
+            * (0.5 + 0.5 * smoothstep(0.0, 0.08, within.min(1.0 - within)));
+        let hoop = [0.07, 0.27, 0.73, 0.93].iter().map(|&y| (q.y - y).abs()).fold(1.0, f32::min);
+        let iron = vec3(0.20, 0.20, 0.21) * (1.0 + 0.2 * grain);
+        wood.lerp(iron, smoothstep(0.03, 0.025, hoop))
+            * (0.7 + 0.3 * smoothstep(0.025, 0.05, (hoop - 0.028).abs() + 0.02))
     })
 }

@@ -1,6 +1,9 @@
 //! The town's painters: each paints pictures of one craft.
 
+pub(super) mod ground_floors;
 pub(super) mod masonry;
 pub(super) mod nature;
-pub(super) mod openings;
+mod openings;
+pub(super) mod signs;
 pub(super) mod timber;
+pub(super) mod tracery;

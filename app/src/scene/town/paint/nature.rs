@@ -38,15 +38,15 @@ fn leaf(p: Vec2) -> f32 {
 pub(in crate::scene::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
-        let ragged = 0.46 + 0.07 * cloud(p * 5.0, ivec2(64, 64), 3, seed);
+        let ragged = 0.40 + 0.16 * cloud(p * 5.0, ivec2(64, 64), 3, seed);
         let reach = (p - 0.5).length();
         let Some((own, place, height)) = scatter(p, 19.0, 4, seed, leaf) else {
             return vec3(0.16, 0.22, 0.08).extend(0.0);
         };
         let vein = 0.12 * smoothstep(0.06, 0.0, place.y.abs());
         let base = vec3(0.25, 0.36, 0.12).lerp(vec3(0.42, 0.50, 0.18), own);
-        let colour = base * (0.55 + 0.5 * height + vein) * (0.95 + 0.1 * place.y);
-        colour.extend(if reach < ragged { 1.0 } else { 0.0 })
+        let colour = base * (0.45 + 0.62 * height + vein) * (0.95 + 0.1 * place.y);
+        colour.extend(if reach + 0.12 * (own - 0.5) < ragged { 1.0 } else { 0.0 })
     })
 }
 
@@ -72,7 +72,7 @@ pub(in crate::scene::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32)
         let crest = 0.62 + 0.36 * noise(vec2(p.x * 9.0, 0.5), ivec2(9, 9), seed);
         let hem = 0.10 + 0.10 * noise(vec2(p.x * 12.0, 4.5), ivec2(12, 12), seed + 1);
         let opaque = if p.y < crest && p.y > hem { 1.0 } else { 0.0 };
-        let blossom = scatter(p, 9.0, 1, seed + 5, |p| p.length() - 0.42);
+        let blossom = scatter(p, 11.0, 2, seed + 5, |p| p.length() - 0.46);
         if let Some((own, place, _)) = blossom {
             let hue = if own < 0.6 {
                 vec3(0.80, 0.10, 0.12)
@@ -81,7 +81,7 @@ pub(in crate::scene::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32)
             } else {
                 vec3(0.92, 0.86, 0.84)
             };
-            let petals = 0.75 + 0.3 * noise(place * 4.0 + own * 40.0, ivec2(4096, 4096), seed);
+            let petals = 0.80 + 0.25 * noise(place * 9.0 + own * 40.0, ivec2(4096, 4096), seed) + 0.15 * place.y;
             return (hue * petals).extend(opaque);
         }
         match scatter(p, 12.0, 3, seed + 9, leaf) {
@@ -107,7 +107,7 @@ pub(in crate::scene::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -
 pub(in crate::scene::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let crowns = noise(p * 0.2, ivec2(12, 12), seed) * 0.5 + noise(p * 0.6, ivec2(36, 36), seed + 1);
-        vec3(0.31, 0.39, 0.23) * (1.0 + 0.25 * crowns)
+        vec3(0.50, 0.58, 0.36) * (1.0 + 0.25 * crowns)
     })
 }
 

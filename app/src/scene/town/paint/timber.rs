@@ -118,7 +118,7 @@ impl Front {
 
 /// A piece of timber.
 #[derive(Clone, Copy)]
-struct Beam {
+pub(super) struct Beam {
     from: Vec2,
     to: Vec2,
     width: f32,
@@ -126,7 +126,7 @@ struct Beam {
     bow: f32,
 }
 
-const fn beam(x0: f32, y0: f32, x1: f32, y1: f32, width: f32) -> Beam {
+pub(super) const fn beam(x0: f32, y0: f32, x1: f32, y1: f32, width: f32) -> Beam {
     Beam { from: vec2(x0, y0), to: vec2(x1, y1), width, bow: 0.0 }
 }
 
@@ -156,7 +156,7 @@ impl Beam {
 }
 
 /// Paints beams onto a wall: first the shade they throw, then the wood.
-fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32) {
+pub(super) fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32) {
     for beam in beams {
         canvas.darken(beam.area().grown(0.06), |p| {
             let (distance, _) = beam.locate(p);
@@ -166,18 +166,15 @@ fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32) {
     for (number, beam) in beams.iter().enumerate() {
         let number = number as i32;
         let own = 0.88 + 0.22 * chance(number, 1, seed);
-        canvas.fill(beam.area(), |p| {
-            let wobble = 0.008 * noise(p * 3.0, ENDLESS, seed + 2);
-            let (distance, place) = beam.locate(p);
-            let grain = noise(vec2(place.x * 2.2 + number as f32 * 17.0, place.y * 45.0), ENDLESS, seed)
+        let wobbly = |p: Vec2| beam.locate(p).0 + 0.008 * noise(p * 3.0, ENDLESS, seed + 2);
+        canvas.fill(beam.area(), wobbly, |p, distance| {
+            let (_, place) = beam.locate(p);
+            let start = number as f32 * 17.0;
+            let grain = noise(vec2(place.x * 2.2 + start, place.y * 45.0), ENDLESS, seed)
                 + 0.6 * noise(vec2(place.x * 6.0, place.y * 110.0), ENDLESS, seed + 1);
-            let crack = smoothstep(
-                0.55,
-                0.8,
-                noise(vec2(place.x * 1.3 + number as f32 * 9.0, place.y * 32.0), ENDLESS, seed + 4),
-            );
+            let crack = smoothstep(0.55, 0.8, noise(vec2(place.x * 1.3 + start, place.y * 32.0), ENDLESS, seed + 4));
             let edge = 0.72 + 0.28 * smoothstep(0.0, 0.02, -distance);
-            (distance + wobble, colour * own * (1.0 + 0.15 * grain) * (1.0 - 0.4 * crack) * edge)
+            colour * own * (1.0 + 0.15 * grain) * (1.0 - 0.4 * crack) * edge
         });
     }
 }
@@ -293,10 +290,14 @@ fn braces(bay: usize, manner: u32) -> Vec<Beam> {
 fn cornice(canvas: &mut Canvas, left: f32, plaster: Vec3) {
     let band = Area::new(left, 0.0, BAY, 0.16);
     canvas.darken(band.grown(0.05), |p| 1.0 - 0.22 * smoothstep(0.05, 0.0, band.distance(p)));
-    canvas.fill(band, |p| {
-        let relief = 0.88 + 0.14 * smoothstep(0.02, 0.13, p.y) - 0.1 * smoothstep(0.13, 0.16, p.y);
-        (band.distance(p), plaster.lerp(WHITE, 0.5) * relief)
-    });
+    canvas.fill(
+        band,
+        |p| band.distance(p),
+        |p, _| {
+            let relief = 0.88 + 0.14 * smoothstep(0.02, 0.13, p.y) - 0.1 * smoothstep(0.13, 0.16, p.y);
+            plaster.lerp(WHITE, 0.5) * relief
+        },
+    );
 }
 
 /// The window of a bay.

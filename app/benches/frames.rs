@@ -1,0 +1,230 @@
+//! What relativity costs a frame: the photo-surface against the plain draw of the same scene (W table 6.1).
+//!
+//! Three scenes have just as many vertices and triangles as Weiskopf's. Each is drawn plainly, with the transform of the next frame overlapping the
+//! draw of this one, and with both in sequence (`--latency low`), in turns within one run, so that whatever else the machine does hits
+//! all alike. The eye moves at a hundredth of c: the kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that
+//! there is little drawing to hide behind.
+//!
+//! `cargo bench -p rapidity --bench frames`
+
+use glam::{DVec3, Vec3};
+use physics::photo_surface::{Eye, Kernel};
+use physics::{Beta, Celerity};
+use rapidity::gpu::{Gpu, GpuError};
+use rapidity::renderers::polygon::{PolygonRenderer, Positions, Transformed};
+use rapidity::renderers::target::{Format, Radiance};
+use rapidity::scene::lattice::Lattice;
+use rapidity::scene::refine::{RefineError, refine};
+use rapidity::scene::{Mesh, Scene};
+use rapidity::views::Camera;
+use std::error::Error;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Pixels of a frame.
+const SIZE: [u32; 2] = [1280, 1024];
+
+/// Vertices and triangles of W table 6.1.
+const SIZES: [[usize; 2]; 3] = [[21_198, 18_770], [135_907, 113_397], [20_786, 19_864]];
+
+/// Frame rate of the overlapped relativistic draw that is aimed at, as a share of the plain one's.
+const GOAL: f64 = 0.98;
+
+/// Frames drawn in one way before the next has its turn.
+const FRAMES: usize = 8;
+
+/// How long each scene is measured.
+const TIME: Duration = Duration::from_secs(15);
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let gpu = Gpu::new()?;
+    let cores = std::thread::available_parallelism()?;
+    println!("commit {}, {}, {cores} cores, kernel {:?}", commit(), processor(), Kernel::default().instructions());
+    println!("{}, {} x {} pixels", gpu.description(), SIZE[0], SIZE[1]);
+    if gpu.is_software() {
+        println!("a software driver draws on the cores that transform: what overlaps also competes");
+    }
+    println!(
+        "medians; ratio = frame rate over that of the plain draw, with its quartiles; goal when overlapped: {GOAL}"
+    );
+    println!();
+    println!(
+        "vertices triangles | plain ms | overlap ms ratio               | low ms  ratio               | transform ms"
+    );
+    for [vertices, triangles] in SIZES {
+        let scene = scene_of(vertices, triangles)?;
+        assert_eq!([scene.vertex_count(), scene.triangle_count()], [vertices, triangles]);
+        let [plain, overlap, low, transform] = Bench::new(&gpu, &scene)?.run()?;
+        let (hidden, shown) = (ratios(&plain, &overlap), ratios(&plain, &low));
+        println!(
+            "{vertices:8} {triangles:9} | {:8.2} | {:7.2}  {hidden} | {:7.2} {shown} | {:6.3}",
+            median(&plain),
+            median(&overlap),
+            median(&low),
+            median(&transform)
+        );
+    }
+    Ok(())
+}
+
+/// A scene on the device, an eye in its midst, and a target.
+struct Bench<'gpu> {
+    gpu: &'gpu Gpu,
+    renderer: PolygonRenderer,
+    target: Radiance,
+    camera: Camera,
+    eye: DVec3,
+    celerity: Celerity,
+}
+
+impl<'gpu> Bench<'gpu> {
+    fn new(gpu: &'gpu Gpu, scene: &Scene) -> Result<Self, Box<dyn Error>> {
+        let format = Format::fast(1);
+        Ok(Self {
+            gpu,
+            renderer: PolygonRenderer::new(gpu, scene, format, None)?,
+            target: Radiance::new(gpu, SIZE, format),
+            camera: Camera::looking(DVec3::NEG_Z, DVec3::Y, 70.0_f64.to_radians()),
+            eye: DVec3::new(0.3, 0.2, 0.1),
+            celerity: Beta::new(DVec3::NEG_Z * 0.01)?.celerity(),
+        })
+    }
+
+    /// Milliseconds of a frame drawn plainly, overlapped and in sequence, and of a transform alone: a median for each turn.
+    fn run(&mut self) -> Result<[Vec<f64>; 4], Box<dyn Error>> {
+        let eye = Eye::new(self.eye, self.celerity.vector())?;
+        let mut medians = [const { Vec::new() }; 4];
+        let started = Instant::now();
+        let mut warm = false;
+        while !warm || started.elapsed() < TIME {
+            let plain = self.turn(|bench| bench.draw(Positions::Plain(bench.eye)))?;
+
+            // The transform of the next frame begins before this one is drawn.
+            self.renderer.submit(self.gpu, eye)?;
+            let overlap = self.turn(|bench| {
+                let transformed = bench.renderer.receive()?;
+                bench.renderer.submit(bench.gpu, eye)?;
+                bench.show(transformed)
+            })?;
+            let rest = self.renderer.receive()?;
+            self.show(rest)?;
+
+            let mut transforms = Vec::new();
+            let low = self.turn(|bench| {
+                bench.renderer.submit(bench.gpu, eye)?;
+                let transformed = bench.renderer.receive()?;
+                transforms.push(milliseconds(transformed.duration));
+                bench.show(transformed)
+            })?;
+
+            // The first turn compiles shaders and touches memory.
+            if warm {
+                for (turns, frames) in medians.iter_mut().zip([plain, overlap, low, transforms]) {
+                    turns.push(median(&frames));
+                }
+            }
+            warm = true;
+        }
+        Ok(medians)
+    }
+
+    /// Milliseconds of each frame of a turn.
+    fn turn(&mut self, mut frame: impl FnMut(&mut Self) -> Result<(), GpuError>) -> Result<Vec<f64>, GpuError> {
+        let time = |_| {
+            let started = Instant::now();
+            frame(self)?;
+            Ok(milliseconds(started.elapsed()))
+        };
+        (0..FRAMES).map(time).collect()
+    }
+
+    fn show(&mut self, transformed: Transformed) -> Result<(), GpuError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.renderer.upload(&mut encoder, transformed);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.draw(Positions::Apparent)
+    }
+
+    fn draw(&mut self, positions: Positions) -> Result<(), GpuError> {
+        let motion = if positions == Positions::Apparent { self.celerity } else { Celerity::ZERO };
+        let view = self.camera.view(SIZE, glam::DVec2::ZERO, motion);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.renderer.draw(self.gpu, &mut encoder, &self.target, &view, positions, self.eye);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.wait()
+    }
+}
+
+/// Boxes around the origin with just so many vertices and triangles.
+///
+/// A box with whole faces has 24 and 12, one with faces of four by four squares 150 and 192: two equations for how many of each. What whole
+/// numbers leave, less than a percent, is made up by vertices without triangles and triangles drawn twice.
+fn scene_of(vertices: usize, triangles: usize) -> Result<Scene, RefineError> {
+    let cut = (2 * triangles - vertices) / 234;
+    let whole = (vertices - 150 * cut) / 24;
+    let side = ((cut + whole) as f64).cbrt().ceil() as u32;
+    let lattice = Lattice { count: [side; 3], ..Default::default() };
+    let whole_box = Lattice { count: [1; 3], ..lattice }.build();
+    let cut_box = refine(&whole_box, 0.36 * lattice.side)?;
+
+    let mut mesh = Mesh::default();
+    for index in 0..cut + whole {
+        let column = index as u32;
+        let centre = lattice.centre([column % side, column / side % side, column / (side * side)]);
+        append(&mut mesh, &if index < cut { &cut_box } else { &whole_box }.meshes[0], centre);
+    }
+    for last in vec![mesh.positions.len() - 1; vertices - mesh.positions.len()] {
+        mesh.positions.push(mesh.positions[last]);
+        mesh.normals.push(mesh.normals[last]);
+        mesh.uvs.push(mesh.uvs[last]);
+        mesh.colours.push(mesh.colours[last]);
+    }
+    mesh.indices.extend_from_within(..3 * triangles - mesh.indices.len());
+    Ok(Scene { meshes: vec![mesh], ..whole_box })
+}
+
+/// Adds a copy of `source`, moved.
+fn append(mesh: &mut Mesh, source: &Mesh, offset: Vec3) {
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(source.positions.iter().map(|&position| position + offset));
+    mesh.normals.extend(&source.normals);
+    mesh.uvs.extend(&source.uvs);
+    mesh.colours.extend(&source.colours);
+    mesh.indices.extend(source.indices.iter().map(|index| first + index));
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// The value below which `share` of them lie.
+fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+}
+
+fn median(values: &[f64]) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// Frame rate of the second over the first, turn by turn: median and quartiles.
+fn ratios(plain: &[f64], other: &[f64]) -> String {
+    let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
+    let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
+    format!("{middle:.3} ({low:.3} to {high:.3})")
+}
+
+/// What is measured, as version control names it.
+fn commit() -> String {
+    let output = Command::new("git").args(["describe", "--always", "--dirty"]).output();
+    let name = output.ok().and_then(|output| String::from_utf8(output.stdout).ok()).unwrap_or_default();
+    if name.is_empty() { "unknown".to_owned() } else { name.trim().to_owned() }
+}
+
+/// The processor as Linux names it.
+fn processor() -> String {
+    let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    name.map_or("unknown processor".to_owned(), |(_, name)| name.to_owned())
+}

@@ -1,0 +1,36 @@
+//! The old town through what every scene goes through: a check, a file and back, refinement, a lap.
+//!
+//! A wrong loader or writer shows in a scene of hundreds of meshes what it hides in one of three, and a town with a hole in its
+//! street would not carry a bicycle.
+
+use rapidity::scene::check::Report;
+use rapidity::scene::collision::Collision;
+use rapidity::scene::export::write_glb;
+use rapidity::scene::gltf::load;
+use rapidity::scene::refine::refine;
+use rapidity::scene::town;
+use rapidity::vehicle::Surroundings;
+use tempfile::TempDir;
+
+#[test]
+fn the_town_is_sound_and_survives_a_file() {
+    let town = town::build(1);
+    let warnings = Report::new(&town).unwrap().warnings;
+    for wrong in ["ground", "face away", "nowhere"] {
+        assert!(!warnings.iter().any(|warning| warning.contains(wrong)), "{warnings:?}");
+    }
+
+    let collision = Collision::new(&town).unwrap();
+    for &point in &town.circuit {
+        assert_eq!(collision.nearest_wall(point, 0.5), None, "the circuit leads into a wall at {point}");
+    }
+
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("town.glb");
+    write_glb(&town, &path).unwrap();
+    let back = load(&path, |_| {}).unwrap();
+    assert!(back == town, "a part is lost: {:?}", back.notices);
+
+    let refined = refine(&town, 4.0).unwrap();
+    assert!(Report::new(&refined).unwrap().longest_edge <= 4.0);
+}
