@@ -51,6 +51,8 @@ pub struct WorldOptions {
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,
     /// Longest edge of a triangle in metres: longer ones are cut, because straight edges must bend.
+    ///
+    /// Around a scene that names a circuit, edges further than 4 m from it may be longer in proportion.
     #[arg(long, value_name = "METRES", default_value = "0.5", value_parser = values::positive)]
     pub edge: f64,
 }

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::{MAX_TRIANGLES, Mesh, Scene, SceneFault};
 
 /// Metres from the circuit within which edges are as short as asked for.
-pub const NEAR_M: f64 = 8.0;
+pub const NEAR_M: f64 = 4.0;
 
 /// How many steps of f32 an edge must span. The rounding of midpoints then stays well below what a split shortens an edge by.
 const STEPS_PER_EDGE: f32 = 16.0;

@@ -98,7 +98,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
         y += 30.0;
     };
     if readings.recording {
-        line("● recording", ALERT);
+        line("recording", ALERT);
     }
     if readings.paused {
         line("paused", ACCENT);
@@ -107,7 +107,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
         line(notice, INK);
     }
     let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    let pace = format!("{:.0} frames/s   {} ms   F1: help", readings.frame_rate, stages.join(" · "));
+    let pace = format!("{:.1} frames/s   {} ms   F1 help · F3 settings", readings.frame_rate, stages.join(" · "));
     let galley = painter.layout_no_wrap(pace, FontId::proportional(13.0), INK);
     let at = Pos2::new(screen.right() - galley.size().x - 12.0, screen.top() + 8.0);
     painter.rect_filled(Rect::from_min_size(at, galley.size()).expand(5.0), CornerRadius::same(4), BACKDROP);

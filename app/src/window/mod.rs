@@ -197,7 +197,7 @@ impl Open {
     fn window_key(&mut self, events: &ActiveEventLoop, code: KeyCode) {
         match code {
             KeyCode::Escape => events.exit(),
-            KeyCode::Tab => self.settings.open = !self.settings.open,
+            KeyCode::F3 => self.settings.open = !self.settings.open,
             KeyCode::F2 => self.settings.readings = !self.settings.readings,
             KeyCode::KeyG => {
                 self.settings.effects = match self.settings.effects {
@@ -283,6 +283,7 @@ impl Open {
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(texture);
+        self.ride.pace.stage("show");
         Ok(true)
     }
 }

@@ -133,8 +133,8 @@ const KEYS: [(&str, &str); 18] = [
     ("C", "photo"),
     ("V", "record, from the ride's beginning"),
     ("Backspace", "back to the start"),
-    ("Tab", "settings"),
     ("F2", "hide the display"),
+    ("F3", "settings"),
     ("F11", "full screen"),
     ("Esc", "leave"),
 ];
