@@ -31,7 +31,7 @@ const SIZES: [[usize; 2]; 3] = [[21_198, 18_770], [135_907, 113_397], [20_786, 1
 const GOAL: f64 = 0.98;
 
 /// Frames drawn in one way before the next has its turn.
-const FRAMES: usize = 8;
+const FRAMES: usize = 4;
 
 /// How long each scene is measured.
 const TIME: Duration = Duration::from_secs(15);
