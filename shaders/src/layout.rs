@@ -27,7 +27,7 @@ pub struct View {
 pub struct Lighting {
     /// From the scene's own coordinates to the shadow map's texture coordinates and depth.
     pub shadow_from_world: Mat4,
-    /// Unit vector towards the sun; w = 1 if it casts shadows.
+    /// Unit vector towards the sun; w unused.
     pub sun_direction: Vec4,
     /// Linear light on a surface that faces the sun; w = depth that it may lie behind the shadow map and still be lit.
     pub sun: Vec4,
@@ -49,10 +49,8 @@ pub struct Lighting {
 pub struct Material {
     /// Linear factor of the base colour, and opacity.
     pub base_colour: Vec4,
-    /// Linear radiance; w = opacity below which nothing is drawn (0: everything is).
+    /// Linear radiance; w = opacity below which nothing is drawn, if the pipeline is masked.
     pub emissive: Vec4,
-    /// x = 1 if no light falls on it; the rest is unused.
-    pub flags: Vec4,
 }
 
 /// How radiance becomes a pixel.

@@ -45,6 +45,6 @@ fn structs_have_the_same_layout_on_both_sides() {
         surface,
         Lighting { shadow_from_world, sun_direction, sun, sky, ground, zenith, horizon, background }
     );
-    assert_mirrors!(surface, Material { base_colour, emissive, flags });
+    assert_mirrors!(surface, Material { base_colour, emissive });
     assert_mirrors!(parse(&shaders::RESOLVE), Resolve { weight, encode, padding });
 }

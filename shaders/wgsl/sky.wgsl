@@ -23,7 +23,7 @@ fn fragment(in: Pixel) -> @location(0) vec4<f32> {
     // A gradient from the horizon up, haze below, and the glow around the sun.
     let height = direction.y;
     let clear = mix(lighting.horizon.rgb, lighting.zenith.rgb, smoothstep(0.0, 0.9, sqrt(max(height, 0.0))));
-    let haze = mix(clear, lighting.ground.rgb * 2.0, smoothstep(0.0, -0.25, height));
+    let haze = mix(lighting.ground.rgb * 2.0, clear, smoothstep(-0.25, 0.0, height));
     let towards_sun = max(dot(direction, lighting.sun_direction.xyz), 0.0);
     let glow = 0.25 * pow(towards_sun, 24.0) + 4.0 * smoothstep(0.99985, 0.99995, towards_sun);
     return vec4(haze + glow * lighting.sun.rgb, 1.0);

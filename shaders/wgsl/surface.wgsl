@@ -4,8 +4,13 @@
 struct Material {
     base_colour: vec4<f32>,
     emissive: vec4<f32>,
-    flags: vec4<f32>,
 }
+
+// What a pipeline is made for: a branch on these costs nothing, and what a material cannot show is not computed.
+override LIT: bool = true;
+override SHADOWED: bool = true;
+override EMISSIVE: bool = true;
+override MASKED: bool = true;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
@@ -55,11 +60,15 @@ fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
 @fragment
 fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
     let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
-    let emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv).rgb;
-    if (base.a < material.emissive.w) {
+    var emitted = vec3(0.0);
+    if (EMISSIVE) {
+        emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv).rgb;
+    }
+    // A shader that may discard is run for hidden fragments as well: only masked materials do.
+    if (MASKED && base.a < material.emissive.w) {
         discard;
     }
-    if (material.flags.x == 1.0) {
+    if (!LIT) {
         return base;
     }
 
@@ -69,7 +78,7 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     let facing = dot(normal, lighting.sun_direction.xyz);
     if (facing > 0.0) {
         var visible = 1.0;
-        if (lighting.sun_direction.w == 1.0) {
+        if (SHADOWED) {
             visible = sunlit(in.world, normal);
         }
         light += lighting.sun.rgb * facing * visible;

@@ -70,7 +70,6 @@ fn bind(
     let uniform = shaders::Material {
         base_colour: Vec4::from_array(material.base_colour),
         emissive: Vec4::new(red, green, blue, threshold),
-        flags: Vec4::new(f32::from(u8::from(material.unlit)), 0.0, 0.0, 0.0),
     };
     let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(&material.name),

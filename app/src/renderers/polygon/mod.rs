@@ -34,7 +34,6 @@ pub struct PolygonRenderer {
     materials: Materials,
     pipelines: Pipelines,
     photo_surface: PhotoSurface,
-    double_sided: Vec<bool>,
     origin: DVec3,
     view: wgpu::Buffer,
     view_group: wgpu::BindGroup,
@@ -62,7 +61,7 @@ impl PolygonRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let geometry = Geometry::new(gpu, scene);
         let materials = Materials::new(gpu, scene);
-        let pipelines = Pipelines::new(gpu, format, &materials);
+        let pipelines = Pipelines::new(gpu, scene, format, &materials);
         let light = Light::new(gpu, scene, &geometry, &pipelines, background);
         let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("view"),
@@ -82,7 +81,6 @@ impl PolygonRenderer {
         });
         Ok(Self {
             photo_surface: PhotoSurface::new(gpu, scene)?,
-            double_sided: scene.materials.iter().map(|material| material.double_sided).collect(),
             origin: scene.origin,
             geometry,
             materials,
@@ -162,16 +160,15 @@ impl PolygonRenderer {
             pass.set_vertex_buffer(axis, streams.slice(start..start + self.geometry.stream_stride));
         }
         pass.set_vertex_buffer(3, self.geometry.attributes.slice(..));
-        self.draw_all(&mut pass, false, self.geometry.opaque.iter());
+        self.draw_all(&mut pass, self.geometry.opaque.iter());
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
-        self.draw_all(&mut pass, true, blended.into_iter());
+        self.draw_all(&mut pass, blended.into_iter());
     }
 
-    fn draw_all<'a>(&self, pass: &mut wgpu::RenderPass<'_>, blended: bool, draws: impl Iterator<Item = &'a Draw>) {
+    fn draw_all<'a>(&self, pass: &mut wgpu::RenderPass<'_>, draws: impl Iterator<Item = &'a Draw>) {
         for draw in draws {
-            let double_sided = self.double_sided[draw.material];
-            pass.set_pipeline(&self.pipelines.surface[usize::from(blended)][usize::from(double_sided)]);
+            pass.set_pipeline(&self.pipelines.surface[draw.material]);
             pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
             pass.draw_indexed(draw.indices.clone(), 0, 0..1);
         }

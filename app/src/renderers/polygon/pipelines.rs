@@ -4,12 +4,13 @@ use super::geometry::Attributes;
 use super::materials::Materials;
 use crate::gpu::Gpu;
 use crate::renderers::target::{DEPTH_FORMAT, Format};
+use crate::scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
 
 /// Every pipeline of the polygon renderer.
 pub struct Pipelines {
-    /// Surfaces by `[blended][double-sided]`.
-    pub surface: [[wgpu::RenderPipeline; 2]; 2],
+    /// One for each material, in the scene's order; those that look alike share one.
+    pub surface: Vec<wgpu::RenderPipeline>,
     /// Behind everything.
     pub sky: wgpu::RenderPipeline,
     /// The sun's depth map.
@@ -21,8 +22,8 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// Compiles the shaders for targets of `format`.
-    pub fn new(gpu: &Gpu, format: Format, materials: &Materials) -> Self {
+    /// Compiles the shaders for what the scene's materials need, and targets of `format`.
+    pub fn new(gpu: &Gpu, scene: &Scene, format: Format, materials: &Materials) -> Self {
         let view_layout_with_map = view_layout(gpu, true);
         let light_layout = view_layout(gpu, false);
         let module = |module: shaders::Module| {
@@ -33,21 +34,30 @@ impl Pipelines {
         };
         let (surface_module, sky_module, shadow_module) =
             (module(shaders::SURFACE), module(shaders::SKY), module(shaders::SHADOW));
-        let surface = [false, true].map(|blended| {
-            [false, true].map(|double_sided| {
-                Description {
-                    label: "surface",
-                    module: &surface_module,
-                    groups: &[Some(&view_layout_with_map), Some(&materials.layout)],
-                    buffers: &surface_buffers(),
-                    cull: !double_sided,
-                    depth_write: !blended,
-                    depth_compare: wgpu::CompareFunction::Greater,
-                    target: Some((format, blended)),
+        let mut made: Vec<(Look, wgpu::RenderPipeline)> = Vec::new();
+        let mut surface = Vec::with_capacity(scene.materials.len());
+        for look in scene.materials.iter().map(Look::of) {
+            let pipeline = match made.iter().find(|(known, _)| *known == look) {
+                Some((_, pipeline)) => pipeline.clone(),
+                None => {
+                    let description = Description {
+                        label: "surface",
+                        module: &surface_module,
+                        groups: &[Some(&view_layout_with_map), Some(&materials.layout)],
+                        buffers: &surface_buffers(),
+                        cull: !look.double_sided,
+                        depth_write: !look.blended,
+                        depth_compare: wgpu::CompareFunction::Greater,
+                        target: Some((format, look.blended)),
+                        constants: &look.constants(scene.light.shadows),
+                    };
+                    let pipeline = description.build(gpu);
+                    made.push((look, pipeline.clone()));
+                    pipeline
                 }
-                .build(gpu)
-            })
-        });
+            };
+            surface.push(pipeline);
+        }
         let sky = Description {
             label: "sky",
             module: &sky_module,
@@ -57,6 +67,7 @@ impl Pipelines {
             depth_write: false,
             depth_compare: wgpu::CompareFunction::GreaterEqual,
             target: Some((format, false)),
+            constants: &[],
         }
         .build(gpu);
         let shadow = Description {
@@ -68,6 +79,7 @@ impl Pipelines {
             depth_write: true,
             depth_compare: wgpu::CompareFunction::Greater,
             target: None,
+            constants: &[],
         }
         .build(gpu);
         Self { surface, sky, shadow, view_layout: view_layout_with_map, light_layout }
@@ -85,6 +97,41 @@ struct Description<'a> {
     depth_compare: wgpu::CompareFunction,
     /// None: depth alone is drawn. The flag mixes with what is there.
     target: Option<(Format, bool)>,
+    /// The fragment shader's overrides.
+    constants: &'a [(&'a str, f64)],
+}
+
+/// What of a material decides its pipeline: what it cannot show is left out of its shader.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Look {
+    blended: bool,
+    double_sided: bool,
+    lit: bool,
+    emissive: bool,
+    masked: bool,
+}
+
+impl Look {
+    fn of(material: &Material) -> Self {
+        Self {
+            blended: material.alpha == Alpha::Blend,
+            double_sided: material.double_sided,
+            lit: !material.unlit,
+            emissive: !material.unlit && material.emissive != [0.0; 3],
+            masked: matches!(material.alpha, Alpha::Mask(_)),
+        }
+    }
+
+    /// The shader's overrides.
+    fn constants(self, shadowed: bool) -> [(&'static str, f64); 4] {
+        let flag = |value: bool| f64::from(u8::from(value));
+        [
+            ("LIT", flag(self.lit)),
+            ("SHADOWED", flag(shadowed)),
+            ("EMISSIVE", flag(self.emissive)),
+            ("MASKED", flag(self.masked)),
+        ]
+    }
 }
 
 impl Description<'_> {
@@ -125,7 +172,10 @@ impl Description<'_> {
             fragment: targets.as_ref().map(|targets| wgpu::FragmentState {
                 module: self.module,
                 entry_point: Some("fragment"),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.constants,
+                    ..Default::default()
+                },
                 targets,
             }),
             multiview_mask: None,

@@ -106,7 +106,7 @@ fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
     let (shadow_from_world, depth_m) = shadow_from_world(scene);
     shaders::Lighting {
         shadow_from_world: matrix(&shadow_from_world),
-        sun_direction: light.sun_direction.extend(f32::from(u8::from(light.shadows))),
+        sun_direction: light.sun_direction.extend(0.0),
         sun: colour(light.sun).with_w(shaders::SHADOW_BIAS_M / depth_m as f32),
         sky: colour(light.sky),
         ground: colour(light.ground),
