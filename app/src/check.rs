@@ -4,6 +4,7 @@ use crate::command::CheckOptions;
 use crate::error::Error;
 use crate::scene;
 use input::recording::{Entry, Recording, RecordingError};
+use std::io::Write;
 use std::path::Path;
 
 /// Carries out `rapidity check`: a paragraph for each file.
@@ -14,10 +15,10 @@ pub fn check(options: &CheckOptions) -> Result<(), Error> {
     let mut bad = 0;
     for path in &options.files {
         match report(path) {
-            Ok(text) => println!("{}: good\n{text}", path.display()),
+            Ok(text) => say(&format!("{}: good\n{text}", path.display()))?,
             Err(error) => {
                 bad += 1;
-                println!("{error}");
+                say(&error.to_string())?;
             }
         }
     }
@@ -30,6 +31,14 @@ fn report(path: &Path) -> Result<String, Error> {
         Some("mcap") => Ok(recording(path)?),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
+}
+
+/// Writes a line to standard output; a reader that has gone away is no panic.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn say(line: &str) -> Result<(), Error> {
+    writeln!(std::io::stdout(), "{line}").map_err(Error::Output)
 }
 
 /// What is in a recording, if it is whole.

@@ -68,6 +68,9 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A recording without a single frame.
+    #[error("the recording ends before its first frame: there is nothing to show")]
+    NothingRidden,
     /// A ride too long to be recorded from its beginning.
     #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
     NotRemembered,

@@ -95,7 +95,11 @@ impl Sink {
     fn open(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
         let failed =
             |path: &Path, error: std::io::Error| FilmError::Write { path: path.to_owned(), reason: error.to_string() };
-        let encoder = Command::new("ffmpeg")
+        let mut encoder = Command::new("ffmpeg");
+        // Ctrl-C on the terminal is for us: the encoder goes on to the end of what it is given.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut encoder, 0);
+        let encoder = encoder
             .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
             .args(["-video_size", &format!("{}x{}", size[0], size[1])])
             .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])

@@ -3,19 +3,18 @@
 //! Drawing may be slower than riding, and devices do not wait; so whoever rides live is followed by the clock, and the
 //! film is drawn when he has arrived. A recorded rider and the built-in tour need no clock.
 
-use crate::command::RideOptions;
+use crate::command::{RideOptions, SceneChoice};
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::live::{Live, gaze};
+use crate::live::gaze;
 use crate::log::Log;
 use crate::progress;
 use crate::render::{Cameraman, interrupted};
-use crate::ride::{devices_config, first_actions, prepared, recorded};
+use crate::ride::{first_actions, prepared, present, recorded};
 use crate::scene::{Scene, source};
-use crate::simulation::{Frame, Simulation, Tour};
+use crate::simulation::{Frame, ReplayError, Replayed, Simulation, Tour};
 use crate::views::Gaze;
-use input::devices::Devices;
-use input::{Clock, Key, Nanos, SECOND, Sample, VehicleKind};
+use input::{Key, Nanos, SECOND, Sample, VehicleKind};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -34,20 +33,9 @@ const FRAMES_PER_PICTURE: u32 = 2;
 pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     // Without a graphics device nobody needs to ride.
     let gpu = Gpu::new()?;
-    let seconds = options.seconds.unwrap_or(if options.replay.is_some() { f64::INFINITY } else { SECONDS });
+    let seconds = options.seconds.unwrap_or(SECONDS);
     let (scene, gazes) = match &options.replay {
-        Some(recording) => {
-            let (scene, mut replay) = recorded(recording, &options.world.scene)?;
-            let spinner = progress::spinner(format!("riding {} again", recording.display()));
-            let mut reel = Reel::new(seconds);
-            while let Some(replayed) = replay.next_frame()? {
-                if !reel.add(&replayed.frame)? {
-                    break;
-                }
-            }
-            spinner.finish_and_clear();
-            (scene, reel.gazes)
-        }
+        Some(recording) => reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?,
         None => {
             let scene = source::load(&options.world.scene)?;
             let (simulation, mut log) = prepared(options, &scene)?;
@@ -65,57 +53,94 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     };
     let scene = source::refined(&scene, options.world.edge)?;
     let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
-    camera.film(gazes.into_iter(), f64::from(FRAMES_PER_SECOND), path)
+    let count = gazes.len() as u64;
+    camera.film(gazes.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
+}
+
+/// A recorded ride once more: its scene, and the observer at each picture's time.
+///
+/// A recording that is damaged or differs is followed as far as it goes, and the user told.
+///
+/// # Errors
+/// The recording or its scene cannot be read at all.
+pub fn reel(
+    recording: &Path,
+    choice: &SceneChoice,
+    frames_per_second: f64,
+    seconds: Option<f64>,
+) -> Result<(Scene, Vec<Gaze>), Error> {
+    let (scene, mut replay) = recorded(recording, choice)?;
+    let spinner = progress::spinner(format!("riding {} again", recording.display()));
+    let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
+    let mut differed = false;
+    loop {
+        match replay.next_frame() {
+            Ok(Some(Replayed { frame, difference })) => {
+                if let (Some(difference), false) = (difference, differed) {
+                    differed = true;
+                    eprintln!("{}", ReplayError::Differs { frame: frame.record.frame, difference });
+                }
+                if !reel.add(&frame)? {
+                    break;
+                }
+            }
+            Ok(None) => break,
+            Err(error) if reel.gazes.is_empty() => return Err(error.into()),
+            Err(error) => {
+                eprintln!("{error}");
+                break;
+            }
+        }
+    }
+    spinner.finish_and_clear();
+    Ok((scene, reel.gazes))
 }
 
 /// What the film will show: the observer at each picture's time.
 struct Reel {
     gazes: Vec<Gaze>,
     last: Option<Gaze>,
-    seconds: f64,
+    frames_per_second: f64,
+    end: Nanos,
 }
 
 impl Reel {
-    fn new(seconds: f64) -> Self {
-        Self { gazes: Vec::new(), last: None, seconds }
+    fn new(frames_per_second: f64, seconds: f64) -> Self {
+        Self { gazes: Vec::new(), last: None, frames_per_second, end: (seconds * SECOND as f64) as Nanos }
     }
 
     /// When the next picture is due.
     fn due(&self) -> Nanos {
-        self.gazes.len() as Nanos * SECOND / Nanos::from(FRAMES_PER_SECOND)
+        (self.gazes.len() as f64 * SECOND as f64 / self.frames_per_second) as Nanos
     }
 
     /// Takes a frame; pictures that were due before it show the frame before. Returns false once the film is full.
     fn add(&mut self, frame: &Frame) -> Result<bool, Error> {
         let newest = gaze(frame)?;
-        while self.due() < frame.record.at {
+        while self.due() < frame.record.at.min(self.end) {
             self.gazes.push(self.last.unwrap_or(newest));
         }
-        if self.due() == frame.record.at {
+        if self.due() == frame.record.at && self.due() < self.end {
             self.gazes.push(newest);
         }
         self.last = Some(newest);
-        Ok(self.due() as f64 <= self.seconds * SECOND as f64)
+        Ok(self.due() < self.end)
     }
 }
 
 /// Follows somebody who rides now, as the clock goes.
 fn follow(options: &RideOptions, simulation: Simulation, log: Log, seconds: f64) -> Result<Reel, Error> {
-    let clock = Clock::start();
-    let devices = Devices::open(&devices_config(options), clock)?;
-    let mut live = Live::present(simulation, devices, clock, log, Some(seconds));
-    for action in first_actions(options) {
-        live.say(|at| Sample::action(at, &action));
-    }
+    let options = RideOptions { seconds: Some(seconds), ..options.clone() };
+    let mut live = present(&options, simulation, log)?;
     let stop = interrupted();
     let spinner = progress::spinner("riding");
-    let mut reel = Reel::new(seconds);
+    let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);
     let period = SECOND / Nanos::from(FRAMES_PER_SECOND * FRAMES_PER_PICTURE);
     while !stop.load(Ordering::Relaxed) {
         let Some(frame) = live.frame()? else { break };
         reel.add(&frame)?;
         let next = (frame.record.at / period + 1) * period;
-        std::thread::sleep(Duration::from_nanos(next.saturating_sub(clock.now())));
+        std::thread::sleep(Duration::from_nanos(next.saturating_sub(live.now())));
     }
     live.finish()?;
     spinner.finish_and_clear();
@@ -134,8 +159,9 @@ fn demonstrate(
     seconds: f64,
 ) -> Result<Reel, Error> {
     let mut rider = Demonstrator::new(scene, &simulation);
-    let mut reel = Reel::new(seconds);
-    loop {
+    let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);
+    let stop = interrupted();
+    while !stop.load(Ordering::Relaxed) {
         let at = reel.due();
         let mut samples = rider.samples(&simulation, at);
         if at == 0 {

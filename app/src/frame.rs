@@ -95,6 +95,7 @@ impl Ride {
             }
         } else {
             self.shown = None;
+            self.not_finite = 0;
             for _ in self.under_way.drain(..) {
                 self.renderer.discard()?;
             }

@@ -1,8 +1,8 @@
 //! The graphics device: found once, shared by every renderer and window.
 //!
 //! Vulkan on Linux, in hardware or in software (lavapipe). Where there is none, [`GpuError::NoAdapter`] says which
-//! package to install. A device can be lost at any time (a driver reset, a pulled eGPU); that is an event to look
-//! for with [`Gpu::lost`], not an exit.
+//! package to install. A device can be lost at any time (a driver reset, a pulled eGPU): [`Gpu::lost`] tells, and the
+//! caller ends what it is doing in good order, a recording or a film completed.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
@@ -24,6 +24,9 @@ pub enum GpuError {
         /// As the driver says it.
         reason: String,
     },
+    /// The driver would not do what was asked of it.
+    #[error("the graphics device refused to draw: {0}; a smaller --size or a longer --edge may help")]
+    Refused(String),
     /// The driver went away, or broke, while drawing.
     #[error("the graphics device was lost: {0}; restart the program, and update the driver if it happens again")]
     Lost(String),
@@ -39,7 +42,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Takes work.
     pub queue: wgpu::Queue,
-    fault: Arc<Mutex<Option<String>>>,
+    fault: Arc<Mutex<Option<Fault>>>,
 }
 
 impl Gpu {
@@ -74,8 +77,11 @@ impl Gpu {
             .map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
         let fault = Arc::new(Mutex::new(None));
         let (on_loss, on_error) = (Arc::clone(&fault), Arc::clone(&fault));
-        device.set_device_lost_callback(move |reason, message| note(&on_loss, format!("{reason:?}: {message}")));
-        device.on_uncaptured_error(Arc::new(move |error| note(&on_error, error.to_string())));
+        device.set_device_lost_callback(move |reason, message| {
+            note(&on_loss, Fault::Lost(format!("{reason:?}: {message}")));
+        });
+        device
+            .on_uncaptured_error(Arc::new(move |error| note(&on_error, Fault::Refused(one_line(&error.to_string())))));
         Ok(Self { instance, adapter, device, queue, fault })
     }
 
@@ -98,10 +104,11 @@ impl Gpu {
     /// The first fault that the driver reported, if any.
     ///
     /// # Errors
-    /// [`GpuError::Lost`] with the driver's words.
+    /// [`GpuError::Lost`] or [`GpuError::Refused`] with the driver's words.
     pub fn lost(&self) -> Result<(), GpuError> {
         match &*self.fault.lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(message) => Err(GpuError::Lost(message.clone())),
+            Some(Fault::Lost(message)) => Err(GpuError::Lost(message.clone())),
+            Some(Fault::Refused(message)) => Err(GpuError::Refused(message.clone())),
             None => Ok(()),
         }
     }
@@ -121,7 +128,18 @@ pub fn descriptor() -> wgpu::InstanceDescriptor {
     wgpu::InstanceDescriptor::new_without_display_handle_from_env()
 }
 
-/// Keeps the first message only: what follows a fault is its echo.
-fn note(fault: &Mutex<Option<String>>, message: String) {
-    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+/// What the driver reported.
+enum Fault {
+    Lost(String),
+    Refused(String),
+}
+
+/// Keeps the first fault only: what follows is its echo.
+fn note(fault: &Mutex<Option<Fault>>, news: Fault) {
+    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(news);
+}
+
+/// A report of several lines as one.
+fn one_line(report: &str) -> String {
+    report.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -5,10 +5,10 @@
 
 use crate::error::Error;
 use crate::log::Log;
-use crate::simulation::{Frame, Replay, Simulation};
+use crate::simulation::{Frame, Replay, ReplayError, Replayed, Simulation};
 use crate::views::Gaze;
 use input::devices::{Devices, State};
-use input::{Clock, Nanos, SECOND, Sample};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
 use physics::photo_surface::Eye;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ enum Rider {
     /// Somebody at the devices.
     Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<Log> },
     /// Somebody who was here before.
-    Recorded { replay: Box<Replay>, next: Option<Box<Frame>> },
+    Recorded { replay: Box<Replay>, next: Option<Box<Frame>>, shown: Option<Box<Frame>>, differed: bool },
 }
 
 impl Live {
@@ -41,12 +41,18 @@ impl Live {
 
     /// A recorded rider, from now on.
     pub fn recorded(replay: Replay, seconds: Option<f64>) -> Self {
-        Self::new(Rider::Recorded { replay: Box::new(replay), next: None }, Clock::start(), seconds)
+        let replay = Box::new(replay);
+        Self::new(Rider::Recorded { replay, next: None, shown: None, differed: false }, Clock::start(), seconds)
     }
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
         let end = seconds.map(|seconds| (seconds * SECOND as f64) as Nanos);
         Self { clock, rider, end, said: Vec::new(), told: Vec::new() }
+    }
+
+    /// The ride's time.
+    pub fn now(&self) -> Nanos {
+        self.clock.now()
     }
 
     /// Takes what the window or the panel says, stamped with the time it is said at.
@@ -56,7 +62,9 @@ impl Live {
 
     /// Tells the rider something.
     pub fn tell(&mut self, sentence: impl Into<String>) {
-        self.told.push((self.clock.now() + NOTICE_TIME, sentence.into()));
+        let sentence = sentence.into();
+        self.told.retain(|(_, told)| *told != sentence);
+        self.told.push((self.clock.now() + NOTICE_TIME, sentence));
     }
 
     /// The ride now, or `None` at its end.
@@ -81,25 +89,46 @@ impl Live {
                 }
                 Some(frame)
             }
-            Rider::Recorded { replay, next } => {
-                self.said.clear();
+            Rider::Recorded { replay, next, shown, differed } => {
+                let said = std::mem::take(&mut self.said);
                 // Frames that were ridden since the last look are gone through, and the last of them is shown.
-                let mut shown = None;
-                loop {
+                let ended = loop {
                     let frame = match next.take() {
                         Some(frame) => *frame,
-                        None => match replay.next_frame()? {
-                            Some(replayed) => replayed.frame,
-                            None => break shown,
+                        None => match replay.next_frame() {
+                            Ok(Some(Replayed { frame, difference })) => {
+                                if let (Some(difference), false) = (difference, *differed) {
+                                    *differed = true;
+                                    let frame = frame.record.frame;
+                                    let sentence = ReplayError::Differs { frame, difference }.to_string();
+                                    self.told.push((Nanos::MAX, sentence));
+                                }
+                                frame
+                            }
+                            Ok(None) => break true,
+                            Err(error) if shown.is_none() => return Err(error.into()),
+                            Err(error) => {
+                                eprintln!("{error}");
+                                break true;
+                            }
                         },
                     };
-                    if frame.record.at > now {
-                        let shown = shown.or_else(|| Some(frame.clone()));
+                    let due = frame.record.at <= now;
+                    if due || shown.is_none() {
+                        *shown = Some(Box::new(frame));
+                    } else {
                         *next = Some(Box::new(frame));
-                        break shown;
                     }
-                    shown = Some(frame);
+                    if !due {
+                        break false;
+                    }
+                };
+                // What the rider pressed then is not done again; what the onlooker presses now is.
+                let mut frame = if ended && next.is_none() { None } else { shown.as_deref().cloned() };
+                if let Some(frame) = &mut frame {
+                    frame.controls.actions = onlooker(&said);
                 }
+                frame
             }
         };
         if let Some(frame) = &frame {
@@ -176,6 +205,14 @@ impl Live {
             Rider::Recorded { .. } => Ok(()),
         }
     }
+}
+
+/// The actions that an onlooker of a recorded ride may want: they concern the window alone.
+fn onlooker(said: &[Sample]) -> Vec<Action> {
+    let mut desk = Desk::new(DeskConfig::default()).expect("the default settings are sound");
+    said.iter().for_each(|sample| desk.feed(sample));
+    let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
+    actions.into_iter().filter(|action| matches!(action, Action::ToggleHelp | Action::Photo)).collect()
 }
 
 /// What the observer of a frame sees from where.

@@ -6,6 +6,7 @@
 use crate::command::{Output, PictureOptions, RenderOptions, Viewpoint};
 use crate::error::Error;
 use crate::film::{Film, Written};
+use crate::film_ride;
 use crate::gpu::Gpu;
 use crate::progress;
 use crate::renderers::Effects;
@@ -18,8 +19,8 @@ use image::RgbaImage;
 use physics::Celerity;
 use physics::photo_surface::Eye;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Metres from the ground to the eye of a standing visitor.
 const EYE_HEIGHT_M: f64 = 1.6;
@@ -32,6 +33,9 @@ const FILM_SECONDS: f64 = 10.0;
 /// Whatever keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let gpu = Gpu::new()?;
+    if let Some(recording) = &options.replay {
+        return recorded_ride(options, &gpu, recording);
+    }
     let scene = source::refined(&source::load(&options.world.scene)?, options.world.edge)?;
     let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
     let speed_of_light = options.world.speed_of_light;
@@ -39,11 +43,24 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, &scene, 0.0)?, path),
         Output::Film(path) => {
             let rate = options.frames_per_second();
-            let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round() as u64;
-            let gazes = (0..count)
-                .map(|frame| inertial(&options.viewpoint, &scene, frame as f64 / rate * speed_of_light))
-                .collect::<Result<Vec<_>, _>>()?;
-            camera.film(gazes.into_iter(), rate, path)
+            let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
+            let gaze = |frame: f64| inertial(&options.viewpoint, &scene, frame / rate * speed_of_light);
+            camera.film((0..count as u64).map(|frame| gaze(frame as f64)), count as u64, rate, path)
+        }
+    }
+}
+
+/// The same with the eyes of a recorded rider.
+fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
+    let rate = options.frames_per_second();
+    let (scene, gazes) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let scene = source::refined(&scene, options.world.edge)?;
+    let mut camera = Cameraman::new(gpu, &scene, &options.picture)?;
+    match &options.out {
+        Output::Picture(path) => camera.still(*gazes.last().ok_or(Error::NothingRidden)?, path),
+        Output::Film(path) => {
+            let count = gazes.len() as u64;
+            camera.film(gazes.into_iter().map(Ok), count, rate, path)
         }
     }
 }
@@ -102,22 +119,23 @@ impl<'gpu> Cameraman<'gpu> {
     /// A lost device, an encoder that fails, or a place that cannot be written.
     pub fn film(
         &mut self,
-        gazes: impl ExactSizeIterator<Item = Gaze>,
+        gazes: impl Iterator<Item = Result<Gaze, Error>>,
+        count: u64,
         frames_per_second: f64,
         path: &Path,
     ) -> Result<(), Error> {
         let stop = interrupted();
         let film = Film::create(path, self.options.size, frames_per_second)?;
-        let bar = progress::bar(path.display().to_string(), gazes.len() as u64);
+        let bar = progress::bar(path.display().to_string(), count);
 
         // The photo-surface of the next frame is worked out while this one is drawn.
         let mut gazes = gazes;
-        let mut next = gazes.next();
+        let mut next = gazes.next().transpose()?;
         if let Some(gaze) = &next {
             self.submit(gaze)?;
         }
         while let Some(gaze) = next {
-            next = if stop.load(Ordering::Relaxed) { None } else { gazes.next() };
+            next = if stop.load(Ordering::Relaxed) { None } else { gazes.next().transpose()? };
             if let Some(gaze) = &next {
                 self.submit(gaze)?;
             }
@@ -183,15 +201,20 @@ pub fn save(picture: &RgbaImage, path: &Path) -> Result<(), Error> {
         .map_err(|error| Error::Write { path: path.to_owned(), reason: error.to_string() })
 }
 
-/// A flag that Ctrl-C sets, so that what was done so far can be finished.
+/// A flag that Ctrl-C (or a request to end) sets, so that what was done so far can be finished; the second one ends at once.
 pub fn interrupted() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&flag);
-    // Fails only if a handler is there already, which then does the same.
-    let _ = ctrlc::set_handler(move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
+    static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    let flag = FLAG.get_or_init(|| {
+        let flag = Arc::new(AtomicBool::new(false));
+        let set = Arc::clone(&flag);
+        // Fails only if there is a handler already, and there is no other than this one.
+        let _ = ctrlc::set_handler(move || {
+            if set.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        });
+        flag
     });
-    flag
+    flag.store(false, Ordering::Relaxed);
+    Arc::clone(flag)
 }

@@ -1,6 +1,7 @@
 //! `rapidity ride`: puts the ride together, and opens a window on it, or films it where there is no display.
 
-use crate::command::{IntegratorName, RideOptions, SceneChoice, Transport, VehicleName};
+use crate::check::say;
+use crate::command::{RideOptions, SceneChoice, VehicleName};
 use crate::error::Error;
 use crate::film_ride;
 use crate::live::Live;
@@ -9,7 +10,7 @@ use crate::progress;
 use crate::scene::collision::Collision;
 use crate::scene::{Scene, source};
 use crate::simulation::{Replay, Setup, Simulation, Start};
-use crate::vehicle::{IntegratorKind, Nose, Surroundings, VehicleSettings, World};
+use crate::vehicle::{Surroundings, VehicleSettings, World};
 use crate::window;
 use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
@@ -30,9 +31,9 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
         return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
     }
     if options.out.is_none() && window::has_display() {
-        let (scene, live) = begin(options)?;
+        let (scene, begin) = begin(options)?;
         let scene = source::refined(&scene, options.world.edge)?;
-        return window::run(options, scene, live);
+        return window::run(options, scene, begin);
     }
     let path = options.out.clone().unwrap_or_else(|| {
         eprintln!("no display: filming the ride into {FILM}");
@@ -44,29 +45,40 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
 /// Computes a recorded ride again, and compares it bit for bit.
 fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
     let (_, replay) = recorded(path, &options.world.scene)?;
-    let frames = replay.verify()?;
-    println!("{}: {frames} frames, identical to the bit", path.display());
-    Ok(())
+    let spinner = progress::spinner("riding again");
+    let frames = replay.verify();
+    spinner.finish_and_clear();
+    say(&format!("{}: {} frames, identical to the bit", path.display(), frames?))
 }
 
-/// The scene, and a ride in it that is about to begin: live, or recorded.
-fn begin(options: &RideOptions) -> Result<(Scene, Live), Error> {
+/// The scene, and what begins a ride in it: live, or recorded.
+fn begin(options: &RideOptions) -> Result<(Scene, window::Begin), Error> {
+    let seconds = options.seconds;
     if let Some(path) = &options.replay {
         let (scene, replay) = recorded(path, &options.world.scene)?;
-        return Ok((scene, Live::recorded(replay, options.seconds)));
+        return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
     }
     let scene = source::load(&options.world.scene)?;
+    let (simulation, mut log) = prepared(options, &scene)?;
+    if let Some(path) = &options.record {
+        log.record(path)?;
+    }
+    let options = options.clone();
+    Ok((scene, Box::new(move || present(&options, simulation, log))))
+}
+
+/// A live ride whose clock starts now.
+///
+/// # Errors
+/// Devices that cannot be read.
+pub fn present(options: &RideOptions, simulation: Simulation, log: Log) -> Result<Live, Error> {
     let clock = Clock::start();
-    let (simulation, log) = prepared(options, &scene)?;
     let devices = Devices::open(&devices_config(options), clock)?;
     let mut live = Live::present(simulation, devices, clock, log, options.seconds);
-    if let Some(path) = &options.record {
-        live.record(path)?;
-    }
     for action in first_actions(options) {
         live.say(|at| Sample::action(at, &action));
     }
-    Ok((scene, live))
+    Ok(live)
 }
 
 /// A recording's scene, and the ride in it once more.
@@ -109,16 +121,8 @@ fn setup(options: &RideOptions, scene: &Scene) -> Result<Setup, Error> {
         VehicleName::Drive => VehicleKind::Drive,
         VehicleName::Fly => VehicleKind::Fly,
     };
-    let mut vehicle = VehicleSettings::default();
-    vehicle.integrator = match options.vehicle.integrator {
-        IntegratorName::Rk4 => IntegratorKind::Rk4,
-        IntegratorName::Exact => IntegratorKind::Exact,
-        IntegratorName::Dopri5 => IntegratorKind::DormandPrince,
-    };
-    vehicle.flight.nose = match options.vehicle.transport {
-        Transport::Gyroscopic => Nose::Gyroscopic,
-        Transport::Facing => Nose::FacesMotion,
-    };
+    let mut vehicle = VehicleSettings { integrator: options.vehicle.integrator, ..Default::default() };
+    vehicle.flight.nose = options.vehicle.transport;
     // One who flies begins at his eye, the others on the ground.
     let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };
     Ok(Setup {

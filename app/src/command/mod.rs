@@ -27,7 +27,7 @@ mod world;
 
 pub use picture::{PictureOptions, Renderer};
 pub use render::{RenderOptions, Viewpoint};
-pub use ride::{DeviceOptions, IntegratorName, Latency, RideOptions, Transport, VehicleName, VehicleOptions};
+pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
 pub use values::{Output, ValueError};
 pub use world::{SceneChoice, WorldOptions};
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{PictureOptions, WorldOptions, values};
+use crate::vehicle::{IntegratorKind, Nose};
 
 /// What drives the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -16,28 +17,6 @@ pub enum VehicleName {
     Drive,
     /// Thrust in three directions, and roll.
     Fly,
-}
-
-/// How the worldline is integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum IntegratorName {
-    /// Classical Runge-Kutta of fourth order.
-    #[default]
-    Rk4,
-    /// The closed solution for thrust and turn rate that are constant during a step.
-    Exact,
-    /// Dormand and Prince's pair of orders five and four, with steps as short as its tolerance asks.
-    Dopri5,
-}
-
-/// How the axes of a flying vehicle are carried along.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Transport {
-    /// As gyroscopes do (Fermi-Walker).
-    Gyroscopic,
-    /// The nose turns to face the motion.
-    #[default]
-    Facing,
 }
 
 /// How transforming and drawing share the time of a frame.
@@ -113,10 +92,10 @@ pub struct VehicleOptions {
     pub vehicle: VehicleName,
     /// How the worldline is integrated.
     #[arg(long, value_enum, default_value = "rk4")]
-    pub integrator: IntegratorName,
+    pub integrator: IntegratorKind,
     /// How the axes of a flying vehicle are carried along.
     #[arg(long, value_enum, default_value = "facing")]
-    pub transport: Transport,
+    pub transport: Nose,
     /// Seconds of the rider's own time for each second of real time.
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::positive)]
     pub time_scale: f64,

@@ -3,6 +3,7 @@
 //! let |beta| = 1 through, or swallow one of two options that contradict each other.
 
 use crate::renderers::Effects;
+use crate::vehicle::{IntegratorKind, Nose};
 use glam::DVec3;
 
 use super::*;
@@ -45,7 +46,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
     assert_eq!(options.world.scene, SceneChoice::Town);
     assert_eq!(options.world.speed_of_light, 30.0 / 3.6);
     assert_eq!(options.vehicle.vehicle, VehicleName::Bicycle);
-    assert_eq!(options.vehicle.integrator, IntegratorName::Rk4);
+    assert_eq!(options.vehicle.integrator, IntegratorKind::Rk4);
     assert_eq!(options.vehicle.time_scale, 1.0);
     assert_eq!(options.picture.size, [1280, 720]);
     assert_eq!(options.picture.effects, Effects::Geometry);
@@ -66,8 +67,8 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.record, Some("r.mcap".into()));
     assert_eq!((options.seconds, options.latency, options.realtime), (Some(2.5), Latency::Low, true));
     assert_eq!(options.vehicle.vehicle, VehicleName::Fly);
-    assert_eq!(options.vehicle.integrator, IntegratorName::Exact);
-    assert_eq!(options.vehicle.transport, Transport::Gyroscopic);
+    assert_eq!(options.vehicle.integrator, IntegratorKind::Exact);
+    assert_eq!(options.vehicle.transport, Nose::Gyroscopic);
     assert_eq!(options.picture.renderer, Renderer::Polygon);
     assert_eq!((options.picture.samples, options.picture.threads, options.picture.fov), (1, Some(2), 90.0));
     assert!(ride("--replay r.mcap --verify").verify);

@@ -13,7 +13,7 @@ use super::json::Node;
 use super::keys::{Keys, Place};
 use super::results::Answer;
 use super::{MOST_STEPS, ProbeError};
-use crate::command::IntegratorName;
+use crate::vehicle::IntegratorKind;
 
 const QUESTIONS: &str = "one of aberration, boost, compose, apparent, eyes, worldline, perceived";
 
@@ -137,10 +137,10 @@ fn worldline(question: &Keys<'_>) -> Result<Answer, ProbeError> {
 
 fn integrator_of(name: &Place<'_>) -> Result<Box<dyn Integrator>, ProbeError> {
     const NAMES: &str = "\"rk4\", \"exact\" or \"dopri5\"";
-    match IntegratorName::from_str(name.text(NAMES)?, false).map_err(|_| name.wrong(NAMES))? {
-        IntegratorName::Rk4 => Ok(Box::new(Rk4)),
-        IntegratorName::Exact => Ok(Box::new(Exact)),
-        IntegratorName::Dopri5 => {
+    match IntegratorKind::from_str(name.text(NAMES)?, false).map_err(|_| name.wrong(NAMES))? {
+        IntegratorKind::Rk4 => Ok(Box::new(Rk4)),
+        IntegratorKind::Exact => Ok(Box::new(Exact)),
+        IntegratorKind::DormandPrince => {
             let adaptive = DormandPrince::new(ADAPTIVE_TOLERANCE).expect("the tolerance is within its range");
             Ok(Box::new(adaptive))
         }

@@ -1,5 +1,6 @@
 //! What can be set about the vehicles. All of it decides where a ride goes, so all of it belongs into a recording.
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -117,18 +118,19 @@ impl Default for FlightSettings {
 }
 
 /// Which way the nose of a driven or flown vehicle points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Nose {
-    /// Turned to face the motion by lateral acceleration (W 6.2).
+    /// The nose is turned to face the motion by lateral acceleration (W 6.2).
     #[default]
+    #[value(name = "facing")]
     FacesMotion,
     /// Held by gyroscopes: it turns only when told to, and by Thomas precession (Fermi–Walker transport).
     Gyroscopic,
 }
 
 /// How the worldline is integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum IntegratorKind {
     /// Classical Runge–Kutta.
@@ -137,6 +139,7 @@ pub enum IntegratorKind {
     /// Exact for constant controls, midpoint for others.
     Exact,
     /// Adaptive (DOPRI5).
+    #[value(name = "dopri5")]
     DormandPrince,
 }
 
@@ -146,7 +149,7 @@ impl IntegratorKind {
         match self {
             Self::Rk4 => "rk4",
             Self::Exact => "exact",
-            Self::DormandPrince => "dormand_prince",
+            Self::DormandPrince => "dopri5",
         }
     }
 }

@@ -35,22 +35,21 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-    /// Lays out and draws `contents` over what is in `target`.
+    /// Lays out and draws `contents` over what is in `target`, whose size may still be the window's last one, in pixels.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         window: &Window,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
+        size: [u32; 2],
         contents: impl FnMut(&mut egui::Ui),
     ) {
         let input = self.state.take_egui_input(window);
         let mut output = self.context.run_ui(input, contents);
         self.state.handle_platform_output(window, output.platform_output);
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
-        let size = window.inner_size();
-        let screen =
-            ScreenDescriptor { size_in_pixels: [size.width, size.height], pixels_per_point: output.pixels_per_point };
+        let screen = ScreenDescriptor { size_in_pixels: size, pixels_per_point: output.pixels_per_point };
 
         for (id, deltas) in &output.textures_delta.set {
             for delta in deltas {

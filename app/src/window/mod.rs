@@ -16,6 +16,8 @@ use crate::frame::{Pictured, Ride};
 use crate::gpu::{Gpu, GpuError, descriptor};
 use crate::live::Live;
 use crate::photo;
+use crate::progress;
+use crate::render::{described, interrupted};
 use crate::renderers::Effects;
 use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::resolve::Resolver;
@@ -27,6 +29,8 @@ use interface::Interface;
 pub use panel::Ride as RidePanel;
 use panel::Settings;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, WindowEvent};
@@ -36,6 +40,9 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 /// Samples a pixel in a window drawn by hardware, where they cost little; software draws one.
 const HARDWARE_SAMPLES: u32 = 4;
+
+/// Between two looks at a window that cannot be drawn in.
+const UNSEEN_PAUSE: Duration = Duration::from_millis(10);
 
 /// Whether there is a display to open a window on.
 pub fn has_display() -> bool {
@@ -49,9 +56,9 @@ pub fn has_display() -> bool {
 ///
 /// # Errors
 /// No display after all, no graphics device, or a fault while riding.
-pub fn run(options: &RideOptions, scene: Scene, live: Live) -> Result<(), Error> {
+pub fn run(options: &RideOptions, scene: Scene, live: Begin) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
-    events.set_control_flow(ControlFlow::Poll);
+    events.set_control_flow(ControlFlow::Wait);
     let mut application =
         Application { options: options.clone(), waiting: Some((scene, live)), open: None, failed: None };
     events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
@@ -59,10 +66,13 @@ pub fn run(options: &RideOptions, scene: Scene, live: Live) -> Result<(), Error>
     application.failed.map_or(finished, Err)
 }
 
+/// Begins the ride: called when everything else is ready, since the ride's clock starts with it.
+pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
+
 /// What winit calls.
 struct Application {
     options: RideOptions,
-    waiting: Option<(Scene, Live)>,
+    waiting: Option<(Scene, Begin)>,
     open: Option<Open>,
     failed: Option<Error>,
 }
@@ -79,6 +89,8 @@ struct Open {
     interface: Interface,
     settings: Settings,
     ride: Ride,
+    /// Set by Ctrl-C: the recording is completed all the same.
+    stop: Arc<AtomicBool>,
 }
 
 impl ApplicationHandler for Application {
@@ -111,7 +123,7 @@ impl Application {
 }
 
 impl Open {
-    fn new(events: &ActiveEventLoop, options: &RideOptions, scene: &Scene, live: Live) -> Result<Self, Error> {
+    fn new(events: &ActiveEventLoop, options: &RideOptions, scene: &Scene, live: Begin) -> Result<Self, Error> {
         let [width, height] = options.picture.size;
         let attributes = Window::default_attributes()
             .with_title(format!("Rapidity: {}", scene.name))
@@ -127,13 +139,18 @@ impl Open {
         let mut configuration = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
             .ok_or_else(|| GpuError::NoAdapter("the window's surface has no format".to_owned()))?;
+        configuration.present_mode = wgpu::PresentMode::AutoVsync;
         // The interface mixes colours as they are encoded, so the surface must not encode once more.
         configuration.format = configuration.format.remove_srgb_suffix();
         surface.configure(&gpu.device, &configuration);
 
         let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
         let format = Format::fast(samples);
+        eprintln!("{}", described(scene, &gpu));
+        let spinner = progress::spinner("uploading");
         let renderer = PolygonRenderer::new(&gpu, scene, format, options.picture.background)?;
+        gpu.wait()?;
+        spinner.finish_and_clear();
         let interface = Interface::new(&gpu, &window, configuration.format);
         Ok(Self {
             radiance: Radiance::new(&gpu, [configuration.width, configuration.height], format),
@@ -146,7 +163,8 @@ impl Open {
                 latency: options.latency,
                 fov: options.picture.fov,
             },
-            ride: Ride::new(renderer, live),
+            ride: Ride::new(renderer, live()?),
+            stop: interrupted(),
             gpu,
             window,
             surface,
@@ -162,7 +180,7 @@ impl Open {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(size),
             WindowEvent::Focused(false) => self.ride.live.say(|at| Sample::closed(at, Source::Keyboard)),
-            WindowEvent::KeyboardInput { event, .. } if !event.repeat => {
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => {
                 if let PhysicalKey::Code(code) = event.physical_key {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
@@ -222,9 +240,18 @@ impl Open {
         self.radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
     }
 
+    /// One frame that nobody sees: the ride goes on all the same.
+    fn unseen(&mut self) -> Result<bool, Error> {
+        std::thread::sleep(UNSEEN_PAUSE);
+        Ok(self.ride.live.frame()?.is_some())
+    }
+
     /// One frame. Returns false when the ride is over.
     fn frame(&mut self) -> Result<bool, Error> {
         self.gpu.lost()?;
+        if self.stop.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
         use wgpu::CurrentSurfaceTexture as Current;
         let texture = match self.surface.get_current_texture() {
             Current::Success(texture) | Current::Suboptimal(texture) => texture,
@@ -234,14 +261,14 @@ impl Open {
                     .instance
                     .create_surface(Arc::clone(&self.window))
                     .map_err(|error| GpuError::Lost(error.to_string()))?;
-                self.surface.configure(&self.gpu.device, &self.configuration);
-                return Ok(true);
+                self.resize(self.window.inner_size());
+                return self.unseen();
             }
             Current::Outdated => {
-                self.surface.configure(&self.gpu.device, &self.configuration);
-                return Ok(true);
+                self.resize(self.window.inner_size());
+                return self.unseen();
             }
-            Current::Timeout | Current::Occluded | Current::Validation => return Ok(true),
+            Current::Timeout | Current::Occluded | Current::Validation => return self.unseen(),
         };
         let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
 
@@ -272,7 +299,8 @@ impl Open {
         let panel = self.ride.panel(&self.gpu);
         let settings = &mut self.settings;
         let mut wanted = Vec::new();
-        self.interface.draw(&self.gpu, &self.window, &mut encoder, &screen, |ui| {
+        let size = [texture.texture.width(), texture.texture.height()];
+        self.interface.draw(&self.gpu, &self.window, &mut encoder, &screen, size, |ui| {
             if settings.readings {
                 hud::show(ui, &readings);
             }

@@ -83,7 +83,8 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
                 ui.end_row();
 
                 ui.label("Field of view");
-                ui.add(Slider::new(&mut settings.fov, 20.0..=140.0).suffix("°"));
+                let range = Slider::new(&mut settings.fov, 20.0..=140.0).suffix("°");
+                ui.add(range.clamping(egui::SliderClamping::Edits));
                 ui.end_row();
 
                 ui.label("Frames");

@@ -11,7 +11,7 @@ use wgpu::util::{DeviceExt, TextureDataOrder};
 /// Samples along the longer side of a stretched footprint.
 const ANISOTROPY: u16 = 8;
 /// The same where the CPU draws, which pays for each sample.
-const ANISOTROPY_SOFTWARE: u16 = 4;
+const ANISOTROPY_SOFTWARE: u16 = 2;
 
 /// One bind group per material, in the scene's order.
 pub struct Materials {
