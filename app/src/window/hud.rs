@@ -121,7 +121,7 @@ fn beta(beta: f64, gamma: f64) -> String {
     }
     let short = 1.0 / (gamma * gamma * (1.0 + beta));
     if short > 1e-9 {
-        format!("{beta:.*}", (2.0 - short.log10()).ceil() as usize)
+        format!("{beta:.*}", (1.0 - short.log10().floor()) as usize)
     } else {
         format!("1 − {short:.1e}")
     }
