@@ -10,8 +10,9 @@ use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// Samples along the longer side of a stretched footprint.
 const ANISOTROPY: u16 = 8;
-/// The same where the CPU draws, which pays for each sample.
-const ANISOTROPY_SOFTWARE: u16 = 2;
+/// The same where the CPU draws. Mesa's software sampler walks a footprint's whole bounding box: beside the eye, where a
+/// triangle is stretched without bound, it may not come back.
+const ANISOTROPY_SOFTWARE: u16 = 1;
 
 /// One bind group per material, in the scene's order.
 pub struct Materials {
