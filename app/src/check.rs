@@ -47,7 +47,10 @@ fn recording(path: &Path) -> Result<String, RecordingError> {
     let header = recording.header().clone();
     let (mut samples, mut frames, mut last) = (0_u64, 0_u64, 0);
     for entry in recording {
-        match entry? {
+        let entry = entry.inspect_err(|_| {
+            eprintln!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9);
+        })?;
+        match entry {
             Entry::Sample(_) => samples += 1,
             Entry::Controls(_) => {}
             Entry::Frame(frame) => {

@@ -29,6 +29,7 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
             render::render(options)?;
         }
         Command::Town(options) => {
+            render::writable(&options.out)?;
             let scene = source::load(&command::SceneChoice::Town)?;
             export::write_glb(&scene, &options.out)?;
             eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());

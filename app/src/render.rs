@@ -33,6 +33,8 @@ const FILM_SECONDS: f64 = 10.0;
 /// Whatever keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let gpu = Gpu::new()?;
+    let (Output::Picture(path) | Output::Film(path)) = &options.out;
+    writable(path)?;
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
@@ -168,14 +170,9 @@ impl<'gpu> Cameraman<'gpu> {
     }
 }
 
-/// What draws the scene, in one line, and why that.
+/// What draws the scene, in one line.
 pub fn described(scene: &Scene, gpu: &Gpu) -> String {
-    format!(
-        "{}: {} triangles by the polygon renderer, which draws every scene so far, on {}",
-        scene.name,
-        scene.triangle_count(),
-        gpu.description()
-    )
+    format!("{}: {} triangles by the polygon renderer on {}", scene.name, scene.triangle_count(), gpu.description())
 }
 
 /// A gaze through a camera of `fov` degrees.
@@ -189,6 +186,22 @@ pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
         }
         Effects::None => Shot { camera, positions: Positions::Plain(eye), eye, motion: Celerity::ZERO },
     }
+}
+
+/// Looks before long work whether its result can be put there.
+///
+/// # Errors
+/// [`Error::Write`]: a folder of that name is in the way, or the folder that it belongs in is missing.
+pub fn writable(path: &Path) -> Result<(), Error> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let reason = if path.is_dir() {
+        "it is a folder".to_owned()
+    } else if !folder.is_dir() {
+        format!("there is no folder {}", folder.display())
+    } else {
+        return Ok(());
+    };
+    Err(Error::Write { path: path.to_owned(), reason })
 }
 
 /// Writes a picture as PNG.

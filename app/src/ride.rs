@@ -7,6 +7,7 @@ use crate::film_ride;
 use crate::live::Live;
 use crate::log::Log;
 use crate::progress;
+use crate::render::writable;
 use crate::scene::collision::Collision;
 use crate::scene::{Scene, source};
 use crate::simulation::{Replay, Setup, Simulation, Start};
@@ -21,6 +22,13 @@ use std::sync::Arc;
 
 /// Where a ride is filmed that has no display and names no file.
 const FILM: &str = "ride.mp4";
+
+/// Key of a recording's setting that tells its scene from others.
+const FINGERPRINT: &str = "scene_fingerprint";
+
+fn fingerprint(scene: &Scene) -> String {
+    format!("{:016x}", scene.fingerprint())
+}
 
 /// Carries out `rapidity ride`.
 ///
@@ -39,6 +47,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
         eprintln!("no display: filming the ride into {FILM}");
         PathBuf::from(FILM)
     });
+    writable(&path)?;
     film_ride::film(options, &path)
 }
 
@@ -93,6 +102,13 @@ pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Er
         named => named.clone(),
     };
     let scene = source::load(&choice)?;
+    if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
+        eprintln!(
+            "{}: {} is not the scene that was ridden through; expect another ride",
+            path.display(),
+            choice.name()
+        );
+    }
     let surroundings = surroundings(&scene)?;
     Ok((scene, Replay::new(recording, surroundings)?))
 }
@@ -103,7 +119,8 @@ pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Er
 /// Settings that cannot be used, or a scene without sound geometry.
 pub fn prepared(options: &RideOptions, scene: &Scene) -> Result<(Simulation, Log), Error> {
     let setup = setup(options, scene)?;
-    let header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
+    let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
+    header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     Ok((Simulation::new(setup, surroundings(scene)?)?, Log::new(header)))
 }
 

@@ -210,6 +210,23 @@ pub struct SceneFault {
 }
 
 impl Scene {
+    /// A number that tells this scene's solid part from another's: FNV-1a over every coordinate and index.
+    ///
+    /// Whoever stands on it and runs into it depends on nothing else, so a recording names it.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut take = |value: u32| {
+            for byte in value.to_le_bytes() {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        for mesh in self.meshes.iter().filter(|mesh| mesh.solid) {
+            mesh.positions.iter().flat_map(|position| position.to_array()).for_each(|value| take(value.to_bits()));
+            mesh.indices.iter().for_each(|&index| take(index));
+        }
+        hash
+    }
+
     /// Number of vertices in all meshes.
     pub fn vertex_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.positions.len()).sum()
