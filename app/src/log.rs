@@ -12,27 +12,23 @@ use std::path::Path;
 /// Entries kept in memory: about three quarters of an hour at sixty frames a second.
 const MOST_ENTRIES: usize = 500_000;
 
-/// The ride so far, in memory or in a file.
+/// The ride so far: in memory as long as it is short enough, and in a file if one is wanted.
 pub struct Log {
     header: Header,
-    state: State,
-}
-
-enum State {
-    Kept(Vec<Entry>),
-    Written(Recorder),
-    TooLong,
+    /// All entries; none once there were too many.
+    kept: Option<Vec<Entry>>,
+    file: Option<Recorder>,
 }
 
 impl Log {
     /// Begins with the ride.
     pub fn new(header: Header) -> Self {
-        Self { header, state: State::Kept(Vec::new()) }
+        Self { header, kept: Some(Vec::new()), file: None }
     }
 
     /// Whether a file is being written.
     pub fn is_recording(&self) -> bool {
-        matches!(self.state, State::Written(_))
+        self.file.is_some()
     }
 
     /// Takes what one frame was made from, and what came of it.
@@ -40,34 +36,26 @@ impl Log {
     /// # Errors
     /// The file cannot be written any further; recording has stopped, and what was written is kept.
     pub fn frame(&mut self, samples: &[Sample], frame: &Frame) -> Result<(), Error> {
-        let number = frame.record.frame;
-        match &mut self.state {
-            State::TooLong => Ok(()),
-            State::Kept(entries) if entries.len() >= MOST_ENTRIES => {
-                self.state = State::TooLong;
-                Ok(())
-            }
-            State::Kept(entries) => {
-                entries.extend(samples.iter().cloned().map(Entry::Sample));
-                let controls = frame.controls.clone();
-                entries.push(Entry::Controls(ControlsRecord { frame: number, at: frame.record.at, controls }));
-                entries.push(Entry::Frame(frame.record.clone()));
-                Ok(())
-            }
-            State::Written(recorder) => {
-                let written = (|| {
-                    for sample in samples {
-                        recorder.sample(sample)?;
-                    }
-                    recorder.controls(number, frame.record.at, &frame.controls)?;
-                    recorder.frame(&frame.record)
-                })();
-                written.map_err(|error| {
-                    self.state = State::TooLong;
-                    error.into()
-                })
+        let (number, at) = (frame.record.frame, frame.record.at);
+        if let Some(entries) = &mut self.kept {
+            entries.extend(samples.iter().cloned().map(Entry::Sample));
+            entries.push(Entry::Controls(ControlsRecord { frame: number, at, controls: frame.controls.clone() }));
+            entries.push(Entry::Frame(frame.record.clone()));
+            if entries.len() >= MOST_ENTRIES {
+                self.kept = None;
             }
         }
+        let Some(recorder) = &mut self.file else { return Ok(()) };
+        let mut write = || {
+            samples.iter().try_for_each(|sample| recorder.sample(sample))?;
+            recorder.controls(number, at, &frame.controls)?;
+            recorder.frame(&frame.record)
+        };
+        let written = write();
+        written.map_err(|error| {
+            self.file = None;
+            error.into()
+        })
     }
 
     /// Writes the ride so far into a new file, and all that follows.
@@ -75,27 +63,21 @@ impl Log {
     /// # Errors
     /// The file cannot be written, or the ride has become too long to be remembered.
     pub fn record(&mut self, path: &Path) -> Result<(), Error> {
-        match &self.state {
-            State::Written(_) => return Ok(()),
-            State::TooLong => return Err(Error::NotRemembered),
-            State::Kept(_) => {}
+        if self.file.is_some() {
+            return Ok(());
         }
+        let entries = self.kept.as_ref().ok_or(Error::NotRemembered)?;
         let mut recorder = Recorder::create(path, &self.header)?;
-        if let State::Kept(entries) = std::mem::replace(&mut self.state, State::TooLong) {
-            recorder.past(entries)?;
-        }
-        self.state = State::Written(recorder);
+        recorder.past(entries.clone())?;
+        self.file = Some(recorder);
         Ok(())
     }
 
-    /// Completes the file, if one is being written. What follows is not remembered.
+    /// Completes the file, if one is being written.
     ///
     /// # Errors
     /// The rest cannot be written.
     pub fn finish(&mut self) -> Result<(), Error> {
-        match std::mem::replace(&mut self.state, State::TooLong) {
-            State::Written(recorder) => Ok(recorder.finish()?),
-            State::Kept(_) | State::TooLong => Ok(()),
-        }
+        self.file.take().map_or(Ok(()), |recorder| Ok(recorder.finish()?))
     }
 }

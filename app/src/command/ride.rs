@@ -54,7 +54,7 @@ pub struct RideOptions {
     pub replay: Option<PathBuf>,
     /// Only compare: compute the recorded ride again, show nothing, and fail at the first frame that is not the
     /// same to the bit.
-    #[arg(long, conflicts_with_all = ["out", "realtime"], help_heading = "Recording")]
+    #[arg(long, conflicts_with_all = ["out", "realtime", "seconds"], help_heading = "Recording")]
     pub verify: bool,
     /// End after this many seconds [default: when the window is closed, or the recording ends].
     #[arg(long, value_name = "N", value_parser = values::positive, help_heading = "Session")]
