@@ -25,7 +25,8 @@ impl Display {
             .spawn()
             .expect("Xvfb is installed (on Debian or Ubuntu: apt-get install xvfb xdotool)");
         let mut number = String::new();
-        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        let output = server.stdout.take().expect("standard output was asked for as a pipe");
+        BufReader::new(output).read_line(&mut number).expect("the server names its display");
         Self { server, name: format!(":{}", number.trim()) }
     }
 
