@@ -80,7 +80,7 @@ impl Ride {
         self.pace.stage("ride");
 
         // The photo-surface of the newest eye, on its own thread; shown is the oldest one that is ready by now.
-        if pictured.effects == Effects::Geometry {
+        if pictured.effects.geometry {
             self.renderer.submit(gpu, newest.eye)?;
             self.under_way.push_back(newest);
             let ahead = usize::from(pictured.latency == Latency::Overlap);

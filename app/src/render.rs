@@ -158,7 +158,7 @@ impl<'gpu> Cameraman<'gpu> {
     }
 
     fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {
-        if self.options.effects == Effects::Geometry {
+        if self.options.effects.geometry {
             self.renderer.submit(self.gpu, gaze.eye)?;
         }
         Ok(())
@@ -179,12 +179,11 @@ pub fn described(scene: &Scene, gpu: &Gpu) -> String {
 pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
     let camera = Camera { observer_from_eye: gaze.observer_from_eye, fov_y_rad: fov.to_radians() };
     let eye = gaze.eye.position();
-    match effects {
-        Effects::Geometry => {
-            let motion = Celerity::new(gaze.eye.celerity()).unwrap_or_default();
-            Shot { camera, positions: Positions::Apparent, eye, motion }
-        }
-        Effects::None => Shot { camera, positions: Positions::Plain(eye), eye, motion: Celerity::ZERO },
+    if effects.geometry {
+        let motion = Celerity::new(gaze.eye.celerity()).unwrap_or_default();
+        Shot { camera, positions: Positions::Apparent, eye, motion }
+    } else {
+        Shot { camera, positions: Positions::Plain(eye), eye, motion: Celerity::ZERO }
     }
 }
 

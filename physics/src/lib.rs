@@ -26,6 +26,7 @@ pub mod aberration;
 pub mod apparent;
 pub mod boost;
 pub mod celerity;
+pub mod colour;
 pub mod composition;
 pub mod event;
 pub mod eyes;

@@ -28,8 +28,8 @@ pub struct PictureOptions {
     /// Antialiasing: samples a pixel, 1 to 64; 1 takes the colour along the pixel's centre ray.
     #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,
-    /// What relativity does to the picture.
-    #[arg(long, value_enum, default_value = "geometry")]
+    /// What relativity does to the picture: all, none, or any of geometry, doppler and searchlight, with commas between them.
+    #[arg(long, value_name = "EFFECTS", default_value = "all")]
     pub effects: Effects,
     /// How the picture is computed: auto or polygon.
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]

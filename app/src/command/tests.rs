@@ -49,7 +49,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
     assert_eq!(options.vehicle.integrator, IntegratorKind::Rk4);
     assert_eq!(options.vehicle.time_scale, 1.0);
     assert_eq!(options.picture.size, [1280, 720]);
-    assert_eq!(options.picture.effects, Effects::Geometry);
+    assert_eq!(options.picture.effects, Effects::ALL);
     assert_eq!((options.record, options.replay, options.out, options.seconds), (None, None, None, None));
 }
 

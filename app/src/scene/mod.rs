@@ -18,6 +18,7 @@ pub mod source;
 pub mod town;
 
 use glam::{DVec3, Vec2, Vec3};
+use physics::colour::Spectrum;
 
 /// The most triangles, and three times as many vertices, that a scene may have: about 10 GB of arrays. What would be more is refused
 /// before memory is asked for.
@@ -38,6 +39,12 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
+    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: that of the colours themselves.
+    pub illuminant: Option<Spectrum>,
+    /// Luminance in cd/m² that is shown as white at rest. `None`: that of the brightest spectrum at rest; 1 where there is none.
+    pub white: Option<f64>,
+    /// What is seen where no surface is, instead of the sky.
+    pub panorama: Option<Panorama>,
     /// Where a visitor begins.
     pub start: Start,
     /// A closed way round the scene (world metres, on the ground), if it has one: the built-in tour follows it.
@@ -104,6 +111,9 @@ pub struct Material {
     pub double_sided: bool,
     /// What the opacity does.
     pub alpha: Alpha,
+    /// Instead of colours: on an unlit or emissive material the radiance sent out, on any other the reflectance, times the base
+    /// colour's luminance.
+    pub spectrum: Option<Spectrum>,
 }
 
 impl Default for Material {
@@ -117,6 +127,7 @@ impl Default for Material {
             unlit: false,
             double_sided: false,
             alpha: Alpha::Opaque,
+            spectrum: None,
         }
     }
 }
@@ -148,6 +159,19 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
     /// Sampled without filtering when magnified.
     pub nearest: bool,
+}
+
+/// A picture of everything around, infinitely far away, in the world frame.
+///
+/// Equirectangular: the first row is straight up, the last straight down; columns go once round to the right, the middle one is −z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panorama {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// `width * height` linear sRGB radiances, on the scale where white is 1.
+    pub rgb: Vec<[f32; 3]>,
 }
 
 /// What a texture shows beyond its edges.

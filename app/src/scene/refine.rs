@@ -112,6 +112,9 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         start: scene.start,
         circuit: scene.circuit.clone(),
         notices: scene.notices.clone(),
+        illuminant: scene.illuminant.clone(),
+        white: scene.white,
+        panorama: scene.panorama.clone(),
     })
 }
 

@@ -18,7 +18,6 @@ use crate::live::Live;
 use crate::photo;
 use crate::progress;
 use crate::render::{described, interrupted};
-use crate::renderers::Effects;
 use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::resolve::Resolver;
 use crate::renderers::target::{Format, Radiance};
@@ -217,12 +216,9 @@ impl Open {
             KeyCode::Escape => events.exit(),
             KeyCode::F3 => self.settings.open = !self.settings.open,
             KeyCode::F2 => self.settings.readings = !self.settings.readings,
-            KeyCode::KeyG => {
-                self.settings.effects = match self.settings.effects {
-                    Effects::Geometry => Effects::None,
-                    Effects::None => Effects::Geometry,
-                }
-            }
+            KeyCode::KeyG => self.settings.effects.geometry = !self.settings.effects.geometry,
+            KeyCode::KeyB => self.settings.effects.doppler = !self.settings.effects.doppler,
+            KeyCode::KeyN => self.settings.effects.searchlight = !self.settings.effects.searchlight,
             KeyCode::F11 => {
                 let full = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
                 self.window.set_fullscreen(full);

@@ -75,10 +75,12 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
                 }
                 ui.end_row();
 
-                ui.label("Picture");
+                ui.label("Effects");
                 ui.horizontal(|ui| {
-                    ui.selectable_value(&mut settings.effects, Effects::Geometry, "as seen");
-                    ui.selectable_value(&mut settings.effects, Effects::None, "light infinitely fast");
+                    let effects = &mut settings.effects;
+                    ui.toggle_value(&mut effects.geometry, "geometry");
+                    ui.toggle_value(&mut effects.doppler, "Doppler");
+                    ui.toggle_value(&mut effects.searchlight, "searchlight");
                 });
                 ui.end_row();
 
@@ -130,7 +132,7 @@ const KEYS: [(&str, &str); 18] = [
     ("P", "pause"),
     (".", "one step while paused"),
     ("− =", "own time slower, faster"),
-    ("G", "picture as seen, or with light infinitely fast"),
+    ("G B N", "geometry, Doppler shift, searchlight effect: on, off"),
     ("C", "photo"),
     ("V", "record, from the ride's beginning"),
     ("Backspace", "back to the start"),

@@ -94,6 +94,7 @@ fn read(
             AlphaMode::Mask => Alpha::Mask(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
             AlphaMode::Blend => Alpha::Blend,
         },
+        spectrum: None,
     };
     let numbers = read.base_colour.iter().chain(&read.emissive);
     if !numbers.copied().all(f32::is_finite) {

@@ -201,6 +201,9 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         start: extras.start.unwrap_or_else(|| bounds.start()),
         circuit: extras.circuit.into_iter().map(DVec3::from_array).collect(),
         notices: notices.into_sentences(),
+        illuminant: None,
+        white: None,
+        panorama: None,
     };
     if extras.start.is_none()
         && let Some(camera) = placements.iter().find(|placement| placement.camera)

@@ -104,7 +104,7 @@ pub fn build(seed: u64) -> Scene {
         light: daylight(),
         start: Start { position: circuit[0], look },
         circuit,
-        notices: vec![],
+        ..Scene::default()
     }
 }
 
