@@ -74,7 +74,7 @@ fn scene(origin: DVec3) -> Scene {
         },
         start: Start { position: origin + DVec3::new(0.1, 0.2, 0.3), look: DVec3::new(1.0, 0.1, 2.0).normalize() },
         circuit: vec![DVec3::new(0.1, 0.0, 1e9 + 0.1), DVec3::ZERO],
-        notices: Vec::new(),
+        ..Scene::default()
     }
 }
 
