@@ -7,14 +7,18 @@ use std::fmt;
 use std::path::Path;
 
 use glam::DVec3;
+use physics::colour::Spectrum;
 
 use super::collision::Collision;
 use super::gltf::{GltfError, load};
-use super::{Scene, SceneFault};
+use super::{Material, Scene, SceneFault};
 use crate::vehicle::Surroundings;
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
 const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
+
+/// A sun by which white surfaces are more than this many times as bright as what is shown as white is probably measured otherwise.
+const PLAUSIBLE_SUN: f64 = 8.0;
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
@@ -44,6 +48,10 @@ pub struct Report {
     pub textures: usize,
     /// Size of all textures without mipmaps, in bytes.
     pub texture_bytes: usize,
+    /// Each spectrum, with who has it.
+    pub spectra: Vec<String>,
+    /// Luminance that is shown as white, cd/m², if the scene says so.
+    pub white: Option<f64>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
     pub bounds: Option<[DVec3; 2]>,
     /// Length of the longest finite edge, in metres: what `refine` would split first.
@@ -79,6 +87,8 @@ impl Report {
             materials: scene.materials.len(),
             textures: scene.textures.len(),
             texture_bytes: scene.textures.iter().map(|texture| texture.rgba.len()).sum(),
+            spectra: spectra(scene),
+            white: scene.white,
             bounds,
             longest_edge: survey.longest_edge,
             notices: scene.notices.clone(),
@@ -126,6 +136,39 @@ impl Survey {
     }
 }
 
+/// The spectra of light and materials, those that are the same in one line.
+fn spectra(scene: &Scene) -> Vec<String> {
+    let mut owners: Vec<(&Spectrum, Vec<String>)> = Vec::new();
+    let illuminant = scene.illuminant.iter().map(|spectrum| (spectrum, "the light".to_owned()));
+    let materials = scene.materials.iter().filter_map(|material| {
+        let role = if sends_out_its_spectrum(material) { "sent out by" } else { "returned by" };
+        Some((material.spectrum.as_ref()?, format!("{role} \"{}\"", material.name)))
+    });
+    for (spectrum, owner) in illuminant.chain(materials) {
+        match owners.iter_mut().find(|(known, _)| *known == spectrum) {
+            Some((_, names)) => names.push(owner),
+            None => owners.push((spectrum, vec![owner])),
+        }
+    }
+    owners.into_iter().map(|(spectrum, owners)| format!("{}: {}", described(spectrum), owners.join(", "))).collect()
+}
+
+fn sends_out_its_spectrum(material: &Material) -> bool {
+    material.unlit || material.emissive != [0.0; 3]
+}
+
+fn described(spectrum: &Spectrum) -> String {
+    match spectrum {
+        Spectrum::Planck { kelvin } => format!("Planck at {kelvin} K"),
+        Spectrum::Sampled(sampled) => match sampled.samples() {
+            [[first, _], .., [last, _]] => format!("{} samples from {first} to {last} nm", sampled.samples().len()),
+            samples => format!("{} sample", samples.len()),
+        },
+        Spectrum::Rgb([red, green, blue]) => format!("rgb {red}, {green}, {blue}"),
+        Spectrum::Gray => "gray".to_owned(),
+    }
+}
+
 fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut warn = |holds: bool, warning: String| {
@@ -142,6 +185,18 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     warn(without_area > 0, format!("triangles without area: {without_area}; remove them to save time"));
     let advice = "their light falls on the wrong side; turn their winding or their normals";
     warn(inside_out > 0, format!("triangles that face away from their normals: {inside_out}; {advice}"));
+    for material in &scene.materials {
+        let black = material.spectrum.is_some() && material.base_colour[..3].iter().all(|channel| *channel == 0.0);
+        let advice = "the spectrum is multiplied by the base colour's luminance; make it white";
+        warn(black, format!("material \"{}\" has a spectrum and a black base colour: {advice}", material.name));
+    }
+    let white = if scene.illuminant.is_some() { 1.0 } else { scene.white.unwrap_or(1.0) };
+    let brightest = scene.light.sun.into_iter().map(f64::from).fold(0.0, f64::max) / white;
+    let advice = "name their luminance in cd/m² as extras.rapidity.white of the scene, or dim the sun to π lux";
+    warn(
+        brightest > PLAUSIBLE_SUN,
+        format!("surfaces in the sun are up to {brightest:.1} times as bright as white: {advice}"),
+    );
     if let Some([least, most]) = survey.bounds {
         let size = (most - least).max_element();
         let advice = "lengths are metres; scale the scene if they were not";
@@ -167,6 +222,12 @@ impl fmt::Display for Report {
         writeln!(f, "triangles   {}, {} vertices, {} meshes", self.triangles, self.vertices, self.meshes)?;
         let megabytes = self.texture_bytes as f64 / 1e6;
         writeln!(f, "materials   {}, {} textures of {megabytes:.1} MB", self.materials, self.textures)?;
+        for spectrum in &self.spectra {
+            writeln!(f, "spectrum    {spectrum}")?;
+        }
+        if let Some(white) = self.white {
+            writeln!(f, "white       {white} cd/m²")?;
+        }
         if let Some([least, most]) = self.bounds {
             let size = most - least;
             writeln!(f, "size        {:.3} × {:.3} × {:.3} m (x, y, z)", size.x, size.y, size.z)?;

@@ -1,7 +1,7 @@
 //! Scenes to binary glTF 2.0, for other programs and for [`super::gltf::load`], which gives back the same scene.
 //!
 //! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG. What glTF has no words
-//! for (light, start, circuit, what is solid) goes into `extras.rapidity`. Emission above 1 is written as a factor and a
+//! for (light, white, start, circuit, what is solid) goes into `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a
 //! power of two as `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
 //! clamped for others and kept in an attribute of our own.
 
@@ -14,7 +14,8 @@ use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::gltf::extras::{COLOURS, NodeExtras, SceneExtras};
+use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
+use super::gltf::spectrum;
 use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
@@ -94,14 +95,16 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     }
     let extras = SceneExtras {
         origin: Some(scene.origin.to_array()),
-        light: Some(scene.light),
+        light: LightExtras::of(scene.light, scene.illuminant.as_ref().map(spectrum::to_json)),
+        white: scene.white,
+        panorama: None,
         start: Some(scene.start),
         circuit: scene.circuit.iter().map(|point| point.to_array()).collect(),
     };
     let mut root = json!({
         "asset": { "version": "2.0", "generator": concat!("Rapidity ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
-        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.to_json() }],
+        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.into_json() }],
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,
@@ -268,6 +271,9 @@ fn material(material: &Material) -> Value {
     });
     if let Some(texture) = material.emissive_texture {
         value["emissiveTexture"] = json!({ "index": texture });
+    }
+    if let Some(spectrum) = &material.spectrum {
+        value["extras"] = json!({ "spectrum": spectrum::to_json(spectrum) });
     }
     match material.alpha {
         Alpha::Opaque => {}

@@ -1,7 +1,7 @@
 //! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
 //!
-//! A file passes five doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
-//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture` and `material`. The `gltf` crate only reads
+//! A file passes several doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
+//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture`, `material`, `light` and `spectrum`. The `gltf` crate only reads
 //! the JSON; every index, offset and length in it is looked up with a check here, because a file may come from
 //! anywhere and none may bring the program down or make it ask for more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
 //!
@@ -11,10 +11,12 @@
 mod accessor;
 mod container;
 pub(super) mod extras;
+mod light;
 mod material;
 mod nodes;
 mod picture;
 mod primitive;
+pub(super) mod spectrum;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -27,6 +29,8 @@ use rayon::prelude::*;
 use self::container::Document;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
+use self::spectrum::Spectra;
+pub use self::spectrum::SpectrumFault;
 use super::collision::Collision;
 use super::{MAX_TRIANGLES, Mesh, Scene, Start};
 use crate::vehicle::Surroundings;
@@ -104,6 +108,19 @@ pub enum GltfError {
         /// What there is instead.
         found: &'static str,
     },
+    /// Spectra that are none: a sentence for each.
+    #[error("{}", sentences(path, faults))]
+    Spectra {
+        /// The scene.
+        path: PathBuf,
+        /// All that are wrong, in the file's order.
+        faults: Vec<SpectrumFault>,
+    },
+}
+
+fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
+    let sentence = |fault| format!("{} has a spectrum that cannot be used: {fault}", path.display());
+    faults.iter().map(sentence).collect::<Vec<_>>().join("\n")
 }
 
 /// What `load` is doing.
@@ -130,7 +147,8 @@ pub struct Progress {
 ///
 /// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
 /// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
-/// What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
+/// The first directional light of `KHR_lights_punctual` is the sun; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
+/// tells all of it. What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
 /// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
 /// first camera, else at the origin or in front of the scene.
 ///
@@ -149,8 +167,14 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     let placements = nodes::placements(&document, scene_index, &mut notices)?;
     let instances = instances(&document, &placements, &mut notices)?;
 
+    // Read surfaces and light.
+    let mut spectra = Spectra::new(&document);
+    let (mut materials, channels) = material::materials(&document, &mut spectra, &mut notices)?;
+    let (light, illuminant) =
+        light::lighting(&document, scene_index, &extras, &placements, &mut spectra, &mut notices)?;
+    spectra.finish()?;
+
     // Unpack every primitive once.
-    let (mut materials, channels) = material::materials(&document, &mut notices)?;
     let mut primitives = BTreeMap::new();
     for instance in &instances {
         let key = (instance.mesh, instance.primitive);
@@ -197,13 +221,13 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         textures,
         materials,
         meshes,
-        light: extras.light.unwrap_or_default(),
+        light,
+        illuminant,
+        white: extras.white,
+        panorama: None,
         start: extras.start.unwrap_or_else(|| bounds.start()),
         circuit: extras.circuit.into_iter().map(DVec3::from_array).collect(),
         notices: notices.into_sentences(),
-        illuminant: None,
-        white: None,
-        panorama: None,
     };
     if extras.start.is_none()
         && let Some(camera) = placements.iter().find(|placement| placement.camera)
@@ -275,8 +299,13 @@ fn start_below(camera: DAffine3, scene: &Scene) -> Start {
 }
 
 /// Extensions that are drawn.
-const EXTENSIONS: [&str; 4] =
-    ["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+const EXTENSIONS: [&str; 5] = [
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
 
 fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
     let json = &document.json;
