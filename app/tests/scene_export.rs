@@ -13,7 +13,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rapidity::scene::export::{ExportError, write_glb};
 use rapidity::scene::gltf::load;
-use rapidity::scene::{Alpha, Lighting, Material, Mesh, Scene, Start, Texture, Wrap};
+use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, Start, Texture, Wrap};
 use tempfile::TempDir;
 
 /// A scene in which everything differs from its default, with numbers that have no short decimal form.
@@ -90,6 +90,7 @@ fn scene(origin: DVec3) -> Scene {
         circuit: vec![DVec3::new(0.1, 0.0, 1e9 + 0.1), DVec3::ZERO],
         illuminant: Some(measured(&mut random)),
         white: Some(1e10 / 7.0),
+        panorama: Some(Panorama { width: 4, height: 2, rgb: (0..8).map(|_| random.random()).collect() }),
         ..Scene::default()
     }
 }
@@ -228,6 +229,15 @@ fn what_gltf_cannot_say_is_refused_by_name() {
         "the spectrum of material \"paint\"",
     );
     refused(|scene| scene.illuminant = Some(Spectrum::Rgb([-1.0, 0.0, 0.0])), "the spectrum of the light");
+    refused(
+        |scene| scene.panorama.as_mut().unwrap().rgb[0][0] = -1.0,
+        "the panorama of \"Marktplatz\": it has a radiance",
+    );
+    refused(
+        |scene| scene.panorama = Some(Panorama { width: 2, height: 4, ..scene.panorama.take().unwrap() }),
+        "not twice as wide",
+    );
+    refused(|scene| scene.panorama.as_mut().unwrap().width = 7, "the panorama of 7 × 2 pixels has 8");
     refused(|scene| scene.white = Some(0.0), "the luminance of white is 0");
     refused(|scene| scene.meshes.clear(), "no triangles");
 }

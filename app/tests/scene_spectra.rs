@@ -12,9 +12,12 @@ use std::f32::consts::PI;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
 use rapidity::scene::check::{Report, check};
+use rapidity::scene::collision::Collision;
 use rapidity::scene::gltf::{GltfError, load};
+use rapidity::scene::source::{read, refined};
 use rapidity::scene::{Lighting, Scene};
-use scene_file::{File, write};
+use rapidity::vehicle::Surroundings;
+use scene_file::{File, png, write};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -246,4 +249,41 @@ fn a_report_names_spectra_and_what_darkens_them() {
     scene.white = Some(318.0);
     let warnings = Report::new(&scene).unwrap().warnings;
     assert!(!warnings.iter().any(|warning| warning.contains("as bright as white")), "{warnings:?}");
+}
+
+#[test]
+fn a_panorama_beside_the_scene_surrounds_it() {
+    let folder = TempDir::new().unwrap();
+    write(&folder, "sky.png", &png(2, 1, &[255, 0, 0, 255, 0, 255, 0, 255]));
+    let mut file = File::triangle();
+    ours(&mut file, json!({ "panorama": "sky.png" }));
+    let scene = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap();
+    assert_eq!(scene.panorama.unwrap().rgb, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+
+    let mut refused = |panorama: Value, words: &str| {
+        ours(&mut file, json!({ "panorama": panorama }));
+        let error = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap_err().to_string();
+        assert!(error.contains(words), "{words} is not in: {error}");
+    };
+    refused(json!("nowhere.png"), "cannot read");
+    refused(json!("../sky.png"), "scenes[0].extras.rapidity.panorama: ../sky.png is not a file beside the scene");
+    refused(json!(7), "expected the name of a picture, not 7");
+    refused(json!({ "bufferView": 99 }), "no number 99");
+    refused(json!({ "bufferView": 0 }), "scene.glb is no picture");
+}
+
+#[test]
+fn a_picture_is_a_good_scene_and_so_is_an_empty_one_to_ride_in() {
+    let folder = TempDir::new().unwrap();
+    let path = write(&folder, "sky.png", &png(2, 1, &[255; 8]));
+    let report = check(&path).unwrap();
+    assert_eq!((report.panorama, report.triangles), (Some([2, 1]), 0));
+    assert!(report.warnings.is_empty() && report.notices.is_empty(), "{report}");
+    assert!(report.to_string().contains("panorama    2 × 1 pixels"), "{report}");
+    let scene = read(&path, |_| {}).unwrap();
+    assert_eq!((scene.start.position, scene.start.look, scene.name.as_str()), (DVec3::ZERO, DVec3::NEG_Z, "sky"));
+    assert_eq!(refined(&scene, 0.5).unwrap(), scene);
+    let collision = Collision::new(&scene).unwrap();
+    assert_eq!(collision.height_below(DVec3::ZERO), None);
+    assert_eq!(collision.nearest_wall(DVec3::ZERO, 1e9), None);
 }

@@ -16,7 +16,7 @@ pub enum SceneChoice {
     Town,
     /// The built-in lattice of boxes, for seeing and measuring the geometry by itself.
     Lattice,
-    /// A glTF 2.0 file.
+    /// A glTF 2.0 file, or a picture of everything around.
     File(PathBuf),
 }
 
@@ -44,7 +44,7 @@ impl SceneChoice {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
-    /// `town` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
+    /// `town` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg, .hdr, .exr).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
     pub scene: SceneChoice,
     /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).

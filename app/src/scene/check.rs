@@ -10,7 +10,7 @@ use glam::DVec3;
 use physics::colour::Spectrum;
 
 use super::collision::Collision;
-use super::gltf::{GltfError, load};
+use super::source::{LoadError, read};
 use super::{Material, Scene, SceneFault};
 use crate::vehicle::Surroundings;
 
@@ -25,7 +25,7 @@ const PLAUSIBLE_SUN: f64 = 8.0;
 pub enum CheckError {
     /// The file gives no scene.
     #[error(transparent)]
-    Load(#[from] GltfError),
+    Load(#[from] LoadError),
     /// The scene breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
@@ -52,6 +52,8 @@ pub struct Report {
     pub spectra: Vec<String>,
     /// Luminance that is shown as white, cd/m², if the scene says so.
     pub white: Option<f64>,
+    /// Width and height of the panorama, in pixels, if there is one.
+    pub panorama: Option<[u32; 2]>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
     pub bounds: Option<[DVec3; 2]>,
     /// Length of the longest finite edge, in metres: what `refine` would split first.
@@ -67,7 +69,7 @@ pub struct Report {
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
 pub fn check(path: &Path) -> Result<Report, CheckError> {
-    Ok(Report::new(&load(path, |_| {})?)?)
+    Ok(Report::new(&read(path, |_| {})?)?)
 }
 
 impl Report {
@@ -89,6 +91,7 @@ impl Report {
             texture_bytes: scene.textures.iter().map(|texture| texture.rgba.len()).sum(),
             spectra: spectra(scene),
             white: scene.white,
+            panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
             bounds,
             longest_edge: survey.longest_edge,
             notices: scene.notices.clone(),
@@ -177,7 +180,8 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
         }
     };
     let Survey { without_area, not_finite, inside_out, .. } = *survey;
-    warn(scene.triangle_count() == 0, "there is nothing to draw: the scene has no triangles".into());
+    let empty = scene.triangle_count() == 0;
+    warn(empty && scene.panorama.is_none(), "there is nothing to draw: the scene has no triangles".into());
     warn(
         not_finite > 0,
         format!("triangles with corners that are nowhere (not finite): {not_finite}; they are not drawn"),
@@ -205,7 +209,8 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     let grounded = |point: DVec3| collision.height_below(point).is_some();
     let advice = "a vehicle on wheels stays at its height";
     let solid = scene.meshes.iter().any(|mesh| mesh.solid);
-    warn(!solid, format!("no mesh is solid: {advice} and passes through everything"));
+    let passable = !solid && !(empty && scene.panorama.is_some());
+    warn(passable, format!("no mesh is solid: {advice} and passes through everything"));
     warn(solid && !grounded(scene.start.position), format!("there is no ground below the start: {advice}"));
     let airborne = scene.circuit.iter().filter(|&&point| !grounded(point)).count();
     let points = scene.circuit.len();
@@ -227,6 +232,9 @@ impl fmt::Display for Report {
         }
         if let Some(white) = self.white {
             writeln!(f, "white       {white} cd/m²")?;
+        }
+        if let Some([width, height]) = self.panorama {
+            writeln!(f, "panorama    {width} × {height} pixels")?;
         }
         if let Some([least, most]) = self.bounds {
             let size = most - least;
@@ -350,6 +358,6 @@ mod tests {
 
     #[test]
     fn a_file_that_is_no_scene_is_an_error() {
-        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(GltfError::Read { .. }))));
+        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(LoadError::Gltf(_)))));
     }
 }

@@ -1,6 +1,6 @@
 //! Scenes to binary glTF 2.0, for other programs and for [`super::gltf::load`], which gives back the same scene.
 //!
-//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG. What glTF has no words
+//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG, a panorama as EXR. What glTF has no words
 //! for (light, white, start, circuit, what is solid) goes into `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a
 //! power of two as `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
 //! clamped for others and kept in an attribute of our own.
@@ -9,6 +9,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
+use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
@@ -16,7 +17,8 @@ use serde_json::{Map, Value, json};
 
 use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
 use super::gltf::spectrum;
-use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
+use super::panorama::is_equirectangular;
+use super::{Alpha, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
 const FLOAT: u32 = 5126;
@@ -97,7 +99,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
         origin: Some(scene.origin.to_array()),
         light: LightExtras::of(scene.light, scene.illuminant.as_ref().map(spectrum::to_json)),
         white: scene.white,
-        panorama: None,
+        panorama: scene.panorama.as_ref().map(|panorama| file.panorama(panorama, &scene.name)).transpose()?,
         start: Some(scene.start),
         circuit: scene.circuit.iter().map(|point| point.to_array()).collect(),
     };
@@ -136,6 +138,12 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
     let light = &scene.light;
     let light = [light.sun_direction.to_array(), light.sun, light.sky, light.ground, light.zenith, light.horizon];
     ensure(light.as_flattened().iter().all(|value| value.is_finite()), "the light", name, FINITE)?;
+    if let Some(panorama) = &scene.panorama {
+        let light = panorama.rgb.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0);
+        ensure(light, "the panorama", name, "it has a radiance that is negative or not finite")?;
+        let around = is_equirectangular(panorama.width, panorama.height);
+        ensure(around, "the panorama", name, "it is not twice as wide as high")?;
+    }
     for texture in &scene.textures {
         ensure(!texture.rgba.is_empty(), "a picture", &texture.name, "it has no pixels")?;
     }
@@ -215,6 +223,12 @@ impl File {
         json!({ "name": mesh.name, "primitives": [primitive] })
     }
 
+    /// Adds a panorama as EXR, which keeps every bit, and says where it is.
+    fn panorama(&mut self, panorama: &Panorama, scene: &str) -> Result<Value, ExportError> {
+        let exr = exr(panorama, scene)?;
+        Ok(json!({ "bufferView": self.view(&exr, None) }))
+    }
+
     fn textures(&mut self, textures: &[Texture]) -> Result<(), ExportError> {
         let encoded: Vec<_> = textures.par_iter().map(png).collect::<Result<_, _>>()?;
         for (texture, png) in textures.iter().zip(encoded) {
@@ -234,6 +248,16 @@ impl File {
         }
         Ok(())
     }
+}
+
+fn exr(panorama: &Panorama, scene: &str) -> Result<Vec<u8>, ExportError> {
+    let Panorama { width, height, rgb } = panorama;
+    let mut bytes = Cursor::new(Vec::new());
+    let encoder = OpenExrEncoder::new(&mut bytes);
+    let result = encoder.write_image(bytemuck::cast_slice(rgb), *width, *height, ExtendedColorType::Rgb32F);
+    let fault = "it cannot be encoded as EXR";
+    result.map_err(|_| ExportError::Value { what: "the panorama", name: scene.into(), fault })?;
+    Ok(bytes.into_inner())
 }
 
 fn push(list: &mut Vec<Value>, item: Value) -> usize {

@@ -119,10 +119,10 @@ impl Document {
         read_file(&self.path.parent().unwrap_or(Path::new("")).join(name.as_ref()))
     }
 
-    /// As [`Self::fetch`], for what must lie in the scene's own folder or below it.
+    /// The bytes of a file that must lie in the scene's own folder or below it.
     pub(super) fn beside(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
         let name = urlencoding::decode(uri).unwrap_or(Cow::Borrowed(uri));
-        if !uri.starts_with("data:") && !stays_below(Path::new(name.as_ref())) {
+        if !stays_below(Path::new(name.as_ref())) {
             return Err(self.damaged(place, format!("{uri} is not a file beside the scene")));
         }
         self.fetch(uri, place)

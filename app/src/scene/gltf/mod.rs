@@ -27,12 +27,14 @@ use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use self::container::Document;
+use self::extras::SceneExtras;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
 use self::spectrum::Spectra;
 pub use self::spectrum::SpectrumFault;
 use super::collision::Collision;
-use super::{MAX_TRIANGLES, Mesh, Scene, Start};
+use super::panorama::{self, PanoramaError};
+use super::{MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
 use crate::vehicle::Surroundings;
 
 /// The most meshes a scene may have, one for each primitive and instance.
@@ -116,6 +118,9 @@ pub enum GltfError {
         /// All that are wrong, in the file's order.
         faults: Vec<SpectrumFault>,
     },
+    /// A panorama that is none.
+    #[error(transparent)]
+    Panorama(#[from] PanoramaError),
 }
 
 fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
@@ -186,6 +191,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         let found = if document.json.meshes.is_empty() { "nodes" } else { "points and lines" };
         return Err(GltfError::Nothing { path: document.path, found });
     }
+    let panorama = around(&document, scene_index, &extras, &mut notices)?;
     let textures = picture::textures(&document, &mut materials, &mut notices, &progress)?;
 
     // Choose the origin, then place the primitives relative to it.
@@ -224,7 +230,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         light,
         illuminant,
         white: extras.white,
-        panorama: None,
+        panorama,
         start: extras.start.unwrap_or_else(|| bounds.start()),
         circuit: extras.circuit.into_iter().map(DVec3::from_array).collect(),
         notices: notices.into_sentences(),
@@ -235,6 +241,27 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         scene.start = start_below(camera.transform, &scene);
     }
     Ok(scene)
+}
+
+/// The panorama that the scene names: a file beside it, or a picture in a buffer view.
+fn around(
+    document: &Document,
+    scene: Option<usize>,
+    extras: &SceneExtras,
+    notices: &mut Notices,
+) -> Result<Option<Panorama>, GltfError> {
+    let (Some(scene), Some(value)) = (scene, &extras.panorama) else {
+        return Ok(None);
+    };
+    let place = format!("scenes[{scene}].extras.rapidity.panorama");
+    let view = value.get("bufferView").and_then(|view| usize::try_from(view.as_u64()?).ok());
+    let (bytes, path) = match (value.as_str(), view) {
+        (Some(data), _) if data.starts_with("data:") => (document.fetch(data, &place)?, document.path.clone()),
+        (Some(name), _) => (document.beside(name, &place)?, document.path.with_file_name(name)),
+        (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
+        (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
+    };
+    Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
 }
 
 /// A primitive of a mesh, at a node.

@@ -196,7 +196,9 @@ fn samples_of_csv(text: &str) -> Result<Vec<(usize, [f64; 2])>, String> {
             [Some(nm), Some(value)] => samples.push((line, [nm, value])),
             [None, None] if heading_allowed => {}
             _ => {
-                return Err(format!("line {line}: expected a wavelength in nm, a comma and a value, not \"{content}\""));
+                return Err(format!(
+                    "line {line}: expected a wavelength in nm, a comma and a value, not \"{content}\""
+                ));
             }
         }
         heading_allowed = false;
