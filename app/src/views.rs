@@ -4,8 +4,8 @@
 //! light got there is none of its business: the photo-surface is an ordinary three-dimensional object to it.
 
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4, Vec4};
-use physics::{Aberration, Celerity};
 use physics::photo_surface::Eye;
+use physics::{Aberration, Celerity};
 
 /// Metres in front of the eye, at rest, nearer than which nothing is drawn.
 pub const NEAR_M: f64 = 0.02;
@@ -51,14 +51,7 @@ impl Camera {
     /// * `motion` — the eye's celerity.
     /// * `geometry` — whether its aberration is to be drawn.
     /// * `scale` — what radiance is multiplied by, so that the target can hold it.
-    pub fn view(
-        &self,
-        size: [u32; 2],
-        offset: DVec2,
-        motion: Celerity,
-        geometry: bool,
-        scale: f64,
-    ) -> shaders::View {
+    pub fn view(&self, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::View {
         let [width, height] = size.map(f64::from);
         let tan_y = (0.5 * self.fov_y_rad).tan();
         let tan_x = tan_y * width / height;

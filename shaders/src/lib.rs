@@ -8,6 +8,8 @@
 
 mod layout;
 
+use physics::colour::ShiftTable;
+
 pub use layout::{Cut, Lighting, Map, Material, Pane, Resolve, View};
 
 /// Bind group that holds [`View`], [`Lighting`] and the shadow map.
@@ -22,9 +24,7 @@ pub const SHADOW_BIAS_M: f32 = 0.04;
 pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
 
 /// Nodes of the shift table over ln D; odd, so that D = 1 is one.
-pub const SHIFT_NODES: u32 = 4097;
-/// The table's ends: D from one over this to this.
-pub const SHIFT_LIMIT: f64 = 1e6;
+pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
 /// Luminance of linear sRGB red, green and blue (IEC 61966-2-1).
 pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// The largest value that a half float holds safely.
@@ -57,7 +57,8 @@ const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
 
 /// Triangles of the photo-surface (or of the plain world) under sun and sky.
-pub const SURFACE: Module = Module { name: "surface", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/surface.wgsl")] };
+pub const SURFACE: Module =
+    Module { name: "surface", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/surface.wgsl")] };
 /// The sky behind everything, per pixel.
 pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
 /// From the map of the world around the eye to what the observer sees.
@@ -76,7 +77,7 @@ pub const MODULES: [Module; 6] = [SURFACE, SKY, WARP, SHADOW, RESOLVE, PROBE];
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
     let turn = std::f32::consts::TAU;
-    let nodes_per_octave = f64::from(SHIFT_NODES - 1) / (2.0 * SHIFT_LIMIT.log2());
+    let nodes_per_octave = f64::from(SHIFT_NODES - 1) * std::f64::consts::LN_2 / (2.0 * ShiftTable::LN_LIMIT);
     let [red, green, blue] = LUMINANCE;
     format!(
         "const SHADOW_FILTER_TEXELS: f32 = {SHADOW_FILTER_TEXELS:?};\n\

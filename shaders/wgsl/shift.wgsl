@@ -33,20 +33,17 @@ fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
     return vec4(clamp(colour, vec3(-HALF_LIMIT), vec3(HALF_LIMIT)), at_rest);
 }
 
-// The colour of weights at a place in the table, and its luminance.
+// The colour of weights at a place in the table, and its luminance. Beyond its ends the colour stays, and the luminance goes on as a power.
 fn shifted(weights: vec3<f32>, carrier: u32, place: f32) -> vec4<f32> {
-    let bounded = clamp(place, 0.0, f32(SHIFT_NODES - 1u));
-    let node = min(u32(bounded), SHIFT_NODES - 2u);
-    let fraction = bounded - f32(node);
+    let node = u32(clamp(place, 0.0, f32(SHIFT_NODES - 2u)));
+    let fraction = place - f32(node);
     var sum = vec4(0.0);
     for (var weight = 0u; weight < 3u; weight++) {
         let row = carrier * 3u + weight;
-        let texel = mix(
-            textureLoad(shift_table, vec2(node, row), 0),
-            textureLoad(shift_table, vec2(node + 1u, row), 0),
-            fraction,
-        );
-        sum += weights[weight] * exp2(texel.a) * vec4(texel.rgb, 1.0);
+        let left = textureLoad(shift_table, vec2(node, row), 0);
+        let right = textureLoad(shift_table, vec2(node + 1u, row), 0);
+        let ratios = mix(left.rgb, right.rgb, clamp(fraction, 0.0, 1.0));
+        sum += weights[weight] * exp2(mix(left.a, right.a, fraction)) * vec4(ratios, 1.0);
     }
     return sum;
 }

@@ -37,7 +37,7 @@ pub struct PictureOptions {
     /// How the picture is computed: auto, polygon or image.
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
     pub renderer: Renderer,
-    /// Texels of the image renderer's map for each pixel, along each axis [default: 6 for a picture of one sample a pixel, 3 for one of
+    /// Texels of the image renderer's map for each pixel, along each axis [default: 8 for a picture of one sample a pixel, 3 for one of
     /// several, 1.25 in a window].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 16.0))]
     pub map_scale: Option<f64>,
@@ -64,7 +64,7 @@ impl PictureOptions {
     ///
     /// One sample a pixel is the light of one ray, so the map must be fine, and its texels must not be mixed; several samples mix by themselves.
     pub fn map_of_pictures(&self) -> MapQuality {
-        let usual = if self.samples == 1 { 6.0 } else { 3.0 };
+        let usual = if self.samples == 1 { 8.0 } else { 3.0 };
         MapQuality { texels_per_pixel: self.map_scale.unwrap_or(usual), smooth: false }
     }
 

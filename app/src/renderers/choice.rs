@@ -6,9 +6,9 @@
 use super::Method;
 use super::image::MapQuality;
 use crate::command::Renderer;
+use crate::progress;
 use crate::scene::Scene;
 use crate::scene::refine::{RefineError, cut_beyond, refine};
-use crate::progress;
 use std::borrow::Cow;
 
 /// A scene that has to be cut into so many times as many triangles is coarse.

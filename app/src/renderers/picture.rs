@@ -104,12 +104,7 @@ impl Studio {
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn photograph(
-        &mut self,
-        gpu: &Gpu,
-        renderer: &mut SceneRenderer,
-        shot: &Shot,
-    ) -> Result<RgbaImage, GpuError> {
+    pub fn photograph(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<RgbaImage, GpuError> {
         if renderer.transforms(shot.effects) {
             let transformed = renderer.receive()?;
             renderer.show(gpu, transformed);

@@ -67,7 +67,11 @@ impl Atlas {
     }
 
     /// Begins drawing the panes of one layer over a cleared texture.
-    pub fn begin<'encoder>(&self, encoder: &'encoder mut wgpu::CommandEncoder, layer: u32) -> wgpu::RenderPass<'encoder> {
+    pub fn begin<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        layer: u32,
+    ) -> wgpu::RenderPass<'encoder> {
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("map"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {

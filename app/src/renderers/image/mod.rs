@@ -75,8 +75,7 @@ impl ImageRenderer {
             view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
-        let group_layout =
-            layout(gpu, "map", &[buffer(wgpu::BufferBindingType::Uniform), storage, storage, texture]);
+        let group_layout = layout(gpu, "map", &[buffer(wgpu::BufferBindingType::Uniform), storage, storage, texture]);
         Self {
             module,
             group_layout,
@@ -114,7 +113,8 @@ impl ImageRenderer {
 
         // One view for each pane and carrier.
         let from_eye = world.origin - shot.eye.position();
-        let views: Vec<_> = plan.placed.iter().map(|pane| pane.view(&sight.cube_from_world, from_eye, NEAR_M)).collect();
+        let views: Vec<_> =
+            plan.placed.iter().map(|pane| pane.view(&sight.cube_from_world, from_eye, NEAR_M)).collect();
         let of_layer = |layer: u32| {
             let layer = Vec4::new(layer as f32, 0.0, 0.0, 0.0);
             views.iter().map(move |(view, _)| shaders::View { layer, ..*view })

@@ -124,7 +124,8 @@ impl Sight {
         let edge = |sideways: DVec3, extent: f64| cube_from_world * (sideways + extent * forward).normalize();
         let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
             .map(|[x, y]| forward + x * across * right + y * along * up);
-        let stern_seen = edges_admit(&[edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)], DVec3::NEG_Z);
+        let stern_seen =
+            edges_admit(&[edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)], DVec3::NEG_Z);
         // Away from the stern, what is furthest from the motion lies on the picture's border: bounded by the corners' circle.
         let corner_rad = angle(forward, corners[0]);
         let furthest = (angle(forward, motion) + corner_rad).min(std::f64::consts::PI);
@@ -200,7 +201,8 @@ impl Sight {
     pub fn plan(&self, texels_per_pixel: f64, most_texels: f64, largest_side: u32) -> Plan {
         let mut wanted = texels_per_pixel;
         loop {
-            let roots = [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0).1);
+            let roots =
+                [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0).1);
             let mut plan = Planner::default();
             let numbers = roots.map(|root| plan.number(root));
             let texels: f64 = plan.placed.iter().map(|pane| f64::from(pane.side + 2 * MARGIN).powi(2)).sum();

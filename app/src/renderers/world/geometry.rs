@@ -155,7 +155,8 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
 
 /// Sorts triangles so that neighbours in space are neighbours in the list: by the Morton code of their centres.
 fn gather(indices: &mut [u32], positions: &[Vec3]) {
-    let mut triangles: Vec<[u32; 3]> = indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
+    let mut triangles: Vec<[u32; 3]> =
+        indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
     let middle = |corners: &[u32; 3]| corners.iter().map(|&i| positions[i as usize]).sum::<Vec3>() / 3.0;
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for triangle in &triangles {

@@ -248,11 +248,7 @@ impl Description<'_> {
             ..Default::default()
         });
         let targets = self.target.map(|(format, blend)| {
-            [Some(wgpu::ColorTargetState {
-                format: format.colour,
-                blend,
-                write_mask: wgpu::ColorWrites::ALL,
-            })]
+            [Some(wgpu::ColorTargetState { format: format.colour, blend, write_mask: wgpu::ColorWrites::ALL })]
         });
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),

@@ -65,7 +65,8 @@ impl Spectra {
     pub fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
         let table = ShiftTable::new(&self.carriers, shaders::SHIFT_NODES as usize);
         let log_white = self.white_luminance.log2() as f32;
-        let texels: Vec<[f32; 4]> = table.texels().iter().map(|&[r, g, b, log_y]| [r, g, b, log_y - log_white]).collect();
+        let texels: Vec<[f32; 4]> =
+            table.texels().iter().map(|&[r, g, b, log_y]| [r, g, b, log_y - log_white]).collect();
         let descriptor = wgpu::TextureDescriptor {
             label: Some("shift table"),
             size: wgpu::Extent3d {
