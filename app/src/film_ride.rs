@@ -51,8 +51,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             (scene, reel.gazes)
         }
     };
-    let scene = source::refined(&scene, options.world.edge)?;
-    let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
     let count = gazes.len() as u64;
     camera.film(gazes.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }

@@ -14,7 +14,8 @@ use physics::colour::Spectrum;
 use rapidity::scene::check::{Report, check};
 use rapidity::scene::collision::Collision;
 use rapidity::scene::gltf::{GltfError, load};
-use rapidity::scene::source::{read, refined};
+use rapidity::scene::refine::refine;
+use rapidity::scene::source::read;
 use rapidity::scene::{Lighting, Scene};
 use rapidity::vehicle::Surroundings;
 use scene_file::{File, png, write};
@@ -282,7 +283,7 @@ fn a_picture_is_a_good_scene_and_so_is_an_empty_one_to_ride_in() {
     assert!(report.to_string().contains("panorama    2 × 1 pixels"), "{report}");
     let scene = read(&path, |_| {}).unwrap();
     assert_eq!((scene.start.position, scene.start.look, scene.name.as_str()), (DVec3::ZERO, DVec3::NEG_Z, "sky"));
-    assert_eq!(refined(&scene, 0.5).unwrap(), scene);
+    assert_eq!(refine(&scene, 0.5).unwrap(), scene);
     let collision = Collision::new(&scene).unwrap();
     assert_eq!(collision.height_below(DVec3::ZERO), None);
     assert_eq!(collision.nearest_wall(DVec3::ZERO, 1e9), None);

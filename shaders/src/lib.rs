@@ -8,7 +8,9 @@
 
 mod layout;
 
-pub use layout::{Lighting, Material, Resolve, View};
+use physics::colour::ShiftTable;
+
+pub use layout::{Cut, Lighting, Map, Material, Pane, Resolve, View};
 
 /// Bind group that holds [`View`], [`Lighting`] and the shadow map.
 pub const VIEW_GROUP: u32 = 0;
@@ -20,6 +22,15 @@ pub const SHADOW_FILTER_TEXELS: f32 = 0.75;
 pub const SHADOW_BIAS_M: f32 = 0.04;
 /// Metres that the point looked up in the shadow map is moved off its surface, so that no surface shades itself.
 pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
+
+/// Nodes of the shift table over ln D; odd, so that D = 1 is one.
+pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
+/// Luminance of linear sRGB red, green and blue (IEC 61966-2-1).
+pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+/// The largest value that a half float holds safely.
+pub const HALF_LIMIT: f32 = 60_000.0;
+/// The most looks along a stretched footprint in a panorama.
+pub const PANORAMA_LOOKS: f32 = 16.0;
 
 /// A shader module: an entry of [`MODULES`].
 #[derive(Clone, Copy, Debug)]
@@ -43,10 +54,16 @@ impl Module {
 const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
+const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
+
 /// Triangles of the photo-surface (or of the plain world) under sun and sky.
-pub const SURFACE: Module = Module { name: "surface", files: &[SHARED, include_str!("../wgsl/surface.wgsl")] };
+pub const SURFACE: Module =
+    Module { name: "surface", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/surface.wgsl")] };
 /// The sky behind everything, per pixel.
-pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, include_str!("../wgsl/sky.wgsl")] };
+pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
+/// From the map of the world around the eye to what the observer sees.
+pub const WARP: Module =
+    Module { name: "warp", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/warp.wgsl")] };
 /// The sun's depth map, in the world frame.
 pub const SHADOW: Module = Module { name: "shadow", files: &[SHARED, include_str!("../wgsl/shadow.wgsl")] };
 /// Linear radiance to the screen's sRGB, and the mean of several samples.
@@ -55,12 +72,21 @@ pub const RESOLVE: Module = Module { name: "resolve", files: &[include_str!("../
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 5] = [SURFACE, SKY, SHADOW, RESOLVE, PROBE];
+pub const MODULES: [Module; 6] = [SURFACE, SKY, WARP, SHADOW, RESOLVE, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
+    let turn = std::f32::consts::TAU;
+    let nodes_per_octave = f64::from(SHIFT_NODES - 1) * std::f64::consts::LN_2 / (2.0 * ShiftTable::LN_LIMIT);
+    let [red, green, blue] = LUMINANCE;
     format!(
         "const SHADOW_FILTER_TEXELS: f32 = {SHADOW_FILTER_TEXELS:?};\n\
-         const SHADOW_NORMAL_OFFSET_M: f32 = {SHADOW_NORMAL_OFFSET_M:?};\n"
+         const SHADOW_NORMAL_OFFSET_M: f32 = {SHADOW_NORMAL_OFFSET_M:?};\n\
+         const SHIFT_NODES: u32 = {SHIFT_NODES}u;\n\
+         const SHIFT_NODES_PER_OCTAVE: f32 = {nodes_per_octave:?};\n\
+         const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n\
+         const HALF_LIMIT: f32 = {HALF_LIMIT:?};\n\
+         const PANORAMA_LOOKS: f32 = {PANORAMA_LOOKS:?};\n\
+         const TURN: f32 = {turn:?};\n"
     )
 }

@@ -1,29 +1,14 @@
 //! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB.
 
-use super::polygon::{PolygonRenderer, Positions};
 use super::resolve::{Accumulator, Resolver};
 use super::target::{Format, Radiance};
+use super::{SceneRenderer, Shot};
 use crate::gpu::{Gpu, GpuError};
-use crate::views::{Camera, sample_offset};
-use glam::DVec3;
+use crate::views::sample_offset;
 use image::RgbaImage;
-use physics::Celerity;
 
 /// What a picture is stored as.
 const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
-/// What one picture shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
-    /// Where the eye points.
-    pub camera: Camera,
-    /// Which positions are drawn.
-    pub positions: Positions,
-    /// World position of the eye.
-    pub eye: DVec3,
-    /// The eye's celerity if aberration is drawn, zero if not.
-    pub motion: Celerity,
-}
 
 /// Turns radiance into pictures in memory.
 pub struct Darkroom {
@@ -115,29 +100,22 @@ impl Studio {
         Format::exact(gpu)
     }
 
-    /// Takes a picture. An apparent scene must have been submitted to `renderer` before; it is received here.
+    /// Takes a picture. Where `renderer` needs a photo-surface, it must have been submitted before; it is received here.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn photograph(
-        &mut self,
-        gpu: &Gpu,
-        renderer: &mut PolygonRenderer,
-        shot: &Shot,
-    ) -> Result<RgbaImage, GpuError> {
-        if shot.positions == Positions::Apparent {
+    pub fn photograph(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<RgbaImage, GpuError> {
+        if renderer.transforms(shot.effects) {
             let transformed = renderer.receive()?;
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.upload(&mut encoder, transformed);
-            gpu.queue.submit([encoder.finish()]);
+            renderer.show(gpu, transformed);
         }
+        renderer.prepare(gpu, shot, self.size);
 
         // Draw each sample, and add it up.
         self.sum.restart();
         for sample in 0..self.samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let view = shot.camera.view(self.size, sample_offset(sample, self.samples), shot.motion);
-            renderer.draw(gpu, &mut encoder, &self.radiance, &view, shot.positions, shot.eye);
+            renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, self.samples));
             if self.samples > 1 {
                 self.darkroom.resolver.add(gpu, &mut encoder, &mut self.sum, &self.radiance, self.samples);
             }

@@ -11,7 +11,7 @@ use physics::colour::Spectrum;
 
 use super::collision::Collision;
 use super::source::{LoadError, read};
-use super::{Material, Scene, SceneFault};
+use super::{Scene, SceneFault};
 use crate::vehicle::Surroundings;
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
@@ -144,7 +144,7 @@ fn spectra(scene: &Scene) -> Vec<String> {
     let mut owners: Vec<(&Spectrum, Vec<String>)> = Vec::new();
     let illuminant = scene.illuminant.iter().map(|spectrum| (spectrum, "the light".to_owned()));
     let materials = scene.materials.iter().filter_map(|material| {
-        let role = if sends_out_its_spectrum(material) { "sent out by" } else { "returned by" };
+        let role = if material.is_source() { "sent out by" } else { "returned by" };
         Some((material.spectrum.as_ref()?, format!("{role} \"{}\"", material.name)))
     });
     for (spectrum, owner) in illuminant.chain(materials) {
@@ -154,10 +154,6 @@ fn spectra(scene: &Scene) -> Vec<String> {
         }
     }
     owners.into_iter().map(|(spectrum, owners)| format!("{}: {}", described(spectrum), owners.join(", "))).collect()
-}
-
-fn sends_out_its_spectrum(material: &Material) -> bool {
-    material.unlit || material.emissive != [0.0; 3]
 }
 
 fn described(spectrum: &Spectrum) -> String {

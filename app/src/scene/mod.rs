@@ -133,6 +133,13 @@ impl Default for Material {
     }
 }
 
+impl Material {
+    /// Whether the spectrum is of light that the material sends out, not of what it returns.
+    pub fn is_source(&self) -> bool {
+        self.unlit || self.emissive != [0.0; 3]
+    }
+}
+
 /// What a material's opacity does (glTF `alphaMode`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Alpha {

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::gltf::{self, GltfError, Stage};
 use super::panorama::{self, PanoramaError};
-use super::refine::{RefineError, refine};
 use super::{Scene, lattice::Lattice, town};
 use crate::command::SceneChoice;
 use crate::progress;
@@ -62,15 +61,4 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, LoadError> {
 /// What is wrong with the file, and where.
 pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, LoadError> {
     if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
-}
-
-/// Cuts triangles until no edge is longer than `edge` metres.
-///
-/// # Errors
-/// [`RefineError`] if that would make too many.
-pub fn refined(scene: &Scene, edge: f64) -> Result<Scene, RefineError> {
-    let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
-    let refined = refine(scene, edge as f32)?;
-    spinner.finish_and_clear();
-    Ok(refined)
 }
