@@ -13,10 +13,11 @@ use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
 use rapidity::scene::check::{Report, check};
 use rapidity::scene::collision::Collision;
+use rapidity::scene::export::write_glb;
 use rapidity::scene::gltf::{GltfError, load};
 use rapidity::scene::refine::refine;
 use rapidity::scene::source::read;
-use rapidity::scene::{Lighting, Scene};
+use rapidity::scene::{Lighting, Scene, spectra};
 use rapidity::vehicle::Surroundings;
 use scene_file::{File, png, write};
 use serde_json::{Value, json};
@@ -250,6 +251,15 @@ fn a_report_names_spectra_and_what_darkens_them() {
     scene.white = Some(318.0);
     let warnings = Report::new(&scene).unwrap().warnings;
     assert!(!warnings.iter().any(|warning| warning.contains("as bright as white")), "{warnings:?}");
+}
+
+#[test]
+fn the_built_in_hall_survives_a_file() {
+    let scene = spectra::build();
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("spectra.glb");
+    write_glb(&scene, &path).unwrap();
+    assert_eq!(load(&path, |_| {}).unwrap(), scene);
 }
 
 #[test]

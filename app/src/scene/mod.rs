@@ -1,6 +1,6 @@
 //! What there is to see: flattened meshes at rest in the world, their materials, the light that falls on them.
 //!
-//! A scene is plain data. Files come in through `gltf` and `panorama`, the old town through `town`; all end in
+//! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
 //! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
 //! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
 //!
@@ -16,7 +16,9 @@ pub mod mipmap;
 pub mod panorama;
 pub mod refine;
 pub mod source;
+pub mod spectra;
 pub mod town;
+mod turn;
 
 use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Spectrum;

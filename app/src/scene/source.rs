@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::gltf::{self, GltfError, Stage};
 use super::panorama::{self, PanoramaError};
-use super::{Scene, lattice::Lattice, town};
+use super::{Scene, lattice::Lattice, spectra, town};
 use crate::command::SceneChoice;
 use crate::progress;
 
@@ -34,6 +34,7 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, LoadError> {
             spinner.finish_and_clear();
             Ok(scene)
         }
+        SceneChoice::Spectra => Ok(spectra::build()),
         SceneChoice::Lattice => Ok(Lattice::default().build()),
         SceneChoice::File(path) => {
             let bar = progress::bar(path.display().to_string(), 0);
