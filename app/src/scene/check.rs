@@ -205,8 +205,8 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     let grounded = |point: DVec3| collision.height_below(point).is_some();
     let advice = "a vehicle on wheels stays at its height";
     let solid = scene.meshes.iter().any(|mesh| mesh.solid);
-    let passable = !solid && !(empty && scene.panorama.is_some());
-    warn(passable, format!("no mesh is solid: {advice} and passes through everything"));
+    let ridden_in = !empty || scene.panorama.is_none();
+    warn(ridden_in && !solid, format!("no mesh is solid: {advice} and passes through everything"));
     warn(solid && !grounded(scene.start.position), format!("there is no ground below the start: {advice}"));
     let airborne = scene.circuit.iter().filter(|&&point| !grounded(point)).count();
     let points = scene.circuit.len();

@@ -190,7 +190,7 @@ fn room(number: usize) -> Vec<Mesh> {
 
 /// What stands in a room, left and right of the way; every other room is its neighbour's mirror image.
 fn bodies(number: usize, front: f32) -> Vec<Body> {
-    let mirrored = if number % 2 == 0 { 1.0 } else { -1.0 };
+    let mirrored = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
     let at = |x: f32, y: f32, z: f32| vec3(x * mirrored, y, front - z);
     let block = |x: f32, base: f32, z: f32, half: f32, height: f32| Body::Block {
         low: at(x, base, z) - vec3(half, 0.0, half),
