@@ -105,7 +105,7 @@ impl ImageRenderer {
         let plan = sight.plan(self.quality.texels_per_pixel, most_texels, largest_side);
         self.stats = MapStats {
             panes: plan.placed.len(),
-            texels: plan.placed.iter().map(|pane| u64::from(pane.drawn_side()).pow(2)).sum(),
+            texels: plan.placed.iter().map(panes::Placed::texels).sum::<f64>() as u64,
             bytes: u64::from(plan.size[0]) * u64::from(plan.size[1]) * texel_bytes,
             texels_per_pixel: plan.texels_per_pixel,
             plan_ms: started.elapsed().as_secs_f64() * 1e3,
@@ -131,9 +131,9 @@ impl ImageRenderer {
         for layer in 0..layers {
             let mut pass = atlas.begin(&mut encoder, layer);
             for (number, (pane, (_, planes))) in plan.placed.iter().zip(&views).enumerate() {
-                let ([x, y], side) = (pane.place, pane.drawn_side());
-                pass.set_viewport(x as f32, y as f32, side as f32, side as f32, 0.0, 1.0);
-                pass.set_scissor_rect(x, y, side, side);
+                let ([x, y], [across, down]) = (pane.place, pane.drawn());
+                pass.set_viewport(x as f32, y as f32, across as f32, down as f32, 0.0, 1.0);
+                pass.set_scissor_rect(x, y, across, down);
                 let number = layer * views.len() as u32 + number as u32;
                 let eye = shot.eye.position();
                 world.draw(gpu, &mut pass, number, &draws, |group| may_see(planes, eye, group));

@@ -28,15 +28,13 @@ const MARGIN: u32 = 1;
 pub struct Sight {
     /// From the axes of world and observer to the cube's.
     pub cube_from_world: DMat3,
-    /// Unit vector through the picture's middle, cube's axes.
-    forward: DVec3,
+    /// Right, up and forward of the picture, cube's axes.
+    picture: [DVec3; 3],
     /// Inward unit normals of the picture's edges, cube's axes.
     edges: [DVec3; 4],
-    /// Angle from the middle to a corner.
-    corner_rad: f64,
-    /// The largest angle from the motion to anything in the picture.
-    furthest_rad: f64,
-    /// Pixels per tangent in the middle of the picture.
+    /// Pixels from the picture's middle to its right and upper edge.
+    half_size: DVec2,
+    /// Pixels per tangent of the picture.
     focal_length: f64,
     kappa: f64,
 }
@@ -54,7 +52,7 @@ struct Part {
 /// What became of a part.
 enum Tree {
     Unseen,
-    Pane(Part, u32),
+    Pane(Part, [u32; 2]),
     Cut(DVec2, Box<[Tree; 4]>),
 }
 
@@ -62,8 +60,8 @@ enum Tree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
     part: Part,
-    /// Texels along each side, without the margin.
-    pub side: u32,
+    /// Texels across and down, without the margin.
+    size: [u32; 2],
     /// Texel of its upper left corner in the atlas, margin included.
     pub place: [u32; 2],
 }
@@ -94,14 +92,12 @@ const FACES: [[DVec3; 3]; 6] = [
     [DVec3::Z, DVec3::X, DVec3::NEG_Y],
 ];
 
-/// A circle of directions and all within it.
+/// A circle of directions and all within it, in the observer's frame.
 #[derive(Clone, Copy, Debug)]
 struct Cap {
     middle: DVec3,
-    /// In the observer's frame, up to π.
+    /// Up to π.
     radius_rad: f64,
-    /// The largest angle of anything in it from the motion, up to π.
-    furthest_rad: f64,
 }
 
 impl Sight {
@@ -122,19 +118,11 @@ impl Sight {
         let cube_from_world = DMat3::from_cols(x, motion.cross(x), motion).transpose();
 
         let edge = |sideways: DVec3, extent: f64| cube_from_world * (sideways + extent * forward).normalize();
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
-            .map(|[x, y]| forward + x * across * right + y * along * up);
-        let stern_seen =
-            edges_admit(&[edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)], DVec3::NEG_Z);
-        // Away from the stern, what is furthest from the motion lies on the picture's border: bounded by the corners' circle.
-        let corner_rad = angle(forward, corners[0]);
-        let furthest = (angle(forward, motion) + corner_rad).min(std::f64::consts::PI);
         Self {
             cube_from_world,
-            forward: cube_from_world * forward,
+            picture: [right, up, forward].map(|axis| cube_from_world * axis),
             edges: [edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)],
-            corner_rad,
-            furthest_rad: if stern_seen { std::f64::consts::PI } else { furthest },
+            half_size: 0.5 * DVec2::new(width, height),
             focal_length,
             kappa: celerity.gamma() + celerity.magnitude(),
         }
@@ -161,21 +149,49 @@ impl Sight {
         Cap {
             middle: (meridian * sine).extend(cosine),
             radius_rad: 0.5 * (far - near),
-            furthest_rad: near.abs().max(far.abs()).min(std::f64::consts::PI),
         }
     }
 
-    /// Pixels per tangent of a part, at most, where the picture sees it.
-    fn density(&self, part: &Part, cap: &Cap) -> f64 {
-        // The picture stretches away from its middle, by 1/cos² along the radius.
-        let from_middle = (angle(self.forward, cap.middle) + cap.radius_rad).min(self.corner_rad);
-        let stretched = self.focal_length / from_middle.cos().powi(2);
-        // Aberration enlarges angles by 1/D, most where D is least: furthest from the motion.
-        let (sine, cosine) = (0.5 * cap.furthest_rad.min(self.furthest_rad)).sin_cos();
-        let enlarged = self.kappa * sine * sine + cosine * cosine / self.kappa;
-        // The face itself shows an angle smaller the further from its middle.
-        let nearest = (part.middle.abs() - part.half).max(DVec2::ZERO);
-        stretched * enlarged / (1.0 + nearest.length_squared()).sqrt()
+    /// Where a direction of the world is in the picture, pixels from its middle; `None` if behind the eye.
+    fn pixel(&self, world: DVec3) -> Option<DVec2> {
+        // The boost scales the two light-cone coordinates, which nothing cancels in.
+        let across = world.truncate().length_squared();
+        let length = (across + world.z * world.z).sqrt();
+        let big = length + world.z.abs();
+        let small = across / big;
+        let (ahead, behind) = if world.z >= 0.0 { (big, small) } else { (small, big) };
+        let observed = world.truncate().extend(0.5 * (ahead * self.kappa - behind / self.kappa));
+        let [right, up, forward] = self.picture.map(|axis| axis.dot(observed));
+        (forward > 0.0).then(|| DVec2::new(right, up) * (self.focal_length / forward))
+    }
+
+    /// Pixels across and along the picture that a part takes, at most, measured along its rows and along its columns: as many texels
+    /// it needs. `None` if no part of its grid is in the picture.
+    fn pixels(&self, part: &Part) -> Option<DVec2> {
+        const STEPS: usize = 4;
+        let at = |column: usize, row: usize| {
+            let place = DVec2::new(column as f64, row as f64) * (2.0 / STEPS as f64) - 1.0;
+            self.pixel(part.direction(place))
+        };
+        let near = 1.25 * self.half_size;
+        let shown = |pixel: DVec2| pixel.abs().cmple(near).all();
+        let mut most = DVec2::ZERO;
+        for row in 0..=STEPS {
+            for column in 0..=STEPS {
+                let Some(here) = at(column, row) else { continue };
+                for (axis, neighbour) in [(0, [column + 1, row]), (1, [column, row + 1])] {
+                    let [column, row] = neighbour;
+                    if column <= STEPS
+                        && row <= STEPS
+                        && let Some(there) = at(column, row)
+                        && (shown(here) || shown(there))
+                    {
+                        most[axis] = most[axis].max(here.distance(there));
+                    }
+                }
+            }
+        }
+        (most.min_element() > 0.0).then_some(most * STEPS as f64)
     }
 
     /// Finds the cheapest panes of a part.
@@ -184,15 +200,22 @@ impl Sight {
         if !self.sees(&cap) {
             return (0.0, Tree::Unseen);
         }
-        let side = (texels_per_pixel * self.density(&part, &cap) * 2.0 * part.half).ceil().max(1.0);
-        let whole = side * side + PANE_COST;
-        if side <= SMALLEST_SIDE || depth >= DEEPEST {
-            return (whole, Tree::Pane(part, side as u32));
+        let deepest = depth >= DEEPEST;
+        let size = match self.pixels(&part) {
+            Some(pixels) => (texels_per_pixel * pixels).ceil().max(DVec2::ONE),
+            None if deepest => DVec2::ONE,
+            // Seen between the grid's points, if at all: look closer.
+            None => DVec2::INFINITY,
+        };
+        let whole = size.element_product() + PANE_COST;
+        let pane = || Tree::Pane(part, [size.x as u32, size.y as u32]);
+        if deepest || size.max_element() <= SMALLEST_SIDE {
+            return (whole, pane());
         }
         let parts = part.quarters().map(|quarter| self.cut(quarter, texels_per_pixel, depth + 1));
         let cost: f64 = parts.iter().map(|(cost, _)| cost).sum();
-        if side <= LARGEST_SIDE && whole <= cost {
-            return (whole, Tree::Pane(part, side as u32));
+        if size.max_element() <= LARGEST_SIDE && whole <= cost {
+            return (whole, pane());
         }
         (cost, Tree::Cut(part.middle, Box::new(parts.map(|(_, tree)| tree))))
     }
@@ -205,7 +228,7 @@ impl Sight {
                 [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0).1);
             let mut plan = Planner::default();
             let numbers = roots.map(|root| plan.number(root));
-            let texels: f64 = plan.placed.iter().map(|pane| f64::from(pane.side + 2 * MARGIN).powi(2)).sum();
+            let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
             let size = pack(&mut plan.placed, texels, largest_side);
             let fits = texels <= most_texels && size[1] <= largest_side;
             if !fits && wanted > 1e-3 {
@@ -223,11 +246,6 @@ impl Sight {
             return Plan { placed: plan.placed, panes, cuts: plan.cuts, map, size, texels_per_pixel: wanted };
         }
     }
-}
-
-/// Whether a direction lies on the inner side of all edges.
-fn edges_admit(edges: &[DVec3; 4], direction: DVec3) -> bool {
-    edges.iter().all(|edge| edge.dot(direction) >= 0.0)
 }
 
 fn angle(one: DVec3, other: DVec3) -> f64 {
@@ -251,20 +269,25 @@ impl Part {
 }
 
 impl Placed {
-    /// Texels along each side with the margin.
-    pub fn drawn_side(&self) -> u32 {
-        self.side + 2 * MARGIN
+    /// Texels across and down with the margin.
+    pub fn drawn(&self) -> [u32; 2] {
+        self.size.map(|side| side + 2 * MARGIN)
+    }
+
+    /// All its texels with the margin.
+    pub fn texels(&self) -> f64 {
+        self.drawn().map(f64::from).iter().product()
     }
 
     fn pane(&self) -> Pane {
         let Part { middle, half, .. } = self.part;
-        let scale = f64::from(self.side) / (2.0 * half);
-        let low = Vec2::new(self.place[0] as f32, self.place[1] as f32) + MARGIN as f32;
+        let size = DVec2::from_array(self.size.map(f64::from));
+        let low = DVec2::from_array(self.place.map(f64::from)) + f64::from(MARGIN);
         Pane {
             corner: DVec2::new(middle.x - half, middle.y + half).as_vec2(),
-            scale: DVec2::new(scale, -scale).as_vec2(),
-            low,
-            high: low + self.side as f32,
+            scale: (size / (2.0 * half) * DVec2::new(1.0, -1.0)).as_vec2(),
+            low: low.as_vec2(),
+            high: (low + size).as_vec2(),
         }
     }
 
@@ -274,20 +297,21 @@ impl Placed {
     pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (View, [DVec3; 5]) {
         let world_from_cube = cube_from_world.transpose();
         let [right, up, forward] = FACES[self.part.face].map(|axis| world_from_cube * axis);
-        let half = self.part.half * f64::from(self.drawn_side()) / f64::from(self.side);
+        let drawn = DVec2::from_array(self.drawn().map(f64::from));
+        let half = self.part.half * drawn / DVec2::from_array(self.size.map(f64::from));
         let middle = self.part.middle;
-        let row_x = (right - middle.x * forward) / half;
-        let row_y = (up - middle.y * forward) / half;
+        let row_x = (right - middle.x * forward) / half.x;
+        let row_y = (up - middle.y * forward) / half.y;
         let row = |row: DVec3| row.extend(row.dot(from_eye));
         let rows = DMat4::from_cols(row(row_x), row(row_y), DVec4::new(0.0, 0.0, 0.0, near_m), row(forward));
-        let pixel = 2.0 / self.drawn_side() as f32;
+        let pixel = (2.0 / drawn).as_vec2();
         let view = View {
             clip_from_observer: matrix(&rows.transpose()),
             forward: (forward + middle.x * right + middle.y * up).as_vec3().extend(0.0),
-            right: (half * right).as_vec3().extend(0.0),
-            up: (half * up).as_vec3().extend(0.0),
+            right: (half.x * right).as_vec3().extend(0.0),
+            up: (half.y * up).as_vec3().extend(0.0),
             motion: forward.as_vec3().extend(1.0),
-            shift: Vec4::new(1.0, 1.0, pixel, pixel),
+            shift: Vec4::new(1.0, 1.0, pixel.x, pixel.y),
             layer: Vec4::ZERO,
         };
         let planes = [forward, row_x + forward, forward - row_x, row_y + forward, forward - row_y];
@@ -307,8 +331,8 @@ impl Planner {
     fn number(&mut self, tree: Tree) -> Option<i32> {
         match tree {
             Tree::Unseen => None,
-            Tree::Pane(part, side) => {
-                self.placed.push(Placed { part, side, place: [0; 2] });
+            Tree::Pane(part, size) => {
+                self.placed.push(Placed { part, size, place: [0; 2] });
                 Some(-(self.placed.len() as i32))
             }
             Tree::Cut(at, parts) => {
@@ -324,22 +348,40 @@ impl Planner {
     }
 }
 
-/// Places squares in rows, the largest first. Returns the size of the whole.
+/// Places panes in rows, the highest first. Returns the size of the whole.
 fn pack(placed: &mut [Placed], texels: f64, largest_side: u32) -> [u32; 2] {
-    let widest = placed.iter().map(Placed::drawn_side).max().unwrap_or(1);
+    let widest = placed.iter().map(|pane| pane.drawn()[0]).max().unwrap_or(1);
     let width = ((texels.sqrt() * 1.05) as u32).next_multiple_of(64).clamp(widest, largest_side.max(widest));
     let mut order: Vec<usize> = (0..placed.len()).collect();
-    order.sort_by_key(|&number| std::cmp::Reverse(placed[number].side));
+    order.sort_by_key(|&number| std::cmp::Reverse(placed[number].size[1]));
     let (mut x, mut y, mut row_height) = (0, 0, 0);
     for number in order {
-        let side = placed[number].drawn_side();
-        if x + side > width {
+        let [across, down] = placed[number].drawn();
+        if x + across > width {
             (x, y) = (0, y + row_height);
             row_height = 0;
         }
         placed[number].place = [x, y];
-        x += side;
-        row_height = row_height.max(side);
+        x += across;
+        row_height = row_height.max(down);
     }
     [width, (y + row_height).max(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn explore() {
+        for beta in [0.0, 0.5, 0.8, 0.99] {
+            let camera = Camera::looking(DVec3::NEG_Z, DVec3::Y, 60.0_f64.to_radians());
+            let celerity = physics::Beta::new(DVec3::NEG_Z * beta).unwrap().celerity();
+            let sight = Sight::new(&camera, [1280, 720], celerity);
+            let started = std::time::Instant::now();
+            let plan = sight.plan(1.25, 1e9, 16384);
+            println!("{beta}: {} panes, {} cuts, {:.2} M texels, {:?} of {:.2} M, {:?}", plan.placed.len(), plan.cuts.len(),
+              plan.placed.iter().map(Placed::texels).sum::<f64>() / 1e6, plan.size, f64::from(plan.size[0]) * f64::from(plan.size[1]) / 1e6, started.elapsed());
+            for p in &plan.placed { if plan.placed.len() < 40 { println!("  {:?} {:?} {:?} half {}", p.part.face, p.size, p.part.middle, p.part.half); } }
+        }
+    }
 }
