@@ -40,7 +40,7 @@ const KNOT_STEP: f64 = 0.02;
 
 /// What white must be multiplied with to have the luminance of 1 cd/m².
 static WHITE_SCALE: LazyLock<f64> =
-    LazyLock::new(|| matching::xyz(std::iter::empty(), |nm| DVec3::X * white_shape(nm)).x_axis.y.recip());
+    LazyLock::new(|| matching::xyz(1.0, None, |nm| DVec3::X * white_shape(nm)).x_axis.y.recip());
 
 /// The spline's coefficients as they are stored, and its first knot.
 static SPLINE: LazyLock<(f64, Vec<DVec3>)> = LazyLock::new(|| {
@@ -50,7 +50,7 @@ static SPLINE: LazyLock<(f64, Vec<DVec3>)> = LazyLock::new(|| {
 
 /// Makes shares whose colours at rest are the primaries out of those that are stored.
 static CORRECTION: LazyLock<DMat3> = LazyLock::new(|| {
-    let xyz = matching::xyz(std::iter::empty(), |nm| white(nm) * stored_shares(nm));
+    let xyz = matching::xyz(1.0, None, |nm| white(nm) * stored_shares(nm));
     (srgb::rgb_from_xyz() * xyz).inverse().transpose()
 });
 

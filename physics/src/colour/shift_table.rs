@@ -28,8 +28,11 @@ impl ShiftTable {
     /// The table's first and last node are at ln D = ∓ this: D = 1e-6 and 1e6.
     pub const LN_LIMIT: f64 = 6.0 * LN_10;
 
-    /// Nodes that are enough (see `colour_table.rs` for the error), and as many as every graphics card's texture is wide.
-    pub const NODES: usize = 4097;
+    /// Nodes that are enough, 0.0034 apart in ln D, and no more than a texture may be wide (8192) where nothing else is known.
+    ///
+    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of 0.11
+    /// at most over D = 0.05 … 20 (`colour_table.rs`); the error goes with the square of the distance.
+    pub const NODES: usize = 8191;
 
     /// Integrates the colours of these carriers, on all cores.
     ///
