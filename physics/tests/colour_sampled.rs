@@ -59,7 +59,10 @@ fn a_narrow_line_is_seen_whole_wherever_it_is_shifted() {
             let doppler = size(&mut random, -1.0..1.0);
             let seen_nm: f64 = random.random_range(450.0..650.0);
             let [nm, half] = [seen_nm * doppler, half_width * doppler];
-            let line = Carrier::emitted(sampled(&[[nm - half, 0.0], [nm, 1e9], [nm + half, 0.0]]));
+            let line = sampled(&[[nm - half, 0.0], [nm, 1e9], [nm + half, 0.0]]);
+            let reflected = Carrier::reflected(Some(line.clone()), Some(sampled(&[[nm, 1.0]])));
+            let line = Carrier::emitted(line);
+            assert_eq!(reflected.xyz_from_weights(doppler), line.xyz_from_weights(doppler));
             // The weights' shares sum to 1; the shift keeps the area, `half`.
             let xyz = line.xyz_from_weights(doppler) * DVec3::ONE;
             let [left, right] = [0, 1].map(|next| &matching[seen_nm as usize - 360 + next]);

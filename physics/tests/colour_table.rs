@@ -132,6 +132,17 @@ fn texels_are_the_colours_of_their_nodes() {
 }
 
 #[test]
+fn beyond_the_ends_the_colour_stays_and_brightness_goes_on_straight() {
+    let table = ShiftTable::new(&[Carrier::emitted(planck(5900.0))], 3);
+    let [middle, end] = [1, 2].map(|node| table.texels()[node].map(f64::from));
+    let seen = table.rgb_from_weights(0, 1e12).x_axis;
+    // As far from the last node, in ln D, as that is from the one before.
+    let luminance = (2.0 * end[3] - middle[3]).exp2();
+    let expected = DVec3::new(end[0], end[1], end[2]) * luminance;
+    assert!(support::relative_difference(seen, expected) < 1e-12, "{seen}, not {expected}");
+}
+
+#[test]
 fn no_light_is_dark_and_finite() {
     let green_line = [[500.0, 0.0], [520.0, 1e9], [540.0, 0.0]];
     let table =

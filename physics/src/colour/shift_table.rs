@@ -4,7 +4,8 @@
 //! weights, so the table holds one colour per carrier, weight and D. Nodes are even in ln D from 1e-6 to 1e6. Brightness
 //! runs over hundreds of orders of magnitude there, and chromaticity hardly changes, so a texel holds the linear sRGB
 //! colour divided by its luminance Y, and log₂ Y; all four are interpolated linearly. Beyond the ends the colour stays
-//! and log₂ Y goes on in a straight line, which is the power law that every spectrum here ends in.
+//! and log₂ Y goes on in a straight line: the power law in which white, thermal light and a measured spectrum end, if
+//! nothing was measured in gamma rays or radio waves.
 
 use std::f64::consts::{LN_2, LN_10};
 
