@@ -10,7 +10,7 @@ use physics::glam::{DMat3, DVec3};
 use rand::RngExt;
 use support::seeded;
 
-/// ΔE2000, of which 1 is just noticeable. Measured: 0.08 to 0.11, where a pure primary falls off steeply.
+/// ΔE2000, of which 1 is just noticeable. Measured: 0.09 to 0.14, where a pure primary falls off steeply.
 const LARGEST_DIFFERENCE: f64 = 0.5;
 
 /// A leaf, green and bright beyond 700 nm, and a paint as green and dark there: wavelength in nm and reflectance, of the shape

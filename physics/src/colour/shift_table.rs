@@ -31,7 +31,7 @@ impl ShiftTable {
 
     /// Nodes that are enough, 0.0034 apart in ln D, and no more than a texture may be wide (8192) where nothing else is known.
     ///
-    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of 0.11
+    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of 0.15
     /// at most over D = 0.05 … 20 (`colour_table.rs`); the error goes with the square of the distance.
     pub const NODES: usize = 8191;
 
