@@ -8,6 +8,7 @@
 
 mod atlas;
 mod panes;
+mod sight;
 
 use super::target::{Format, Radiance};
 use super::world::{Draws, Group, Mode, World, bind_group, effect_constants, layout};
@@ -17,7 +18,8 @@ use crate::views::NEAR_M;
 use atlas::Atlas;
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};
-use panes::{Plan, Sight};
+use panes::{Fineness, Plan};
+use sight::Sight;
 use std::time::Instant;
 use wgpu::util::DeviceExt;
 
@@ -45,6 +47,10 @@ pub struct MapStats {
     pub plan_ms: f64,
 }
 
+/// Texels that drawing a pane is worth beside its own.
+const PANE_COST: f64 = 20e3;
+/// The same where the CPU draws, and a change of pipeline costs more.
+const PANE_COST_SOFTWARE: f64 = 60e3;
 /// Texels of a map at most: what a gigabyte holds.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -102,7 +108,12 @@ impl ImageRenderer {
         let sight = Sight::new(&shot.camera, size, shot.celerity());
         let most_texels = MOST_BYTES as f64 / texel_bytes as f64;
         let largest_side = gpu.device.limits().max_texture_dimension_2d;
-        let plan = sight.plan(self.quality.texels_per_pixel, most_texels, largest_side);
+        let fineness = Fineness {
+            texels_per_pixel: self.quality.texels_per_pixel,
+            exact: !self.quality.smooth,
+            pane_cost: if gpu.is_software() { PANE_COST_SOFTWARE } else { PANE_COST },
+        };
+        let plan = sight.plan(fineness, most_texels, largest_side);
         self.stats = MapStats {
             panes: plan.placed.len(),
             texels: plan.placed.iter().map(panes::Placed::texels).sum::<f64>() as u64,
