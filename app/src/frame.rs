@@ -13,13 +13,14 @@ use crate::live::{Live, gaze};
 use crate::pace::Pace;
 use crate::render::shot;
 use crate::renderers::Effects;
+use crate::renderers::display::Stored;
 use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::target::Radiance;
 use crate::simulation::Frame;
 use crate::views::Gaze;
 use crate::window::{Readings, RidePanel};
 use glam::DVec2;
-use input::Action;
+use input::{Action, SECOND};
 use std::collections::VecDeque;
 
 /// Where a frame goes, and how it is drawn.
@@ -47,6 +48,10 @@ pub struct Ride {
     not_finite: usize,
     /// The newest frame.
     pub frame: Option<Frame>,
+    /// How the target holds the light of what was drawn last.
+    pub stored: Stored,
+    /// Time that the eye had to adapt since the frame before, seconds; `None` at first.
+    pub elapsed_s: Option<f64>,
     /// How long each stage takes.
     pub pace: Pace,
 }
@@ -61,6 +66,8 @@ impl Ride {
             shown: None,
             not_finite: 0,
             frame: None,
+            stored: Stored::UNSHIFTED,
+            elapsed_s: None,
             pace: Pace::default(),
         }
     }
@@ -76,6 +83,7 @@ impl Ride {
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let newest = gaze(&frame)?;
         let actions = frame.controls.actions.clone();
+        self.elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         self.frame = Some(frame);
         self.pace.stage("ride");
 
@@ -152,5 +160,14 @@ impl Ride {
             devices: self.live.devices(),
             drawing: format!("{} triangles on {}", self.renderer.triangle_count(), gpu.description()),
         }
+    }
+}
+
+/// Time in which an eye adapts: the rider's own, or, while his clock stands, that of whoever looks on.
+fn elapsed_s(before: &Frame, now: &Frame) -> f64 {
+    if now.paused {
+        now.record.at.saturating_sub(before.record.at) as f64 / SECOND as f64
+    } else {
+        now.vehicle.odometer().own_s - before.vehicle.odometer().own_s
     }
 }

@@ -48,5 +48,9 @@ fn structs_have_the_same_layout_on_both_sides() {
         Lighting { shadow_from_world, sun_direction, sun, sky, ground, zenith, horizon, background }
     );
     assert_mirrors!(surface, Material { base_colour, emissive });
-    assert_mirrors!(parse(&shaders::RESOLVE), Resolve { weight, encode, padding });
+    assert_mirrors!(parse(&shaders::ACCUMULATE), Accumulate { weight });
+    assert_mirrors!(parse(&shaders::DISPLAY), Screen { encode, tone, gamut });
+    let meter = parse(&shaders::METER);
+    assert_mirrors!(meter, Metering { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances });
+    assert_mirrors!(meter, Adaptation { exposure, white, log2_exposure, gain, bright });
 }

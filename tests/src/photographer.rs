@@ -5,6 +5,7 @@ use image::RgbaImage;
 use physics::Celerity;
 use physics::photo_surface::Eye;
 use rapidity::gpu::{Gpu, GpuError};
+use rapidity::renderers::display::Development;
 use rapidity::renderers::picture::{Shot, Studio};
 use rapidity::renderers::polygon::{PolygonRenderer, Positions};
 use rapidity::scene::Scene;
@@ -53,6 +54,7 @@ impl Photographer {
 
     fn shoot(&mut self, view: &View, shot: Shot) -> RgbaImage {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
-        self.studio.photograph(gpu(), &mut self.renderer, &shot).expect("the device is there")
+        let development = Development::default();
+        self.studio.photograph(gpu(), &mut self.renderer, &shot, &development, None).expect("the device is there")
     }
 }

@@ -1,11 +1,11 @@
 //! From a scene and an observer to radiance, and from radiance to a picture.
 //!
 //! [`polygon`] draws the photo-surface with ordinary rasterisation. All renderers draw into a [`target::Radiance`]
-//! target of linear values, which [`resolve`] turns into pixels.
+//! target of linear values, which [`display`] turns into pixels.
 
+pub mod display;
 pub mod picture;
 pub mod polygon;
-pub mod resolve;
 pub mod target;
 
 use std::fmt::{self, Display, Formatter};
