@@ -8,11 +8,12 @@
 //! `cargo bench -p rapidity --bench frames`
 
 use glam::{DVec3, Vec3};
+use physics::Beta;
 use physics::photo_surface::{Eye, Kernel};
-use physics::{Beta, Celerity};
 use rapidity::gpu::{Gpu, GpuError};
-use rapidity::renderers::polygon::{PolygonRenderer, Positions, Transformed};
+use rapidity::renderers::polygon::Transformed;
 use rapidity::renderers::target::{Format, Radiance};
+use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::lattice::Lattice;
 use rapidity::scene::refine::{RefineError, refine};
 use rapidity::scene::{Mesh, Scene};
@@ -70,11 +71,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// A scene on the device, an eye in its midst, and a target.
 struct Bench<'gpu> {
     gpu: &'gpu Gpu,
-    renderer: PolygonRenderer,
+    renderer: SceneRenderer,
     target: Radiance,
     camera: Camera,
-    eye: DVec3,
-    celerity: Celerity,
+    eye: Eye,
 }
 
 impl<'gpu> Bench<'gpu> {
@@ -82,22 +82,21 @@ impl<'gpu> Bench<'gpu> {
         let format = Format::fast(1);
         Ok(Self {
             gpu,
-            renderer: PolygonRenderer::new(gpu, scene, format, None)?,
+            renderer: SceneRenderer::new(gpu, scene, format, None, Method::Polygon)?,
             target: Radiance::new(gpu, SIZE, format),
             camera: Camera::looking(DVec3::NEG_Z, DVec3::Y, 70.0_f64.to_radians()),
-            eye: DVec3::new(0.3, 0.2, 0.1),
-            celerity: Beta::new(DVec3::NEG_Z * 0.01)?.celerity(),
+            eye: Eye::new(DVec3::new(0.3, 0.2, 0.1), Beta::new(DVec3::NEG_Z * 0.01)?.celerity().vector())?,
         })
     }
 
     /// Milliseconds of a frame drawn plainly, overlapped and in sequence, and of a transform alone: a median for each turn.
     fn run(&mut self) -> Result<[Vec<f64>; 4], Box<dyn Error>> {
-        let eye = Eye::new(self.eye, self.celerity.vector())?;
+        let eye = self.eye;
         let mut medians = [const { Vec::new() }; 4];
         let started = Instant::now();
         let mut warm = false;
         while !warm || started.elapsed() < TIME {
-            let plain = self.turn(|bench| bench.draw(Positions::Plain(bench.eye)))?;
+            let plain = self.turn(|bench| bench.draw(Effects::NONE))?;
 
             // The transform of the next frame begins before this one is drawn.
             self.renderer.submit(self.gpu, eye)?;
@@ -139,17 +138,14 @@ impl<'gpu> Bench<'gpu> {
     }
 
     fn show(&mut self, transformed: Transformed) -> Result<(), GpuError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.upload(&mut encoder, transformed);
-        self.gpu.queue.submit([encoder.finish()]);
-        self.draw(Positions::Apparent)
+        self.renderer.show(self.gpu, transformed);
+        self.draw(Effects::GEOMETRY)
     }
 
-    fn draw(&mut self, positions: Positions) -> Result<(), GpuError> {
-        let motion = if positions == Positions::Apparent { self.celerity } else { Celerity::ZERO };
-        let view = self.camera.view(SIZE, glam::DVec2::ZERO, motion);
+    fn draw(&mut self, effects: Effects) -> Result<(), GpuError> {
+        let shot = Shot { camera: self.camera, eye: self.eye, effects };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(self.gpu, &mut encoder, &self.target, &view, positions, self.eye);
+        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, glam::DVec2::ZERO);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait()
     }

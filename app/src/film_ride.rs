@@ -50,8 +50,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             (scene, reel.moments)
         }
     };
-    let scene = source::refined(&scene, options.world.edge)?;
-    let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
     let count = moments.len() as u64;
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }

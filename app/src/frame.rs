@@ -12,10 +12,9 @@ use crate::gpu::Gpu;
 use crate::live::{Live, gaze};
 use crate::pace::Pace;
 use crate::render::shot;
-use crate::renderers::Effects;
 use crate::renderers::display::Stored;
-use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::target::Radiance;
+use crate::renderers::{Effects, SceneRenderer};
 use crate::simulation::Frame;
 use crate::views::Gaze;
 use crate::window::{Readings, RidePanel};
@@ -39,7 +38,7 @@ pub struct Pictured<'a> {
 pub struct Ride {
     /// Devices, simulation, log.
     pub live: Live,
-    renderer: PolygonRenderer,
+    renderer: SceneRenderer,
     /// Whose photo-surfaces are under way, oldest first.
     under_way: VecDeque<Gaze>,
     /// Whose photo-surface is drawn.
@@ -58,7 +57,7 @@ pub struct Ride {
 
 impl Ride {
     /// A ride that is about to begin.
-    pub fn new(renderer: PolygonRenderer, live: Live) -> Self {
+    pub fn new(renderer: SceneRenderer, live: Live) -> Self {
         Self {
             live,
             renderer,
@@ -88,7 +87,7 @@ impl Ride {
         self.pace.stage("ride");
 
         // The photo-surface of the newest eye, on its own thread; shown is the oldest one that is ready by now.
-        if pictured.effects.geometry {
+        if self.renderer.transforms(pictured.effects) {
             self.renderer.submit(gpu, newest.eye)?;
             self.under_way.push_back(newest);
             let ahead = usize::from(pictured.latency == Latency::Overlap);
@@ -96,9 +95,7 @@ impl Ride {
                 let transformed = self.renderer.receive()?;
                 self.pace.transformed(transformed.duration);
                 self.not_finite = transformed.stats.not_finite();
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                self.renderer.upload(&mut encoder, transformed);
-                gpu.queue.submit([encoder.finish()]);
+                self.renderer.show(gpu, transformed);
                 self.shown = self.under_way.pop_front();
             }
         } else {
@@ -113,10 +110,11 @@ impl Ride {
 
         // Draw it.
         let shot = shot(&shown, pictured.fov, pictured.effects);
-        let view = shot.camera.view(pictured.target.size, DVec2::ZERO, shot.motion);
+        self.renderer.prepare(gpu, &shot, pictured.target.size);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(gpu, &mut encoder, pictured.target, &view, shot.positions, shot.eye);
+        self.renderer.draw(gpu, &mut encoder, pictured.target, &shot, DVec2::ZERO);
         gpu.queue.submit([encoder.finish()]);
+        self.stored = self.renderer.stored(&shot);
         self.pace.stage("draw");
         Ok(Some(actions))
     }
@@ -158,7 +156,12 @@ impl Ride {
             time_scale: self.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
             speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.world().speed_of_light_m_s()),
             devices: self.live.devices(),
-            drawing: format!("{} triangles on {}", self.renderer.triangle_count(), gpu.description()),
+            drawing: format!(
+                "{} triangles by the {} renderer on {}",
+                self.renderer.triangle_count(),
+                self.renderer.name(),
+                gpu.description()
+            ),
         }
     }
 }

@@ -10,14 +10,13 @@ use crate::film::{Film, Written};
 use crate::film_ride;
 use crate::gpu::Gpu;
 use crate::progress;
-use crate::renderers::Effects;
-use crate::renderers::picture::{Shot, Studio, largest_side};
-use crate::renderers::polygon::{PolygonRenderer, Positions};
+use crate::renderers::choice::Choice;
+use crate::renderers::picture::{Studio, largest_side};
+use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, source};
 use crate::views::{Camera, Gaze};
 use glam::DVec3;
 use image::RgbaImage;
-use physics::Celerity;
 use physics::photo_surface::Eye;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,8 +37,8 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
-    let scene = source::refined(&source::load(&options.world.scene)?, options.world.edge)?;
-    let mut camera = Cameraman::new(&gpu, &scene, &options.picture)?;
+    let scene = source::load(&options.world.scene)?;
+    let mut camera = Cameraman::new(&gpu, scene.clone(), &options.picture, options.world.edge)?;
     let speed_of_light = options.world.speed_of_light;
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, &scene, 0.0)?, path),
@@ -60,8 +59,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
     let (scene, moments) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
-    let scene = source::refined(&scene, options.world.edge)?;
-    let mut camera = Cameraman::new(gpu, &scene, &options.picture)?;
+    let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.edge)?;
     match &options.out {
         Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
@@ -93,24 +91,25 @@ pub struct Moment {
 /// A scene, a device and targets, ready to take pictures.
 pub struct Cameraman<'gpu> {
     gpu: &'gpu Gpu,
-    renderer: PolygonRenderer,
+    renderer: SceneRenderer,
     studio: Studio,
     options: PictureOptions,
 }
 
 impl<'gpu> Cameraman<'gpu> {
-    /// Uploads the scene.
+    /// Chooses how to draw the scene, says so, and uploads it.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the device cannot draw pictures of that size.
-    pub fn new(gpu: &'gpu Gpu, scene: &Scene, options: &PictureOptions) -> Result<Self, Error> {
+    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if `edge` metres cut the scene too finely.
+    pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, edge: f64) -> Result<Self, Error> {
         let limit = largest_side(gpu);
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
         }
-        eprintln!("{}", described(scene, gpu));
+        let Choice { scene, method, because } = Choice::of(scene, options.renderer, edge, options.map_of_pictures())?;
+        eprintln!("{because}, on {}", gpu.description());
         let spinner = progress::spinner("uploading");
-        let renderer = PolygonRenderer::new(gpu, scene, Studio::format(gpu), options.background)?;
+        let renderer = SceneRenderer::new(gpu, &scene, Studio::format(gpu), options.background, method)?;
         let studio = Studio::new(gpu, options.size, options.samples);
         gpu.wait()?;
         spinner.finish_and_clear();
@@ -186,7 +185,7 @@ impl<'gpu> Cameraman<'gpu> {
     }
 
     fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {
-        if self.options.effects.geometry {
+        if self.renderer.transforms(self.options.effects) {
             self.renderer.submit(self.gpu, gaze.eye)?;
         }
         Ok(())
@@ -199,21 +198,10 @@ impl<'gpu> Cameraman<'gpu> {
     }
 }
 
-/// What draws the scene, in one line.
-pub fn described(scene: &Scene, gpu: &Gpu) -> String {
-    format!("{}: {} triangles by the polygon renderer on {}", scene.name, scene.triangle_count(), gpu.description())
-}
-
 /// A gaze through a camera of `fov` degrees.
 pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
     let camera = Camera { observer_from_eye: gaze.observer_from_eye, fov_y_rad: fov.to_radians() };
-    let eye = gaze.eye.position();
-    if effects.geometry {
-        let motion = Celerity::new(gaze.eye.celerity()).unwrap_or_default();
-        Shot { camera, positions: Positions::Apparent, eye, motion }
-    } else {
-        Shot { camera, positions: Positions::Plain(eye), eye, motion: Celerity::ZERO }
-    }
+    Shot { camera, eye: gaze.eye, effects }
 }
 
 /// Looks before long work whether its result can be put there.

@@ -40,7 +40,6 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
     }
     if options.out.is_none() && window::has_display() {
         let (scene, begin) = begin(options)?;
-        let scene = source::refined(&scene, options.world.edge)?;
         return window::run(options, scene, begin);
     }
     let path = options.out.clone().unwrap_or_else(|| {

@@ -3,12 +3,12 @@
 //! The camera looks along directions of the observer's own frame, whose axes are a pure boost of the world's. How
 //! light got there is none of its business: the photo-surface is an ordinary three-dimensional object to it.
 
-use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4};
-use physics::Celerity;
+use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4, Vec4};
 use physics::photo_surface::Eye;
+use physics::{Aberration, Celerity};
 
 /// Metres in front of the eye, at rest, nearer than which nothing is drawn.
-const NEAR_M: f64 = 0.02;
+pub const NEAR_M: f64 = 0.02;
 
 /// Where an eye is, how it moves, and where it looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +48,15 @@ impl Camera {
     /// # Arguments
     /// * `size` — pixels.
     /// * `offset` — of the sampled point from each pixel's centre, in pixels, x right and y down.
-    /// * `motion` — the eye's celerity if its aberration is to be drawn, [`Celerity::ZERO`] if not.
-    pub fn view(&self, size: [u32; 2], offset: DVec2, motion: Celerity) -> shaders::View {
+    /// * `motion` — the eye's celerity.
+    /// * `geometry` — whether its aberration is to be drawn.
+    /// * `scale` — what radiance is multiplied by, so that the target can hold it.
+    pub fn view(&self, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::View {
         let [width, height] = size.map(f64::from);
         let tan_y = (0.5 * self.fov_y_rad).tan();
         let tan_x = tan_y * width / height;
-        let kappa = motion.gamma() + motion.magnitude();
+        let kappa_of_light = motion.gamma() + motion.magnitude();
+        let kappa = if geometry { kappa_of_light } else { 1.0 };
 
         // Reversed depth with an infinite far plane keeps f32's relative precision at every distance; astern the
         // photo-surface comes closer by 1/(2κ), and the near plane with it.
@@ -79,7 +82,18 @@ impl Camera {
             right: right.as_vec3().extend(0.0),
             up: up.as_vec3().extend(0.0),
             motion: along.as_vec3().extend(kappa as f32),
+            shift: DVec4::new(kappa_of_light, scale, 2.0 / width, 2.0 / height).as_vec4(),
+            layer: Vec4::ZERO,
         }
+    }
+
+    /// Doppler factor of light from the world in the middle of the picture.
+    pub fn doppler_ahead(&self, motion: Celerity, geometry: bool) -> f64 {
+        let forward = self.observer_from_eye * DVec3::NEG_Z;
+        let aberration = Aberration::new(motion);
+        let (_, doppler) =
+            if geometry { aberration.world_from_observer(forward) } else { aberration.observer_from_world(forward) };
+        doppler
     }
 }
 

@@ -1,7 +1,7 @@
 //! The structs that Rust writes and a shader reads, byte for byte.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec4};
+use glam::{IVec4, Mat4, Vec2, Vec4};
 
 /// One draw: where the eye's camera points and how the eye moves.
 ///
@@ -19,6 +19,10 @@ pub struct View {
     pub up: Vec4,
     /// Unit vector along the motion, world axes; w = κ = γ + |u| (1 when at rest or when geometry is off).
     pub motion: Vec4,
+    /// κ that shifts light, whether geometry is on or off; what radiance is multiplied by; 2 over the width, 2 over the height in pixels.
+    pub shift: Vec4,
+    /// Carrier whose weights are kept, when the map is drawn; yzw unused.
+    pub layer: Vec4,
 }
 
 /// Daylight, in the world frame.
@@ -35,9 +39,9 @@ pub struct Lighting {
     pub sky: Vec4,
     /// On a surface that faces down.
     pub ground: Vec4,
-    /// Radiance of the sky overhead.
+    /// Radiance of the sky overhead; w = its carrier, and that of all sky.
     pub zenith: Vec4,
-    /// Radiance of the sky at the horizon.
+    /// Radiance of the sky at the horizon; w = carrier of the background and of a panorama.
     pub horizon: Vec4,
     /// Radiance behind everything, if w = 1; w = 0 shows the sky.
     pub background: Vec4,
@@ -51,6 +55,46 @@ pub struct Material {
     pub base_colour: Vec4,
     /// Linear radiance; w = opacity below which nothing is drawn, if the pipeline is masked.
     pub emissive: Vec4,
+    /// Carriers: of what it reflects, or, unlit, sends out; of what it emits besides; zw unused.
+    pub carriers: Vec4,
+}
+
+/// A place where a pane of the image renderer's map is cut in four: an inner node of a quadtree over a cube's face.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Cut {
+    /// Where, in tangents from the face's middle, right and up.
+    pub at: Vec2,
+    /// Fills up to the alignment of `parts`.
+    pub padding: Vec2,
+    /// Left below, right below, left above, right above: a cut, or, if negative, the pane −1 − value.
+    pub parts: IVec4,
+}
+
+/// A part of a cube's face, drawn somewhere in the atlas.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Pane {
+    /// Tangents at its upper left corner.
+    pub corner: Vec2,
+    /// Texels per tangent, right and down.
+    pub scale: Vec2,
+    /// First texel of the pane.
+    pub low: Vec2,
+    /// Texel after its last.
+    pub high: Vec2,
+}
+
+/// How a pixel finds its place in the map.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Map {
+    /// From the observer's axes (or the world's, turned alike) to the cube's: +z is along the motion.
+    pub cube_from_observer: Mat4,
+    /// Where each face begins, as a cut or, if negative, a pane: +z, −z, +x, −x; w unused.
+    pub first_roots: IVec4,
+    /// The same for +y, −y; zw unused.
+    pub last_roots: IVec4,
 }
 
 /// How samples are summed.

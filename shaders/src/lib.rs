@@ -8,7 +8,9 @@
 
 mod layout;
 
-pub use layout::{Accumulate, Adaptation, Lighting, Material, Metering, Screen, View};
+pub use layout::{Accumulate, Adaptation, Cut, Lighting, Map, Material, Metering, Pane, Screen, View};
+
+use physics::colour::ShiftTable;
 
 /// Bind group that holds [`View`], [`Lighting`] and the shadow map.
 pub const VIEW_GROUP: u32 = 0;
@@ -21,8 +23,6 @@ pub const SHADOW_BIAS_M: f32 = 0.04;
 /// Metres that the point looked up in the shadow map is moved off its surface, so that no surface shades itself.
 pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
 
-/// Luminance of linear sRGB red, green and blue (IEC 61966-2-1: the primaries of ITU-R BT.709 with a D65 white).
-pub const LUMINANCE: [f32; 3] = [0.212_639, 0.715_168_7, 0.072_192_3];
 /// Values above it are taken for it: its square is still a finite f32.
 pub const BRIGHTEST: f32 = (1_u64 << 60) as f32;
 /// Luminances below it are taken for black.
@@ -74,6 +74,15 @@ pub const GAMUT_WHITE: u32 = 1;
 /// Each channel by itself.
 pub const GAMUT_CLAMP: u32 = 2;
 
+/// Nodes of the shift table over ln D; odd, so that D = 1 is one.
+pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
+/// Luminance of linear sRGB red, green and blue (IEC 61966-2-1).
+pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+/// The largest value that a half float holds safely.
+pub const HALF_LIMIT: f32 = 60_000.0;
+/// The most looks along a stretched footprint in a panorama.
+pub const PANORAMA_LOOKS: f32 = 16.0;
+
 /// A shader module: an entry of [`MODULES`].
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
@@ -98,10 +107,16 @@ const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
 const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
+const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
+
 /// Triangles of the photo-surface (or of the plain world) under sun and sky.
-pub const SURFACE: Module = Module { name: "surface", files: &[SHARED, include_str!("../wgsl/surface.wgsl")] };
+pub const SURFACE: Module =
+    Module { name: "surface", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/surface.wgsl")] };
 /// The sky behind everything, per pixel.
-pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, include_str!("../wgsl/sky.wgsl")] };
+pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
+/// From the map of the world around the eye to what the observer sees.
+pub const WARP: Module =
+    Module { name: "warp", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/warp.wgsl")] };
 /// The sun's depth map, in the world frame.
 pub const SHADOW: Module = Module { name: "shadow", files: &[SHARED, include_str!("../wgsl/shadow.wgsl")] };
 /// The mean of several samples.
@@ -126,14 +141,19 @@ pub const DISPLAY: Module = Module {
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 8] = [SURFACE, SKY, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, PROBE];
+pub const MODULES: [Module; 9] = [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
+    let nodes_per_octave = f64::from(SHIFT_NODES - 1) * std::f64::consts::LN_2 / (2.0 * ShiftTable::LN_LIMIT);
     let mut source = String::new();
     for (name, value) in [
         ("SHADOW_FILTER_TEXELS", SHADOW_FILTER_TEXELS),
         ("SHADOW_NORMAL_OFFSET_M", SHADOW_NORMAL_OFFSET_M),
+        ("SHIFT_NODES_PER_OCTAVE", nodes_per_octave as f32),
+        ("HALF_LIMIT", HALF_LIMIT),
+        ("PANORAMA_LOOKS", PANORAMA_LOOKS),
+        ("TURN", std::f32::consts::TAU),
         ("DARKEST", DARKEST),
         ("LARGEST_LOG2", LARGEST_LOG2),
         ("METER_BINS_PER_OCTAVE", METER_BINS_PER_OCTAVE),
@@ -149,6 +169,7 @@ fn constants() -> String {
         source.push_str(&format!("const {name}: f32 = {value:?};\n"));
     }
     for (name, value) in [
+        ("SHIFT_NODES", SHIFT_NODES),
         ("BRIGHTEST_BITS", BRIGHTEST.to_bits()),
         ("METER_WORKGROUP", METER_WORKGROUP),
         ("METER_BINS", METER_BINS),

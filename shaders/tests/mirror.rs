@@ -42,12 +42,16 @@ fn every_module_validates() {
 #[test]
 fn structs_have_the_same_layout_on_both_sides() {
     let surface = parse(&shaders::SURFACE);
-    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion });
+    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion, shift, layer });
     assert_mirrors!(
         surface,
         Lighting { shadow_from_world, sun_direction, sun, sky, ground, zenith, horizon, background }
     );
-    assert_mirrors!(surface, Material { base_colour, emissive });
+    assert_mirrors!(surface, Material { base_colour, emissive, carriers });
+    let warp = parse(&shaders::WARP);
+    assert_mirrors!(warp, Cut { at, padding, parts });
+    assert_mirrors!(warp, Pane { corner, scale, low, high });
+    assert_mirrors!(warp, Map { cube_from_observer, first_roots, last_roots });
     assert_mirrors!(parse(&shaders::ACCUMULATE), Accumulate { weight });
     assert_mirrors!(parse(&shaders::DISPLAY), Screen { encode, tone, gamut });
     let meter = parse(&shaders::METER);

@@ -23,3 +23,16 @@ fn world_from_observer(observed: vec3<f32>, motion: vec4<f32>) -> Aberrated {
     let scaled = across + (ahead - behind) * motion.xyz;
     return Aberrated(scaled / (ahead + behind), length / (ahead + behind));
 }
+
+// The Doppler factor of light from a world direction, D = gamma + u.n, for a picture that shows directions as the world has them.
+fn doppler_of_world(direction: vec3<f32>, motion: vec4<f32>) -> f32 {
+    let along = dot(motion.xyz, direction);
+    let across = direction - along * motion.xyz;
+    let squared = dot(across, across);
+    let length = sqrt(along * along + squared);
+    let big = length + abs(along);
+    let small = squared / big;
+    let ahead = select(small, big, along >= 0.0) * 0.5 * motion.w;
+    let behind = select(big, small, along >= 0.0) * 0.5 / motion.w;
+    return (ahead + behind) / length;
+}

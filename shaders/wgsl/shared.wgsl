@@ -6,6 +6,8 @@ struct View {
     right: vec4<f32>,
     up: vec4<f32>,
     motion: vec4<f32>,
+    shift: vec4<f32>,
+    layer: vec4<f32>,
 }
 
 struct Lighting {

@@ -1,4 +1,12 @@
-// Behind everything: each pixel's direction is taken from the observer's axes to the world's, and the sky looked up there.
+// Behind everything: each pixel's direction is taken from the observer's axes to the world's, and the sky or the panorama looked up there.
+
+// Weights for the map instead of the light that an observer sees.
+override MAP: bool = false;
+// What is shown instead of sky, haze and sun.
+override PANORAMA: bool = false;
+
+@group(0) @binding(5) var panorama: texture_2d<f32>;
+@group(0) @binding(6) var panorama_sampler: sampler;
 
 struct Pixel {
     @builtin(position) clip: vec4<f32>,
@@ -12,19 +20,73 @@ fn vertex(@builtin(vertex_index) index: u32) -> Pixel {
     return Pixel(vec4(place, 0.0, 1.0), place);
 }
 
-@fragment
-fn fragment(in: Pixel) -> @location(0) vec4<f32> {
-    if (lighting.background.w == 1.0) {
-        return vec4(lighting.background.rgb, 1.0);
-    }
-    let observed = view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz;
-    let direction = world_from_observer(normalize(observed), view.motion).direction;
-
-    // A gradient from the horizon up, haze below, and the glow around the sun.
+// A gradient from the horizon up, haze below, and the glow around the sun.
+fn sky(direction: vec3<f32>) -> vec3<f32> {
     let height = direction.y;
     let clear = mix(lighting.horizon.rgb, lighting.zenith.rgb, smoothstep(0.0, 0.9, sqrt(max(height, 0.0))));
     let haze = mix(lighting.ground.rgb * 2.0, clear, smoothstep(-0.25, 0.0, height));
     let towards_sun = max(dot(direction, lighting.sun_direction.xyz), 0.0);
     let glow = 0.25 * pow(towards_sun, 24.0) + 4.0 * smoothstep(0.99985, 0.99995, towards_sun);
-    return vec4(haze + glow * lighting.sun.rgb, 1.0);
+    return haze + glow * lighting.sun.rgb;
+}
+
+// Where a world direction lies in an equirectangular picture, 0 to 1; its middle is -z.
+fn place_in_panorama(direction: vec3<f32>) -> vec2<f32> {
+    let longitude = atan2(direction.x, -direction.z);
+    let latitude = atan2(direction.y, length(direction.xz));
+    return vec2(0.5 + longitude / TURN, 0.5 - 2.0 * latitude / TURN);
+}
+
+// The mean of the panorama over the footprint of a pixel: `right` and `down` are the directions of its neighbours.
+//
+// Aberration stretches footprints without bound (W 5.5.4): several looks along the longer side, each filtered over the shorter one.
+fn surrounding(middle: vec3<f32>, right: vec3<f32>, down: vec3<f32>) -> vec3<f32> {
+    let size = vec2<f32>(textureDimensions(panorama));
+    let across = right - middle;
+    let along = down - middle;
+    let shorter = min(dot(across, across), dot(along, along));
+    let longer = max(dot(across, across), dot(along, along));
+    let axis = select(along, across, dot(across, across) > dot(along, along));
+    let looks = clamp(ceil(sqrt(longer / max(shorter, 1e-20))), 1.0, PANORAMA_LOOKS);
+    // Texels of the picture to the radian, at its equator.
+    let level = log2(max(max(sqrt(shorter), sqrt(longer) / looks) * size.x / TURN, 1.0));
+    var sum = vec3(0.0);
+    for (var look = 0.0; look < looks; look += 1.0) {
+        let direction = normalize(middle + axis * ((look + 0.5) / looks - 0.5));
+        sum += textureSampleLevel(panorama, panorama_sampler, place_in_panorama(direction), level).rgb;
+    }
+    return sum / looks;
+}
+
+@fragment
+fn fragment(in: Pixel) -> @location(0) vec4<f32> {
+    let observed = normalize(view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz);
+    let seen = world_from_observer(observed, view.motion);
+    var weights = lighting.background.rgb;
+    var carrier = lighting.horizon.w;
+    if (lighting.background.w != 1.0) {
+        if (PANORAMA) {
+            // The neighbouring pixels' directions, at unit distance along the view's middle.
+            let step_right = view.shift.z * view.right.xyz;
+            let step_down = -view.shift.w * view.up.xyz;
+            let middle = view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz;
+            let right = world_from_observer(normalize(middle + step_right), view.motion).direction;
+            let down = world_from_observer(normalize(middle + step_down), view.motion).direction;
+            weights = surrounding(seen.direction, right, down);
+        } else {
+            weights = sky(seen.direction);
+            carrier = lighting.zenith.w;
+        }
+    }
+    if (MAP) {
+        return vec4(select(vec3(0.0), weights, carrier == view.layer.x), 1.0);
+    }
+    var doppler = 1.0;
+    if (DOPPLER || SEARCHLIGHT) {
+        doppler = seen.doppler;
+        if (!GEOMETRY) {
+            doppler = doppler_of_world(observed, vec4(view.motion.xyz, view.shift.x));
+        }
+    }
+    return observed_light(weights, u32(carrier), doppler);
 }

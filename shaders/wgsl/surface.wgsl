@@ -4,6 +4,7 @@
 struct Material {
     base_colour: vec4<f32>,
     emissive: vec4<f32>,
+    carriers: vec4<f32>,
 }
 
 // What a pipeline is made for: a branch on these costs nothing, and what a material cannot show is not computed.
@@ -11,6 +12,14 @@ override LIT: bool = true;
 override SHADOWED: bool = true;
 override EMISSIVE: bool = true;
 override MASKED: bool = true;
+// A spectrum takes the colours' place: only their luminance counts.
+override SPECTRAL: bool = false;
+// Emitted light has another carrier than reflected light.
+override SPLIT: bool = false;
+// Mixed with what is there, by alpha.
+override BLENDED: bool = false;
+// Weights for the map instead of the light that an observer sees.
+override MAP: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
@@ -57,6 +66,20 @@ fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
     return sum * 0.25;
 }
 
+// Light on a surface, as weights: the hemisphere, and the sun where it is seen.
+fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    var light = mix(lighting.ground.rgb, lighting.sky.rgb, 0.5 + 0.5 * normal.y);
+    let facing = dot(normal, lighting.sun_direction.xyz);
+    if (facing > 0.0) {
+        var visible = 1.0;
+        if (SHADOWED) {
+            visible = sunlit(world, normal);
+        }
+        light += lighting.sun.rgb * facing * visible;
+    }
+    return light;
+}
+
 @fragment
 fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
     let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
@@ -68,20 +91,39 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     if (MASKED && base.a < material.emissive.w) {
         discard;
     }
-    if (!LIT) {
-        return base;
+
+    // Weights that leave the surface: on its own carrier, and what it emits besides.
+    var weights = base.rgb;
+    if (SPECTRAL) {
+        weights = vec3(dot(base.rgb, LUMINANCE));
+    }
+    if (LIT) {
+        let normal = normalize(in.normal) * select(-1.0, 1.0, front);
+        weights *= falling(in.world, normal);
+    }
+    if (EMISSIVE && !SPLIT) {
+        weights += emitted;
     }
 
-    // Light that falls on the surface: the hemisphere, and the sun where it is seen.
-    let normal = normalize(in.normal) * select(-1.0, 1.0, front);
-    var light = mix(lighting.ground.rgb, lighting.sky.rgb, 0.5 + 0.5 * normal.y);
-    let facing = dot(normal, lighting.sun_direction.xyz);
-    if (facing > 0.0) {
-        var visible = 1.0;
-        if (SHADOWED) {
-            visible = sunlit(in.world, normal);
+    // The map keeps the weights of one carrier at a time.
+    if (MAP) {
+        var kept = select(vec3(0.0), weights, material.carriers.x == view.layer.x);
+        if (SPLIT) {
+            kept += select(vec3(0.0), emitted, material.carriers.y == view.layer.x);
         }
-        light += lighting.sun.rgb * facing * visible;
+        return vec4(kept, base.a);
     }
-    return vec4(base.rgb * light + emitted, base.a);
+
+    var doppler = 1.0;
+    if (DOPPLER || SEARCHLIGHT) {
+        doppler = pixel_doppler(in.clip.xy);
+    }
+    var light = observed_light(weights, u32(material.carriers.x), doppler);
+    if (SPLIT) {
+        light += observed_light(emitted, u32(material.carriers.y), doppler);
+    }
+    if (BLENDED) {
+        light.a = base.a;
+    }
+    return light;
 }

@@ -6,8 +6,8 @@ use physics::Celerity;
 use physics::photo_surface::Eye;
 use rapidity::gpu::{Gpu, GpuError};
 use rapidity::renderers::display::Development;
-use rapidity::renderers::picture::{Shot, Studio};
-use rapidity::renderers::polygon::{PolygonRenderer, Positions};
+use rapidity::renderers::picture::Studio;
+use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::Scene;
 use std::sync::LazyLock;
 
@@ -24,36 +24,45 @@ pub fn gpu() -> &'static Gpu {
     GPU.as_ref().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Draws one scene with the `polygon` renderer.
+/// Draws one scene by one method.
 pub struct Photographer {
-    renderer: PolygonRenderer,
+    renderer: SceneRenderer,
     studio: Studio,
     size: [u32; 2],
 }
 
 impl Photographer {
-    /// Prepares pictures of `size` pixels with `samples` each. `background`: linear radiance instead of the scene's sky.
+    /// Prepares pictures by the `polygon` renderer, of `size` pixels with `samples` each. `background`: linear radiance instead of the
+    /// scene's sky.
     pub fn new(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>) -> Self {
-        let renderer = PolygonRenderer::new(gpu(), scene, Studio::format(gpu()), background)
+        Self::with(scene, size, samples, background, Method::Polygon)
+    }
+
+    /// The same by any method.
+    pub fn with(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, method: Method) -> Self {
+        let renderer = SceneRenderer::new(gpu(), scene, Studio::format(gpu()), background, method)
             .expect("scenes of tests have a finite origin");
         Self { renderer, studio: Studio::new(gpu(), size, samples), size }
     }
 
-    /// What an eye that moves sees.
+    /// Where things are seen by an eye that moves.
     pub fn moving(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> RgbaImage {
-        let event = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
-        self.renderer.submit(gpu(), event).expect("the device is there");
-        self.shoot(view, Shot { camera: view.camera(), positions: Positions::Apparent, eye, motion: celerity })
+        self.seen(view, eye, celerity, Effects::GEOMETRY)
     }
 
     /// The plain world, as if light were infinitely fast.
     pub fn plain(&mut self, view: &View, eye: DVec3) -> RgbaImage {
-        let positions = Positions::Plain(eye);
-        self.shoot(view, Shot { camera: view.camera(), positions, eye, motion: Celerity::ZERO })
+        self.seen(view, eye, Celerity::ZERO, Effects::NONE)
     }
 
-    fn shoot(&mut self, view: &View, shot: Shot) -> RgbaImage {
+    /// What an eye that moves sees, with these effects.
+    pub fn seen(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> RgbaImage {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
+        let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
+        let shot = Shot { camera: view.camera(), eye, effects };
+        if self.renderer.transforms(effects) {
+            self.renderer.submit(gpu(), eye).expect("the device is there");
+        }
         let development = Development::default();
         self.studio.photograph(gpu(), &mut self.renderer, &shot, &development, None).expect("the device is there")
     }

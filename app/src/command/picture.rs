@@ -2,6 +2,7 @@
 
 use crate::renderers::Effects;
 use crate::renderers::display::{Development, Exposure, Gamut, Tone};
+use crate::renderers::image::MapQuality;
 use clap::Args;
 
 use super::values::{self, ValueError};
@@ -14,6 +15,8 @@ pub enum Renderer {
     Auto,
     /// The photo-surface of every vertex (W 5.1).
     Polygon,
+    /// A map of the world around the eye, bent pixel by pixel (B 5).
+    Image,
 }
 
 /// Size, field of view, quality.
@@ -43,9 +46,13 @@ pub struct PictureOptions {
     /// Where colours go that the screen does not have.
     #[arg(long, value_enum, default_value = "desaturate")]
     pub gamut: Gamut,
-    /// How the picture is computed: auto or polygon.
+    /// How the picture is computed: auto, polygon or image.
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
     pub renderer: Renderer,
+    /// Texels of the image renderer's map for each pixel, along each axis [default: 8 for a picture of one sample a pixel, 3 for one of
+    /// several, 1.25 in a window].
+    #[arg(long, value_name = "N", value_parser = values::within(0.1, 16.0))]
+    pub map_scale: Option<f64>,
     /// Colour where no surface is: linear red, green, blue, each 0 to 1 [default: the scene's sky].
     #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::colour)]
     pub background: Option<[f32; 3]>,
@@ -65,7 +72,23 @@ fn renderer(text: &str) -> Result<Renderer, ValueError> {
     match text {
         "auto" => Ok(Renderer::Auto),
         "polygon" => Ok(Renderer::Polygon),
-        "image" | "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
+        "image" => Ok(Renderer::Image),
+        "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
         _ => Err(ValueError::Renderer),
+    }
+}
+
+impl PictureOptions {
+    /// How finely the image renderer's map is drawn for pictures that are kept.
+    ///
+    /// One sample a pixel is the light of one ray, so the map must be fine, and its texels must not be mixed; several samples mix by themselves.
+    pub fn map_of_pictures(&self) -> MapQuality {
+        let usual = if self.samples == 1 { 8.0 } else { 3.0 };
+        MapQuality { texels_per_pixel: self.map_scale.unwrap_or(usual), smooth: false }
+    }
+
+    /// How finely it is drawn for a window.
+    pub fn map_of_windows(&self) -> MapQuality {
+        MapQuality { texels_per_pixel: self.map_scale.unwrap_or(1.25), smooth: true }
     }
 }

@@ -50,13 +50,13 @@ pub enum ValueError {
         allowed: &'static str,
     },
     /// A renderer of the design that is not part of the program yet.
-    #[error("the {name} renderer is not there yet; use auto or polygon")]
+    #[error("the {name} renderer is not there yet; use auto, polygon or image")]
     NotYet {
         /// Its name.
         name: String,
     },
     /// No renderer's name.
-    #[error("expected auto or polygon")]
+    #[error("expected auto, polygon or image")]
     Renderer,
     /// No vehicle's name.
     #[error("expected bicycle, drive or fly")]

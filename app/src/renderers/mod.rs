@@ -1,12 +1,19 @@
 //! From a scene and an observer to radiance, and from radiance to a picture.
 //!
-//! [`polygon`] draws the photo-surface with ordinary rasterisation. All renderers draw into a [`target::Radiance`]
-//! target of linear values, which [`display`] turns into pixels.
+//! [`polygon`] draws the photo-surface with ordinary rasterisation, [`image`] bends a map of the world pixel by pixel; both draw the same
+//! [`world`], and [`SceneRenderer`] is whichever a scene is drawn by. All draw into a [`target::Radiance`] target of linear
+//! values, which [`display`] turns into pixels.
 
+pub mod choice;
 pub mod display;
+pub mod image;
 pub mod picture;
 pub mod polygon;
+mod scene_renderer;
 pub mod target;
+pub mod world;
+
+pub use scene_renderer::{Method, SceneRenderer, Shot};
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;

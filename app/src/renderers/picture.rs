@@ -1,31 +1,16 @@
 //! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB or as light.
 
 use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, Stored};
-use super::polygon::{PolygonRenderer, Positions};
 use super::target::{Format, Radiance};
+use super::{SceneRenderer, Shot};
 use crate::gpu::{Gpu, GpuError};
-use crate::views::{Camera, sample_offset};
-use glam::DVec3;
+use crate::views::sample_offset;
 use image::{Rgb32FImage, RgbaImage};
-use physics::Celerity;
 
 /// What a picture is stored as.
 const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// What light is fetched as.
 const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-
-/// What one picture shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
-    /// Where the eye points.
-    pub camera: Camera,
-    /// Which positions are drawn.
-    pub positions: Positions,
-    /// World position of the eye.
-    pub eye: DVec3,
-    /// The eye's celerity if aberration is drawn, zero if not.
-    pub motion: Celerity,
-}
 
 /// Turns radiance into pictures in memory.
 pub struct Darkroom {
@@ -145,7 +130,7 @@ impl Studio {
         Format::exact(gpu)
     }
 
-    /// Takes a picture. An apparent scene must have been submitted to `renderer` before; it is received here.
+    /// Takes a picture. Where `renderer` needs a photo-surface, it must have been submitted before; it is received here.
     ///
     /// # Arguments
     /// * `elapsed_s` — the observer's own time since the picture before, to which his eye is still adapted; `None` adapts it at once.
@@ -155,7 +140,7 @@ impl Studio {
     pub fn photograph(
         &mut self,
         gpu: &Gpu,
-        renderer: &mut PolygonRenderer,
+        renderer: &mut SceneRenderer,
         shot: &Shot,
         development: &Development,
         elapsed_s: Option<f64>,
@@ -173,31 +158,29 @@ impl Studio {
     ///
     /// # Errors
     /// As [`Studio::photograph`].
-    pub fn expose(&mut self, gpu: &Gpu, renderer: &mut PolygonRenderer, shot: &Shot) -> Result<Rgb32FImage, GpuError> {
+    pub fn expose(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Rgb32FImage, GpuError> {
         let stored = self.draw(gpu, renderer, shot)?;
         let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
         light(gpu, radiance, &stored)
     }
 
     /// Draws each sample, and adds it up.
-    fn draw(&mut self, gpu: &Gpu, renderer: &mut PolygonRenderer, shot: &Shot) -> Result<Stored, GpuError> {
-        if shot.positions == Positions::Apparent {
+    fn draw(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Stored, GpuError> {
+        if renderer.transforms(shot.effects) {
             let transformed = renderer.receive()?;
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.upload(&mut encoder, transformed);
-            gpu.queue.submit([encoder.finish()]);
+            renderer.show(gpu, transformed);
         }
+        renderer.prepare(gpu, shot, self.size);
         self.sum.restart();
         for sample in 0..self.samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let view = shot.camera.view(self.size, sample_offset(sample, self.samples), shot.motion);
-            renderer.draw(gpu, &mut encoder, &self.radiance, &view, shot.positions, shot.eye);
+            renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, self.samples));
             if self.samples > 1 {
                 self.darkroom.display.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), self.samples);
             }
             gpu.queue.submit([encoder.finish()]);
         }
-        Ok(Stored::UNSHIFTED)
+        Ok(renderer.stored(shot))
     }
 }
 

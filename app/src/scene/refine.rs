@@ -81,6 +81,12 @@ pub fn refine(scene: &Scene, edge: f32) -> Result<Scene, RefineError> {
     refine_within(scene, edge, MAX_TRIANGLES)
 }
 
+/// Whether [`refine`] would make more than `limit` triangles.
+pub fn cut_beyond(scene: &Scene, edge: f32, limit: usize) -> bool {
+    let circuit: Vec<DVec3> = scene.circuit.iter().map(|&place| place - scene.origin).collect();
+    scene.validate().is_ok() && Rule::new(f64::from(edge), &circuit).count(scene, limit).is_none()
+}
+
 fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, RefineError> {
     if !(edge.is_finite() && edge > 0.0) {
         return Err(RefineError::Edge(edge));

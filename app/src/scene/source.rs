@@ -1,7 +1,6 @@
 //! Where a scene comes from: built in, or a file; refined so that straight edges may bend.
 
 use super::gltf::{self, GltfError, Stage};
-use super::refine::{RefineError, refine};
 use super::{Scene, lattice::Lattice, town};
 use crate::command::SceneChoice;
 use crate::progress;
@@ -40,15 +39,4 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, GltfError> {
             Ok(scene)
         }
     }
-}
-
-/// Cuts triangles until no edge is longer than `edge` metres.
-///
-/// # Errors
-/// [`RefineError`] if that would make too many.
-pub fn refined(scene: &Scene, edge: f64) -> Result<Scene, RefineError> {
-    let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
-    let refined = refine(scene, edge as f32)?;
-    spinner.finish_and_clear();
-    Ok(refined)
 }

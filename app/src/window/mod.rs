@@ -17,9 +17,10 @@ use crate::gpu::{Gpu, GpuError, descriptor};
 use crate::live::Live;
 use crate::photo;
 use crate::progress;
-use crate::render::{described, interrupted};
+use crate::render::interrupted;
+use crate::renderers::SceneRenderer;
+use crate::renderers::choice::Choice;
 use crate::renderers::display::{Adaptation, Display, Seen, development};
-use crate::renderers::polygon::PolygonRenderer;
 use crate::renderers::target::{Format, Radiance};
 use crate::scene::Scene;
 pub use hud::Readings;
@@ -99,7 +100,7 @@ struct Open {
 impl ApplicationHandler for Application {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if let Some((scene, live)) = self.waiting.take() {
-            match Open::new(events, &self.options, &scene, live) {
+            match Open::new(events, &self.options, scene, live) {
                 Ok(open) => {
                     open.window.request_redraw();
                     self.open = Some(open);
@@ -126,7 +127,7 @@ impl Application {
 }
 
 impl Open {
-    fn new(events: &ActiveEventLoop, options: &RideOptions, scene: &Scene, live: Begin) -> Result<Self, Error> {
+    fn new(events: &ActiveEventLoop, options: &RideOptions, scene: Scene, live: Begin) -> Result<Self, Error> {
         let [width, height] = options.picture.size;
         let attributes = Window::default_attributes()
             .with_title(format!("Rapidity: {}", scene.name))
@@ -149,9 +150,12 @@ impl Open {
 
         let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
         let format = Format::fast(samples);
-        eprintln!("{}", described(scene, &gpu));
+        let picture = &options.picture;
+        let choice = Choice::of(scene, picture.renderer, options.world.edge, picture.map_of_windows())?;
+        let Choice { scene, method, because } = choice;
+        eprintln!("{because}, on {}", gpu.description());
         let spinner = progress::spinner("uploading");
-        let renderer = PolygonRenderer::new(&gpu, scene, format, options.picture.background)?;
+        let renderer = SceneRenderer::new(&gpu, &scene, format, options.picture.background, method)?;
         gpu.wait()?;
         spinner.finish_and_clear();
         let interface = Interface::new(&gpu, &window, configuration.format);

@@ -1,7 +1,15 @@
 //! The spectra that a material or a light may have.
+//!
+//! One type serves for light and for reflectance, since a scene file says either in the same words: what a Planck
+//! spectrum, say, means as a reflectance is told at [`Spectrum::reflectance`].
 
+use std::ops::Range;
 use std::sync::Arc;
+
+use glam::DVec3;
 use thiserror::Error;
+
+use super::{Carrier, planck, shares, white};
 
 /// A spectrum: of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +101,67 @@ impl Spectrum {
             Err(SpectrumError::Colour { rgb })
         }
     }
+
+    /// L(λ), the spectral radiance where this is the spectrum of light.
+    ///
+    /// A black body's is that of its temperature, measured values are taken as they are, and colours are parts of
+    /// [`white`]. *Units:* nm; W sr⁻¹ m⁻³.
+    pub fn radiance(&self, wavelength_nm: f64) -> f64 {
+        self.lifted_radiance(wavelength_nm, 0.0)
+    }
+
+    /// ρ(λ), the share of light that is returned where this is the spectrum of a surface.
+    ///
+    /// Measured values are taken as they are, also above 1; a colour returns Σ cᵢ Sᵢ, and a thermal spectrum what it is
+    /// of its own maximum. *Units:* nm.
+    pub fn reflectance(&self, wavelength_nm: f64) -> f64 {
+        self.lifted_reflectance(wavelength_nm, 0.0)
+    }
+
+    /// Tristimulus values (CIE 1931 2°) of this light as an observer sees it who meets it with the Doppler factor D:
+    /// colour and brightness.
+    ///
+    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only where
+    /// D⁵ L is beyond all numbers.
+    pub fn xyz(&self, doppler: f64) -> DVec3 {
+        Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
+    }
+
+    /// e^lift times the radiance.
+    pub(super) fn lifted_radiance(&self, nm: f64, lift: f64) -> f64 {
+        match self {
+            Self::Planck { kelvin } => planck::radiance(*kelvin, nm, lift),
+            Self::Sampled(sampled) => sampled.at(nm),
+            Self::Rgb(_) | Self::Gray => self.reflectance(nm) * white(nm),
+        }
+    }
+
+    /// e^lift times the reflectance.
+    pub(super) fn lifted_reflectance(&self, nm: f64, lift: f64) -> f64 {
+        match self {
+            Self::Planck { kelvin } => planck::share(*kelvin, nm, lift),
+            Self::Sampled(sampled) => sampled.at(nm),
+            Self::Rgb(rgb) => DVec3::from_array(*rgb).dot(DVec3::from_array(shares(nm))),
+            Self::Gray => 1.0,
+        }
+    }
+
+    /// The logarithm by which Wien's law takes light of this wavelength down; 0 for what is not thermal.
+    pub(super) fn wien_exponent(&self, nm: f64) -> f64 {
+        match self {
+            Self::Planck { kelvin } => planck::exponent(*kelvin, nm),
+            Self::Sampled(_) | Self::Rgb(_) | Self::Gray => 0.0,
+        }
+    }
+
+    /// The wavelengths within this range at which the spectrum is not smooth, ascending. *Units:* nm.
+    pub(super) fn bends_within(&self, nm: Range<f64>) -> impl Iterator<Item = f64> {
+        let samples = match self {
+            Self::Sampled(sampled) => sampled.within(nm),
+            Self::Planck { .. } | Self::Rgb(_) | Self::Gray => &[],
+        };
+        samples.iter().map(|[nm, _]| *nm)
+    }
 }
 
 impl Sampled {
@@ -121,5 +190,22 @@ impl Sampled {
     /// The samples, ascending in wavelength: [nm, value].
     pub fn samples(&self) -> &[[f64; 2]] {
         &self.samples
+    }
+
+    /// The value at a wavelength in nm.
+    fn at(&self, nm: f64) -> f64 {
+        let above = self.samples.partition_point(|[sample_nm, _]| *sample_nm <= nm);
+        match (above.checked_sub(1).map(|below| self.samples[below]), self.samples.get(above)) {
+            (Some([left, low]), Some([right, high])) => low + (high - low) * ((nm - left) / (right - left)),
+            (Some([_, end]), None) | (None, Some(&[_, end])) => end,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The samples at these wavelengths in nm.
+    fn within(&self, nm: Range<f64>) -> &[[f64; 2]] {
+        let below = |limit: f64| self.samples.partition_point(|[sample_nm, _]| *sample_nm < limit);
+        let start = below(nm.start);
+        &self.samples[start..below(nm.end).max(start)]
     }
 }

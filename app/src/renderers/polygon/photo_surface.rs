@@ -11,8 +11,8 @@
 //! and a whole photo-surface is handed over or nothing. [`PhotoSurface::submit`] for frame n + 1 before
 //! [`PhotoSurface::receive`]'s frame n is drawn makes the two overlap.
 
-use super::geometry::stream_stride;
 use crate::gpu::{Gpu, GpuError};
+use crate::renderers::world::stream_stride;
 use crate::scene::Scene;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use physics::photo_surface::{Eye, Kernel, PhotoSurfaceError, Stats, Surface, Vertices};

@@ -1,5 +1,6 @@
 //! Materials on the GPU: a uniform and two textures each.
 
+use super::spectra::{Carriers, Spectra};
 use crate::gpu::Gpu;
 use crate::scene::mipmap::mipmap;
 use crate::scene::{Alpha, Material, Scene, Texture, Wrap};
@@ -24,7 +25,7 @@ pub struct Materials {
 
 impl Materials {
     /// Uploads textures with all their mip levels, and the uniforms.
-    pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra) -> Self {
         let layout = layout(gpu);
         let white = Texture {
             name: "white".to_owned(),
@@ -47,10 +48,11 @@ impl Materials {
         let bind_groups = scene
             .materials
             .iter()
-            .map(|material| {
+            .zip(&spectra.materials)
+            .map(|(material, carriers)| {
                 let texture = |index: Option<usize>| &textures[index.unwrap_or(scene.textures.len())];
                 let (base, emissive) = (texture(material.base_colour_texture), texture(material.emissive_texture));
-                bind(gpu, &layout, material, base, emissive)
+                bind(gpu, &layout, material, *carriers, base, emissive)
             })
             .collect();
         Self { layout, bind_groups }
@@ -63,6 +65,7 @@ fn bind(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     material: &Material,
+    carriers: Carriers,
     base: &Sampled,
     emissive: &Sampled,
 ) -> wgpu::BindGroup {
@@ -71,6 +74,7 @@ fn bind(
     let uniform = shaders::Material {
         base_colour: Vec4::from_array(material.base_colour),
         emissive: Vec4::new(red, green, blue, threshold),
+        carriers: Vec4::new(carriers.surface as f32, carriers.emission as f32, 0.0, 0.0),
     };
     let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(&material.name),

@@ -4,7 +4,11 @@ use crate::gpu::Gpu;
 use crate::scene::{Alpha, Scene};
 use bytemuck::{Pod, Zeroable, cast_slice};
 use glam::{DVec3, Vec3};
+use std::ops::Range;
 use wgpu::util::DeviceExt;
+
+/// Triangles of a [`Group`]: enough that a draw of its own costs little beside them.
+const GROUP_TRIANGLES: usize = 512;
 
 /// What a vertex carries besides its apparent position.
 #[repr(C)]
@@ -26,9 +30,22 @@ pub struct Draw {
     /// Index into the scene's materials.
     pub material: usize,
     /// Range of the index buffer.
-    pub indices: std::ops::Range<u32>,
+    pub indices: Range<u32>,
     /// World position to sort blended surfaces by.
     pub centre: DVec3,
+    /// The same triangles in groups that lie close together, for views that see little of the world.
+    pub groups: Vec<Group>,
+}
+
+/// A few triangles, and a ball around them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// Range of the index buffer.
+    pub indices: Range<u32>,
+    /// World position.
+    pub centre: DVec3,
+    /// Metres.
+    pub radius: f64,
 }
 
 /// Buffers that never change while a scene is shown.
@@ -117,6 +134,7 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
             material: source.material,
             indices: start..indices.len() as u32,
             centre: scene.origin + centre(&source.positions),
+            groups: Vec::new(),
         };
         match opaque.last_mut() {
             _ if blends(mesh) => blended.push(draw),
@@ -124,7 +142,57 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
             _ => opaque.push(draw),
         }
     }
+    let positions: Vec<Vec3> = scene.meshes.iter().flat_map(|mesh| mesh.positions.iter().copied()).collect();
+    for draw in &mut opaque {
+        gather(&mut indices[draw.indices.start as usize..draw.indices.end as usize], &positions);
+    }
+    for draw in opaque.iter_mut().chain(&mut blended) {
+        let range = draw.indices.start as usize..draw.indices.end as usize;
+        draw.groups = groups(&indices[range], draw.indices.start, &positions, scene.origin);
+    }
     (indices, opaque, blended)
+}
+
+/// Sorts triangles so that neighbours in space are neighbours in the list: by the Morton code of their centres.
+fn gather(indices: &mut [u32], positions: &[Vec3]) {
+    let mut triangles: Vec<[u32; 3]> =
+        indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
+    let middle = |corners: &[u32; 3]| corners.iter().map(|&i| positions[i as usize]).sum::<Vec3>() / 3.0;
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for triangle in &triangles {
+        let middle = middle(triangle);
+        (low, high) = (low.min(middle), high.max(middle));
+    }
+    // One cell size for all axes, 1024 cells along the longest.
+    let cells = 1023.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
+    triangles.sort_by_cached_key(|triangle| {
+        let [x, y, z] = ((middle(triangle) - low) * cells).to_array().map(|cell| spread(cell as u32));
+        x | y << 1 | z << 2
+    });
+    for (place, corner) in indices.iter_mut().zip(triangles.as_flattened()) {
+        *place = *corner;
+    }
+}
+
+/// Ten bits, two zeros between each and the next.
+fn spread(bits: u32) -> u32 {
+    (0..10).fold(0, |sum, bit| sum | (bits >> bit & 1) << (3 * bit))
+}
+
+/// Cuts a list of triangles into groups. `first` is the list's place in the index buffer.
+fn groups(indices: &[u32], first: u32, positions: &[Vec3], origin: DVec3) -> Vec<Group> {
+    let group = |(number, corners): (usize, &[u32])| {
+        let corner = |&index: &u32| positions[index as usize].as_dvec3();
+        let (low, high) = corners
+            .iter()
+            .map(corner)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let centre = 0.5 * (low + high);
+        let radius = corners.iter().map(|index| corner(index).distance(centre)).fold(0.0, f64::max);
+        let start = first + (number * 3 * GROUP_TRIANGLES) as u32;
+        Group { indices: start..start + corners.len() as u32, centre: origin + centre, radius }
+    };
+    indices.chunks(3 * GROUP_TRIANGLES).enumerate().map(group).collect()
 }
 
 fn centre(positions: &[Vec3]) -> DVec3 {

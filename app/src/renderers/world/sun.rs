@@ -5,6 +5,7 @@
 
 use super::geometry::Geometry;
 use super::pipelines::Pipelines;
+use super::spectra::Spectra;
 use crate::gpu::Gpu;
 use crate::renderers::target::{DEPTH_FORMAT, texture};
 use crate::scene::Scene;
@@ -35,9 +36,10 @@ impl Light {
         scene: &Scene,
         geometry: &Geometry,
         pipelines: &Pipelines,
+        spectra: &Spectra,
         background: Option<[f32; 3]>,
     ) -> Self {
-        let lighting = lighting(scene, background);
+        let lighting = lighting(scene, spectra, background);
         let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("lighting"),
             contents: bytes_of(&lighting),
@@ -100,7 +102,7 @@ impl Light {
 }
 
 /// The light of a scene as the shaders take it.
-fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
+fn lighting(scene: &Scene, spectra: &Spectra, background: Option<[f32; 3]>) -> shaders::Lighting {
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
     let (shadow_from_world, depth_m) = shadow_from_world(scene);
@@ -110,8 +112,8 @@ fn lighting(scene: &Scene, background: Option<[f32; 3]>) -> shaders::Lighting {
         sun: colour(light.sun).with_w(shaders::SHADOW_BIAS_M / depth_m as f32),
         sky: colour(light.sky),
         ground: colour(light.ground),
-        zenith: colour(light.zenith),
-        horizon: colour(light.horizon),
+        zenith: colour(light.zenith).with_w(spectra.sky as f32),
+        horizon: colour(light.horizon).with_w(spectra.white as f32),
         background: background.map_or(Vec4::ZERO, |b| colour(b).with_w(1.0)),
     }
 }

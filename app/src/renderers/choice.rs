@@ -1,0 +1,59 @@
+//! Which method draws a scene best.
+//!
+//! Straight edges must bend. `polygon` bends vertices, so it wants triangles that are short beside their distance, and draws them all again; `image`
+//! bends pixels, so it takes the scene as it was modelled, however coarse.
+
+use super::Method;
+use super::image::MapQuality;
+use crate::command::Renderer;
+use crate::progress;
+use crate::scene::Scene;
+use crate::scene::refine::{RefineError, cut_beyond, refine};
+use std::borrow::Cow;
+
+/// A scene that has to be cut into so many times as many triangles is coarse.
+const COARSE: usize = 4;
+
+/// A scene as a method draws it.
+#[derive(Debug)]
+pub struct Choice {
+    /// Cut for bending, if the method needs that.
+    pub scene: Scene,
+    /// How it is drawn.
+    pub method: Method,
+    /// Which method, and why, in one line.
+    pub because: String,
+}
+
+impl Choice {
+    /// Chooses, unless the user has, and cuts triangles longer than `edge` metres where that is needed.
+    ///
+    /// # Errors
+    /// [`RefineError`] if that would make too many.
+    pub fn of(scene: Scene, wanted: Renderer, edge: f64, quality: MapQuality) -> Result<Self, RefineError> {
+        let triangles = scene.triangle_count();
+        let (image, why): (bool, Cow<'_, str>) = match wanted {
+            Renderer::Image => (true, "as asked".into()),
+            Renderer::Polygon => (false, "as asked".into()),
+            Renderer::Auto if triangles == 0 => (false, "there is only sky, which needs no map".into()),
+            Renderer::Auto if cut_beyond(&scene, edge as f32, COARSE * triangles) => (
+                true,
+                format!(
+                    "its {triangles} triangles are coarse: to bend their edges, --renderer polygon would cut them into more than {}",
+                    COARSE * triangles
+                )
+                .into(),
+            ),
+            Renderer::Auto => (false, format!("its {triangles} triangles are fine enough to bend").into()),
+        };
+        let name = scene.name.clone();
+        if image {
+            let because = format!("{name}: drawn by the image renderer ({why})");
+            return Ok(Self { scene, method: Method::Image(quality), because });
+        }
+        let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
+        let scene = refine(&scene, edge as f32)?;
+        spinner.finish_and_clear();
+        Ok(Self { scene, method: Method::Polygon, because: format!("{name}: drawn by the polygon renderer ({why})") })
+    }
+}

@@ -1,0 +1,91 @@
+//! Where the map's panes are drawn: one texture, a layer for each carrier of the scene's light, and one depth.
+
+use crate::gpu::Gpu;
+use crate::renderers::target::{DEPTH_FORMAT, Format, texture};
+
+/// Room beyond what is needed now, in parts of it: a little more speed should not ask for another texture.
+const SPARE: u32 = 8;
+
+/// The textures of a map.
+pub struct Atlas {
+    size: [u32; 2],
+    layers: Vec<wgpu::TextureView>,
+    /// For looking up.
+    pub all_layers: wgpu::TextureView,
+    depth: wgpu::TextureView,
+}
+
+/// Of an atlas for pictures of `picture` format: as exact, one sample a texel.
+pub fn format(picture: Format) -> Format {
+    Format { samples: 1, ..picture }
+}
+
+/// Bytes that a texel takes, with its depth.
+pub fn texel_bytes(format: Format, layers: u32) -> u64 {
+    let bytes = |format: wgpu::TextureFormat| u64::from(format.block_copy_size(None).unwrap_or(4));
+    bytes(format.colour) * u64::from(layers) + bytes(DEPTH_FORMAT)
+}
+
+impl Atlas {
+    /// Makes textures of at least `size` texels.
+    pub fn new(gpu: &Gpu, size: [u32; 2], format: Format, layers: u32) -> Self {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let size = size.map(|side| (side + side / SPARE).next_multiple_of(64).min(limit));
+        let texture_of_layers = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("map"),
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: format.colour,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = |descriptor: wgpu::TextureViewDescriptor<'_>| texture_of_layers.create_view(&descriptor);
+        let layer = |base_array_layer| {
+            view(wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        Self {
+            size,
+            layers: (0..layers).map(layer).collect(),
+            all_layers: view(wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            }),
+            depth: texture(gpu, "map's depth", size, DEPTH_FORMAT, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
+        }
+    }
+
+    /// Whether there is room for `size`, and not far too much.
+    pub fn holds(&self, size: [u32; 2]) -> bool {
+        (0..2).all(|axis| size[axis] <= self.size[axis] && self.size[axis] <= 2 * size[axis].max(64))
+    }
+
+    /// Begins drawing the panes of one layer over a cleared texture.
+    pub fn begin<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        layer: u32,
+    ) -> wgpu::RenderPass<'encoder> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("map"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.layers[layer as usize],
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
+    }
+}

@@ -1,0 +1,237 @@
+//! `image`: the world around the eye drawn plainly, then bent, shifted and brightened pixel by pixel (B chapter 5).
+//!
+//! Light that reaches the eye now left what is at rest in the world on straight lines, so an ordinary picture of all directions, drawn in the world
+//! frame from where the eye is, holds all that the observer sees. First that map is drawn: linear weights on the scene's spectra, into
+//! an atlas of `panes`, as fine as the picture needs it and only where the picture sees it. Then each pixel's direction is taken to the world by
+//! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut; the cost hardly
+//! depends on the speed.
+
+mod atlas;
+mod panes;
+
+use super::target::{Format, Radiance};
+use super::world::{Draws, Group, Mode, World, bind_group, effect_constants, layout};
+use super::{Effects, Shot};
+use crate::gpu::Gpu;
+use crate::views::NEAR_M;
+use atlas::Atlas;
+use bytemuck::{bytes_of, cast_slice};
+use glam::{DVec3, Vec4};
+use panes::{Plan, Sight};
+use std::time::Instant;
+use wgpu::util::DeviceExt;
+
+/// How finely the map is drawn, and how it is looked up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapQuality {
+    /// Texels for each pixel of the picture, along each axis.
+    pub texels_per_pixel: f64,
+    /// Whether texels are mixed. If not, the nearest one is taken: no colour comes up that the scene has not.
+    pub smooth: bool,
+}
+
+/// What a map cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MapStats {
+    /// Views of the world drawn.
+    pub panes: usize,
+    /// Texels drawn, for each carrier.
+    pub texels: u64,
+    /// Bytes that the map takes on the device.
+    pub bytes: u64,
+    /// Texels for each pixel that there was room for.
+    pub texels_per_pixel: f64,
+    /// Milliseconds to plan it.
+    pub plan_ms: f64,
+}
+
+/// Texels of a map at most: what a gigabyte holds.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The map of a scene around an eye, and what looks it up.
+pub struct ImageRenderer {
+    module: wgpu::ShaderModule,
+    group_layout: wgpu::BindGroupLayout,
+    format: Format,
+    /// As the user wants it.
+    pub quality: MapQuality,
+    atlas: Option<Atlas>,
+    group: Option<wgpu::BindGroup>,
+    pipelines: Vec<(Effects, bool, wgpu::RenderPipeline)>,
+    stats: MapStats,
+}
+
+impl ImageRenderer {
+    /// For pictures in targets of `format`.
+    pub fn new(gpu: &Gpu, format: Format, quality: MapQuality) -> Self {
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(shaders::WARP.name),
+            source: wgpu::ShaderSource::Wgsl(shaders::WARP.source().into()),
+        });
+        let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let storage = buffer(wgpu::BufferBindingType::Storage { read_only: true });
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
+        let group_layout = layout(gpu, "map", &[buffer(wgpu::BufferBindingType::Uniform), storage, storage, texture]);
+        Self {
+            module,
+            group_layout,
+            format,
+            quality,
+            atlas: None,
+            group: None,
+            pipelines: Vec::new(),
+            stats: MapStats::default(),
+        }
+    }
+
+    /// What the newest map cost.
+    pub fn stats(&self) -> MapStats {
+        self.stats
+    }
+
+    /// Draws the map for a picture of `size` pixels.
+    pub fn draw_map(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2]) {
+        let started = Instant::now();
+        let layers = world.spectra.carriers.len() as u32;
+        let format = atlas::format(self.format);
+        let texel_bytes = atlas::texel_bytes(format, layers);
+        let sight = Sight::new(&shot.camera, size, shot.celerity());
+        let most_texels = MOST_BYTES as f64 / texel_bytes as f64;
+        let largest_side = gpu.device.limits().max_texture_dimension_2d;
+        let plan = sight.plan(self.quality.texels_per_pixel, most_texels, largest_side);
+        self.stats = MapStats {
+            panes: plan.placed.len(),
+            texels: plan.placed.iter().map(|pane| u64::from(pane.drawn_side()).pow(2)).sum(),
+            bytes: u64::from(plan.size[0]) * u64::from(plan.size[1]) * texel_bytes,
+            texels_per_pixel: plan.texels_per_pixel,
+            plan_ms: started.elapsed().as_secs_f64() * 1e3,
+        };
+
+        // One view for each pane and carrier.
+        let from_eye = world.origin - shot.eye.position();
+        let views: Vec<_> =
+            plan.placed.iter().map(|pane| pane.view(&sight.cube_from_world, from_eye, NEAR_M)).collect();
+        let of_layer = |layer: u32| {
+            let layer = Vec4::new(layer as f32, 0.0, 0.0, 0.0);
+            views.iter().map(move |(view, _)| shaders::View { layer, ..*view })
+        };
+        world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
+        world.prepare(gpu, Mode::Weights, format);
+
+        let atlas = match self.atlas.take() {
+            Some(atlas) if atlas.holds(plan.size) => atlas,
+            _ => Atlas::new(gpu, plan.size, format, layers),
+        };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let draws = Draws { streams: None, mode: Mode::Weights, format, eye: shot.eye.position() };
+        for layer in 0..layers {
+            let mut pass = atlas.begin(&mut encoder, layer);
+            for (number, (pane, (_, planes))) in plan.placed.iter().zip(&views).enumerate() {
+                let ([x, y], side) = (pane.place, pane.drawn_side());
+                pass.set_viewport(x as f32, y as f32, side as f32, side as f32, 0.0, 1.0);
+                pass.set_scissor_rect(x, y, side, side);
+                let number = layer * views.len() as u32 + number as u32;
+                let eye = shot.eye.position();
+                world.draw(gpu, &mut pass, number, &draws, |group| may_see(planes, eye, group));
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+        self.group = Some(self.bind(gpu, &plan, &atlas));
+        self.atlas = Some(atlas);
+    }
+
+    fn bind(&self, gpu: &Gpu, plan: &Plan, atlas: &Atlas) -> wgpu::BindGroup {
+        let buffer = |label, contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        // Nothing cut: an empty buffer cannot be bound.
+        let cuts = if plan.cuts.is_empty() { &[shaders::Cut::default()] } else { plan.cuts.as_slice() };
+        let panes = if plan.panes.is_empty() { &[shaders::Pane::default()] } else { plan.panes.as_slice() };
+        let map = buffer("map", bytes_of(&plan.map), wgpu::BufferUsages::UNIFORM);
+        let cuts = buffer("cuts", cast_slice(cuts), wgpu::BufferUsages::STORAGE);
+        let panes = buffer("panes", cast_slice(panes), wgpu::BufferUsages::STORAGE);
+        let resources = [
+            map.as_entire_binding(),
+            cuts.as_entire_binding(),
+            panes.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&atlas.all_layers),
+        ];
+        bind_group(gpu, "map", &self.group_layout, resources)
+    }
+
+    /// Draws the picture from the map drawn last. View 0 must have been written for it.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        world: &World,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &Radiance,
+        effects: Effects,
+    ) {
+        let pipeline = self.pipeline(gpu, world, effects);
+        let Some(group) = &self.group else { return };
+        let mut pass = target.begin(encoder);
+        pass.set_pipeline(&pipeline);
+        world.bind_view(gpu, &mut pass, 0);
+        pass.set_bind_group(1, group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn pipeline(&mut self, gpu: &Gpu, world: &World, effects: Effects) -> wgpu::RenderPipeline {
+        let smooth = self.quality.smooth;
+        if let Some((.., pipeline)) = self.pipelines.iter().find(|(of, way, _)| (*of, *way) == (effects, smooth)) {
+            return pipeline.clone();
+        }
+        let layers = world.spectra.carriers.len();
+        let own = [("LAYERS", layers as f64), ("SMOOTH", f64::from(u8::from(smooth)))];
+        let constants = [own.as_slice(), &effect_constants(effects, layers == 1)].concat();
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("warp"),
+            bind_group_layouts: &[Some(world.view_layout()), Some(&self.group_layout)],
+            ..Default::default()
+        });
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("warp"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: super::target::DEPTH_FORMAT,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: self.format.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some("fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.format.colour,
+                    blend: None,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        self.pipelines.push((effects, smooth, pipeline.clone()));
+        pipeline
+    }
+}
+
+/// Whether any of a group of triangles may lie within planes through the eye.
+fn may_see(planes: &[DVec3; 5], eye: DVec3, group: &Group) -> bool {
+    let centre = group.centre - eye;
+    planes.iter().all(|plane| plane.dot(centre) >= -group.radius)
+}

@@ -1,0 +1,214 @@
+//! A scene, and whichever method draws it.
+
+use super::display::Stored;
+use super::image::{ImageRenderer, MapQuality, MapStats};
+use super::polygon::{PhotoSurface, Transformed};
+use super::target::{Format, Radiance};
+use super::world::{Draws, Mode, World};
+use super::{Effects, polygon};
+use crate::gpu::{Gpu, GpuError};
+use crate::scene::Scene;
+use crate::views::{Camera, matrix};
+use glam::{DMat4, DVec2};
+use physics::Celerity;
+use physics::photo_surface::{Eye, PhotoSurfaceError};
+
+/// What one picture shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// Where the eye points.
+    pub camera: Camera,
+    /// Place and celerity of the eye, world axes.
+    pub eye: Eye,
+    /// What relativity does to the picture.
+    pub effects: Effects,
+}
+
+impl Shot {
+    /// How the eye moves.
+    pub fn celerity(&self) -> Celerity {
+        Celerity::new(self.eye.celerity()).unwrap_or_default()
+    }
+
+    /// What radiance is multiplied by so that targets of `format` can hold it: the searchlight effect in the middle of the picture undone,
+    /// where floats are short.
+    pub fn scale(&self, format: Format) -> f64 {
+        if !self.effects.searchlight || format.colour == wgpu::TextureFormat::Rgba32Float {
+            return 1.0;
+        }
+        let doppler = self.camera.doppler_ahead(self.celerity(), self.effects.geometry);
+        doppler.powi(-4).clamp(1e-30, 1e30)
+    }
+}
+
+/// How a scene is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// The photo-surface of every vertex.
+    Polygon,
+    /// A map of the world around the eye, of this quality.
+    Image(MapQuality),
+}
+
+/// A scene, ready to be drawn by one method into targets of one format.
+///
+/// A picture takes three steps: [`SceneRenderer::submit`] begins the photo-surface beside whatever is drawn meanwhile and
+/// [`SceneRenderer::show`] waits for it (where the method has one); [`SceneRenderer::prepare`] draws what every sample of the picture
+/// shares; [`SceneRenderer::draw`] draws a sample.
+pub struct SceneRenderer {
+    world: World,
+    way: Way,
+    format: Format,
+}
+
+enum Way {
+    Polygon(Box<PhotoSurface>),
+    Image(Box<ImageRenderer>),
+}
+
+impl SceneRenderer {
+    /// Uploads `scene`. `background`: linear radiance instead of the scene's sky.
+    ///
+    /// # Errors
+    /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        format: Format,
+        background: Option<[f32; 3]>,
+        method: Method,
+    ) -> Result<Self, PhotoSurfaceError> {
+        let way = match method {
+            Method::Polygon => Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?)),
+            Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
+        };
+        Ok(Self { world: World::new(gpu, scene, background), way, format })
+    }
+
+    /// Triangles that a draw of everything takes.
+    pub fn triangle_count(&self) -> u64 {
+        self.world.triangle_count()
+    }
+
+    /// Name of the method.
+    pub fn name(&self) -> &'static str {
+        match self.way {
+            Way::Polygon(_) => "polygon",
+            Way::Image(_) => "image",
+        }
+    }
+
+    /// Luminance that is white at rest, cd/m².
+    pub fn white_luminance(&self) -> f64 {
+        self.world.spectra.white_luminance
+    }
+
+    /// How targets hold the light of a shot.
+    pub fn stored(&self, shot: &Shot) -> Stored {
+        Stored {
+            white: self.white_luminance(),
+            scale: shot.scale(self.format),
+            shifted: shot.effects.shift_light() && shot.celerity() != Celerity::ZERO,
+        }
+    }
+
+    /// What the newest map cost, where the method has one.
+    pub fn map_stats(&self) -> Option<MapStats> {
+        match &self.way {
+            Way::Image(image) => Some(image.stats()),
+            Way::Polygon(_) => None,
+        }
+    }
+
+    /// Whether pictures with these effects need a photo-surface.
+    pub fn transforms(&self, effects: Effects) -> bool {
+        effects.geometry && matches!(self.way, Way::Polygon(_))
+    }
+
+    /// Begins the photo-surface for an eye, beside whatever is drawn meanwhile.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn submit(&mut self, gpu: &Gpu, eye: Eye) -> Result<(), GpuError> {
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eye))
+    }
+
+    /// Photo-surfaces begun and not yet received.
+    pub fn pending(&self) -> usize {
+        self.photo_surface().map_or(0, PhotoSurface::pending)
+    }
+
+    /// Waits for the oldest photo-surface begun and not yet drawn.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if there is none.
+    pub fn receive(&mut self) -> Result<Transformed, GpuError> {
+        let none = || GpuError::Lost("no photo-surface was asked for".to_owned());
+        self.photo_surface_mut().ok_or_else(none)?.receive()
+    }
+
+    /// Waits for the oldest photo-surface begun, and throws it away.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if there is none.
+    pub fn discard(&mut self) -> Result<(), GpuError> {
+        self.photo_surface_mut().map_or(Ok(()), PhotoSurface::discard)
+    }
+
+    /// Makes a photo-surface the one that draws show.
+    pub fn show(&self, gpu: &Gpu, transformed: Transformed) {
+        if let Some(surface) = self.photo_surface() {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            surface.upload(&mut encoder, transformed);
+            gpu.queue.submit([encoder.finish()]);
+        }
+    }
+
+    fn photo_surface(&self) -> Option<&polygon::PhotoSurface> {
+        if let Way::Polygon(surface) = &self.way { Some(surface) } else { None }
+    }
+
+    fn photo_surface_mut(&mut self) -> Option<&mut polygon::PhotoSurface> {
+        if let Way::Polygon(surface) = &mut self.way { Some(surface) } else { None }
+    }
+
+    /// Draws what all samples of a picture share: the map, where the method has one.
+    pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        if let Way::Image(image) = &mut self.way
+            && shot.effects.geometry
+        {
+            image.draw_map(gpu, &mut self.world, shot, size);
+        }
+    }
+
+    /// Draws one sample of a picture, at `offset` pixels from each pixel's centre. One submission has room for one.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &Radiance,
+        shot: &Shot,
+        offset: DVec2,
+    ) {
+        let (celerity, geometry) = (shot.celerity(), shot.effects.geometry);
+        let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale(self.format));
+        let streams = match &mut self.way {
+            Way::Image(image) if geometry => {
+                self.world.write_views(gpu, &[view]);
+                return image.draw(gpu, &self.world, encoder, target, shot.effects);
+            }
+            Way::Polygon(surface) if geometry => Some(&surface.streams),
+            _ => {
+                // The plain world: positions are relative to its origin, not to the eye.
+                let eye_from_origin = DMat4::from_translation(self.world.origin - shot.eye.position());
+                view.clip_from_observer *= matrix(&eye_from_origin);
+                None
+            }
+        };
+        let mode = Mode::Light(shot.effects);
+        self.world.prepare(gpu, mode, self.format);
+        self.world.write_views(gpu, &[view]);
+        let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position() };
+        self.world.draw(gpu, &mut target.begin(encoder), 0, &draws, |_| true);
+    }
+}

@@ -1,0 +1,221 @@
+//! A scene on the GPU: its surfaces, its light, its spectra, and how they are drawn for an eye.
+//!
+//! Shared by the renderers. Which positions are drawn, and for whom, is theirs to say: [`World::draw`] draws views of the photo-surface
+//! as well as of the plain world, as the light that an observer sees or as weights for a map.
+
+mod geometry;
+mod materials;
+mod panorama;
+mod pipelines;
+mod spectra;
+mod sun;
+
+pub use geometry::{Group, stream_stride};
+pub use pipelines::{Mode, effect_constants, layout};
+pub use spectra::Spectra;
+
+use super::target::Format;
+use crate::gpu::Gpu;
+use crate::scene::Scene;
+use bytemuck::bytes_of;
+use geometry::{Draw, Geometry};
+use glam::DVec3;
+use materials::Materials;
+use pipelines::Pipelines;
+use std::ops::Range;
+use sun::Light;
+
+/// Views that one submission may draw at first; more are made room for when they are needed.
+const VIEWS: u64 = 64;
+
+/// One scene, ready to be drawn.
+pub struct World {
+    geometry: Geometry,
+    materials: Materials,
+    pipelines: Pipelines,
+    /// What weights mean.
+    pub spectra: Spectra,
+    /// World position, in metres, that plain positions are relative to.
+    pub origin: DVec3,
+    lighting: wgpu::Buffer,
+    bindings: Bindings,
+    views: wgpu::Buffer,
+    view_group: wgpu::BindGroup,
+}
+
+/// What of group 0 stays.
+struct Bindings {
+    shadow_map: wgpu::TextureView,
+    shadow_sampler: wgpu::Sampler,
+    shift_table: wgpu::TextureView,
+    panorama: (wgpu::TextureView, wgpu::Sampler),
+}
+
+/// What a draw shows.
+pub struct Draws<'a> {
+    /// x, y and z streams, [`stream_stride`] bytes apart; `None`: the world's own positions, relative to its origin.
+    pub streams: Option<&'a wgpu::Buffer>,
+    /// Light or weights.
+    pub mode: Mode,
+    /// Of the target.
+    pub format: Format,
+    /// World position of the eye, to draw blended surfaces from far to near.
+    pub eye: DVec3,
+}
+
+impl World {
+    /// Uploads `scene`. `background`: linear radiance instead of the scene's sky.
+    pub fn new(gpu: &Gpu, scene: &Scene, background: Option<[f32; 3]>) -> Self {
+        let spectra = Spectra::of(scene);
+        let geometry = Geometry::new(gpu, scene);
+        let materials = Materials::new(gpu, scene, &spectra);
+        let pipelines = Pipelines::new(gpu, scene, &spectra);
+        let Light { uniform: lighting, map, sampler } =
+            Light::new(gpu, scene, &geometry, &pipelines, &spectra, background);
+        let bindings = Bindings {
+            shadow_map: map,
+            shadow_sampler: sampler,
+            shift_table: spectra.upload(gpu),
+            panorama: panorama::upload(gpu, scene.panorama.as_ref()),
+        };
+        let views = views(gpu, VIEWS);
+        let view_group = bindings.group(gpu, &pipelines.view_layout, &views, &lighting);
+        Self { geometry, materials, pipelines, spectra, origin: scene.origin, lighting, bindings, views, view_group }
+    }
+
+    /// Triangles that a draw of everything takes.
+    pub fn triangle_count(&self) -> u64 {
+        self.geometry.indices.size() / 12
+    }
+
+    /// Layout of the group that holds view, light and spectra.
+    pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.pipelines.view_layout
+    }
+
+    /// Compiles what a mode needs. A draw in a mode that was not prepared shows nothing.
+    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, format: Format) {
+        self.pipelines.prepare(gpu, &self.materials, mode, format);
+    }
+
+    /// Writes what the views of the next submission show, numbered as they come. One submission sees one writing.
+    pub fn write_views(&mut self, gpu: &Gpu, written: &[shaders::View]) {
+        let stride = view_stride(gpu);
+        if written.len() as u64 * stride > self.views.size() {
+            self.views = views(gpu, (written.len() as u64).next_power_of_two());
+            self.view_group = self.bindings.group(gpu, &self.pipelines.view_layout, &self.views, &self.lighting);
+        }
+        let mut bytes = vec![0; written.len() * stride as usize];
+        for (place, view) in bytes.chunks_exact_mut(stride as usize).zip(written) {
+            place[..size_of::<shaders::View>()].copy_from_slice(bytes_of(view));
+        }
+        gpu.queue.write_buffer(&self.views, 0, &bytes);
+    }
+
+    /// Binds group 0 for one of the views written.
+    pub fn bind_view(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, view: u32) {
+        pass.set_bind_group(shaders::VIEW_GROUP, &self.view_group, &[view * view_stride(gpu) as u32]);
+    }
+
+    /// Draws surfaces and sky into one view. `visible` says of a group of triangles whether any of it may be seen.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        view: u32,
+        draws: &Draws<'_>,
+        visible: impl Fn(&Group) -> bool,
+    ) {
+        let Some(pipelines) = self.pipelines.get(draws.mode, draws.format) else { return };
+        let mut blended: Vec<&Draw> = self.geometry.blended.iter().collect();
+        blended.sort_by(|a, b| b.centre.distance(draws.eye).total_cmp(&a.centre.distance(draws.eye)));
+
+        self.bind_view(gpu, pass, view);
+        pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let streams = draws.streams.unwrap_or(&self.geometry.plain);
+        for axis in 0..3 {
+            let start = self.geometry.stream_stride * u64::from(axis);
+            pass.set_vertex_buffer(axis, streams.slice(start..start + self.geometry.stream_stride));
+        }
+        pass.set_vertex_buffer(3, self.geometry.attributes.slice(..));
+        let draw_all = |pass: &mut wgpu::RenderPass<'_>, list: &mut dyn Iterator<Item = &Draw>| {
+            for draw in list {
+                let mut ranges = ranges(draw, &visible).peekable();
+                if ranges.peek().is_some() {
+                    pass.set_pipeline(&pipelines.surface[draw.material]);
+                    pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
+                }
+                ranges.for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
+            }
+        };
+        draw_all(pass, &mut self.geometry.opaque.iter());
+        pass.set_pipeline(&pipelines.sky);
+        pass.draw(0..3, 0..1);
+        draw_all(pass, &mut blended.into_iter());
+    }
+}
+
+/// The visible groups of a draw, those that follow each other as one.
+fn ranges(draw: &Draw, visible: &impl Fn(&Group) -> bool) -> impl Iterator<Item = Range<u32>> {
+    let mut ranges: Vec<Range<u32>> = Vec::new();
+    for group in draw.groups.iter().filter(|group| visible(group)) {
+        match ranges.last_mut() {
+            Some(last) if last.end == group.indices.start => last.end = group.indices.end,
+            _ => ranges.push(group.indices.clone()),
+        }
+    }
+    ranges.into_iter()
+}
+
+/// Bytes from one view to the next.
+fn view_stride(gpu: &Gpu) -> u64 {
+    let alignment = u64::from(gpu.device.limits().min_uniform_buffer_offset_alignment);
+    (size_of::<shaders::View>() as u64).next_multiple_of(alignment)
+}
+
+fn views(gpu: &Gpu, count: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("views"),
+        size: count * view_stride(gpu),
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+impl Bindings {
+    fn group(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        views: &wgpu::Buffer,
+        lighting: &wgpu::Buffer,
+    ) -> wgpu::BindGroup {
+        let one_view = wgpu::BufferBinding {
+            buffer: views,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<shaders::View>() as u64),
+        };
+        let resources = [
+            wgpu::BindingResource::Buffer(one_view),
+            lighting.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&self.shadow_map),
+            wgpu::BindingResource::Sampler(&self.shadow_sampler),
+            wgpu::BindingResource::TextureView(&self.shift_table),
+            wgpu::BindingResource::TextureView(&self.panorama.0),
+            wgpu::BindingResource::Sampler(&self.panorama.1),
+        ];
+        bind_group(gpu, "view", layout, resources)
+    }
+}
+
+/// A bind group of bindings 0, 1, 2….
+pub fn bind_group<const COUNT: usize>(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: [wgpu::BindingResource<'_>; COUNT],
+) -> wgpu::BindGroup {
+    let mut binding = 0..;
+    let entries = resources.map(|resource| wgpu::BindGroupEntry { binding: binding.next().unwrap_or(0), resource });
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+}

@@ -1,0 +1,373 @@
+//! The fixed part of each draw: which shader, which vertex streams, which depth test, and which effects it shows.
+//!
+//! What a material cannot show and what an effect that is off would show is left out of the shaders, which costs nothing; so there is
+//! a set of pipelines for each [`Mode`], compiled when it is first asked for.
+
+use super::geometry::Attributes;
+use super::materials::Materials;
+use super::spectra::{Carriers, Spectra, is_source};
+use crate::gpu::Gpu;
+use crate::renderers::Effects;
+use crate::renderers::target::{DEPTH_FORMAT, Format};
+use crate::scene::{Alpha, Material, Scene};
+use std::mem::{offset_of, size_of};
+
+/// What is drawn of the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// The light that an observer sees, with these effects.
+    Light(Effects),
+    /// The weights of one carrier after another, for the image renderer's map.
+    Weights,
+}
+
+/// Pipelines for every material and the sky, in one mode, for targets of one format.
+pub struct ModePipelines {
+    mode: Mode,
+    format: Format,
+    /// One for each material, in the scene's order; those that look alike share one.
+    pub surface: Vec<wgpu::RenderPipeline>,
+    /// Behind everything.
+    pub sky: wgpu::RenderPipeline,
+}
+
+/// What pipelines are made from, and those made so far.
+pub struct Pipelines {
+    surface_module: wgpu::ShaderModule,
+    sky_module: wgpu::ShaderModule,
+    looks: Vec<Look>,
+    sky_identity: bool,
+    panorama: bool,
+    shadows: bool,
+    made: Vec<ModePipelines>,
+    /// The sun's depth map.
+    pub shadow: wgpu::RenderPipeline,
+    /// Group 0 of all but `shadow`.
+    pub view_layout: wgpu::BindGroupLayout,
+    /// Group 0 of `shadow`: no map yet to look up.
+    pub light_layout: wgpu::BindGroupLayout,
+}
+
+impl Pipelines {
+    /// Loads the shaders for what the scene's materials need.
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra) -> Self {
+        let light_layout = light_layout(gpu);
+        let module = |module: shaders::Module| {
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(module.name),
+                source: wgpu::ShaderSource::Wgsl(module.source().into()),
+            })
+        };
+        let shadow_module = module(shaders::SHADOW);
+        let shadow = Description {
+            label: "shadow",
+            module: &shadow_module,
+            groups: &[Some(&light_layout)],
+            buffers: &[Some(world_only())],
+            cull: false,
+            depth_write: true,
+            depth_compare: wgpu::CompareFunction::Greater,
+            target: None,
+            constants: &[],
+        }
+        .build(gpu);
+        let looks = scene.materials.iter().zip(&spectra.materials);
+        Self {
+            surface_module: module(shaders::SURFACE),
+            sky_module: module(shaders::SKY),
+            looks: looks.map(|(material, carriers)| Look::of(material, *carriers)).collect(),
+            sky_identity: spectra.sky == spectra.white,
+            panorama: scene.panorama.is_some(),
+            shadows: scene.light.shadows,
+            made: Vec::new(),
+            shadow,
+            view_layout: view_layout(gpu),
+            light_layout,
+        }
+    }
+
+    /// Compiles what a mode needs, if it was never needed before.
+    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, format: Format) {
+        if self.get(mode, format).is_some() {
+            return;
+        }
+        let mut made: Vec<(Look, wgpu::RenderPipeline)> = Vec::new();
+        let mut surface = Vec::with_capacity(self.looks.len());
+        for &look in &self.looks {
+            let pipeline = match made.iter().find(|(known, _)| *known == look) {
+                Some((_, pipeline)) => pipeline.clone(),
+                None => {
+                    let description = Description {
+                        label: "surface",
+                        module: &self.surface_module,
+                        groups: &[Some(&self.view_layout), Some(&materials.layout)],
+                        buffers: &surface_buffers(),
+                        cull: !look.double_sided,
+                        depth_write: !look.blended,
+                        depth_compare: wgpu::CompareFunction::Greater,
+                        target: Some((format, look.blended.then(|| blending(mode)))),
+                        constants: &[look.constants(self.shadows).as_slice(), &mode.constants(look.identity)].concat(),
+                    };
+                    let pipeline = description.build(gpu);
+                    made.push((look, pipeline.clone()));
+                    pipeline
+                }
+            };
+            surface.push(pipeline);
+        }
+        let sky = Description {
+            label: "sky",
+            module: &self.sky_module,
+            groups: &[Some(&self.view_layout)],
+            buffers: &[],
+            cull: false,
+            depth_write: false,
+            depth_compare: wgpu::CompareFunction::GreaterEqual,
+            target: Some((format, None)),
+            constants: &[[("PANORAMA", flag(self.panorama))].as_slice(), &mode.constants(self.sky_identity)].concat(),
+        }
+        .build(gpu);
+        self.made.push(ModePipelines { mode, format, surface, sky });
+    }
+
+    /// The pipelines of a mode that was prepared.
+    pub fn get(&self, mode: Mode, format: Format) -> Option<&ModePipelines> {
+        self.made.iter().find(|made| made.mode == mode && made.format == format)
+    }
+}
+
+type Constant = (&'static str, f64);
+
+impl Mode {
+    /// The shaders' overrides. `identity`: weights are linear sRGB at D = 1.
+    fn constants(self, identity: bool) -> Vec<Constant> {
+        let effects = match self {
+            Self::Light(effects) => effects,
+            Self::Weights => Effects::NONE,
+        };
+        let map = [("MAP", flag(self == Self::Weights))];
+        [map.as_slice(), &effect_constants(effects, identity)].concat()
+    }
+}
+
+/// The overrides of `shift.wgsl`.
+pub fn effect_constants(effects: Effects, identity: bool) -> [Constant; 4] {
+    [
+        ("GEOMETRY", flag(effects.geometry)),
+        ("DOPPLER", flag(effects.doppler)),
+        ("SEARCHLIGHT", flag(effects.searchlight)),
+        ("IDENTITY", flag(identity)),
+    ]
+}
+
+fn flag(value: bool) -> f64 {
+    f64::from(u8::from(value))
+}
+
+/// Over what is there by opacity. The light that an observer sees has its luminance at rest where opacity would be: it stays.
+fn blending(mode: Mode) -> wgpu::BlendState {
+    match mode {
+        Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
+        Mode::Light(_) => wgpu::BlendState {
+            alpha: wgpu::BlendComponent {
+                src_factor: wgpu::BlendFactor::Zero,
+                dst_factor: wgpu::BlendFactor::One,
+                operation: wgpu::BlendOperation::Add,
+            },
+            ..wgpu::BlendState::ALPHA_BLENDING
+        },
+    }
+}
+
+/// What differs between the pipelines.
+struct Description<'a> {
+    label: &'a str,
+    module: &'a wgpu::ShaderModule,
+    groups: &'a [Option<&'a wgpu::BindGroupLayout>],
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    cull: bool,
+    depth_write: bool,
+    depth_compare: wgpu::CompareFunction,
+    /// None: depth alone is drawn. How it mixes with what is there.
+    target: Option<(Format, Option<wgpu::BlendState>)>,
+    /// The fragment shader's overrides.
+    constants: &'a [Constant],
+}
+
+/// What of a material decides its pipeline: what it cannot show is left out of its shader.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Look {
+    blended: bool,
+    double_sided: bool,
+    lit: bool,
+    emissive: bool,
+    masked: bool,
+    spectral: bool,
+    split: bool,
+    identity: bool,
+}
+
+impl Look {
+    fn of(material: &Material, carriers: Carriers) -> Self {
+        let spectral = material.spectrum.is_some();
+        // A spectrum on an emissive material is all that it sends out.
+        let source = material.unlit || (spectral && is_source(material));
+        let emissive = !source && material.emissive != [0.0; 3];
+        let split = emissive && carriers.surface != carriers.emission;
+        Self {
+            blended: material.alpha == Alpha::Blend,
+            double_sided: material.double_sided,
+            lit: !source,
+            emissive,
+            masked: matches!(material.alpha, Alpha::Mask(_)),
+            spectral,
+            split,
+            identity: carriers.surface == carriers.emission,
+        }
+    }
+
+    /// The shader's overrides.
+    fn constants(self, shadowed: bool) -> [Constant; 7] {
+        [
+            ("LIT", flag(self.lit)),
+            ("SHADOWED", flag(shadowed)),
+            ("EMISSIVE", flag(self.emissive)),
+            ("MASKED", flag(self.masked)),
+            ("SPECTRAL", flag(self.spectral)),
+            ("SPLIT", flag(self.split)),
+            ("BLENDED", flag(self.blended)),
+        ]
+    }
+}
+
+impl Description<'_> {
+    fn build(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(self.label),
+            bind_group_layouts: self.groups,
+            ..Default::default()
+        });
+        let targets = self.target.map(|(format, blend)| {
+            [Some(wgpu::ColorTargetState { format: format.colour, blend, write_mask: wgpu::ColorWrites::ALL })]
+        });
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.label),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: self.module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: self.buffers,
+            },
+            primitive: wgpu::PrimitiveState { cull_mode: self.cull.then_some(wgpu::Face::Back), ..Default::default() },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(self.depth_write),
+                depth_compare: Some(self.depth_compare),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState {
+                count: self.target.map_or(1, |(format, _)| format.samples),
+                ..Default::default()
+            },
+            fragment: targets.as_ref().map(|targets| wgpu::FragmentState {
+                module: self.module,
+                entry_point: Some("fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.constants,
+                    ..Default::default()
+                },
+                targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+const POSITION: [[wgpu::VertexAttribute; 1]; 3] = [
+    wgpu::vertex_attr_array![0 => Float32],
+    wgpu::vertex_attr_array![1 => Float32],
+    wgpu::vertex_attr_array![2 => Float32],
+];
+const ATTRIBUTES: [wgpu::VertexAttribute; 4] = [
+    attribute(3, offset_of!(Attributes, world), wgpu::VertexFormat::Float32x3),
+    attribute(4, offset_of!(Attributes, normal), wgpu::VertexFormat::Float32x3),
+    attribute(5, offset_of!(Attributes, uv), wgpu::VertexFormat::Float32x2),
+    attribute(6, offset_of!(Attributes, colour), wgpu::VertexFormat::Float32x4),
+];
+
+const fn attribute(shader_location: u32, offset: usize, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
+}
+
+fn surface_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 4] {
+    let stream = |axis: usize| {
+        Some(wgpu::VertexBufferLayout {
+            array_stride: 4,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &POSITION[axis],
+        })
+    };
+    [stream(0), stream(1), stream(2), Some(with_attributes(&ATTRIBUTES))]
+}
+
+fn world_only() -> wgpu::VertexBufferLayout<'static> {
+    with_attributes(&ATTRIBUTES[..1])
+}
+
+fn with_attributes(attributes: &'static [wgpu::VertexAttribute]) -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Attributes>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes,
+    }
+}
+
+/// What `shared.wgsl`, `shift.wgsl`, `surface.wgsl` and `sky.wgsl` bind as group 0. The view is one of several, by offset.
+fn view_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let float = |filterable| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let depth = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    layout(
+        gpu,
+        "view",
+        &[
+            uniform(true),
+            uniform(false),
+            depth,
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+            float(false),
+            float(true),
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        ],
+    )
+}
+
+fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    layout(gpu, "light", &[uniform(false), uniform(false)])
+}
+
+fn uniform(has_dynamic_offset: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset, min_binding_size: None }
+}
+
+/// Bindings 0, 1, 2…, for vertex and fragment shaders.
+pub fn layout(gpu: &Gpu, label: &str, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
+    let entry = |(binding, &ty): (usize, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    };
+    let entries: Vec<_> = types.iter().enumerate().map(entry).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}

@@ -1,0 +1,86 @@
+//! What shines: the spectrum that the colours of a surface are carried by.
+//!
+//! A renderer knows three weights per point, from textures, vertex colours and lamps. Their light is
+//! L(λ) = Q(λ) Σ cᵢ Sᵢ(λ): the three shares of white ([`shares`]) of the carrier Q. For an ordinary scene Q is white,
+//! and the weights are an sRGB colour; where equal weights are used, the light is Q itself, whatever it may be.
+
+use glam::{DMat3, DVec3};
+
+use super::{Spectrum, matching, shares, srgb};
+
+/// A spectrum Q(λ): white light, light that is sent out, or light that a surface returns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carrier {
+    light: Spectrum,
+    reflectance: Option<Spectrum>,
+}
+
+impl Carrier {
+    /// White, of 1 cd/m²: the carrier of sRGB colours.
+    pub fn white() -> Self {
+        Self::emitted(Spectrum::Gray)
+    }
+
+    /// Light that is sent out with this spectrum.
+    pub fn emitted(spectrum: Spectrum) -> Self {
+        Self { light: spectrum, reflectance: None }
+    }
+
+    /// Light of an illuminant from a surface: reflectance × illuminant (W 3.3; B 2.4).
+    ///
+    /// Without a reflectance the surface returns all wavelengths alike; without an illuminant the light is white.
+    pub fn reflected(reflectance: Option<Spectrum>, illuminant: Option<Spectrum>) -> Self {
+        let light = illuminant.unwrap_or(Spectrum::Gray);
+        Self { light, reflectance: reflectance.filter(|reflectance| *reflectance != Spectrum::Gray) }
+    }
+
+    /// Q(λ). *Units:* nm; W sr⁻¹ m⁻³.
+    pub fn radiance(&self, wavelength_nm: f64) -> f64 {
+        self.lifted_radiance(wavelength_nm, [0.0; 2])
+    }
+
+    /// Tristimulus values of each weight alone, as columns, after the wavelengths have been shifted: of
+    /// D (Q Sᵢ)(Dλ), which keeps the radiance of all wavelengths together. Brightness grows by D⁴ beside that.
+    ///
+    /// *Units:* cd/m². *Equation:* B 2.17, with X_ij D in the place of X_ij; integrated directly.
+    pub fn xyz_from_weights(&self, doppler: f64) -> DMat3 {
+        let (xyz, lift) = self.lifted_xyz_from_weights(doppler);
+        xyz * (-lift).exp()
+    }
+
+    /// Linear sRGB of each weight alone, as columns: [`xyz_from_weights`](Self::xyz_from_weights) seen on a screen.
+    /// Negative where sRGB cannot show it.
+    pub fn rgb_from_weights(&self, doppler: f64) -> DMat3 {
+        srgb::rgb_from_xyz() * self.xyz_from_weights(doppler)
+    }
+
+    /// e^lift times [`xyz_from_weights`](Self::xyz_from_weights), and the lift, which is such that light too faint for
+    /// any number keeps its colour.
+    pub(super) fn lifted_xyz_from_weights(&self, doppler: f64) -> (DMat3, f64) {
+        // Thermal light beyond Wien's maximum is strongest at the red end.
+        let red_end = doppler * matching::LONGEST_NM;
+        let lifts =
+            [self.light.wien_exponent(red_end), self.reflectance.as_ref().map_or(0.0, |r| r.wien_exponent(red_end))];
+        let seen = |nm: f64| {
+            let emitted = doppler * nm;
+            DVec3::from_array(shares(emitted)) * (doppler * self.lifted_radiance(emitted, lifts))
+        };
+        (matching::xyz(self.bends(doppler).into_iter(), seen), lifts[0] + lifts[1])
+    }
+
+    fn lifted_radiance(&self, nm: f64, [light, reflectance]: [f64; 2]) -> f64 {
+        self.light.lifted_radiance(nm, light)
+            * self.reflectance.as_ref().map_or(1.0, |spectrum| spectrum.lifted_reflectance(nm, reflectance))
+    }
+
+    /// Where measured values meet, as an observer sees it, ascending. *Units:* nm.
+    fn bends(&self, doppler: f64) -> Vec<f64> {
+        let mut bends: Vec<f64> = Vec::new();
+        for spectrum in [Some(&self.light), self.reflectance.as_ref()].into_iter().flatten() {
+            let seen = doppler * matching::SHORTEST_NM..doppler * matching::LONGEST_NM;
+            bends.extend(spectrum.bends_within(seen).map(|emitted| emitted / doppler));
+        }
+        bends.sort_by(f64::total_cmp);
+        bends
+    }
+}

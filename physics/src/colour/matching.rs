@@ -1,0 +1,65 @@
+//! From spectral radiance to tristimulus values: the CIE 1931 2° standard observer, and the sum over wavelengths.
+//!
+//! The observer is defined by a table in steps of 1 nm from 360 to 830 nm. Integrals are trapezoidal sums over these
+//! steps and over the places where the spectrum itself bends: for spectra that are smooth within a nanometre this is
+//! the convention of the CIE, and nothing that a measured spectrum says between two steps is passed over, however far
+//! a Doppler shift has squeezed it.
+
+use std::sync::LazyLock;
+
+use glam::{DMat3, DVec3};
+
+use super::table::rows;
+
+/// The longest wavelength that is seen. *Units:* nm.
+pub(super) const LONGEST_NM: f64 = 830.0;
+
+/// The shortest. *Units:* nm.
+pub(super) const SHORTEST_NM: f64 = 360.0;
+
+/// Luminous efficacy of radiation at 555 nm. *Units:* lm W⁻¹.
+const EFFICACY: f64 = 683.0;
+
+/// Spectral radiance is per metre of wavelength, tables are in nanometres.
+const METRES_PER_NM: f64 = 1e-9;
+
+/// Wavelength in nm and the colour-matching functions there. Source: CIE 018:2019, table 6.
+static MATCHING: LazyLock<Vec<(f64, DVec3)>> = LazyLock::new(|| {
+    let rows = rows(include_str!("data/cie-1931-2deg-1nm.csv"));
+    rows.into_iter().map(|[nm, x, y, z]| (nm, DVec3::new(x, y, z))).collect()
+});
+
+/// Tristimulus values of three lights at once, each a column.
+///
+/// *Equation:* X_i = 683 ∫ L_i(λ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (CIE 15:2018, 7.1; B 2.11).
+/// *Units:* spectral radiance in W sr⁻¹ m⁻³, result in cd/m².
+///
+/// `bends` are the wavelengths in nm at which the spectra are not smooth, ascending; those that cannot be seen are
+/// passed over.
+pub(super) fn xyz(bends: impl Iterator<Item = f64>, radiance: impl Fn(f64) -> DVec3) -> DMat3 {
+    let mut sum = DMat3::ZERO;
+    let mut before: Option<(f64, DMat3)> = None;
+    let mut add = |nm: f64, matching: DVec3| {
+        let seen = outer(matching, radiance(nm));
+        if let Some((nm_before, seen_before)) = before {
+            sum += (seen_before + seen) * (0.5 * (nm - nm_before));
+        }
+        before = Some((nm, seen));
+    };
+    let mut bends = bends.filter(|nm| (SHORTEST_NM..LONGEST_NM).contains(nm)).peekable();
+    let (first, matching_first) = MATCHING[0];
+    add(first, matching_first);
+    for pair in MATCHING.windows(2) {
+        let [(left, matching_left), (right, matching_right)] = [pair[0], pair[1]];
+        while let Some(nm) = bends.next_if(|nm| *nm < right) {
+            add(nm, matching_left.lerp(matching_right, (nm - left) / (right - left)));
+        }
+        add(right, matching_right);
+    }
+    sum * (EFFICACY * METRES_PER_NM)
+}
+
+/// Column i is `column` times component i of `row`.
+fn outer(column: DVec3, row: DVec3) -> DMat3 {
+    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
+}
