@@ -18,7 +18,7 @@ pub fn take(
     adaptation: &Adaptation,
     development: &Development,
 ) -> Result<String, Error> {
-    let darkroom = Darkroom::new(gpu, radiance.size, radiance.format.colour);
+    let mut darkroom = Darkroom::new(gpu, radiance.size, radiance.format.colour);
     let picture = darkroom.develop(gpu, radiance.result(), adaptation, development)?;
     let path = unused("photo", "png");
     save(&picture, &path)?;

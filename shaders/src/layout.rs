@@ -105,18 +105,6 @@ pub struct Accumulate {
     pub weight: f32,
 }
 
-/// How exposed radiance becomes a pixel.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub struct Screen {
-    /// 1 encodes as sRGB, 0 leaves it linear, for a target that encodes by itself.
-    pub encode: u32,
-    /// One of the `TONE_…` constants.
-    pub tone: u32,
-    /// One of the `GAMUT_…` constants.
-    pub gamut: u32,
-}
-
 /// What the light meter is asked.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

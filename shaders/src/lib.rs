@@ -8,7 +8,7 @@
 
 mod layout;
 
-pub use layout::{Accumulate, Adaptation, Cut, Lighting, Map, Material, Metering, Pane, Screen, View};
+pub use layout::{Accumulate, Adaptation, Cut, Lighting, Map, Material, Metering, Pane, View};
 
 use physics::colour::ShiftTable;
 
@@ -154,6 +154,7 @@ fn constants() -> String {
         ("HALF_LIMIT", HALF_LIMIT),
         ("PANORAMA_LOOKS", PANORAMA_LOOKS),
         ("TURN", std::f32::consts::TAU),
+        ("BRIGHTEST", BRIGHTEST),
         ("DARKEST", DARKEST),
         ("LARGEST_LOG2", LARGEST_LOG2),
         ("METER_BINS_PER_OCTAVE", METER_BINS_PER_OCTAVE),

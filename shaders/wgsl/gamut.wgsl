@@ -15,12 +15,12 @@ fn whitened(rgb: vec3<f32>) -> vec3<f32> {
     return lifted / max(1.0, max(max(lifted.r, lifted.g), lifted.b));
 }
 
-fn in_gamut(gamut: u32, rgb: vec3<f32>) -> vec3<f32> {
+fn in_gamut(rgb: vec3<f32>) -> vec3<f32> {
     let clamped = clamp(rgb, vec3(0.0), vec3(1.0));
     if (all(clamped == rgb)) {
         return rgb;
     }
-    switch gamut {
+    switch GAMUT {
         case GAMUT_DESATURATE: { return desaturated(rgb); }
         case GAMUT_WHITE: { return whitened(rgb); }
         default: { return clamped; }

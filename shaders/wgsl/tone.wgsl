@@ -23,12 +23,12 @@ fn filmic(luminance: f32) -> f32 {
     return (FILMIC_A * luminance + FILMIC_B) / (luminance * (FILMIC_C * luminance + FILMIC_D) + FILMIC_E);
 }
 
-fn toned(tone: u32, rgb: vec3<f32>) -> vec3<f32> {
+fn toned(rgb: vec3<f32>) -> vec3<f32> {
     let luminance = luminance(rgb);
     if (luminance <= 0.0) {
         return rgb;
     }
-    switch tone {
+    switch TONE {
         case TONE_REINHARD: { return rgb * reinhard(luminance, adaptation.white); }
         case TONE_EXPONENTIAL: { return rgb * exponential(luminance); }
         case TONE_FILMIC: { return rgb * filmic(luminance); }

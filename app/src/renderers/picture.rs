@@ -29,7 +29,7 @@ impl Darkroom {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn develop(
-        &self,
+        &mut self,
         gpu: &Gpu,
         radiance: &wgpu::TextureView,
         adaptation: &Adaptation,

@@ -61,11 +61,13 @@ struct Metered {
 impl Adaptation {
     /// An eye that has seen nothing yet, and will be adapted at once to the first that it sees.
     pub fn new(gpu: &Gpu) -> Self {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let buffer = |label, bytes: usize| {
+            let size = bytes as u64;
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
-                size: bytes as u64,
-                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+                size,
+                usage,
                 mapped_at_creation: false,
             })
         };

@@ -24,10 +24,11 @@ use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};
 /// Passes that read one radiance texture and write one target.
 pub struct Display {
     accumulate: Pass,
-    show: Pass,
+    /// One for each way of developing that was asked for.
+    show: Vec<(Tone, Gamut, Pass)>,
     meter: Meter,
-    encode: bool,
     sum_format: wgpu::TextureFormat,
+    screen_format: wgpu::TextureFormat,
 }
 
 /// Sums of samples, each with the number of samples as its weight's inverse.
@@ -41,11 +42,11 @@ impl Display {
     /// Passes that sum in `radiance` format and show in `screen` format (an sRGB format encodes by itself).
     pub fn new(gpu: &Gpu, radiance: wgpu::TextureFormat, screen: wgpu::TextureFormat) -> Self {
         Self {
-            accumulate: Pass::new(gpu, &shaders::ACCUMULATE, &[UNFILTERED, UNFILTERED, UNIFORM], radiance),
-            show: Pass::new(gpu, &shaders::DISPLAY, &[UNFILTERED, UNIFORM, READ, READ], screen),
+            accumulate: Pass::new(gpu, &shaders::ACCUMULATE, &[], &[UNFILTERED, UNFILTERED, UNIFORM], radiance),
+            show: Vec::new(),
             meter: Meter::new(gpu),
-            encode: !screen.is_srgb(),
             sum_format: radiance,
+            screen_format: screen,
         }
     }
 
@@ -100,7 +101,7 @@ impl Display {
 
     /// Writes `radiance` to the screen, as an eye sees it that is adapted to it.
     pub fn show(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         radiance: &wgpu::TextureView,
@@ -108,23 +109,29 @@ impl Display {
         development: &Development,
         screen: &wgpu::TextureView,
     ) {
-        let uniform = shaders::Screen {
-            encode: u32::from(self.encode),
-            tone: development.tone as u32,
-            gamut: development.gamut as u32,
-        };
-        let uniform = contents(gpu, "screen", bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
-        self.show.draw(
-            gpu,
-            encoder,
-            screen,
-            &[
-                wgpu::BindingResource::TextureView(radiance),
-                uniform.as_entire_binding(),
-                adaptation.state.as_entire_binding(),
-                adaptation.curve.as_entire_binding(),
-            ],
-        );
+        let resources = [
+            wgpu::BindingResource::TextureView(radiance),
+            adaptation.state.as_entire_binding(),
+            adaptation.curve.as_entire_binding(),
+        ];
+        self.shown_by(gpu, development).draw(gpu, encoder, screen, &resources);
+    }
+
+    /// The pass for a way of developing, compiled when it is first asked for.
+    fn shown_by(&mut self, gpu: &Gpu, development: &Development) -> &Pass {
+        let Development { tone, gamut, .. } = *development;
+        let known = self.show.iter().position(|pass| (pass.0, pass.1) == (tone, gamut));
+        let index = known.unwrap_or_else(|| {
+            let overrides = [
+                ("ENCODE", f64::from(u8::from(!self.screen_format.is_srgb()))),
+                ("TONE", f64::from(tone as u32)),
+                ("GAMUT", f64::from(gamut as u32)),
+            ];
+            let bindings = [UNFILTERED, UNIFORM, READ];
+            self.show.push((tone, gamut, Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format)));
+            self.show.len() - 1
+        });
+        &self.show[index].2
     }
 }
 
@@ -149,5 +156,5 @@ pub fn copy(
     format: wgpu::TextureFormat,
 ) {
     let resources = [wgpu::BindingResource::TextureView(radiance)];
-    Pass::new(gpu, &shaders::COPY, &[UNFILTERED], format).draw(gpu, encoder, target, &resources);
+    Pass::new(gpu, &shaders::COPY, &[], &[UNFILTERED], format).draw(gpu, encoder, target, &resources);
 }

@@ -28,10 +28,11 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Compiles `shader`, whose bindings are numbered as they come.
+    /// Compiles `shader`, whose bindings are numbered as they come, with these values of its overrides.
     pub fn new(
         gpu: &Gpu,
         shader: &shaders::Module,
+        overrides: &[(&str, f64)],
         bindings: &[wgpu::BindingType],
         target: wgpu::TextureFormat,
     ) -> Self {
@@ -53,7 +54,7 @@ impl Pass {
             fragment: Some(wgpu::FragmentState {
                 module: &module,
                 entry_point: Some("fragment"),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions { constants: overrides, ..Default::default() },
                 targets: &[Some(wgpu::ColorTargetState {
                     format: target,
                     blend: None,
