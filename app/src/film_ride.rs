@@ -9,11 +9,10 @@ use crate::gpu::Gpu;
 use crate::live::gaze;
 use crate::log::Log;
 use crate::progress;
-use crate::render::{Cameraman, interrupted};
+use crate::render::{Cameraman, Moment, interrupted};
 use crate::ride::{first_actions, prepared, present, recorded};
 use crate::scene::{Scene, source};
 use crate::simulation::{Frame, ReplayError, Replayed, Simulation, Tour};
-use crate::views::Gaze;
 use input::{Key, Nanos, SECOND, Sample, VehicleKind};
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -34,7 +33,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     // Without a graphics device nobody needs to ride.
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
-    let (scene, gazes) = match &options.replay {
+    let (scene, moments) = match &options.replay {
         Some(recording) => reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?,
         None => {
             let scene = source::load(&options.world.scene)?;
@@ -48,12 +47,12 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             } else {
                 demonstrate(options, &scene, simulation, log, seconds)?
             };
-            (scene, reel.gazes)
+            (scene, reel.moments)
         }
     };
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
-    let count = gazes.len() as u64;
-    camera.film(gazes.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
+    let count = moments.len() as u64;
+    camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }
 
 /// A recorded ride once more: its scene, and the observer at each picture's time.
@@ -67,7 +66,7 @@ pub fn reel(
     choice: &SceneChoice,
     frames_per_second: f64,
     seconds: Option<f64>,
-) -> Result<(Scene, Vec<Gaze>), Error> {
+) -> Result<(Scene, Vec<Moment>), Error> {
     let (scene, mut replay) = recorded(recording, choice)?;
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
@@ -84,7 +83,7 @@ pub fn reel(
                 }
             }
             Ok(None) => break,
-            Err(error) if reel.gazes.is_empty() => return Err(error.into()),
+            Err(error) if reel.moments.is_empty() => return Err(error.into()),
             Err(error) => {
                 eprintln!("{error}");
                 break;
@@ -92,35 +91,35 @@ pub fn reel(
         }
     }
     spinner.finish_and_clear();
-    Ok((scene, reel.gazes))
+    Ok((scene, reel.moments))
 }
 
 /// What the film will show: the observer at each picture's time.
 struct Reel {
-    gazes: Vec<Gaze>,
-    last: Option<Gaze>,
+    moments: Vec<Moment>,
+    last: Option<Moment>,
     frames_per_second: f64,
     end: Nanos,
 }
 
 impl Reel {
     fn new(frames_per_second: f64, seconds: f64) -> Self {
-        Self { gazes: Vec::new(), last: None, frames_per_second, end: (seconds * SECOND as f64) as Nanos }
+        Self { moments: Vec::new(), last: None, frames_per_second, end: (seconds * SECOND as f64) as Nanos }
     }
 
     /// When the next picture is due.
     fn due(&self) -> Nanos {
-        (self.gazes.len() as f64 * SECOND as f64 / self.frames_per_second) as Nanos
+        (self.moments.len() as f64 * SECOND as f64 / self.frames_per_second) as Nanos
     }
 
     /// Takes a frame; pictures that were due before it show the frame before. Returns false once the film is full.
     fn add(&mut self, frame: &Frame) -> Result<bool, Error> {
-        let newest = gaze(frame)?;
+        let newest = Moment { gaze: gaze(frame)?, own_s: frame.vehicle.odometer().own_s };
         while self.due() < frame.record.at.min(self.end) {
-            self.gazes.push(self.last.unwrap_or(newest));
+            self.moments.push(self.last.unwrap_or(newest));
         }
         if self.due() == frame.record.at && self.due() < self.end {
-            self.gazes.push(newest);
+            self.moments.push(newest);
         }
         self.last = Some(newest);
         Ok(self.due() < self.end)

@@ -12,13 +12,14 @@ use crate::gpu::Gpu;
 use crate::live::{Live, gaze};
 use crate::pace::Pace;
 use crate::render::shot;
+use crate::renderers::display::Stored;
 use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer};
 use crate::simulation::Frame;
 use crate::views::Gaze;
 use crate::window::{Readings, RidePanel};
 use glam::DVec2;
-use input::Action;
+use input::{Action, SECOND};
 use std::collections::VecDeque;
 
 /// Where a frame goes, and how it is drawn.
@@ -46,6 +47,10 @@ pub struct Ride {
     not_finite: usize,
     /// The newest frame.
     pub frame: Option<Frame>,
+    /// How the target holds the light of what was drawn last.
+    pub stored: Stored,
+    /// Time that the eye had to adapt since the frame before, seconds; `None` at first.
+    pub elapsed_s: Option<f64>,
     /// How long each stage takes.
     pub pace: Pace,
 }
@@ -60,6 +65,8 @@ impl Ride {
             shown: None,
             not_finite: 0,
             frame: None,
+            stored: Stored::UNSHIFTED,
+            elapsed_s: None,
             pace: Pace::default(),
         }
     }
@@ -75,6 +82,7 @@ impl Ride {
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let newest = gaze(&frame)?;
         let actions = frame.controls.actions.clone();
+        self.elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         self.frame = Some(frame);
         self.pace.stage("ride");
 
@@ -106,6 +114,7 @@ impl Ride {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(gpu, &mut encoder, pictured.target, &shot, DVec2::ZERO);
         gpu.queue.submit([encoder.finish()]);
+        self.stored = self.renderer.stored(&shot);
         self.pace.stage("draw");
         Ok(Some(actions))
     }
@@ -154,5 +163,14 @@ impl Ride {
                 gpu.description()
             ),
         }
+    }
+}
+
+/// Time in which an eye adapts: the rider's own, or, while his clock stands, that of whoever looks on.
+fn elapsed_s(before: &Frame, now: &Frame) -> f64 {
+    if now.paused {
+        now.record.at.saturating_sub(before.record.at) as f64 / SECOND as f64
+    } else {
+        now.vehicle.odometer().own_s - before.vehicle.odometer().own_s
     }
 }

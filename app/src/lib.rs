@@ -6,6 +6,7 @@ pub mod check;
 pub mod command;
 pub mod devices;
 pub mod error;
+pub mod exr;
 pub mod film;
 pub mod film_ride;
 pub mod frame;

@@ -4,15 +4,22 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::live::unused;
 use crate::render::save;
+use crate::renderers::display::{Adaptation, Development};
 use crate::renderers::picture::Darkroom;
 use crate::renderers::target::Radiance;
 
-/// Writes `photo-001.png`, or the next number, and says so.
+/// Writes what an eye sees that is adapted to it into `photo-001.png`, or the next number, and says so.
 ///
 /// # Errors
 /// A lost device, or a folder that cannot be written to.
-pub fn take(gpu: &Gpu, radiance: &Radiance) -> Result<String, Error> {
-    let picture = Darkroom::new(gpu, radiance.size, radiance.format.colour).develop(gpu, radiance.result())?;
+pub fn take(
+    gpu: &Gpu,
+    radiance: &Radiance,
+    adaptation: &Adaptation,
+    development: &Development,
+) -> Result<String, Error> {
+    let mut darkroom = Darkroom::new(gpu, radiance.size, radiance.format.colour);
+    let picture = darkroom.develop(gpu, radiance.result(), adaptation, development)?;
     let path = unused("photo", "png");
     save(&picture, &path)?;
     Ok(format!("photo: {}", path.display()))

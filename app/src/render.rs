@@ -5,6 +5,7 @@
 
 use crate::command::{Output, PictureOptions, RenderOptions, Viewpoint};
 use crate::error::Error;
+use crate::exr;
 use crate::film::{Film, Written};
 use crate::film_ride;
 use crate::gpu::Gpu;
@@ -32,8 +33,7 @@ const FILM_SECONDS: f64 = 10.0;
 /// Whatever keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let gpu = Gpu::new()?;
-    let (Output::Picture(path) | Output::Film(path)) = &options.out;
-    writable(path)?;
+    writable(options.out.path())?;
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
@@ -42,11 +42,15 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let speed_of_light = options.world.speed_of_light;
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, &scene, 0.0)?, path),
+        Output::Light(path) => camera.light(inertial(&options.viewpoint, &scene, 0.0)?, path),
         Output::Film(path) => {
             let rate = options.frames_per_second();
             let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
-            let gaze = |frame: f64| inertial(&options.viewpoint, &scene, frame / rate * speed_of_light);
-            camera.film((0..count as u64).map(|frame| gaze(frame as f64)), count as u64, rate, path)
+            let moment = |frame: u64| {
+                let own_s = frame as f64 / rate;
+                Ok(Moment { gaze: inertial(&options.viewpoint, &scene, own_s * speed_of_light)?, own_s })
+            };
+            camera.film((0..count as u64).map(moment), count as u64, rate, path)
         }
     }
 }
@@ -54,13 +58,14 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// The same with the eyes of a recorded rider.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let (scene, gazes) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let (scene, moments) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
     let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.edge)?;
     match &options.out {
-        Output::Picture(path) => camera.still(*gazes.last().ok_or(Error::NothingRidden)?, path),
+        Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Film(path) => {
-            let count = gazes.len() as u64;
-            camera.film(gazes.into_iter().map(Ok), count, rate, path)
+            let count = moments.len() as u64;
+            camera.film(moments.into_iter().map(Ok), count, rate, path)
         }
     }
 }
@@ -72,6 +77,15 @@ fn inertial(viewpoint: &Viewpoint, scene: &Scene, proper_time: f64) -> Result<Ga
     let eye = Eye::new(start + celerity.vector() * proper_time, celerity.vector())?;
     let look = viewpoint.look.unwrap_or(scene.start.look);
     Ok(Gaze { eye, observer_from_eye: Camera::looking(look, viewpoint.up, 1.0).observer_from_eye })
+}
+
+/// What an observer sees, and when by his own clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// What he sees from where.
+    pub gaze: Gaze,
+    /// Seconds.
+    pub own_s: f64,
 }
 
 /// A scene, a device and targets, ready to take pictures.
@@ -108,19 +122,32 @@ impl<'gpu> Cameraman<'gpu> {
     /// A lost device, or a place that cannot be written.
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         self.submit(&gaze)?;
-        let picture = self.take(&gaze)?;
+        let picture = self.take(&gaze, None)?;
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
     }
 
-    /// Films one frame per gaze. Ctrl-C ends the film early and keeps what there is.
+    /// Takes one picture and writes its light as OpenEXR.
+    ///
+    /// # Errors
+    /// A lost device, or a place that cannot be written.
+    pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
+        self.submit(&gaze)?;
+        let shot = shot(&gaze, self.options.fov, self.options.effects);
+        let light = self.studio.expose(self.gpu, &mut self.renderer, &shot)?;
+        exr::save(&light, path)?;
+        eprintln!("wrote {}", path.display());
+        Ok(())
+    }
+
+    /// Films one frame per moment. Ctrl-C ends the film early and keeps what there is.
     ///
     /// # Errors
     /// A lost device, an encoder that fails, or a place that cannot be written.
     pub fn film(
         &mut self,
-        gazes: impl Iterator<Item = Result<Gaze, Error>>,
+        mut moments: impl Iterator<Item = Result<Moment, Error>>,
         count: u64,
         frames_per_second: f64,
         path: &Path,
@@ -130,17 +157,18 @@ impl<'gpu> Cameraman<'gpu> {
         let bar = progress::bar(path.display().to_string(), count);
 
         // The photo-surface of the next frame is worked out while this one is drawn.
-        let mut gazes = gazes;
-        let mut next = gazes.next().transpose()?;
-        if let Some(gaze) = &next {
-            self.submit(gaze)?;
+        let mut before = None;
+        let mut next = moments.next().transpose()?;
+        if let Some(moment) = &next {
+            self.submit(&moment.gaze)?;
         }
-        while let Some(gaze) = next {
-            next = if stop.load(Ordering::Relaxed) { None } else { gazes.next().transpose()? };
-            if let Some(gaze) = &next {
-                self.submit(gaze)?;
+        while let Some(moment) = next {
+            next = if stop.load(Ordering::Relaxed) { None } else { moments.next().transpose()? };
+            if let Some(moment) = &next {
+                self.submit(&moment.gaze)?;
             }
-            if !film.add(self.take(&gaze)?) {
+            let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
+            if !film.add(self.take(&moment.gaze, elapsed_s)?) {
                 break;
             }
             bar.inc(1);
@@ -163,9 +191,10 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(())
     }
 
-    fn take(&mut self, gaze: &Gaze) -> Result<RgbaImage, Error> {
+    fn take(&mut self, gaze: &Gaze, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
         let shot = shot(gaze, self.options.fov, self.options.effects);
-        Ok(self.studio.photograph(self.gpu, &mut self.renderer, &shot)?)
+        let development = self.options.development();
+        Ok(self.studio.photograph(self.gpu, &mut self.renderer, &shot, &development, elapsed_s)?)
     }
 }
 

@@ -97,14 +97,46 @@ pub struct Map {
     pub last_roots: IVec4,
 }
 
-/// How radiance becomes a pixel.
+/// How samples are summed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Resolve {
+pub struct Accumulate {
     /// What each sample counts for: one over their number.
     pub weight: f32,
-    /// 1 encodes as sRGB, 0 leaves it linear (for a target that encodes by itself, and between samples).
-    pub encode: f32,
-    /// Fills the struct to 16 bytes.
-    pub padding: [f32; 2],
+}
+
+/// What the light meter is asked.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Metering {
+    /// Exposure over the texture's scale, if it is not automatic.
+    pub exposure: f32,
+    /// Base-2 logarithm of the exposure, if it is not automatic.
+    pub log2_exposure: f32,
+    /// Base-2 logarithm of the texture's scale.
+    pub log2_scale: f32,
+    /// How far to go from what the eye is adapted to, to what it sees: 0 to 1.
+    pub share: f32,
+    /// 1 takes the exposure from the gain.
+    pub automatic: u32,
+    /// 1 counts the gain: luminance as seen, over that of the same surfaces unshifted.
+    pub gains: u32,
+    /// 1 counts the luminance itself.
+    pub luminances: u32,
+}
+
+/// What the eye is adapted to; stays on the device from frame to frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Adaptation {
+    /// What the texture's values are multiplied with: exposure over scale.
+    pub exposure: f32,
+    /// Exposed gain that is shown as white, at least 1.
+    pub white: f32,
+    /// Base-2 logarithm of the exposure.
+    pub log2_exposure: f32,
+    /// Mean base-2 logarithm of the gain.
+    pub gain: f32,
+    /// Base-2 logarithm of the gain of the brightest pixels.
+    pub bright: f32,
 }

@@ -8,9 +8,9 @@
 
 mod layout;
 
-use physics::colour::ShiftTable;
+pub use layout::{Accumulate, Adaptation, Cut, Lighting, Map, Material, Metering, Pane, View};
 
-pub use layout::{Cut, Lighting, Map, Material, Pane, Resolve, View};
+use physics::colour::ShiftTable;
 
 /// Bind group that holds [`View`], [`Lighting`] and the shadow map.
 pub const VIEW_GROUP: u32 = 0;
@@ -22,6 +22,57 @@ pub const SHADOW_FILTER_TEXELS: f32 = 0.75;
 pub const SHADOW_BIAS_M: f32 = 0.04;
 /// Metres that the point looked up in the shadow map is moved off its surface, so that no surface shades itself.
 pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
+
+/// Values above it are taken for it: its square is still a finite f32.
+pub const BRIGHTEST: f32 = (1_u64 << 60) as f32;
+/// Luminances below it are taken for black.
+pub const DARKEST: f32 = 1e-30;
+/// Base-2 logarithm of the largest factor that exposure multiplies with, and of its inverse.
+pub const LARGEST_LOG2: f32 = 120.0;
+
+/// Columns and rows of the pixels that the light meter looks at; a smaller picture is looked at whole.
+///
+/// Fewer than 2¹⁶ in all, so that a sum of 16-bit fractions over them fits 32 bits.
+pub const METER_GRID: [u32; 2] = [256, 144];
+/// Side of the square of pixels that a group of threads looks at.
+pub const METER_WORKGROUP: u32 = 16;
+/// Bins of a light meter's histogram.
+pub const METER_BINS: u32 = 1024;
+/// Bins for each doubling.
+pub const METER_BINS_PER_OCTAVE: f32 = 8.0;
+/// Doublings from 1 to either end of the histogram.
+pub const METER_OCTAVES: f32 = METER_BINS as f32 / METER_BINS_PER_OCTAVE / 2.0;
+/// Share of the samples that the mean gain leaves out at either end.
+pub const METER_TRIM_PERCENT: u32 = 10;
+/// Share of the samples that are darker than what is shown as white.
+pub const METER_BRIGHT_PERCENT: u32 = 99;
+
+/// Doublings between the darkest and the brightest that a screen shows, for the histogram's curve: 1000 : 1.
+pub const SCREEN_OCTAVES: f32 = 10.0;
+/// How often the histogram is cut at its ceiling.
+pub const HISTOGRAM_PASSES: u32 = 32;
+/// Share of the samples below which a histogram that is cut has nothing left: the screen has the frame's range anyway.
+pub const HISTOGRAM_TOLERANCE: f32 = 0.025;
+
+/// No curve: what is brighter than the screen is cut off.
+pub const TONE_LINEAR: u32 = 0;
+/// Extended Reinhard.
+pub const TONE_REINHARD: u32 = 1;
+/// 1 − e^(−L).
+pub const TONE_EXPONENTIAL: u32 = 2;
+/// As film has it.
+pub const TONE_FILMIC: u32 = 3;
+/// Histogram adjustment.
+pub const TONE_HISTOGRAM: u32 = 4;
+/// L (a L + b) / (L (c L + d) + e), the fit by K. Narkowicz, "ACES filmic tone mapping curve", 2016.
+pub const FILMIC: [f32; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
+
+/// Desaturation at constant luminance.
+pub const GAMUT_DESATURATE: u32 = 0;
+/// Adding white, then darkening.
+pub const GAMUT_WHITE: u32 = 1;
+/// Each channel by itself.
+pub const GAMUT_CLAMP: u32 = 2;
 
 /// Nodes of the shift table over ln D; odd, so that D = 1 is one.
 pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
@@ -52,6 +103,8 @@ impl Module {
 }
 
 const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
+const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
+const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
 const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
@@ -66,27 +119,78 @@ pub const WARP: Module =
     Module { name: "warp", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/warp.wgsl")] };
 /// The sun's depth map, in the world frame.
 pub const SHADOW: Module = Module { name: "shadow", files: &[SHARED, include_str!("../wgsl/shadow.wgsl")] };
-/// Linear radiance to the screen's sRGB, and the mean of several samples.
-pub const RESOLVE: Module = Module { name: "resolve", files: &[include_str!("../wgsl/resolve.wgsl")] };
+/// The mean of several samples.
+pub const ACCUMULATE: Module =
+    Module { name: "accumulate", files: &[FULLSCREEN, include_str!("../wgsl/accumulate.wgsl")] };
+/// Radiance as it is.
+pub const COPY: Module = Module { name: "copy", files: &[FULLSCREEN, include_str!("../wgsl/copy.wgsl")] };
+/// What the eye adapts to: exposure, white and the histogram's curve.
+pub const METER: Module = Module { name: "meter", files: &[RADIANCE, include_str!("../wgsl/meter.wgsl")] };
+/// Linear radiance to the screen's sRGB.
+pub const DISPLAY: Module = Module {
+    name: "display",
+    files: &[
+        FULLSCREEN,
+        RADIANCE,
+        include_str!("../wgsl/tone.wgsl"),
+        include_str!("../wgsl/gamut.wgsl"),
+        include_str!("../wgsl/display.wgsl"),
+    ],
+};
 /// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 6] = [SURFACE, SKY, WARP, SHADOW, RESOLVE, PROBE];
+pub const MODULES: [Module; 9] = [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
-    let turn = std::f32::consts::TAU;
     let nodes_per_octave = f64::from(SHIFT_NODES - 1) * std::f64::consts::LN_2 / (2.0 * ShiftTable::LN_LIMIT);
+    let mut source = String::new();
+    for (name, value) in [
+        ("SHADOW_FILTER_TEXELS", SHADOW_FILTER_TEXELS),
+        ("SHADOW_NORMAL_OFFSET_M", SHADOW_NORMAL_OFFSET_M),
+        ("SHIFT_NODES_PER_OCTAVE", nodes_per_octave as f32),
+        ("HALF_LIMIT", HALF_LIMIT),
+        ("PANORAMA_LOOKS", PANORAMA_LOOKS),
+        ("TURN", std::f32::consts::TAU),
+        ("BRIGHTEST", BRIGHTEST),
+        ("DARKEST", DARKEST),
+        ("LARGEST_LOG2", LARGEST_LOG2),
+        ("METER_BINS_PER_OCTAVE", METER_BINS_PER_OCTAVE),
+        ("METER_OCTAVES", METER_OCTAVES),
+        ("SCREEN_OCTAVES", SCREEN_OCTAVES),
+        ("HISTOGRAM_TOLERANCE", HISTOGRAM_TOLERANCE),
+        ("FILMIC_A", FILMIC[0]),
+        ("FILMIC_B", FILMIC[1]),
+        ("FILMIC_C", FILMIC[2]),
+        ("FILMIC_D", FILMIC[3]),
+        ("FILMIC_E", FILMIC[4]),
+    ] {
+        source.push_str(&format!("const {name}: f32 = {value:?};\n"));
+    }
+    for (name, value) in [
+        ("SHIFT_NODES", SHIFT_NODES),
+        ("BRIGHTEST_BITS", BRIGHTEST.to_bits()),
+        ("METER_WORKGROUP", METER_WORKGROUP),
+        ("METER_BINS", METER_BINS),
+        ("METER_TRIM_PERCENT", METER_TRIM_PERCENT),
+        ("METER_BRIGHT_PERCENT", METER_BRIGHT_PERCENT),
+        ("HISTOGRAM_PASSES", HISTOGRAM_PASSES),
+        ("TONE_LINEAR", TONE_LINEAR),
+        ("TONE_REINHARD", TONE_REINHARD),
+        ("TONE_EXPONENTIAL", TONE_EXPONENTIAL),
+        ("TONE_FILMIC", TONE_FILMIC),
+        ("TONE_HISTOGRAM", TONE_HISTOGRAM),
+        ("GAMUT_DESATURATE", GAMUT_DESATURATE),
+        ("GAMUT_WHITE", GAMUT_WHITE),
+        ("GAMUT_CLAMP", GAMUT_CLAMP),
+    ] {
+        source.push_str(&format!("const {name}: u32 = {value}u;\n"));
+    }
     let [red, green, blue] = LUMINANCE;
-    format!(
-        "const SHADOW_FILTER_TEXELS: f32 = {SHADOW_FILTER_TEXELS:?};\n\
-         const SHADOW_NORMAL_OFFSET_M: f32 = {SHADOW_NORMAL_OFFSET_M:?};\n\
-         const SHIFT_NODES: u32 = {SHIFT_NODES}u;\n\
-         const SHIFT_NODES_PER_OCTAVE: f32 = {nodes_per_octave:?};\n\
-         const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n\
-         const HALF_LIMIT: f32 = {HALF_LIMIT:?};\n\
-         const PANORAMA_LOOKS: f32 = {PANORAMA_LOOKS:?};\n\
-         const TURN: f32 = {turn:?};\n"
-    )
+    let [columns, rows] = METER_GRID;
+    source.push_str(&format!("const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n"));
+    source.push_str(&format!("const METER_GRID: vec2<u32> = vec2({columns}u, {rows}u);\n"));
+    source
 }

@@ -19,7 +19,11 @@ pub fn encoded(linear: f64) -> f64 {
 
 /// The linear value that a byte stands for.
 pub fn linear(byte: u8) -> f64 {
-    let encoded = f64::from(byte) / 255.0;
+    linear_of(f64::from(byte) / 255.0)
+}
+
+/// The linear value of an encoded one, on the scale where white is 1.
+pub fn linear_of(encoded: f64) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -5,6 +5,7 @@
 //! offset or a curve that is wrong in the program is not wrong here as well. [`photographer`] asks the program for the same picture.
 
 pub mod colour;
+pub mod display;
 pub mod exact;
 pub mod photographer;
 pub mod random;

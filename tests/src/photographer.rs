@@ -5,6 +5,7 @@ use image::RgbaImage;
 use physics::Celerity;
 use physics::photo_surface::Eye;
 use rapidity::gpu::{Gpu, GpuError};
+use rapidity::renderers::display::{Development, Gamut};
 use rapidity::renderers::picture::Studio;
 use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::Scene;
@@ -62,6 +63,8 @@ impl Photographer {
         if self.renderer.transforms(effects) {
             self.renderer.submit(gpu(), eye).expect("the device is there");
         }
-        self.studio.photograph(gpu(), &mut self.renderer, &shot).expect("the device is there")
+        // Channels are cut off one by one, as `colour` does.
+        let development = Development { gamut: Gamut::Clamp, ..Default::default() };
+        self.studio.photograph(gpu(), &mut self.renderer, &shot, &development, None).expect("the device is there")
     }
 }

@@ -1,6 +1,7 @@
 //! Options that say how a picture is drawn, in a window as on file.
 
 use crate::renderers::Effects;
+use crate::renderers::display::{Development, Exposure, Gamut, Tone};
 use crate::renderers::image::MapQuality;
 use clap::Args;
 
@@ -34,6 +35,17 @@ pub struct PictureOptions {
     /// What relativity does to the picture: all, none, or any of geometry, doppler and searchlight, with commas between them.
     #[arg(long, value_name = "EFFECTS", default_value = "all")]
     pub effects: Effects,
+    /// How bright the picture is: auto, white, or stops brighter than white, as in -1.5.
+    ///
+    /// auto: on the average as bright as the same surfaces are at rest. white: what is white at rest is shown as white.
+    #[arg(long, value_name = "EXPOSURE", default_value = "auto", allow_hyphen_values = true)]
+    pub exposure: Exposure,
+    /// The curve from radiance to the screen's brightness.
+    #[arg(long, value_enum, default_value = "reinhard")]
+    pub tone: Tone,
+    /// Where colours go that the screen does not have.
+    #[arg(long, value_enum, default_value = "desaturate")]
+    pub gamut: Gamut,
     /// How the picture is computed: auto, polygon or image.
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
     pub renderer: Renderer,
@@ -47,6 +59,13 @@ pub struct PictureOptions {
     /// Threads that transform the scene, 1 to 1024 [default: one a processor core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
+}
+
+impl PictureOptions {
+    /// How radiance becomes the picture.
+    pub fn development(&self) -> Development {
+        Development { exposure: self.exposure, tone: self.tone, gamut: self.gamut }
+    }
 }
 
 fn renderer(text: &str) -> Result<Renderer, ValueError> {

@@ -18,7 +18,9 @@ const PARALLEL: f64 = 1e-9;
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RenderOptions {
-    /// The file to write: .png for a picture, .mp4 for a film.
+    /// The file to write: .png for a picture, .exr for its light, .mp4 for a film.
+    ///
+    /// Light is linear sRGB in cd/m², before exposure, tone and gamut, as 32-bit floats.
     #[arg(long, value_name = "FILE", value_parser = values::output())]
     pub out: Output,
     /// The world.
@@ -84,7 +86,7 @@ impl RenderOptions {
 
     /// Checks what the options say together.
     pub(super) fn check(&self) -> Result<(), String> {
-        if matches!(self.out, Output::Picture(_)) {
+        if !matches!(self.out, Output::Film(_)) {
             if self.fps.is_some() {
                 return Err("--fps is for films: name an .mp4 file with --out, or leave --fps out".to_owned());
             }

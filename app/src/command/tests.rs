@@ -3,6 +3,7 @@
 //! let |beta| = 1 through, or swallow one of two options that contradict each other.
 
 use crate::renderers::Effects;
+use crate::renderers::display::{Development, Exposure, Gamut, Tone};
 use crate::vehicle::{IntegratorKind, Nose};
 use glam::DVec3;
 
@@ -50,6 +51,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
     assert_eq!(options.vehicle.time_scale, 1.0);
     assert_eq!(options.picture.size, [1280, 720]);
     assert_eq!(options.picture.effects, Effects::ALL);
+    assert_eq!(options.picture.development(), Development::default());
     assert_eq!((options.record, options.replay, options.out, options.seconds), (None, None, None, None));
 }
 
@@ -57,6 +59,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
 fn a_ride_takes_all_its_options() {
     let options = ride(
         "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --record r.mcap \
+         --exposure -1.5 --tone filmic --gamut clamp \
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
          --threads 2 --integrator exact --transport gyroscopic --time-scale 0.5 --out r.mp4 --realtime --fov 90",
     );
@@ -71,6 +74,8 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.vehicle.transport, Nose::Gyroscopic);
     assert_eq!(options.picture.renderer, Renderer::Polygon);
     assert_eq!((options.picture.samples, options.picture.threads, options.picture.fov), (1, Some(2), 90.0));
+    let developed = Development { exposure: Exposure::Stops(-1.5), tone: Tone::Filmic, gamut: Gamut::Clamp };
+    assert_eq!(options.picture.development(), developed);
     assert!(ride("--replay r.mcap --verify").verify);
 }
 
@@ -119,6 +124,11 @@ fn speeds_come_in_every_unit() {
 #[test]
 fn the_ending_of_the_file_says_what_is_drawn() {
     assert_eq!(render("").out, Output::Picture("a.png".into()));
+    let Ok(Command::Render(options)) = parse("render --out b/c.exr --tone histogram --exposure white") else {
+        panic!()
+    };
+    assert_eq!(options.out, Output::Light("b/c.exr".into()));
+    assert_eq!(options.picture.exposure, Exposure::WHITE);
     let Ok(Command::Render(options)) = parse("render --out b/c.MP4 --seconds 3 --fps 25") else { panic!() };
     assert_eq!(options.out, Output::Film("b/c.MP4".into()));
     assert_eq!((options.seconds, options.frames_per_second()), (Some(3.0), 25.0));
@@ -158,10 +168,14 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --out a.png --background -0.1,0,0", ["--background", "from 0 to 1"]),
         ("render --out a.png --renderer raytrace", ["the raytrace renderer is not there yet", "polygon"]),
         ("render --out a.png --renderer vulkan", ["--renderer", "auto or polygon"]),
-        ("render --out a.png --effects doppler", ["--effects", "geometry"]),
+        ("render --out a.png --effects colour", ["--effects", "geometry"]),
+        ("render --out a.png --exposure bright", ["--exposure", "auto, white, or a number of stops"]),
+        ("render --out a.png --exposure 1e9", ["--exposure", "from -60 to 60"]),
+        ("render --out a.png --tone soft", ["--tone", "reinhard, linear, exponential, filmic, histogram"]),
+        ("render --out a.png --gamut wide", ["--gamut", "desaturate, white, clamp"]),
         ("render --out a.png --edge 0", ["--edge", "above 0"]),
         ("render --out a.png --threads 0", ["--threads", "1..=1024"]),
-        ("render --out a.jpg", ["--out", ".png"]),
+        ("render --out a.jpg", ["--out", ".exr"]),
         ("render --out png", ["--out", ".png"]),
         ("render --out a.mp4 --seconds -1", ["--seconds", "above 0"]),
         ("render --out a.mp4 --seconds inf", ["--seconds", "above 0"]),
@@ -178,6 +192,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("ride --transport bus", ["--transport", "gyroscopic"]),
         ("ride --time-scale 0", ["--time-scale", "above 0"]),
         ("ride --out ride.png", ["--out", ".mp4"]),
+        ("ride --out ride.exr", ["--out", ".mp4"]),
         ("town --out town.gltf", ["--out", ".glb"]),
     ] {
         let sentence = refusal(line);
@@ -193,6 +208,8 @@ fn options_that_contradict_each_other_are_refused_by_name() {
     for (line, told) in [
         ("render --out a.png --celerity 1,0,0 --beta 0.5,0,0", ["--celerity", "--beta"]),
         ("render --out a.png --fps 25", ["--fps", ".mp4"]),
+        ("render --out a.exr --fps 25", ["--fps", ".mp4"]),
+        ("render --out a.exr --seconds 2", ["--seconds", "--replay"]),
         ("render --out a.png --seconds 2", ["--seconds", "--replay"]),
         ("render --out a.png --look 0,3,0", ["--up", "--look"]),
         ("render --out a.mp4 --replay r.mcap --position 0,0,0", ["--replay", "--position"]),

@@ -75,8 +75,19 @@ const SPEED_UNITS: [(&str, f64); 5] =
 pub enum Output {
     /// One PNG.
     Picture(PathBuf),
+    /// One picture as light, OpenEXR.
+    Light(PathBuf),
     /// An MP4 film.
     Film(PathBuf),
+}
+
+impl Output {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Picture(path) | Self::Light(path) | Self::Film(path) => path,
+        }
+    }
 }
 
 impl TryFrom<PathBuf> for Output {
@@ -84,15 +95,17 @@ impl TryFrom<PathBuf> for Output {
     fn try_from(path: PathBuf) -> Result<Self, ValueError> {
         if has_extension(&path, &["png"]) {
             Ok(Self::Picture(path))
+        } else if has_extension(&path, &["exr"]) {
+            Ok(Self::Light(path))
         } else if has_extension(&path, &["mp4"]) {
             Ok(Self::Film(path))
         } else {
-            Err(ValueError::Extension { allowed: ".png (a picture) or .mp4 (a film)" })
+            Err(ValueError::Extension { allowed: ".png (a picture), .exr (a picture as light) or .mp4 (a film)" })
         }
     }
 }
 
-/// A picture or a film.
+/// A picture, light, or a film.
 pub(super) fn output() -> impl TypedValueParser<Value = Output> {
     PathBufValueParser::new().try_map(Output::try_from)
 }

@@ -2,13 +2,13 @@
 //!
 //! [`polygon`] draws the photo-surface with ordinary rasterisation, [`image`] bends a map of the world pixel by pixel; both draw the same
 //! [`world`], and [`SceneRenderer`] is whichever a scene is drawn by. All draw into a [`target::Radiance`] target of linear
-//! values, which [`resolve`] turns into pixels.
+//! values, which [`display`] turns into pixels.
 
 pub mod choice;
+pub mod display;
 pub mod image;
 pub mod picture;
 pub mod polygon;
-pub mod resolve;
 mod scene_renderer;
 pub mod target;
 pub mod world;

@@ -1,74 +1,102 @@
-//! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB.
+//! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB or as light.
 
-use super::resolve::{Accumulator, Resolver};
+use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, Stored};
 use super::target::{Format, Radiance};
 use super::{SceneRenderer, Shot};
 use crate::gpu::{Gpu, GpuError};
 use crate::views::sample_offset;
-use image::RgbaImage;
+use image::{Rgb32FImage, RgbaImage};
 
 /// What a picture is stored as.
 const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// What light is fetched as.
+const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Turns radiance into pictures in memory.
 pub struct Darkroom {
-    resolver: Resolver,
-    screen: wgpu::Texture,
-    readback: wgpu::Buffer,
-    row_bytes: u32,
+    display: Display,
+    sheet: Sheet,
 }
 
 impl Darkroom {
     /// For pictures of `size` pixels, from radiance of `format`.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
-        let screen = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        Self { display: Display::new(gpu, format, SCREEN_FORMAT), sheet: Sheet::new(gpu, size, SCREEN_FORMAT) }
+    }
+
+    /// Develops `radiance` as an eye sees it that is adapted to it, encodes it as 8-bit sRGB and fetches it.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn develop(
+        &mut self,
+        gpu: &Gpu,
+        radiance: &wgpu::TextureView,
+        adaptation: &Adaptation,
+        development: &Development,
+    ) -> Result<RgbaImage, GpuError> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.display.show(gpu, &mut encoder, radiance, adaptation, development, &self.sheet.view());
+        let pixels = self.sheet.fetch(gpu, encoder)?;
+        Ok(RgbaImage::from_raw(self.sheet.texture.width(), self.sheet.texture.height(), pixels)
+            .expect("the sheet has four bytes a pixel"))
+    }
+}
+
+/// A texture that can be fetched from the device.
+struct Sheet {
+    texture: wgpu::Texture,
+    readback: wgpu::Buffer,
+    row_bytes: u32,
+    padded_row_bytes: u32,
+}
+
+impl Sheet {
+    fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: SCREEN_FORMAT,
+            format,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let row_bytes = (size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let row_bytes = size[0] * format.block_copy_size(None).expect("a colour format has one aspect");
+        let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let readback = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("picture"),
-            size: u64::from(row_bytes) * u64::from(size[1]),
+            size: u64::from(padded_row_bytes) * u64::from(size[1]),
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
-        Self { resolver: Resolver::new(gpu, format, SCREEN_FORMAT), screen, readback, row_bytes }
+        Self { texture, readback, row_bytes, padded_row_bytes }
     }
 
-    /// Encodes `radiance` as 8-bit sRGB and fetches it.
-    ///
-    /// # Errors
-    /// [`GpuError::Lost`] if the device went away.
-    pub fn develop(&self, gpu: &Gpu, radiance: &wgpu::TextureView) -> Result<RgbaImage, GpuError> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let screen = self.screen.create_view(&wgpu::TextureViewDescriptor::default());
-        self.resolver.show(gpu, &mut encoder, radiance, &screen);
+    fn view(&self) -> wgpu::TextureView {
+        self.texture.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    /// Submits what draws on the sheet, and fetches its bytes, row by row.
+    fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
         let layout =
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.row_bytes), rows_per_image: None };
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
         encoder.copy_texture_to_buffer(
-            self.screen.as_image_copy(),
+            self.texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo { buffer: &self.readback, layout },
-            self.screen.size(),
+            self.texture.size(),
         );
         gpu.queue.submit([encoder.finish()]);
 
         self.readback.map_async(wgpu::MapMode::Read, .., |_| {});
         gpu.wait()?;
         let mapped = self.readback.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
-        let mut picture = RgbaImage::new(self.screen.width(), self.screen.height());
-        let row_length = self.screen.width() as usize * 4;
-        for (row, source) in picture.chunks_exact_mut(row_length).zip(mapped.chunks_exact(self.row_bytes as usize)) {
-            row.copy_from_slice(&source[..row_length]);
-        }
+        let rows = mapped.chunks_exact(self.padded_row_bytes as usize);
+        let bytes = rows.flat_map(|row| &row[..self.row_bytes as usize]).copied().collect();
         drop(mapped);
         self.readback.unmap();
-        Ok(picture)
+        Ok(bytes)
     }
 }
 
@@ -79,6 +107,7 @@ pub struct Studio {
     radiance: Radiance,
     sum: Accumulator,
     darkroom: Darkroom,
+    adaptation: Adaptation,
 }
 
 impl Studio {
@@ -90,8 +119,9 @@ impl Studio {
             size,
             samples,
             radiance: Radiance::new(gpu, size, format),
-            sum: darkroom.resolver.accumulator(gpu, size),
+            sum: darkroom.display.accumulator(gpu, size),
             darkroom,
+            adaptation: Adaptation::new(gpu),
         }
     }
 
@@ -102,28 +132,77 @@ impl Studio {
 
     /// Takes a picture. Where `renderer` needs a photo-surface, it must have been submitted before; it is received here.
     ///
+    /// # Arguments
+    /// * `elapsed_s` — the observer's own time since the picture before, to which his eye is still adapted; `None` adapts it at once.
+    ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn photograph(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<RgbaImage, GpuError> {
+    pub fn photograph(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        development: &Development,
+        elapsed_s: Option<f64>,
+    ) -> Result<RgbaImage, GpuError> {
+        let stored = self.draw(gpu, renderer, shot)?;
+        let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let seen = Seen { radiance, stored, elapsed_s };
+        self.darkroom.display.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        gpu.queue.submit([encoder.finish()]);
+        self.darkroom.develop(gpu, radiance, &self.adaptation, development)
+    }
+
+    /// The same as light: linear sRGB in cd/m², before exposure, tone and gamut. What f32 does not hold is its largest value.
+    ///
+    /// # Errors
+    /// As [`Studio::photograph`].
+    pub fn expose(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Rgb32FImage, GpuError> {
+        let stored = self.draw(gpu, renderer, shot)?;
+        let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
+        light(gpu, radiance, &stored)
+    }
+
+    /// Draws each sample, and adds it up.
+    fn draw(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Stored, GpuError> {
         if renderer.transforms(shot.effects) {
             let transformed = renderer.receive()?;
             renderer.show(gpu, transformed);
         }
         renderer.prepare(gpu, shot, self.size);
-
-        // Draw each sample, and add it up.
         self.sum.restart();
         for sample in 0..self.samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, self.samples));
             if self.samples > 1 {
-                self.darkroom.resolver.add(gpu, &mut encoder, &mut self.sum, &self.radiance, self.samples);
+                self.darkroom.display.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), self.samples);
             }
             gpu.queue.submit([encoder.finish()]);
         }
-        let result = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
-        self.darkroom.develop(gpu, result)
+        Ok(renderer.stored(shot))
     }
+}
+
+/// Fetches radiance from the device: linear sRGB in cd/m².
+///
+/// # Errors
+/// [`GpuError::Lost`] if the device went away.
+pub fn light(gpu: &Gpu, radiance: &wgpu::TextureView, stored: &Stored) -> Result<Rgb32FImage, GpuError> {
+    let size = radiance.texture().size();
+    let sheet = Sheet::new(gpu, [size.width, size.height], LIGHT_FORMAT);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    display::copy(gpu, &mut encoder, radiance, &sheet.view(), LIGHT_FORMAT);
+    let bytes = sheet.fetch(gpu, encoder)?;
+
+    let candela = stored.white / stored.scale;
+    let largest = f64::from(f32::MAX);
+    let values = bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&bytes)
+        .into_iter()
+        .flat_map(|[red, green, blue, _]| [red, green, blue])
+        .map(|value| (f64::from(value) * candela).clamp(-largest, largest) as f32)
+        .collect();
+    Ok(Rgb32FImage::from_raw(size.width, size.height, values).expect("the sheet has three colours a pixel"))
 }
 
 /// Size of the largest picture that the device can draw, pixels along each side.

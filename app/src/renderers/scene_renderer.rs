@@ -1,5 +1,6 @@
 //! A scene, and whichever method draws it.
 
+use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
 use super::polygon::{PhotoSurface, Transformed};
 use super::target::{Format, Radiance};
@@ -100,6 +101,15 @@ impl SceneRenderer {
     /// Luminance that is white at rest, cd/m².
     pub fn white_luminance(&self) -> f64 {
         self.world.spectra.white_luminance
+    }
+
+    /// How targets hold the light of a shot.
+    pub fn stored(&self, shot: &Shot) -> Stored {
+        Stored {
+            white: self.white_luminance(),
+            scale: shot.scale(self.format),
+            shifted: shot.effects.shift_light() && shot.celerity() != Celerity::ZERO,
+        }
     }
 
     /// What the newest map cost, where the method has one.

@@ -20,7 +20,7 @@ use crate::progress;
 use crate::render::interrupted;
 use crate::renderers::SceneRenderer;
 use crate::renderers::choice::Choice;
-use crate::renderers::resolve::Resolver;
+use crate::renderers::display::{Adaptation, Display, Seen, development};
 use crate::renderers::target::{Format, Radiance};
 use crate::scene::Scene;
 pub use hud::Readings;
@@ -40,6 +40,9 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 /// Samples a pixel in a window drawn by hardware, where they cost little; software draws one.
 const HARDWARE_SAMPLES: u32 = 4;
+
+/// What a press of an exposure key adds or takes.
+const STOPS_PER_PRESS: f32 = 0.5;
 
 /// Between two looks at a window that cannot be drawn in.
 const UNSEEN_PAUSE: Duration = Duration::from_millis(10);
@@ -85,7 +88,8 @@ struct Open {
     configuration: wgpu::SurfaceConfiguration,
     radiance: Radiance,
     format: Format,
-    resolver: Resolver,
+    display: Display,
+    adaptation: Adaptation,
     interface: Interface,
     settings: Settings,
     ride: Ride,
@@ -157,7 +161,8 @@ impl Open {
         let interface = Interface::new(&gpu, &window, configuration.format);
         Ok(Self {
             radiance: Radiance::new(&gpu, [configuration.width, configuration.height], format),
-            resolver: Resolver::new(&gpu, format.colour, configuration.format),
+            display: Display::new(&gpu, format.colour, configuration.format),
+            adaptation: Adaptation::new(&gpu),
             settings: Settings {
                 open: false,
                 help: false,
@@ -165,6 +170,7 @@ impl Open {
                 effects: options.picture.effects,
                 latency: options.latency,
                 fov: options.picture.fov,
+                development: options.picture.development(),
             },
             ride: Ride::new(renderer, live()?),
             stop: interrupted(),
@@ -223,12 +229,26 @@ impl Open {
             KeyCode::KeyG => self.settings.effects.geometry = !self.settings.effects.geometry,
             KeyCode::KeyB => self.settings.effects.doppler = !self.settings.effects.doppler,
             KeyCode::KeyN => self.settings.effects.searchlight = !self.settings.effects.searchlight,
+            KeyCode::KeyT => {
+                let tone = development::next(self.settings.development.tone);
+                self.settings.development.tone = tone;
+                self.ride.live.tell(format!("tone curve: {}", development::name(&tone)));
+            }
+            KeyCode::BracketLeft => self.expose(-STOPS_PER_PRESS),
+            KeyCode::BracketRight => self.expose(STOPS_PER_PRESS),
             KeyCode::F11 => {
                 let full = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
                 self.window.set_fullscreen(full);
             }
             _ => {}
         }
+    }
+
+    /// Makes the picture brighter by `stops`, and says so.
+    fn expose(&mut self, stops: f32) {
+        let exposure = self.settings.development.exposure.changed(stops);
+        self.settings.development.exposure = exposure;
+        self.ride.live.tell(format!("exposure: {exposure}"));
     }
 
     fn resize(&mut self, size: PhysicalSize<u32>) {
@@ -280,13 +300,21 @@ impl Open {
             latency: self.settings.latency,
         };
         let Some(events) = self.ride.frame(&self.gpu, &look)? else { return Ok(false) };
+
+        // The eye adapts to it.
+        let development = self.settings.development;
+        let seen = Seen { radiance: self.radiance.result(), stored: self.ride.stored, elapsed_s: self.ride.elapsed_s };
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.display.adapt(&self.gpu, &mut encoder, &mut self.adaptation, &seen, &development);
+        self.gpu.queue.submit([encoder.finish()]);
+
         for action in events {
             match action {
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
-                    let told = photo::take(&self.gpu, &self.radiance).unwrap_or_else(|error| error.to_string());
-                    self.ride.live.tell(told);
+                    let taken = photo::take(&self.gpu, &self.radiance, &self.adaptation, &development);
+                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
                 }
                 _ => {}
             }
@@ -294,7 +322,8 @@ impl Open {
 
         // Light to the window, and the display over it.
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.resolver.show(&self.gpu, &mut encoder, self.radiance.result(), &screen);
+        let radiance = self.radiance.result();
+        self.display.show(&self.gpu, &mut encoder, radiance, &self.adaptation, &development, &screen);
         let readings = self.ride.readings();
         let panel = self.ride.panel(&self.gpu);
         let settings = &mut self.settings;

@@ -2,6 +2,8 @@
 
 use crate::command::Latency;
 use crate::renderers::Effects;
+use crate::renderers::display::{Development, Exposure, development};
+use clap::ValueEnum;
 use egui::{Align2, Grid, RichText, Slider, Ui, Window};
 use input::{Action, VehicleKind};
 
@@ -20,6 +22,8 @@ pub struct Settings {
     pub latency: Latency,
     /// Vertical field of view, degrees.
     pub fov: f64,
+    /// How radiance becomes the picture.
+    pub development: Development,
 }
 
 /// What the ride tells the panel.
@@ -84,6 +88,8 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
                 });
                 ui.end_row();
 
+                light(ui, &mut settings.development);
+
                 ui.label("Field of view");
                 let range = Slider::new(&mut settings.fov, 20.0..=140.0).suffix("°");
                 ui.add(range.clamping(egui::SliderClamping::Edits));
@@ -120,8 +126,42 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
     actions
 }
 
+/// Rows that say how radiance becomes the picture.
+fn light(ui: &mut Ui, development: &mut Development) {
+    ui.label("Exposure");
+    ui.horizontal(|ui| {
+        let exposure = &mut development.exposure;
+        ui.selectable_value(exposure, Exposure::Auto, "auto");
+        ui.selectable_value(exposure, Exposure::WHITE, "white");
+        let mut stops = match *exposure {
+            Exposure::Auto => 0.0,
+            Exposure::Stops(stops) => stops,
+        };
+        let slider = Slider::new(&mut stops, -10.0..=10.0).fixed_decimals(1).clamping(egui::SliderClamping::Edits);
+        if ui.add(slider).changed() {
+            *exposure = Exposure::Stops(0.0).changed(stops);
+        }
+    });
+    ui.end_row();
+
+    ui.label("Tone");
+    choice(ui, &mut development.tone);
+    ui.label("Gamut");
+    choice(ui, &mut development.gamut);
+}
+
+/// One of several.
+fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
+    ui.horizontal(|ui| {
+        for value in T::value_variants() {
+            ui.selectable_value(chosen, value.clone(), development::name(value));
+        }
+    });
+    ui.end_row();
+}
+
 /// What each key does; the same list as in the README.
-const KEYS: [(&str, &str); 18] = [
+const KEYS: [(&str, &str); 20] = [
     ("W S  ↑ ↓", "pedal, push back; thrust; nose down, up when flying"),
     ("A D  ← →", "steer; thrust sideways"),
     ("R F", "thrust up, down when flying"),
@@ -133,6 +173,8 @@ const KEYS: [(&str, &str); 18] = [
     (".", "one step while paused"),
     ("− =", "own time slower, faster"),
     ("G B N", "geometry, Doppler shift, searchlight effect: on, off"),
+    ("T", "next tone curve"),
+    ("[ ]", "darker, brighter"),
     ("C", "photo"),
     ("V", "record, from the ride's beginning"),
     ("Backspace", "back to the start"),

@@ -1,0 +1,192 @@
+//! What the eye is adapted to, and how it adapts.
+//!
+//! All of it stays on the device: a compute pass counts a grid of pixels into histograms, a second one draws the consequences, and the display reads
+//! them in the same frame. Nothing is read back, so no frame waits for another. Sums are of integers, hence the same in every run.
+//!
+//! What is metered is the *gain*, luminance as seen over the luminance that the same surface has unshifted, not the luminance itself: a dark scene
+//! stays dark and a bright one bright, and only what Doppler shift and searchlight effect have added is taken back. Where they add nothing,
+//! nothing is metered, and exposure is exactly 1.
+
+use super::development::{Development, Exposure, Tone};
+use super::passes::{UNFILTERED, UNIFORM, WRITE, contents, group, layout, module, pipeline_layout};
+use crate::gpu::Gpu;
+use bytemuck::bytes_of;
+
+/// Seconds of the observer's own time in which the eye adapts by 1 − 1/e of the way.
+pub const TIME_CONSTANT_S: f64 = 0.5;
+
+/// How a texture holds radiance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stored {
+    /// Luminance in cd/m² of what is white at rest.
+    pub white: f64,
+    /// The texture's red, green and blue are linear sRGB, relative to that white, times this.
+    pub scale: f64,
+    /// Whether Doppler shift or searchlight effect changed the light. Then the texture's alpha is the luminance that the same
+    /// surface has unshifted, relative to white and not scaled.
+    pub shifted: bool,
+}
+
+impl Stored {
+    /// Light that is as it was sent out.
+    pub const UNSHIFTED: Self = Self { white: 1.0, scale: 1.0, shifted: false };
+}
+
+/// What an eye sees.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// One sample a pixel.
+    pub radiance: &'a wgpu::TextureView,
+    /// How it holds radiance.
+    pub stored: Stored,
+    /// The observer's own time since the last frame, seconds. `None`, as for a still, adapts at once.
+    pub elapsed_s: Option<f64>,
+}
+
+/// The state of an eye, on the device.
+pub struct Adaptation {
+    pub(super) state: wgpu::Buffer,
+    pub(super) curve: wgpu::Buffer,
+    bins: wgpu::Buffer,
+    metered: Metered,
+}
+
+/// Which histograms were taken of the last frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Metered {
+    gains: bool,
+    luminances: bool,
+}
+
+impl Adaptation {
+    /// An eye that has seen nothing yet, and will be adapted at once to the first that it sees.
+    pub fn new(gpu: &Gpu) -> Self {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let buffer = |label, bytes: usize| {
+            let size = bytes as u64;
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let bins = shaders::METER_BINS as usize;
+        Self {
+            state: buffer("adaptation", size_of::<shaders::Adaptation>()),
+            curve: buffer("curve", (bins + 1) * size_of::<f32>()),
+            bins: buffer("bins", 2 * bins * size_of::<[u32; 2]>()),
+            metered: Metered::default(),
+        }
+    }
+}
+
+/// The passes that adapt an eye.
+pub struct Meter {
+    layout: wgpu::BindGroupLayout,
+    survey: wgpu::ComputePipeline,
+    expose: wgpu::ComputePipeline,
+    equalise: wgpu::ComputePipeline,
+}
+
+impl Meter {
+    /// Compiles the passes.
+    pub fn new(gpu: &Gpu) -> Self {
+        let bindings = [UNFILTERED, UNIFORM, WRITE, WRITE, WRITE];
+        let layout = layout(gpu, shaders::METER.name, wgpu::ShaderStages::COMPUTE, &bindings);
+        let module = module(gpu, &shaders::METER);
+        let pipeline_layout = pipeline_layout(gpu, &layout);
+        let pipeline = |entry_point| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        Self { survey: pipeline("survey"), expose: pipeline("expose"), equalise: pipeline("equalise"), layout }
+    }
+
+    /// Adapts an eye to what it sees.
+    pub fn adapt(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        adaptation: &mut Adaptation,
+        seen: &Seen<'_>,
+        development: &Development,
+    ) {
+        let stored = &seen.stored;
+        let before = adaptation.metered;
+        let now = Metered { gains: stored.shifted, luminances: development.tone == Tone::Histogram };
+        adaptation.metered = now;
+
+        // An exposure that is known without looking.
+        let stops = match development.exposure {
+            Exposure::Auto => 0.0,
+            Exposure::Stops(stops) => stops,
+        };
+        let exposure = factor(f64::from(stops).exp2() / stored.scale);
+        if !now.gains {
+            let state = shaders::Adaptation {
+                exposure,
+                white: stops.exp2().max(1.0),
+                log2_exposure: stops,
+                gain: 0.0,
+                bright: 0.0,
+            };
+            let known = contents(gpu, "adaptation", bytes_of(&state), wgpu::BufferUsages::COPY_SRC);
+            encoder.copy_buffer_to_buffer(&known, 0, &adaptation.state, 0, None);
+        }
+        if now == Metered::default() {
+            return;
+        }
+
+        // Light that has only just been shifted finds the eye rested: nothing to adapt from.
+        let fresh = (now.gains && !before.gains) || (now.luminances && !before.luminances);
+        let metering = shaders::Metering {
+            exposure,
+            log2_exposure: stops,
+            log2_scale: stored.scale.log2() as f32,
+            share: seen.elapsed_s.filter(|_| !fresh).map_or(1.0, share),
+            automatic: u32::from(development.exposure == Exposure::Auto),
+            gains: u32::from(now.gains),
+            luminances: u32::from(now.luminances),
+        };
+        let metering = contents(gpu, "metering", bytes_of(&metering), wgpu::BufferUsages::UNIFORM);
+        let resources = [
+            wgpu::BindingResource::TextureView(seen.radiance),
+            metering.as_entire_binding(),
+            adaptation.bins.as_entire_binding(),
+            adaptation.state.as_entire_binding(),
+            adaptation.curve.as_entire_binding(),
+        ];
+        let group = group(gpu, shaders::METER.name, &self.layout, &resources);
+
+        // Look, then conclude. The curve stands on the exposure.
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_bind_group(0, &group, &[]);
+        pass.set_pipeline(&self.survey);
+        let [columns, rows] = shaders::METER_GRID.map(|side| side.div_ceil(shaders::METER_WORKGROUP));
+        pass.dispatch_workgroups(columns, rows, 1);
+        for (pipeline, wanted) in [(&self.expose, now.gains), (&self.equalise, now.luminances)] {
+            if wanted {
+                pass.set_pipeline(pipeline);
+                pass.dispatch_workgroups(1, 1, 1);
+            }
+        }
+    }
+}
+
+/// A factor that f32 holds, and its inverse too.
+fn factor(factor: f64) -> f32 {
+    let largest = f64::from(shaders::LARGEST_LOG2).exp2();
+    factor.clamp(1.0 / largest, largest) as f32
+}
+
+/// How much of the way the eye goes in a time: 1 − e^(−t/τ).
+fn share(elapsed_s: f64) -> f32 {
+    -(-elapsed_s.max(0.0) / TIME_CONSTANT_S).exp_m1() as f32
+}

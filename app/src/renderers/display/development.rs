@@ -1,0 +1,146 @@
+//! What the user decides between radiance and screen: exposure, tone curve, gamut.
+
+use clap::ValueEnum;
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+use thiserror::Error;
+
+/// Stops from white that an exposure may be set to, either way: a factor of 10¹⁸.
+pub const MOST_STOPS: f32 = 60.0;
+
+/// How radiance is developed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Development {
+    /// How bright.
+    pub exposure: Exposure,
+    /// What becomes of what is brighter than white.
+    pub tone: Tone,
+    /// What becomes of colours that the screen does not have.
+    pub gamut: Gamut,
+}
+
+/// How bright the picture is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Exposure {
+    /// As bright as the same surfaces are at rest, on the average over the picture.
+    #[default]
+    Auto,
+    /// So many stops brighter than with the world's own white shown as white; a stop is a factor of two.
+    Stops(f32),
+}
+
+impl Exposure {
+    /// What is white at rest is shown as white.
+    pub const WHITE: Self = Self::Stops(0.0);
+
+    /// Brighter by `stops`, automatic no more.
+    pub fn changed(self, stops: f32) -> Self {
+        let from = match self {
+            Self::Auto => 0.0,
+            Self::Stops(stops) => stops,
+        };
+        Self::Stops((from + stops).clamp(-MOST_STOPS, MOST_STOPS))
+    }
+}
+
+impl Display for Exposure {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => formatter.write_str("auto"),
+            Self::Stops(stops) if *stops == 0.0 => formatter.write_str("white"),
+            Self::Stops(stops) => write!(formatter, "{stops:+}"),
+        }
+    }
+}
+
+/// A text that names no exposure.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("expected auto, white, or a number of stops from -{MOST_STOPS} to {MOST_STOPS}, as in -1.5")]
+pub struct ExposureError;
+
+impl FromStr for Exposure {
+    type Err = ExposureError;
+
+    fn from_str(text: &str) -> Result<Self, ExposureError> {
+        match text.trim() {
+            "auto" => Ok(Self::Auto),
+            "white" => Ok(Self::WHITE),
+            number => match number.parse::<f32>() {
+                Ok(stops) if stops.abs() <= MOST_STOPS => Ok(Self::Stops(stops)),
+                _ => Err(ExposureError),
+            },
+        }
+    }
+}
+
+/// The curve from exposed luminance to the screen's, white being 1 in both. Colours are scaled as a whole, so that their hue stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[repr(u32)]
+pub enum Tone {
+    /// L (1 + L/w²) / (1 + L): the brightest gain, w, is white; linear while nothing is brighter than at rest (Reinhard et al. 2002, eq. 4)
+    #[default]
+    Reinhard = shaders::TONE_REINHARD,
+    /// L: what is brighter than white is white
+    Linear = shaders::TONE_LINEAR,
+    /// 1 − e^(−L), as photographic layers saturate (B eq. 5.1)
+    Exponential = shaders::TONE_EXPONENTIAL,
+    /// Contrast as of film, dark shadows and soft highlights (Narkowicz 2016)
+    Filmic = shaders::TONE_FILMIC,
+    /// Brightness levels shared out by how many pixels need them, contrast nowhere exaggerated (Larson et al. 1997)
+    Histogram = shaders::TONE_HISTOGRAM,
+}
+
+/// Where colours go that the screen does not have (W 3.2.5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[repr(u32)]
+pub enum Gamut {
+    /// Towards the grey of the same luminance
+    #[default]
+    Desaturate = shaders::GAMUT_DESATURATE,
+    /// White is added until no channel is negative, then all are darkened until none is above 1
+    White = shaders::GAMUT_WHITE,
+    /// Each channel is cut off by itself
+    Clamp = shaders::GAMUT_CLAMP,
+}
+
+/// The choice after this one; after the last, the first.
+pub fn next<T: ValueEnum + PartialEq>(choice: T) -> T {
+    let following = T::value_variants().iter().skip_while(|value| **value != choice).nth(1);
+    following.or(T::value_variants().first()).cloned().unwrap_or(choice)
+}
+
+/// The name that one of several choices has on the command line.
+pub fn name(choice: &impl ValueEnum) -> String {
+    choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    //! An exposure is what its text says, and its text says what it is. A sign that is lost would darken instead of brighten.
+
+    use super::*;
+
+    #[test]
+    fn exposures_survive_their_text() {
+        for (text, exposure) in [
+            ("auto", Exposure::Auto),
+            ("white", Exposure::WHITE),
+            ("+2", Exposure::Stops(2.0)),
+            ("-1.5", Exposure::Stops(-1.5)),
+        ] {
+            assert_eq!(text.parse(), Ok(exposure));
+            assert_eq!(exposure.to_string(), text);
+        }
+        assert_eq!("0".parse(), Ok(Exposure::WHITE));
+        for text in ["", "bright", "nan", "inf", "61", "-60.5"] {
+            assert_eq!(text.parse::<Exposure>(), Err(ExposureError), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_change_leaves_automatic_from_white_and_stops_at_the_ends() {
+        assert_eq!(Exposure::Auto.changed(0.5), Exposure::Stops(0.5));
+        assert_eq!(Exposure::Stops(-1.0).changed(-0.5), Exposure::Stops(-1.5));
+        assert_eq!(Exposure::Stops(MOST_STOPS).changed(0.5), Exposure::Stops(MOST_STOPS));
+    }
+}

@@ -1,0 +1,160 @@
+//! From radiance to pixels: the mean of several samples, exposure, tone, gamut, and the screen's curve.
+//!
+//! 1. **Exposure** multiplies. Automatic exposure ([`adaptation`]) takes back what Doppler shift and searchlight effect have added to the picture as a
+//!    whole, with a time constant; a fixed one is counted in stops from the world's own white.
+//! 2. **Tone** bends luminance, so that what is brighter than white keeps its differences; a colour is scaled as a whole.
+//! 3. **Gamut** brings colours onto the screen that it has no light for (W 3.2.5).
+//! 4. sRGB, by IEC 61966-2-1.
+//!
+//! Colours that the screen has pass unchanged through the last three at rest: an unlit colour comes out as its nearest byte.
+
+pub mod adaptation;
+pub mod development;
+mod passes;
+
+pub use adaptation::{Adaptation, Seen, Stored};
+pub use development::{Development, Exposure, Gamut, Tone};
+
+use super::target::texture;
+use crate::gpu::Gpu;
+use adaptation::Meter;
+use bytemuck::bytes_of;
+use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};
+
+/// Passes that read one radiance texture and write one target.
+pub struct Display {
+    accumulate: Pass,
+    /// One for each way of developing that was asked for.
+    show: Vec<(Tone, Gamut, Pass)>,
+    meter: Meter,
+    sum_format: wgpu::TextureFormat,
+    screen_format: wgpu::TextureFormat,
+}
+
+/// Sums of samples, each with the number of samples as its weight's inverse.
+pub struct Accumulator {
+    sums: [wgpu::TextureView; 2],
+    current: usize,
+    filled: bool,
+}
+
+impl Display {
+    /// Passes that sum in `radiance` format and show in `screen` format (an sRGB format encodes by itself).
+    pub fn new(gpu: &Gpu, radiance: wgpu::TextureFormat, screen: wgpu::TextureFormat) -> Self {
+        Self {
+            accumulate: Pass::new(gpu, &shaders::ACCUMULATE, &[], &[UNFILTERED, UNFILTERED, UNIFORM], radiance),
+            show: Vec::new(),
+            meter: Meter::new(gpu),
+            sum_format: radiance,
+            screen_format: screen,
+        }
+    }
+
+    /// Room for the sum of several samples.
+    pub fn accumulator(&self, gpu: &Gpu, size: [u32; 2]) -> Accumulator {
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let sum = || texture(gpu, "sum", size, self.sum_format, 1, usage);
+        Accumulator { sums: [sum(), sum()], current: 0, filled: false }
+    }
+
+    /// Adds one sample, out of `count`.
+    pub fn add(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        sum: &mut Accumulator,
+        sample: &wgpu::TextureView,
+        count: u32,
+    ) {
+        // The very first sum is over zeros: loads outside a 1 × 1 texture must not be relied on, so clear instead.
+        if !sum.filled {
+            clear(encoder, &sum.sums[sum.current]);
+            sum.filled = true;
+        }
+        let uniform = shaders::Accumulate { weight: 1.0 / count as f32 };
+        let uniform = contents(gpu, "accumulate", bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
+        let before = sum.current;
+        sum.current = 1 - before;
+        self.accumulate.draw(
+            gpu,
+            encoder,
+            &sum.sums[sum.current],
+            &[
+                wgpu::BindingResource::TextureView(sample),
+                wgpu::BindingResource::TextureView(&sum.sums[before]),
+                uniform.as_entire_binding(),
+            ],
+        );
+    }
+
+    /// Adapts an eye to what it sees; [`Display::show`] shows things as that eye sees them.
+    pub fn adapt(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        adaptation: &mut Adaptation,
+        seen: &Seen<'_>,
+        development: &Development,
+    ) {
+        self.meter.adapt(gpu, encoder, adaptation, seen, development);
+    }
+
+    /// Writes `radiance` to the screen, as an eye sees it that is adapted to it.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        radiance: &wgpu::TextureView,
+        adaptation: &Adaptation,
+        development: &Development,
+        screen: &wgpu::TextureView,
+    ) {
+        let resources = [
+            wgpu::BindingResource::TextureView(radiance),
+            adaptation.state.as_entire_binding(),
+            adaptation.curve.as_entire_binding(),
+        ];
+        self.shown_by(gpu, development).draw(gpu, encoder, screen, &resources);
+    }
+
+    /// The pass for a way of developing, compiled when it is first asked for.
+    fn shown_by(&mut self, gpu: &Gpu, development: &Development) -> &Pass {
+        let Development { tone, gamut, .. } = *development;
+        let known = self.show.iter().position(|pass| (pass.0, pass.1) == (tone, gamut));
+        let index = known.unwrap_or_else(|| {
+            let overrides = [
+                ("ENCODE", f64::from(u8::from(!self.screen_format.is_srgb()))),
+                ("TONE", f64::from(tone as u32)),
+                ("GAMUT", f64::from(gamut as u32)),
+            ];
+            let bindings = [UNFILTERED, UNIFORM, READ];
+            self.show.push((tone, gamut, Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format)));
+            self.show.len() - 1
+        });
+        &self.show[index].2
+    }
+}
+
+impl Accumulator {
+    /// The sum of all samples added so far.
+    pub fn result(&self) -> &wgpu::TextureView {
+        &self.sums[self.current]
+    }
+
+    /// Forgets the samples, for the next picture.
+    pub fn restart(&mut self) {
+        self.filled = false;
+    }
+}
+
+/// Copies radiance into a target of another format.
+pub fn copy(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    radiance: &wgpu::TextureView,
+    target: &wgpu::TextureView,
+    format: wgpu::TextureFormat,
+) {
+    let resources = [wgpu::BindingResource::TextureView(radiance)];
+    Pass::new(gpu, &shaders::COPY, &[], &[UNFILTERED], format).draw(gpu, encoder, target, &resources);
+}

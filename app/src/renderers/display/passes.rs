@@ -1,0 +1,151 @@
+//! What every pass is made of: bindings that are numbered as they come, a module, one full-screen triangle.
+
+use crate::gpu::Gpu;
+use wgpu::util::DeviceExt;
+
+/// A texture that is read texel by texel.
+pub const UNFILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+/// Uniforms.
+pub const UNIFORM: wgpu::BindingType = buffer(wgpu::BufferBindingType::Uniform);
+/// A buffer that is read.
+pub const READ: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: true });
+/// A buffer that is read and written.
+pub const WRITE: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: false });
+
+const fn buffer(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+}
+
+/// A module that fills a whole target.
+pub struct Pass {
+    name: &'static str,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl Pass {
+    /// Compiles `shader`, whose bindings are numbered as they come, with these values of its overrides.
+    pub fn new(
+        gpu: &Gpu,
+        shader: &shaders::Module,
+        overrides: &[(&str, f64)],
+        bindings: &[wgpu::BindingType],
+        target: wgpu::TextureFormat,
+    ) -> Self {
+        let device = &gpu.device;
+        let layout = layout(gpu, shader.name, wgpu::ShaderStages::FRAGMENT, bindings);
+        let module = module(gpu, shader);
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(shader.name),
+            layout: Some(&pipeline_layout(gpu, &layout)),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions { constants: overrides, ..Default::default() },
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: target,
+                    blend: None,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        Self { name: shader.name, layout, pipeline }
+    }
+
+    /// Fills `target` from what is bound.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        resources: &[wgpu::BindingResource<'_>],
+    ) {
+        let group = group(gpu, self.name, &self.layout, resources);
+        let mut pass = clear(encoder, target);
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+/// Begins drawing over a cleared target.
+pub fn clear<'encoder>(
+    encoder: &'encoder mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+) -> wgpu::RenderPass<'encoder> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("display"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        })],
+        ..Default::default()
+    })
+}
+
+/// Compiles a module.
+pub fn module(gpu: &Gpu, shader: &shaders::Module) -> wgpu::ShaderModule {
+    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(shader.name),
+        source: wgpu::ShaderSource::Wgsl(shader.source().into()),
+    })
+}
+
+/// How a group is bound.
+pub fn layout(
+    gpu: &Gpu,
+    name: &str,
+    visibility: wgpu::ShaderStages,
+    bindings: &[wgpu::BindingType],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(bindings)
+        .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None })
+        .collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(name), entries: &entries })
+}
+
+/// For pipelines with one group.
+pub fn pipeline_layout(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("display"),
+        bind_group_layouts: &[Some(layout)],
+        ..Default::default()
+    })
+}
+
+/// Binds a group.
+pub fn group(
+    gpu: &Gpu,
+    name: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: &[wgpu::BindingResource<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(name), layout, entries: &entries })
+}
+
+/// A buffer for one frame.
+pub fn contents(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+}
