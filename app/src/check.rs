@@ -2,7 +2,7 @@
 
 use crate::command::CheckOptions;
 use crate::error::Error;
-use crate::scene;
+use crate::scene::{self, panorama};
 use input::recording::{Entry, Recording, RecordingError};
 use std::io::Write;
 use std::path::Path;
@@ -29,6 +29,7 @@ fn report(path: &Path) -> Result<String, Error> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("gltf" | "glb") => Ok(scene::check::check(path)?.to_string()),
         Some("mcap") => Ok(recording(path)?),
+        _ if panorama::is_picture(path) => Ok(scene::check::check(path)?.to_string()),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::film::FilmError;
 use crate::gpu::GpuError;
-use crate::scene::gltf::GltfError;
 use crate::scene::refine::RefineError;
+use crate::scene::source::LoadError;
 use physics::photo_surface::PhotoSurfaceError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -20,7 +20,7 @@ pub enum Error {
     Film(#[from] FilmError),
     /// No scene.
     #[error(transparent)]
-    Scene(#[from] GltfError),
+    Scene(#[from] LoadError),
     /// A scene with a flaw.
     #[error(transparent)]
     Flawed(#[from] crate::scene::SceneFault),
@@ -63,7 +63,7 @@ pub enum Error {
         files: usize,
     },
     /// A file that nothing here reads.
-    #[error("{}: neither a scene (.gltf, .glb) nor a recording (.mcap)", path.display())]
+    #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .hdr, .exr) nor a recording (.mcap)", path.display())]
     UnknownKind {
         /// The file.
         path: PathBuf,

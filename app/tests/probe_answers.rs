@@ -438,6 +438,45 @@ fn beta_stands_for_celerity_in_every_question() {
     );
 }
 
+fn colour(spectrum: Value, doppler: f64) -> (DVec3, DVec3) {
+    let answer = ask(json!({ "ask": "colour", "spectrum": spectrum, "D": doppler }));
+    (vector(&answer["xyz"]), vector(&answer["rgb"]))
+}
+
+/// A black body shifted by D is one of temperature D·T, through all of D⁵ L(Dλ).
+#[test]
+fn a_planck_spectrum_is_seen_as_one_of_another_temperature() {
+    for (kelvin, doppler) in [(2800.0, 2.0), (5900.0, 0.1), (5900.0, 10.0), (1e-3, 1e6), (1e10, 1e-6)] {
+        let (xyz, rgb) = colour(json!({ "planck": kelvin }), doppler);
+        let (expected, expected_rgb) = colour(json!({ "planck": kelvin * doppler }), 1.0);
+        // Wien's exponent, below 70 here, is rounded before it is raised.
+        assert!(
+            ((xyz - expected) / expected).abs().max_element() < 1e-12,
+            "{kelvin} K, D = {doppler}: {xyz}, {expected}"
+        );
+        assert!(rgb.distance(expected_rgb) < 1e-12 * rgb.length(), "{kelvin} K, D = {doppler}");
+    }
+}
+
+#[test]
+fn an_rgb_colour_at_rest_is_answered_as_asked() {
+    let (xyz, rgb) = colour(json!({ "rgb": [0.25, 0.5, 1.0] }), 1.0);
+    assert_near(rgb, DVec3::new(0.25, 0.5, 1.0), 1e-12);
+    let (white, _) = colour(json!({ "rgb": [1, 1, 1] }), 1.0);
+    assert_near(white, DVec3::new(0.3127, 0.3290, 1.0 - 0.3127 - 0.3290) / 0.3290, 1e-12);
+    assert!(xyz.y < white.y);
+}
+
+/// 1e9 W sr⁻¹ m⁻³ at every wavelength stay so at every shift, but for D⁵.
+#[test]
+fn an_even_spectrum_grows_by_the_fifth_power() {
+    let (at_rest, _) = colour(json!({ "sampled": [[500, 1e9]] }), 1.0);
+    // 683 lm/W times 106.857 nm, the integral of ȳ.
+    assert_close(at_rest.y, 683.0 * 106.857, 1e-5);
+    let (ahead, _) = colour(json!({ "sampled": [[300, 1e9], [900, 1e9]] }), 2.0);
+    assert!(ahead.distance(32.0 * at_rest) < 1e-12 * ahead.length(), "{ahead}");
+}
+
 #[test]
 fn extreme_celerities_give_finite_answers_everywhere() {
     for celerity in [1e-300, 1e-12, 1e12, 1e20] {

@@ -143,7 +143,6 @@ fn a_line_that_is_no_question_is_refused() {
         ("{}", "`ask` is missing: expected one of aberration, boost"),
         (r#"{"ask": 3}"#, "`ask` is 3.0: expected one of aberration, boost"),
         (r#"{"ask": "abberation"}"#, "`ask` is the text \"abberation\": expected one of aberration, boost"),
-        (r#"{"ask": "colour", "spectrum": {"planck": 6500}, "D": 1}"#, "colour is not answered yet"),
         (r#"{"ask": "boost", "ask": "boost"}"#, "`ask` is given more than once"),
         ("{\"ask\": \"boost\u{0}\"}", "control character"),
     ] {
@@ -166,6 +165,7 @@ fn a_bad_value_is_refused_with_its_key_and_what_was_expected() {
     let rest = r#"{"position": [0,0,0], "celerity": [0,0,0]}"#;
     let perceived = |eyes: &str, part: &str| format!(r#"{{"ask": "perceived", "eyes": {eyes}, {part}}}"#);
     let source = r#""source": {"position": [0,0,-4], "celerity": [0,0,0]}"#;
+    let colour = |spectrum: &str, part: &str| format!(r#"{{"ask": "colour", "spectrum": {spectrum}{part}}}"#);
     for (line, told) in [
         (boost(r#""celerity": [0,0,0]"#), "`event` is missing: expected a list of four numbers"),
         (boost(r#""event": [0,0,0,0]"#), "`celerity` is missing: expected a celerity"),
@@ -255,6 +255,51 @@ fn a_bad_value_is_refused_with_its_key_and_what_was_expected() {
             perceived("[[0,0,0],[1,0,0]]", r#""source": {"position": [0,0,1]}, "time": 0"#),
             "`source.celerity` is missing",
         ),
+        (
+            r#"{"ask": "colour", "D": 1}"#.to_owned(),
+            "`spectrum` is missing: expected an object with one of the keys planck",
+        ),
+        (colour("3", ", \"D\": 1"), "`spectrum` is 3.0: expected an object with one of the keys planck, sampled, rgb"),
+        (colour("{}", ", \"D\": 1"), "`spectrum` is an object: expected an object with one of the keys planck"),
+        (
+            colour(r#"{"planck": 1, "rgb": [1,1,1]}"#, ", \"D\": 1"),
+            "`spectrum` is an object: expected an object with one",
+        ),
+        (colour(r#"{"planck": 1, "planck": 1}"#, ", \"D\": 1"), "`spectrum.planck` is given more than once"),
+        (
+            colour(r#"{"plank": 1}"#, ", \"D\": 1"),
+            "`spectrum.plank` is unknown here: expected no other keys than planck, sa",
+        ),
+        (colour(r#"{"planck": "hot"}"#, ", \"D\": 1"), "`spectrum.planck` is the text \"hot\": expected a number"),
+        (
+            colour(r#"{"planck": 0}"#, ", \"D\": 1"),
+            "`spectrum.planck` is no spectrum: expected a temperature in kelvin",
+        ),
+        (colour(r#"{"sampled": 1}"#, ", \"D\": 1"), "`spectrum.sampled` is 1.0: expected a list of samples"),
+        (colour(r#"{"sampled": []}"#, ", \"D\": 1"), "`spectrum.sampled` is no spectrum: expected at least one sample"),
+        (colour(r#"{"sampled": [[500]]}"#, ", \"D\": 1"), "`spectrum.sampled[0]` is a list of 1: expected a sample"),
+        (
+            colour(r#"{"sampled": [[500, "1"]]}"#, ", \"D\": 1"),
+            "`spectrum.sampled[0][1]` is the text \"1\": expected a number",
+        ),
+        (colour(r#"{"sampled": [[500,1],[400,1]]}"#, ", \"D\": 1"), "ascending, but sample 1 is at 400"),
+        (colour(r#"{"sampled": [[500,-1]]}"#, ", \"D\": 1"), "expected values of 0 or more, but sample 0 is -1"),
+        (
+            colour(r#"{"rgb": [1,1]}"#, ", \"D\": 1"),
+            "`spectrum.rgb` is a list of 2: expected a list of three numbers [red",
+        ),
+        (
+            colour(r#"{"rgb": [1,-1,0]}"#, ", \"D\": 1"),
+            "`spectrum.rgb` is no spectrum: expected three finite numbers of 0",
+        ),
+        (colour(r#"{"planck": 6500}"#, ""), "`D` is missing: expected a Doppler factor"),
+        (colour(r#"{"planck": 6500}"#, ", \"D\": 0"), "`D` is 0.0: expected a Doppler factor: a number above 0"),
+        (colour(r#"{"planck": 6500}"#, ", \"D\": [1]"), "`D` is a list of 1: expected a Doppler factor"),
+        (
+            colour(r#"{"planck": 6500}"#, ", \"D\": 1, \"beta\": 0"),
+            "`beta` is unknown here: expected no other keys than ask",
+        ),
+        (colour(r#"{"rgb": [1,1,1]}"#, ", \"D\": 1e300"), "the answer's `xyz` is beyond the range"),
     ] {
         let sentence = refusal(line.as_bytes());
         assert!(sentence.contains(told), "{line}\n{sentence}");

@@ -8,11 +8,12 @@
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec2, Vec3};
+use physics::colour::Spectrum;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rapidity::scene::export::{ExportError, write_glb};
 use rapidity::scene::gltf::load;
-use rapidity::scene::{Alpha, Lighting, Material, Mesh, Scene, Start, Texture, Wrap};
+use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, Start, Texture, Wrap};
 use tempfile::TempDir;
 
 /// A scene in which everything differs from its default, with numbers that have no short decimal form.
@@ -63,7 +64,20 @@ fn scene(origin: DVec3) -> Scene {
                 emissive_texture: Some(0),
                 ..Material::default()
             },
-            Material { name: "glass".into(), unlit: true, alpha: Alpha::Blend, ..Material::default() },
+            Material {
+                name: "glass".into(),
+                unlit: true,
+                alpha: Alpha::Blend,
+                spectrum: Some(Spectrum::Planck { kelvin: 1e4 / 3.0 }),
+                ..Material::default()
+            },
+            Material { name: "paint".into(), spectrum: Some(measured(&mut random)), ..Material::default() },
+            Material {
+                name: "ink".into(),
+                spectrum: Some(Spectrum::Rgb([0.1, 1.0 / 3.0, 1e-9])),
+                ..Material::default()
+            },
+            Material { name: "paper".into(), spectrum: Some(Spectrum::Gray), ..Material::default() },
         ],
         meshes,
         light: Lighting {
@@ -74,8 +88,17 @@ fn scene(origin: DVec3) -> Scene {
         },
         start: Start { position: origin + DVec3::new(0.1, 0.2, 0.3), look: DVec3::new(1.0, 0.1, 2.0).normalize() },
         circuit: vec![DVec3::new(0.1, 0.0, 1e9 + 0.1), DVec3::ZERO],
-        notices: Vec::new(),
+        illuminant: Some(measured(&mut random)),
+        white: Some(1e10 / 7.0),
+        panorama: Some(Panorama { width: 4, height: 2, rgb: (0..8).map(|_| random.random()).collect() }),
+        ..Scene::default()
     }
+}
+
+/// A spectrum of a hundred samples of no short decimal form.
+fn measured(random: &mut ChaCha8Rng) -> Spectrum {
+    let sample = |index| [300.0 + f64::from(index) + random.random::<f64>(), random.random::<f64>() * 1e13];
+    Spectrum::sampled((0..100).map(sample).collect::<Vec<_>>()).unwrap()
 }
 
 fn written(scene: &Scene) -> (TempDir, PathBuf) {
@@ -200,7 +223,22 @@ fn what_gltf_cannot_say_is_refused_by_name() {
     refused(|scene| scene.materials[1].emissive[0] = f32::MAX, "the emission of \"lamp\"");
     refused(|scene| scene.start.look.x = f64::NAN, "the start of \"Marktplatz\"");
     refused(|scene| scene.meshes[0].indices[0] = 99, "uses vertex 99 of 33");
-    refused(|scene| scene.meshes[0].material = 9, "uses material 9 of 3");
+    refused(|scene| scene.meshes[0].material = 9, "uses material 9 of 6");
+    refused(
+        |scene| scene.materials[3].spectrum = Some(Spectrum::Planck { kelvin: f64::NAN }),
+        "the spectrum of material \"paint\"",
+    );
+    refused(|scene| scene.illuminant = Some(Spectrum::Rgb([-1.0, 0.0, 0.0])), "the spectrum of the light");
+    refused(
+        |scene| scene.panorama.as_mut().unwrap().rgb[0][0] = -1.0,
+        "the panorama of \"Marktplatz\": it has a radiance",
+    );
+    refused(
+        |scene| scene.panorama = Some(Panorama { width: 2, height: 4, ..scene.panorama.take().unwrap() }),
+        "not twice as wide",
+    );
+    refused(|scene| scene.panorama.as_mut().unwrap().width = 7, "the panorama of 7 × 2 pixels has 8");
+    refused(|scene| scene.white = Some(0.0), "the luminance of white is 0");
     refused(|scene| scene.meshes.clear(), "no triangles");
 }
 

@@ -132,9 +132,13 @@ fn rich_file() -> File {
     file.primitive()["mode"] = json!(5);
     let texture = file.texture(json!({ "wrapS": 33071 }));
     let extensions = json!({ "KHR_texture_transform": { "scale": [2, 2] } });
-    file.material(
-        json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } } }),
-    );
+    file.material(json!({
+        "pbrMetallicRoughness": { "baseColorTexture": { "index": texture, "extensions": extensions } },
+        "extras": { "spectrum": { "sampled": [[400, 0.5], [700, 1]] } },
+    }));
+    file.json["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
+        { "type": "directional", "color": [1, 1, 1], "intensity": 3, "extras": { "spectrum": { "planck": 5800 } } },
+    ] } });
     let (indices, values) = (file.view(&[1, 2]), file.view(&[0; 24]));
     file.json["accessors"][0]["sparse"] = json!({
         "count": 2,
@@ -143,9 +147,13 @@ fn rich_file() -> File {
     });
     file.json["nodes"] = json!([
         { "translation": [1, 2, 3], "children": [1], "extras": { "rapidity": { "solid": false } } },
-        { "rotation": [0, 0, 0, 1], "scale": [1, 1, -1], "mesh": 0 },
+        { "rotation": [0, 0, 0, 1], "scale": [1, 1, -1], "mesh": 0,
+          "extensions": { "KHR_lights_punctual": { "light": 0 } } },
     ]);
-    file.json["scenes"][0]["extras"] = json!({ "rapidity": { "origin": [0, 0, 0], "circuit": [[1, 2, 3]] } });
+    file.json["scenes"][0]["extras"] = json!({ "rapidity": {
+        "origin": [0, 0, 0], "circuit": [[1, 2, 3]], "white": 80,
+        "light": { "sky": [0.1, 0.1, 0.2], "spectrum": { "rgb": [1, 1, 0.5] } },
+    } });
     file
 }
 

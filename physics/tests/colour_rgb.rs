@@ -89,3 +89,25 @@ fn grey_stays_near_neutral_from_a_quarter_to_four() {
         assert!(apart < FARTHEST, "Δu'v' = {apart} at D = {doppler}");
     }
 }
+
+#[test]
+fn shares_are_broad() {
+    /// The steepest flank, at 590 nm, takes 25 nm from one share to the next.
+    const STEEPEST: f64 = 0.05;
+    for nm in (100..3000).map(f64::from) {
+        let steepest = DVec3::from_array(shares(nm)) - DVec3::from_array(shares(nm + 1.0));
+        assert!(steepest.abs().max_element() < STEEPEST, "{steepest} a nanometre at {nm} nm");
+    }
+}
+
+/// By the shift of wavelengths alone, for each primary.
+#[test]
+fn nothing_goes_black() {
+    /// Luminance with white at 1. Measured: 0.0141 for red at D = 0.87, 0.0198 for green at 0.72, 0.0087 for blue at 1.19.
+    const DARKEST: f64 = 0.0085;
+    for doppler in doppler_factors(1e3).chain(doppler_factors(4.0)) {
+        let luminance = Carrier::white().xyz_from_weights(doppler).row(1);
+        let full = luminance.element_sum();
+        assert!(luminance.min_element() > DARKEST * full.min(1.0), "{luminance} at D = {doppler}");
+    }
+}

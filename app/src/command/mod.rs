@@ -79,7 +79,7 @@ pub struct DevicesOptions {
 /// `rapidity check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckOptions {
-    /// Scenes (.gltf, .glb) and recordings (.mcap).
+    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .hdr, .exr) and recordings (.mcap).
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
 }

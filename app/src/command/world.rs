@@ -14,9 +14,11 @@ pub enum SceneChoice {
     /// The built-in old town.
     #[default]
     Town,
+    /// The built-in hall of three temperatures, for seeing what becomes of spectra.
+    Spectra,
     /// The built-in lattice of boxes, for seeing and measuring the geometry by itself.
     Lattice,
-    /// A glTF 2.0 file.
+    /// A glTF 2.0 file, or a picture of everything around.
     File(PathBuf),
 }
 
@@ -25,6 +27,7 @@ impl SceneChoice {
     pub fn from_name(name: &str) -> Self {
         match name {
             "town" => Self::Town,
+            "spectra" => Self::Spectra,
             "lattice" => Self::Lattice,
             file => Self::File(file.into()),
         }
@@ -34,6 +37,7 @@ impl SceneChoice {
     pub fn name(&self) -> String {
         match self {
             Self::Town => "town".to_owned(),
+            Self::Spectra => "spectra".to_owned(),
             Self::Lattice => "lattice".to_owned(),
             Self::File(path) => std::path::absolute(path).as_ref().unwrap_or(path).display().to_string(),
         }
@@ -44,7 +48,7 @@ impl SceneChoice {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
-    /// `town` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
+    /// `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg, .hdr, .exr).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
     pub scene: SceneChoice,
     /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).

@@ -3,6 +3,7 @@
 use std::str::Utf8Error;
 
 use physics::CelerityError;
+use physics::colour::SpectrumError;
 use physics::eyes::EyesError;
 use physics::perceived::PerceivedError;
 use physics::worldline::WorldlineError;
@@ -86,11 +87,13 @@ pub enum ProbeError {
         /// What was expected.
         reason: CelerityError,
     },
-    /// A question that the program will answer one day.
-    #[error("`ask` asks for the colour, but colour is not answered yet: expected {expected}")]
-    NotYet {
-        /// The questions that are answered.
-        expected: &'static str,
+    /// Not a spectrum.
+    #[error("`{key}` is no spectrum: {reason}")]
+    Spectrum {
+        /// Its path.
+        key: String,
+        /// What was expected.
+        reason: SpectrumError,
     },
     /// A worldline of too many steps.
     #[error("`legs` take {steps:.0} steps of `step` in all: expected at most {MOST_STEPS:.0}")]

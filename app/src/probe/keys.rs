@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use glam::DVec3;
+use physics::colour::{Spectrum, SpectrumError};
 use physics::{Beta, Celerity, CelerityError, Event, Observer};
 
 use super::ProbeError;
@@ -14,6 +15,10 @@ const DIRECTION: &str = "a direction: a list of three numbers [x, y, z], not all
 const VELOCITY: &str = "a celerity, three numbers [x, y, z] (or the key \"beta\" instead)";
 const OBSERVER: &str = "an object with the keys position, time (default 0), celerity or beta";
 const SOURCE: &str = "an object with the keys position, celerity or beta";
+const SPECTRUM: &str = "an object with one of the keys planck, sampled, rgb";
+const SAMPLES: &str = "a list of samples [wavelength in nm, value]";
+const SAMPLE: &str = "a sample: a list of two numbers [wavelength in nm, value]";
+const COLOUR: &str = "a list of three numbers [red, green, blue]";
 const OBJECT: &str = "an object";
 
 /// A value and its path in the question.
@@ -73,8 +78,7 @@ impl<'a> Place<'a> {
     }
 
     pub(super) fn vector(&self) -> Result<DVec3, ProbeError> {
-        let [x, y, z] = self.list_of(VECTOR)?;
-        Ok(DVec3::new(x.number()?, y.number()?, z.number()?))
+        self.numbers(VECTOR).map(DVec3::from_array)
     }
 
     /// A vector of which only the direction counts: brought to a length whose square neither overflows nor vanishes.
@@ -108,6 +112,34 @@ impl<'a> Place<'a> {
         match self.node {
             Node::Object(_) => self.object(OBJECT, &["celerity", "beta"])?.velocity(),
             _ => self.velocity_from(Celerity::new),
+        }
+    }
+
+    fn numbers<const N: usize>(&self, expected: &'static str) -> Result<[f64; N], ProbeError> {
+        let mut numbers = [0.0; N];
+        for (number, place) in numbers.iter_mut().zip(self.list_of::<N>(expected)?) {
+            *number = place.number()?;
+        }
+        Ok(numbers)
+    }
+
+    fn spectrum_from(&self, spectrum: Result<Spectrum, SpectrumError>) -> Result<Spectrum, ProbeError> {
+        spectrum.map_err(|reason| ProbeError::Spectrum { key: self.path.clone(), reason })
+    }
+
+    /// A spectrum, of the kind that its only key says.
+    pub(super) fn spectrum(&self) -> Result<Spectrum, ProbeError> {
+        const KINDS: [&str; 3] = ["planck", "sampled", "rgb"];
+        let keys = self.object(SPECTRUM, &KINDS)?;
+        match KINDS.map(|kind| keys.optional(kind)) {
+            [Some(kelvin), None, None] => kelvin.spectrum_from(Spectrum::planck(kelvin.number()?)),
+            [None, Some(list), None] => {
+                let samples = list.list(SAMPLES)?;
+                let samples: Result<Vec<_>, _> = samples.iter().map(|sample| sample.numbers(SAMPLE)).collect();
+                list.spectrum_from(Spectrum::sampled(samples?))
+            }
+            [None, None, Some(colour)] => colour.spectrum_from(Spectrum::rgb(colour.numbers(COLOUR)?)),
+            _ => Err(self.wrong(SPECTRUM)),
         }
     }
 
@@ -164,6 +196,10 @@ impl<'a> Keys<'a> {
 
     pub(super) fn vector(&self, key: &str) -> Result<DVec3, ProbeError> {
         self.required(key, VECTOR)?.vector()
+    }
+
+    pub(super) fn spectrum(&self, key: &str) -> Result<Spectrum, ProbeError> {
+        self.required(key, SPECTRUM)?.spectrum()
     }
 
     /// The keys of a source.

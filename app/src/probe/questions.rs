@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use physics::aberration::Aberration;
+use physics::colour::rgb_from_xyz;
 use physics::eyes::{Eyes, eyes};
 use physics::glam::{DQuat, DVec3};
 use physics::perceived::{Perceived, perceived};
@@ -15,7 +16,7 @@ use super::results::Answer;
 use super::{MOST_STEPS, ProbeError};
 use crate::vehicle::IntegratorKind;
 
-const QUESTIONS: &str = "one of aberration, boost, compose, apparent, eyes, worldline, perceived";
+const QUESTIONS: &str = "one of aberration, boost, compose, apparent, eyes, worldline, perceived, colour";
 
 /// Error of an adaptive step: a question is asked for its numbers, so near the limit of f64.
 const ADAPTIVE_TOLERANCE: f64 = 1e-12;
@@ -32,7 +33,7 @@ pub(super) fn answer(question: &Node) -> Result<Value, ProbeError> {
         "eyes" => both_eyes(&question),
         "worldline" => worldline(&question),
         "perceived" => perceived_position(&question),
-        "colour" => Err(ProbeError::NotYet { expected: QUESTIONS }),
+        "colour" => colour(&question),
         _ => Err(ask.wrong(QUESTIONS)),
     };
     answer.map(Answer::finish)
@@ -98,6 +99,14 @@ fn perceived_position(question: &Keys<'_>) -> Result<Answer, ProbeError> {
     let source = Source { position: source.vector("position")?, celerity: source.velocity()? };
     let Perceived { position, gap } = perceived([left.vector()?, right.vector()?], &source, question.number("time")?)?;
     Answer::default().vector("position", position)?.number("gap", gap)
+}
+
+fn colour(question: &Keys<'_>) -> Result<Answer, ProbeError> {
+    question.only(&["ask", "spectrum", "D"])?;
+    const DOPPLER: &str = "a Doppler factor: a number above 0";
+    let doppler = question.required("D", DOPPLER)?.number_that(|doppler| doppler > 0.0, DOPPLER)?;
+    let xyz = question.spectrum("spectrum")?.xyz(doppler);
+    Answer::default().vector("xyz", xyz)?.vector("rgb", rgb_from_xyz() * xyz)
 }
 
 /// Follows a worldline leg by leg, each with a constant acceleration in the axes of the pure boost from the world.

@@ -7,21 +7,25 @@ use std::fmt;
 use std::path::Path;
 
 use glam::DVec3;
+use physics::colour::Spectrum;
 
 use super::collision::Collision;
-use super::gltf::{GltfError, load};
+use super::source::{LoadError, read};
 use super::{Scene, SceneFault};
 use crate::vehicle::Surroundings;
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
 const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
+/// A sun by which white surfaces are more than this many times as bright as what is shown as white is probably measured otherwise.
+const PLAUSIBLE_SUN: f64 = 8.0;
+
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     /// The file gives no scene.
     #[error(transparent)]
-    Load(#[from] GltfError),
+    Load(#[from] LoadError),
     /// The scene breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
@@ -44,6 +48,12 @@ pub struct Report {
     pub textures: usize,
     /// Size of all textures without mipmaps, in bytes.
     pub texture_bytes: usize,
+    /// Each spectrum, with who has it.
+    pub spectra: Vec<String>,
+    /// Luminance that is shown as white, cd/m², if the scene says so.
+    pub white: Option<f64>,
+    /// Width and height of the panorama, in pixels, if there is one.
+    pub panorama: Option<[u32; 2]>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
     pub bounds: Option<[DVec3; 2]>,
     /// Length of the longest finite edge, in metres: what `refine` would split first.
@@ -59,7 +69,7 @@ pub struct Report {
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
 pub fn check(path: &Path) -> Result<Report, CheckError> {
-    Ok(Report::new(&load(path, |_| {})?)?)
+    Ok(Report::new(&read(path, |_| {})?)?)
 }
 
 impl Report {
@@ -79,6 +89,9 @@ impl Report {
             materials: scene.materials.len(),
             textures: scene.textures.len(),
             texture_bytes: scene.textures.iter().map(|texture| texture.rgba.len()).sum(),
+            spectra: spectra(scene),
+            white: scene.white,
+            panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
             bounds,
             longest_edge: survey.longest_edge,
             notices: scene.notices.clone(),
@@ -126,6 +139,35 @@ impl Survey {
     }
 }
 
+/// The spectra of light and materials, those that are the same in one line.
+fn spectra(scene: &Scene) -> Vec<String> {
+    let mut owners: Vec<(&Spectrum, Vec<String>)> = Vec::new();
+    let illuminant = scene.illuminant.iter().map(|spectrum| (spectrum, "the light".to_owned()));
+    let materials = scene.materials.iter().filter_map(|material| {
+        let role = if material.is_source() { "sent out by" } else { "returned by" };
+        Some((material.spectrum.as_ref()?, format!("{role} \"{}\"", material.name)))
+    });
+    for (spectrum, owner) in illuminant.chain(materials) {
+        match owners.iter_mut().find(|(known, _)| *known == spectrum) {
+            Some((_, names)) => names.push(owner),
+            None => owners.push((spectrum, vec![owner])),
+        }
+    }
+    owners.into_iter().map(|(spectrum, owners)| format!("{}: {}", described(spectrum), owners.join(", "))).collect()
+}
+
+fn described(spectrum: &Spectrum) -> String {
+    match spectrum {
+        Spectrum::Planck { kelvin } => format!("Planck at {kelvin} K"),
+        Spectrum::Sampled(sampled) => match sampled.samples() {
+            [[first, _], .., [last, _]] => format!("{} samples from {first} to {last} nm", sampled.samples().len()),
+            samples => format!("{} sample", samples.len()),
+        },
+        Spectrum::Rgb([red, green, blue]) => format!("rgb {red}, {green}, {blue}"),
+        Spectrum::Gray => "gray".to_owned(),
+    }
+}
+
 fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut warn = |holds: bool, warning: String| {
@@ -134,7 +176,8 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
         }
     };
     let Survey { without_area, not_finite, inside_out, .. } = *survey;
-    warn(scene.triangle_count() == 0, "there is nothing to draw: the scene has no triangles".into());
+    let empty = scene.triangle_count() == 0;
+    warn(empty && scene.panorama.is_none(), "there is nothing to draw: the scene has no triangles".into());
     warn(
         not_finite > 0,
         format!("triangles with corners that are nowhere (not finite): {not_finite}; they are not drawn"),
@@ -142,6 +185,18 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     warn(without_area > 0, format!("triangles without area: {without_area}; remove them to save time"));
     let advice = "their light falls on the wrong side; turn their winding or their normals";
     warn(inside_out > 0, format!("triangles that face away from their normals: {inside_out}; {advice}"));
+    for material in &scene.materials {
+        let black = material.spectrum.is_some() && material.base_colour[..3].iter().all(|channel| *channel == 0.0);
+        let advice = "the spectrum is multiplied by the base colour's luminance; make it white";
+        warn(black, format!("material \"{}\" has a spectrum and a black base colour: {advice}", material.name));
+    }
+    let white = if scene.illuminant.is_some() { 1.0 } else { scene.white.unwrap_or(1.0) };
+    let brightest = scene.light.sun.into_iter().map(f64::from).fold(0.0, f64::max) / white;
+    let advice = "name their luminance in cd/m² as extras.rapidity.white of the scene, or dim the sun to π lux";
+    warn(
+        brightest > PLAUSIBLE_SUN,
+        format!("surfaces in the sun are up to {brightest:.1} times as bright as white: {advice}"),
+    );
     if let Some([least, most]) = survey.bounds {
         let size = (most - least).max_element();
         let advice = "lengths are metres; scale the scene if they were not";
@@ -150,7 +205,8 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     let grounded = |point: DVec3| collision.height_below(point).is_some();
     let advice = "a vehicle on wheels stays at its height";
     let solid = scene.meshes.iter().any(|mesh| mesh.solid);
-    warn(!solid, format!("no mesh is solid: {advice} and passes through everything"));
+    let ridden_in = !empty || scene.panorama.is_none();
+    warn(ridden_in && !solid, format!("no mesh is solid: {advice} and passes through everything"));
     warn(solid && !grounded(scene.start.position), format!("there is no ground below the start: {advice}"));
     let airborne = scene.circuit.iter().filter(|&&point| !grounded(point)).count();
     let points = scene.circuit.len();
@@ -167,6 +223,15 @@ impl fmt::Display for Report {
         writeln!(f, "triangles   {}, {} vertices, {} meshes", self.triangles, self.vertices, self.meshes)?;
         let megabytes = self.texture_bytes as f64 / 1e6;
         writeln!(f, "materials   {}, {} textures of {megabytes:.1} MB", self.materials, self.textures)?;
+        for spectrum in &self.spectra {
+            writeln!(f, "spectrum    {spectrum}")?;
+        }
+        if let Some(white) = self.white {
+            writeln!(f, "white       {white} cd/m²")?;
+        }
+        if let Some([width, height]) = self.panorama {
+            writeln!(f, "panorama    {width} × {height} pixels")?;
+        }
         if let Some([least, most]) = self.bounds {
             let size = most - least;
             writeln!(f, "size        {:.3} × {:.3} × {:.3} m (x, y, z)", size.x, size.y, size.z)?;
@@ -289,6 +354,6 @@ mod tests {
 
     #[test]
     fn a_file_that_is_no_scene_is_an_error() {
-        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(GltfError::Read { .. }))));
+        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(LoadError::Gltf(_)))));
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes to binary glTF 2.0, for other programs and for [`super::gltf::load`], which gives back the same scene.
 //!
-//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG. What glTF has no words
-//! for (light, start, circuit, what is solid) goes into `extras.rapidity`. Emission above 1 is written as a factor and a
+//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG, a panorama as EXR. What glTF has no words
+//! for (light, white, start, circuit, what is solid) goes into `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a
 //! power of two as `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
 //! clamped for others and kept in an attribute of our own.
 
@@ -9,13 +9,16 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
+use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::gltf::extras::{COLOURS, NodeExtras, SceneExtras};
-use super::{Alpha, Material, Mesh, Scene, SceneFault, Texture, Wrap};
+use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
+use super::gltf::spectrum;
+use super::panorama::is_equirectangular;
+use super::{Alpha, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
 const FLOAT: u32 = 5126;
@@ -94,14 +97,16 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     }
     let extras = SceneExtras {
         origin: Some(scene.origin.to_array()),
-        light: Some(scene.light),
+        light: LightExtras::of(scene.light, scene.illuminant.as_ref().map(spectrum::to_json)),
+        white: scene.white,
+        panorama: scene.panorama.as_ref().map(|panorama| file.panorama(panorama, &scene.name)).transpose()?,
         start: Some(scene.start),
         circuit: scene.circuit.iter().map(|point| point.to_array()).collect(),
     };
     let mut root = json!({
         "asset": { "version": "2.0", "generator": concat!("Rapidity ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
-        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.to_json() }],
+        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.into_json() }],
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,
@@ -133,6 +138,12 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
     let light = &scene.light;
     let light = [light.sun_direction.to_array(), light.sun, light.sky, light.ground, light.zenith, light.horizon];
     ensure(light.as_flattened().iter().all(|value| value.is_finite()), "the light", name, FINITE)?;
+    if let Some(panorama) = &scene.panorama {
+        let light = panorama.rgb.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0);
+        ensure(light, "the panorama", name, "it has a radiance that is negative or not finite")?;
+        let around = is_equirectangular(panorama.width, panorama.height);
+        ensure(around, "the panorama", name, "it is not twice as wide as high")?;
+    }
     for texture in &scene.textures {
         ensure(!texture.rgba.is_empty(), "a picture", &texture.name, "it has no pixels")?;
     }
@@ -212,6 +223,12 @@ impl File {
         json!({ "name": mesh.name, "primitives": [primitive] })
     }
 
+    /// Adds a panorama as EXR, which keeps every bit, and says where it is.
+    fn panorama(&mut self, panorama: &Panorama, scene: &str) -> Result<Value, ExportError> {
+        let exr = exr(panorama, scene)?;
+        Ok(json!({ "bufferView": self.view(&exr, None) }))
+    }
+
     fn textures(&mut self, textures: &[Texture]) -> Result<(), ExportError> {
         let encoded: Vec<_> = textures.par_iter().map(png).collect::<Result<_, _>>()?;
         for (texture, png) in textures.iter().zip(encoded) {
@@ -231,6 +248,16 @@ impl File {
         }
         Ok(())
     }
+}
+
+fn exr(panorama: &Panorama, scene: &str) -> Result<Vec<u8>, ExportError> {
+    let Panorama { width, height, rgb } = panorama;
+    let mut bytes = Cursor::new(Vec::new());
+    let encoder = OpenExrEncoder::new(&mut bytes);
+    let result = encoder.write_image(bytemuck::cast_slice(rgb), *width, *height, ExtendedColorType::Rgb32F);
+    let fault = "it cannot be encoded as EXR";
+    result.map_err(|_| ExportError::Value { what: "the panorama", name: scene.into(), fault })?;
+    Ok(bytes.into_inner())
 }
 
 fn push(list: &mut Vec<Value>, item: Value) -> usize {
@@ -268,6 +295,9 @@ fn material(material: &Material) -> Value {
     });
     if let Some(texture) = material.emissive_texture {
         value["emissiveTexture"] = json!({ "index": texture });
+    }
+    if let Some(spectrum) = &material.spectrum {
+        value["extras"] = json!({ "spectrum": spectrum::to_json(spectrum) });
     }
     match material.alpha {
         Alpha::Opaque => {}

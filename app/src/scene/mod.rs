@@ -1,6 +1,6 @@
 //! What there is to see: flattened meshes at rest in the world, their materials, the light that falls on them.
 //!
-//! A scene is plain data. Files come in through `gltf`, the old town through `town`; both end in
+//! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
 //! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
 //! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
 //!
@@ -13,9 +13,12 @@ pub mod export;
 pub mod gltf;
 pub mod lattice;
 pub mod mipmap;
+pub mod panorama;
 pub mod refine;
 pub mod source;
+pub mod spectra;
 pub mod town;
+mod turn;
 
 use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Spectrum;
@@ -129,6 +132,13 @@ impl Default for Material {
             alpha: Alpha::Opaque,
             spectrum: None,
         }
+    }
+}
+
+impl Material {
+    /// Whether the spectrum is of light that the material sends out, not of what it returns.
+    pub fn is_source(&self) -> bool {
+        self.unlit || self.emissive != [0.0; 3]
     }
 }
 
@@ -282,7 +292,30 @@ impl Scene {
                 format!("texture \"{name}\" of {width} × {height} pixels has {given} bytes instead of {bytes}")
             })
         };
+        let spectrum = |spectrum: &Option<Spectrum>, of: &str| {
+            // Built by its own constructors a spectrum is good; its fields can be written without them.
+            let checked = match spectrum.as_ref()? {
+                Spectrum::Planck { kelvin } => Spectrum::planck(*kelvin),
+                Spectrum::Rgb(rgb) => Spectrum::rgb(*rgb),
+                good @ (Spectrum::Sampled(_) | Spectrum::Gray) => Ok(good.clone()),
+            };
+            checked.err().map(|fault| format!("the spectrum of {of}: {fault}"))
+        };
+        let white = || {
+            let white = self.white.filter(|white| !(white.is_finite() && *white > 0.0))?;
+            Some(format!("the luminance of white is {white} cd/m², not a finite number above 0"))
+        };
+        let panorama = || {
+            let Panorama { width, height, rgb } = self.panorama.as_ref()?;
+            let pixels = u64::from(*width) * u64::from(*height);
+            let whole = pixels > 0 && pixels == rgb.len() as u64;
+            (!whole).then(|| format!("the panorama of {width} × {height} pixels has {}", rgb.len()))
+        };
         let material = |material: &Material| {
+            let fault = spectrum(&material.spectrum, &format!("material \"{}\"", material.name));
+            if fault.is_some() {
+                return fault;
+            }
             let used = [material.base_colour_texture, material.emissive_texture];
             let missing = used.into_iter().flatten().find(|&index| index >= self.textures.len())?;
             let (name, count) = (&material.name, self.textures.len());
@@ -303,6 +336,11 @@ impl Scene {
             Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
         };
         let textures = self.textures.iter().find_map(texture);
-        textures.or_else(|| self.materials.iter().find_map(material)).or_else(|| self.meshes.iter().find_map(mesh))
+        textures
+            .or_else(|| self.materials.iter().find_map(material))
+            .or_else(|| self.meshes.iter().find_map(mesh))
+            .or_else(|| spectrum(&self.illuminant, "the light"))
+            .or_else(white)
+            .or_else(panorama)
     }
 }

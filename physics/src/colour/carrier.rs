@@ -61,11 +61,8 @@ impl Carrier {
         let red_end = doppler * matching::LONGEST_NM;
         let lifts =
             [self.light.wien_exponent(red_end), self.reflectance.as_ref().map_or(0.0, |r| r.wien_exponent(red_end))];
-        let seen = |nm: f64| {
-            let emitted = doppler * nm;
-            DVec3::from_array(shares(emitted)) * (doppler * self.lifted_radiance(emitted, lifts))
-        };
-        (matching::xyz(self.bends(doppler).into_iter(), seen), lifts[0] + lifts[1])
+        let weights = |nm: f64| DVec3::from_array(shares(nm)) * self.lifted_radiance(nm, lifts);
+        (matching::xyz(doppler, self.bends(doppler), weights), lifts[0] + lifts[1])
     }
 
     fn lifted_radiance(&self, nm: f64, [light, reflectance]: [f64; 2]) -> f64 {
@@ -73,14 +70,14 @@ impl Carrier {
             * self.reflectance.as_ref().map_or(1.0, |spectrum| spectrum.lifted_reflectance(nm, reflectance))
     }
 
-    /// Where measured values meet, as an observer sees it, ascending. *Units:* nm.
+    /// Where measured values meet, among the wavelengths that are seen at this D, ascending. *Units:* nm.
     fn bends(&self, doppler: f64) -> Vec<f64> {
-        let mut bends: Vec<f64> = Vec::new();
-        for spectrum in [Some(&self.light), self.reflectance.as_ref()].into_iter().flatten() {
-            let seen = doppler * matching::SHORTEST_NM..doppler * matching::LONGEST_NM;
-            bends.extend(spectrum.bends_within(seen).map(|emitted| emitted / doppler));
+        let seen = || doppler * matching::SHORTEST_NM..doppler * matching::LONGEST_NM;
+        let mut bends: Vec<f64> = self.light.bends_within(seen()).collect();
+        if let Some(reflectance) = &self.reflectance {
+            bends.extend(reflectance.bends_within(seen()));
+            bends.sort_by(f64::total_cmp);
         }
-        bends.sort_by(f64::total_cmp);
         bends
     }
 }

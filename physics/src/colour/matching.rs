@@ -29,14 +29,14 @@ static MATCHING: LazyLock<Vec<(f64, DVec3)>> = LazyLock::new(|| {
     rows.into_iter().map(|[nm, x, y, z]| (nm, DVec3::new(x, y, z))).collect()
 });
 
-/// Tristimulus values of three lights at once, each a column.
+/// Tristimulus values of three lights at once, each a column, after their wavelengths have been shifted by D.
 ///
-/// *Equation:* X_i = 683 ∫ L_i(λ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (CIE 15:2018, 7.1; B 2.11).
-/// *Units:* spectral radiance in W sr⁻¹ m⁻³, result in cd/m².
+/// *Equation:* X_i = 683 ∫ D L_i(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (CIE 15:2018, 7.1; B 2.17); summed over the
+/// wavelengths that are sent out, as 683 ∫ L_i(λ) x̄(λ/D) dλ. *Units:* spectral radiance in W sr⁻¹ m⁻³, result in cd/m².
 ///
 /// `bends` are the wavelengths in nm at which the spectra are not smooth, ascending; those that cannot be seen are
 /// passed over.
-pub(super) fn xyz(bends: impl Iterator<Item = f64>, radiance: impl Fn(f64) -> DVec3) -> DMat3 {
+pub(super) fn xyz(doppler: f64, bends: impl IntoIterator<Item = f64>, radiance: impl Fn(f64) -> DVec3) -> DMat3 {
     let mut sum = DMat3::ZERO;
     let mut before: Option<(f64, DMat3)> = None;
     let mut add = |nm: f64, matching: DVec3| {
@@ -46,15 +46,15 @@ pub(super) fn xyz(bends: impl Iterator<Item = f64>, radiance: impl Fn(f64) -> DV
         }
         before = Some((nm, seen));
     };
-    let mut bends = bends.filter(|nm| (SHORTEST_NM..LONGEST_NM).contains(nm)).peekable();
     let (first, matching_first) = MATCHING[0];
-    add(first, matching_first);
+    let mut bends = bends.into_iter().skip_while(|nm| *nm < doppler * first).peekable();
+    add(doppler * first, matching_first);
     for pair in MATCHING.windows(2) {
         let [(left, matching_left), (right, matching_right)] = [pair[0], pair[1]];
-        while let Some(nm) = bends.next_if(|nm| *nm < right) {
-            add(nm, matching_left.lerp(matching_right, (nm - left) / (right - left)));
+        while let Some(nm) = bends.next_if(|nm| *nm < doppler * right) {
+            add(nm, matching_left.lerp(matching_right, (nm / doppler - left) / (right - left)));
         }
-        add(right, matching_right);
+        add(doppler * right, matching_right);
     }
     sum * (EFFICACY * METRES_PER_NM)
 }

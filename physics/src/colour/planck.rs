@@ -4,8 +4,6 @@
 //! The functions here therefore take a `lift` and return e^lift times their value, so that a caller can compute the
 //! colour of light that is too faint for a number and keep the logarithm of its brightness beside it.
 
-use std::f64::consts::LN_2;
-
 /// Planck's constant, J s. This and the next two are exact (SI since 2019).
 const PLANCK: f64 = 6.626_070_15e-34;
 /// Speed of light, m s⁻¹.
@@ -38,5 +36,5 @@ pub(super) fn share(kelvin: f64, nm: f64, lift: f64) -> f64 {
 
 /// e^lift / (eˣ − 1), without loss at either end.
 fn occupation(x: f64, lift: f64) -> f64 {
-    if x < LN_2 { lift.exp() / x.exp_m1() } else { (lift - x).exp() / -(-x).exp_m1() }
+    (lift - x).exp() / -(-x).exp_m1()
 }

@@ -40,7 +40,7 @@ const KNOT_STEP: f64 = 0.02;
 
 /// What white must be multiplied with to have the luminance of 1 cd/m².
 static WHITE_SCALE: LazyLock<f64> =
-    LazyLock::new(|| matching::xyz(std::iter::empty(), |nm| DVec3::X * white_shape(nm)).x_axis.y.recip());
+    LazyLock::new(|| matching::xyz(1.0, None, |nm| DVec3::X * white_shape(nm)).x_axis.y.recip());
 
 /// The spline's coefficients as they are stored, and its first knot.
 static SPLINE: LazyLock<(f64, Vec<DVec3>)> = LazyLock::new(|| {
@@ -50,7 +50,7 @@ static SPLINE: LazyLock<(f64, Vec<DVec3>)> = LazyLock::new(|| {
 
 /// Makes shares whose colours at rest are the primaries out of those that are stored.
 static CORRECTION: LazyLock<DMat3> = LazyLock::new(|| {
-    let xyz = matching::xyz(std::iter::empty(), |nm| white(nm) * stored_shares(nm));
+    let xyz = matching::xyz(1.0, None, |nm| white(nm) * stored_shares(nm));
     (srgb::rgb_from_xyz() * xyz).inverse().transpose()
 });
 
@@ -70,19 +70,24 @@ pub fn shares(wavelength_nm: f64) -> [f64; 3] {
 }
 
 fn white_shape(nm: f64) -> f64 {
-    let from_bump = (nm / BUMP_NM).ln() / BUMP_WIDTH;
-    (nm / BUMP_NM).powf(WHITE_EXPONENT) * (1.0 + BUMP * (-0.5 * from_bump * from_bump).exp())
+    let place = (nm / BUMP_NM).ln();
+    let from_bump = place / BUMP_WIDTH;
+    (WHITE_EXPONENT * place).exp() * (1.0 + BUMP * (-0.5 * from_bump * from_bump).exp())
 }
 
 fn stored_shares(nm: f64) -> DVec3 {
+    const EVEN: DVec3 = DVec3::splat(1.0 / 3.0);
     let (first, coefficients) = &*SPLINE;
-    // Beyond the last coefficient by the reach of a spline, everything is even.
+    let place = (nm / KNOT_NM).ln() / KNOT_STEP - first;
+    // A coefficient counts within two knots of its place.
     let last = coefficients.len() as f64;
-    let place = ((nm / KNOT_NM).ln() / KNOT_STEP - first).clamp(-3.0, last + 2.0);
+    if !(-2.0..last + 1.0).contains(&place) {
+        return EVEN;
+    }
     let knot = place.floor();
     let coefficient = |offset: f64| {
         let index = knot + offset;
-        if (0.0..last).contains(&index) { coefficients[index as usize] } else { DVec3::splat(1.0 / 3.0) }
+        if (0.0..last).contains(&index) { coefficients[index as usize] } else { EVEN }
     };
     // The four cubic B-splines that reach this place.
     let right = place - knot;

@@ -4,7 +4,8 @@
 //! weights, so the table holds one colour per carrier, weight and D. Nodes are even in ln D from 1e-6 to 1e6. Brightness
 //! runs over hundreds of orders of magnitude there, and chromaticity hardly changes, so a texel holds the linear sRGB
 //! colour divided by its luminance Y, and log₂ Y; all four are interpolated linearly. Beyond the ends the colour stays
-//! and log₂ Y goes on in a straight line, which is the power law that every spectrum here ends in.
+//! and log₂ Y goes on in a straight line: the power law in which white, thermal light and a measured spectrum end, if
+//! nothing was measured in gamma rays or radio waves.
 
 use std::f64::consts::{LN_2, LN_10};
 
@@ -28,8 +29,11 @@ impl ShiftTable {
     /// The table's first and last node are at ln D = ∓ this: D = 1e-6 and 1e6.
     pub const LN_LIMIT: f64 = 6.0 * LN_10;
 
-    /// Nodes that are enough (see `colour_table.rs` for the error), and as many as every graphics card's texture is wide.
-    pub const NODES: usize = 4097;
+    /// Nodes that are enough, 0.0034 apart in ln D, and no more than a texture may be wide (8192) where nothing else is known.
+    ///
+    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of 0.15
+    /// at most over D = 0.05 … 20 (`colour_table.rs`); the error goes with the square of the distance.
+    pub const NODES: usize = 8191;
 
     /// Integrates the colours of these carriers, on all cores.
     ///

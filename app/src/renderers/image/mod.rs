@@ -8,6 +8,7 @@
 
 mod atlas;
 mod panes;
+mod sight;
 
 use super::target::{Format, Radiance};
 use super::world::{Draws, Group, Mode, World, bind_group, effect_constants, layout};
@@ -17,7 +18,8 @@ use crate::views::NEAR_M;
 use atlas::Atlas;
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};
-use panes::{Plan, Sight};
+use panes::{Fineness, Plan};
+use sight::Sight;
 use std::time::Instant;
 use wgpu::util::DeviceExt;
 
@@ -45,6 +47,10 @@ pub struct MapStats {
     pub plan_ms: f64,
 }
 
+/// Texels that drawing a pane is worth beside its own.
+const PANE_COST: f64 = 20e3;
+/// The same where the CPU draws, and a change of pipeline costs more.
+const PANE_COST_SOFTWARE: f64 = 60e3;
 /// Texels of a map at most: what a gigabyte holds.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -102,10 +108,15 @@ impl ImageRenderer {
         let sight = Sight::new(&shot.camera, size, shot.celerity());
         let most_texels = MOST_BYTES as f64 / texel_bytes as f64;
         let largest_side = gpu.device.limits().max_texture_dimension_2d;
-        let plan = sight.plan(self.quality.texels_per_pixel, most_texels, largest_side);
+        let fineness = Fineness {
+            texels_per_pixel: self.quality.texels_per_pixel,
+            exact: !self.quality.smooth,
+            pane_cost: if gpu.is_software() { PANE_COST_SOFTWARE } else { PANE_COST },
+        };
+        let plan = sight.plan(fineness, most_texels, largest_side);
         self.stats = MapStats {
             panes: plan.placed.len(),
-            texels: plan.placed.iter().map(|pane| u64::from(pane.drawn_side()).pow(2)).sum(),
+            texels: plan.placed.iter().map(panes::Placed::texels).sum::<f64>() as u64,
             bytes: u64::from(plan.size[0]) * u64::from(plan.size[1]) * texel_bytes,
             texels_per_pixel: plan.texels_per_pixel,
             plan_ms: started.elapsed().as_secs_f64() * 1e3,
@@ -131,9 +142,9 @@ impl ImageRenderer {
         for layer in 0..layers {
             let mut pass = atlas.begin(&mut encoder, layer);
             for (number, (pane, (_, planes))) in plan.placed.iter().zip(&views).enumerate() {
-                let ([x, y], side) = (pane.place, pane.drawn_side());
-                pass.set_viewport(x as f32, y as f32, side as f32, side as f32, 0.0, 1.0);
-                pass.set_scissor_rect(x, y, side, side);
+                let ([x, y], [across, down]) = (pane.place, pane.drawn());
+                pass.set_viewport(x as f32, y as f32, across as f32, down as f32, 0.0, 1.0);
+                pass.set_scissor_rect(x, y, across, down);
                 let number = layer * views.len() as u32 + number as u32;
                 let eye = shot.eye.position();
                 world.draw(gpu, &mut pass, number, &draws, |group| may_see(planes, eye, group));

@@ -1,69 +1,69 @@
 //! Which parts of the world around the eye are drawn, and how finely.
 //!
-//! The directions around the eye are a cube, turned so that +z is along the motion. Each face is cut in four, and the parts in four again, where
-//! that saves texels: what the picture does not see is left out, and what aberration enlarges (by 1/D, astern up to 2γ) gets as
-//! many texels as the picture has pixels for it. What is left are squares of very different size on the faces: panes.
-//!
-//! A part is judged by a cap around it. Aberration maps circles to circles (Penrose 1959), so the cap that the observer sees is known
-//! exactly from two points on the meridian through the motion; it is conservative, so that no pixel looks for a pane in vain.
+//! Each face of a cube around the eye is cut in four, and the parts in four again, where that saves texels: what the picture does not see is
+//! left out, and what aberration enlarges (by 1/D, astern up to 2γ) gets as many texels as the picture has pixels for it. What is
+//! left are windows of very different size on the faces: panes.
 
-use crate::views::{Camera, matrix};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, IVec4, Mat4, Vec2, Vec4};
-use physics::Celerity;
+use super::sight::{Extent, FACES, Part, Sight};
+use crate::views::matrix;
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, IVec4, Mat4, Vec4};
 use shaders::{Cut, Map, Pane, View};
 
-/// Texels that a pane's own draw call is worth: culling, state, the vertices of what crosses its edges.
-const PANE_COST: f64 = 16_384.0;
 /// Parts smaller than this many texels are not cut.
-const SMALLEST_SIDE: f64 = 96.0;
+const SMALLEST_SIDE: f64 = 24.0;
 /// Larger panes are cut in any case.
 const LARGEST_SIDE: f64 = 2048.0;
+/// How many times more a part may be enlarged in one place than in the mean, where the mean counts.
+const UNEVEN: f64 = 1.5;
+/// The same for a part that is not worth cutting.
+const EVEN: f64 = 1.1;
 /// Cuts of a part within a part: at 2⁻⁴⁸ of a face f64 ends.
 const DEEPEST: u32 = 48;
 /// Texels drawn around each pane, so that every texel in it has neighbours.
 const MARGIN: u32 = 1;
 
-/// What is seen: a flat picture, by an observer in motion.
-#[derive(Clone, Copy, Debug)]
-pub struct Sight {
-    /// From the axes of world and observer to the cube's.
-    pub cube_from_world: DMat3,
-    /// Unit vector through the picture's middle, cube's axes.
-    forward: DVec3,
-    /// Inward unit normals of the picture's edges, cube's axes.
-    edges: [DVec3; 4],
-    /// Angle from the middle to a corner.
-    corner_rad: f64,
-    /// The largest angle from the motion to anything in the picture.
-    furthest_rad: f64,
-    /// Pixels per tangent in the middle of the picture.
-    focal_length: f64,
-    kappa: f64,
-}
-
-/// A square part of a cube's face.
+/// How finely a map is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Part {
-    face: usize,
-    /// Tangents of its middle.
-    middle: DVec2,
-    /// Tangents from its middle to its edge.
-    half: f64,
+pub struct Fineness {
+    /// Texels for each pixel of the picture, along each axis.
+    pub texels_per_pixel: f64,
+    /// Whether every pixel has so many, or only the mean.
+    pub exact: bool,
+    /// Texels that a pane's own draws are worth: culling, state, the vertices of what crosses its edges.
+    pub pane_cost: f64,
 }
 
 /// What became of a part.
-enum Tree {
+struct Tree {
+    /// In texels.
+    cost: f64,
+    /// What of it is seen, at most.
+    window: Window,
+    kind: Kind,
+}
+
+enum Kind {
     Unseen,
-    Pane(Part, u32),
+    Pane([u32; 2]),
     Cut(DVec2, Box<[Tree; 4]>),
 }
 
-/// A part that is drawn.
+/// A rectangle on a cube's face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Window {
+    face: usize,
+    /// Tangents of its left lower corner.
+    low: DVec2,
+    /// Tangents of its right upper corner.
+    high: DVec2,
+}
+
+/// A window that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    part: Part,
-    /// Texels along each side, without the margin.
-    pub side: u32,
+    window: Window,
+    /// Texels across and down, without the margin.
+    size: [u32; 2],
     /// Texel of its upper left corner in the atlas, margin included.
     pub place: [u32; 2],
 }
@@ -84,132 +84,58 @@ pub struct Plan {
     pub texels_per_pixel: f64,
 }
 
-/// Right, up and forward of a cube's face for one who looks at it from within, cube's axes; `warp.wgsl` orders them alike.
-const FACES: [[DVec3; 3]; 6] = [
-    [DVec3::Y, DVec3::X, DVec3::Z],
-    [DVec3::X, DVec3::Y, DVec3::NEG_Z],
-    [DVec3::Z, DVec3::Y, DVec3::X],
-    [DVec3::Y, DVec3::Z, DVec3::NEG_X],
-    [DVec3::X, DVec3::Z, DVec3::Y],
-    [DVec3::Z, DVec3::X, DVec3::NEG_Y],
-];
-
-/// A circle of directions and all within it.
-#[derive(Clone, Copy, Debug)]
-struct Cap {
-    middle: DVec3,
-    /// In the observer's frame, up to π.
-    radius_rad: f64,
-    /// The largest angle of anything in it from the motion, up to π.
-    furthest_rad: f64,
-}
-
 impl Sight {
-    /// What `camera` sees, of `size` pixels, in motion with `celerity`.
-    pub fn new(camera: &Camera, size: [u32; 2], celerity: Celerity) -> Self {
-        let axis = |eye: DVec3| camera.observer_from_eye * eye;
-        let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));
-        let [width, height] = size.map(f64::from);
-        // Samples lie anywhere in a pixel, so the picture is taken to be one pixel wider all round.
-        let focal_length = 0.5 * height / (0.5 * camera.fov_y_rad).tan();
-        let (across, along) = ((0.5 * width + 1.0) / focal_length, (0.5 * height + 1.0) / focal_length);
-
-        // The cube: z along the motion; x towards the middle of the picture, if that is another direction.
-        let motion = celerity.vector().normalize_or(forward);
-        let side = [forward, right, up].into_iter().map(|axis| axis - axis.dot(motion) * motion);
-        let side = side.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        let x = side.unwrap_or(right).normalize();
-        let cube_from_world = DMat3::from_cols(x, motion.cross(x), motion).transpose();
-
-        let edge = |sideways: DVec3, extent: f64| cube_from_world * (sideways + extent * forward).normalize();
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
-            .map(|[x, y]| forward + x * across * right + y * along * up);
-        let stern_seen =
-            edges_admit(&[edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)], DVec3::NEG_Z);
-        // Away from the stern, what is furthest from the motion lies on the picture's border: bounded by the corners' circle.
-        let corner_rad = angle(forward, corners[0]);
-        let furthest = (angle(forward, motion) + corner_rad).min(std::f64::consts::PI);
-        Self {
-            cube_from_world,
-            forward: cube_from_world * forward,
-            edges: [edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)],
-            corner_rad,
-            furthest_rad: if stern_seen { std::f64::consts::PI } else { furthest },
-            focal_length,
-            kappa: celerity.gamma() + celerity.magnitude(),
-        }
-    }
-
-    /// Whether any of a cap may be in the picture.
-    fn sees(&self, cap: &Cap) -> bool {
-        let reach = cap.radius_rad.min(std::f64::consts::FRAC_PI_2).sin();
-        self.edges.iter().all(|edge| edge.dot(cap.middle) >= -reach)
-    }
-
-    /// The cap that the observer sees around a part of the cube.
-    fn cap(&self, part: &Part) -> Cap {
-        let middle = part.direction(DVec2::ZERO);
-        let corners = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
-        let radius = corners.into_iter().map(|corner| angle(middle, part.direction(corner))).fold(0.0, f64::max);
-
-        // Along the meridian from the motion through the middle, angles shrink as tan(θ'/2) = tan(θ/2) / κ; both ends of the cap do.
-        let from_motion = f64::atan2(middle.truncate().length(), middle.z);
-        let seen = |world: f64| 2.0 * f64::atan2((0.5 * world).sin(), self.kappa * (0.5 * world).cos());
-        let (near, far) = (seen(from_motion - radius), seen(from_motion + radius));
-        let meridian = middle.truncate().normalize_or(DVec2::X);
-        let (sine, cosine) = (0.5 * (near + far)).sin_cos();
-        Cap {
-            middle: (meridian * sine).extend(cosine),
-            radius_rad: 0.5 * (far - near),
-            furthest_rad: near.abs().max(far.abs()).min(std::f64::consts::PI),
-        }
-    }
-
-    /// Pixels per tangent of a part, at most, where the picture sees it.
-    fn density(&self, part: &Part, cap: &Cap) -> f64 {
-        // The picture stretches away from its middle, by 1/cos² along the radius.
-        let from_middle = (angle(self.forward, cap.middle) + cap.radius_rad).min(self.corner_rad);
-        let stretched = self.focal_length / from_middle.cos().powi(2);
-        // Aberration enlarges angles by 1/D, most where D is least: furthest from the motion.
-        let (sine, cosine) = (0.5 * cap.furthest_rad.min(self.furthest_rad)).sin_cos();
-        let enlarged = self.kappa * sine * sine + cosine * cosine / self.kappa;
-        // The face itself shows an angle smaller the further from its middle.
-        let nearest = (part.middle.abs() - part.half).max(DVec2::ZERO);
-        stretched * enlarged / (1.0 + nearest.length_squared()).sqrt()
-    }
-
     /// Finds the cheapest panes of a part.
-    fn cut(&self, part: Part, texels_per_pixel: f64, depth: u32) -> (f64, Tree) {
-        let cap = self.cap(&part);
-        if !self.sees(&cap) {
-            return (0.0, Tree::Unseen);
+    fn cut(&self, part: Part, fineness: Fineness, depth: u32) -> Tree {
+        let window = part.window();
+        if !self.sees(&part) {
+            return Tree { cost: 0.0, window, kind: Kind::Unseen };
         }
-        let side = (texels_per_pixel * self.density(&part, &cap) * 2.0 * part.half).ceil().max(1.0);
-        let whole = side * side + PANE_COST;
-        if side <= SMALLEST_SIDE || depth >= DEEPEST {
-            return (whole, Tree::Pane(part, side as u32));
+        let extent = self.extent(&part);
+        let size = extent.map(|extent| extent.texels(fineness));
+        let pane = |size: DVec2, window: Window| {
+            let size = (size * (window.high - window.low) / (2.0 * part.half)).ceil().max(DVec2::ONE);
+            let cost = size.element_product() + fineness.pane_cost;
+            Tree { cost, window, kind: Kind::Pane([size.x as u32, size.y as u32]) }
+        };
+        // Nothing to gain: it is small, or all of it is seen, and alike.
+        if depth >= DEEPEST {
+            return pane(DVec2::ONE, window);
         }
-        let parts = part.quarters().map(|quarter| self.cut(quarter, texels_per_pixel, depth + 1));
-        let cost: f64 = parts.iter().map(|(cost, _)| cost).sum();
-        if side <= LARGEST_SIDE && whole <= cost {
-            return (whole, Tree::Pane(part, side as u32));
+        if let (Some(extent), Some(size)) = (extent, size)
+            && (size.max_element() <= SMALLEST_SIDE
+                || (extent.inside && extent.is_even() && size.max_element() <= LARGEST_SIDE))
+        {
+            return pane(size, window);
         }
-        (cost, Tree::Cut(part.middle, Box::new(parts.map(|(_, tree)| tree))))
+        let parts = part.quarters().map(|quarter| self.cut(quarter, fineness, depth + 1));
+        let seen = parts.iter().filter(|tree| !matches!(tree.kind, Kind::Unseen)).map(|tree| tree.window);
+        let Some(window) = seen.reduce(Window::with) else {
+            return Tree { cost: 0.0, window, kind: Kind::Unseen };
+        };
+        let cost: f64 = parts.iter().map(|tree| tree.cost).sum();
+        if let Some(size) = size.filter(|size| size.max_element() <= LARGEST_SIDE) {
+            let whole = pane(size, window);
+            if whole.cost <= cost {
+                return whole;
+            }
+        }
+        Tree { cost, window, kind: Kind::Cut(part.middle, Box::new(parts)) }
     }
 
     /// Plans the map for a picture: `texels_per_pixel` along each axis, or as many as fit into `most_texels` and `largest_side`.
-    pub fn plan(&self, texels_per_pixel: f64, most_texels: f64, largest_side: u32) -> Plan {
-        let mut wanted = texels_per_pixel;
+    pub fn plan(&self, fineness: Fineness, most_texels: f64, largest_side: u32) -> Plan {
+        let mut wanted = fineness;
         loop {
             let roots =
-                [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0).1);
+                [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0));
             let mut plan = Planner::default();
             let numbers = roots.map(|root| plan.number(root));
-            let texels: f64 = plan.placed.iter().map(|pane| f64::from(pane.side + 2 * MARGIN).powi(2)).sum();
+            let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
             let size = pack(&mut plan.placed, texels, largest_side);
             let fits = texels <= most_texels && size[1] <= largest_side;
-            if !fits && wanted > 1e-3 {
-                wanted *= (most_texels / texels).sqrt().min(0.98) * 0.98;
+            if !fits && wanted.texels_per_pixel > 1e-3 {
+                wanted.texels_per_pixel *= (most_texels / texels).sqrt().min(0.98) * 0.98;
                 continue;
             }
             // A face that nobody sees is never looked up: any pane will do.
@@ -220,51 +146,62 @@ impl Sight {
                 last_roots: IVec4::new(y, minus_y, 0, 0),
             };
             let panes = plan.placed.iter().map(Placed::pane).collect();
-            return Plan { placed: plan.placed, panes, cuts: plan.cuts, map, size, texels_per_pixel: wanted };
+            return Plan {
+                placed: plan.placed,
+                panes,
+                cuts: plan.cuts,
+                map,
+                size,
+                texels_per_pixel: wanted.texels_per_pixel,
+            };
         }
     }
 }
 
-/// Whether a direction lies on the inner side of all edges.
-fn edges_admit(edges: &[DVec3; 4], direction: DVec3) -> bool {
-    edges.iter().all(|edge| edge.dot(direction) >= 0.0)
-}
-
-fn angle(one: DVec3, other: DVec3) -> f64 {
-    f64::atan2(one.cross(other).length(), one.dot(other))
-}
-
 impl Part {
-    /// Towards a place in it, −1 to 1 from left to right and from below to above; not normalised.
-    fn direction(&self, place: DVec2) -> DVec3 {
-        let [right, up, forward] = FACES[self.face];
-        let tangent = self.middle + self.half * place;
-        forward + tangent.x * right + tangent.y * up
+    fn window(&self) -> Window {
+        Window { face: self.face, low: self.middle - self.half, high: self.middle + self.half }
+    }
+}
+
+impl Window {
+    /// The smallest window that holds both.
+    fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high), ..self }
+    }
+}
+
+impl Extent {
+    fn texels(&self, fineness: Fineness) -> DVec2 {
+        let pixels = if fineness.exact { self.most } else { self.mean.max(self.most / UNEVEN) };
+        (fineness.texels_per_pixel * pixels).max(DVec2::ONE)
     }
 
-    /// Left below, right below, left above, right above.
-    fn quarters(self) -> [Self; 4] {
-        let half = 0.5 * self.half;
-        let quarter = |x: f64, y: f64| Self { middle: self.middle + half * DVec2::new(x, y), half, ..self };
-        [quarter(-1.0, -1.0), quarter(1.0, -1.0), quarter(-1.0, 1.0), quarter(1.0, 1.0)]
+    fn is_even(&self) -> bool {
+        self.most.cmple(EVEN * self.mean).all()
     }
 }
 
 impl Placed {
-    /// Texels along each side with the margin.
-    pub fn drawn_side(&self) -> u32 {
-        self.side + 2 * MARGIN
+    /// Texels across and down with the margin.
+    pub fn drawn(&self) -> [u32; 2] {
+        self.size.map(|side| side + 2 * MARGIN)
+    }
+
+    /// All its texels with the margin.
+    pub fn texels(&self) -> f64 {
+        self.drawn().map(f64::from).iter().product()
     }
 
     fn pane(&self) -> Pane {
-        let Part { middle, half, .. } = self.part;
-        let scale = f64::from(self.side) / (2.0 * half);
-        let low = Vec2::new(self.place[0] as f32, self.place[1] as f32) + MARGIN as f32;
+        let Window { low: left_below, high: right_above, .. } = self.window;
+        let size = DVec2::from_array(self.size.map(f64::from));
+        let low = DVec2::from_array(self.place.map(f64::from)) + f64::from(MARGIN);
         Pane {
-            corner: DVec2::new(middle.x - half, middle.y + half).as_vec2(),
-            scale: DVec2::new(scale, -scale).as_vec2(),
-            low,
-            high: low + self.side as f32,
+            corner: DVec2::new(left_below.x, right_above.y).as_vec2(),
+            scale: (size / (right_above - left_below) * DVec2::new(1.0, -1.0)).as_vec2(),
+            low: low.as_vec2(),
+            high: (low + size).as_vec2(),
         }
     }
 
@@ -273,21 +210,23 @@ impl Placed {
     /// Positions are relative to a point that lies `from_eye` metres from the eye (world axes).
     pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (View, [DVec3; 5]) {
         let world_from_cube = cube_from_world.transpose();
-        let [right, up, forward] = FACES[self.part.face].map(|axis| world_from_cube * axis);
-        let half = self.part.half * f64::from(self.drawn_side()) / f64::from(self.side);
-        let middle = self.part.middle;
-        let row_x = (right - middle.x * forward) / half;
-        let row_y = (up - middle.y * forward) / half;
+        let [right, up, forward] = FACES[self.window.face].map(|axis| world_from_cube * axis);
+        let drawn = DVec2::from_array(self.drawn().map(f64::from));
+        let Window { low, high, .. } = self.window;
+        let half = 0.5 * (high - low) * drawn / DVec2::from_array(self.size.map(f64::from));
+        let middle = 0.5 * (low + high);
+        let row_x = (right - middle.x * forward) / half.x;
+        let row_y = (up - middle.y * forward) / half.y;
         let row = |row: DVec3| row.extend(row.dot(from_eye));
         let rows = DMat4::from_cols(row(row_x), row(row_y), DVec4::new(0.0, 0.0, 0.0, near_m), row(forward));
-        let pixel = 2.0 / self.drawn_side() as f32;
+        let pixel = (2.0 / drawn).as_vec2();
         let view = View {
             clip_from_observer: matrix(&rows.transpose()),
             forward: (forward + middle.x * right + middle.y * up).as_vec3().extend(0.0),
-            right: (half * right).as_vec3().extend(0.0),
-            up: (half * up).as_vec3().extend(0.0),
+            right: (half.x * right).as_vec3().extend(0.0),
+            up: (half.y * up).as_vec3().extend(0.0),
             motion: forward.as_vec3().extend(1.0),
-            shift: Vec4::new(1.0, 1.0, pixel, pixel),
+            shift: Vec4::new(1.0, 1.0, pixel.x, pixel.y),
             layer: Vec4::ZERO,
         };
         let planes = [forward, row_x + forward, forward - row_x, row_y + forward, forward - row_y];
@@ -305,13 +244,13 @@ struct Planner {
 impl Planner {
     /// A cut's number, −1 − a pane's, or nothing for what is not seen.
     fn number(&mut self, tree: Tree) -> Option<i32> {
-        match tree {
-            Tree::Unseen => None,
-            Tree::Pane(part, side) => {
-                self.placed.push(Placed { part, side, place: [0; 2] });
+        match tree.kind {
+            Kind::Unseen => None,
+            Kind::Pane(size) => {
+                self.placed.push(Placed { window: tree.window, size, place: [0; 2] });
                 Some(-(self.placed.len() as i32))
             }
-            Tree::Cut(at, parts) => {
+            Kind::Cut(at, parts) => {
                 let number = self.cuts.len();
                 self.cuts.push(Cut { at: at.as_vec2(), ..Default::default() });
                 let parts = parts.map(|part| self.number(part));
@@ -324,22 +263,141 @@ impl Planner {
     }
 }
 
-/// Places squares in rows, the largest first. Returns the size of the whole.
+/// Places panes in rows, the highest first. Returns the size of the whole.
 fn pack(placed: &mut [Placed], texels: f64, largest_side: u32) -> [u32; 2] {
-    let widest = placed.iter().map(Placed::drawn_side).max().unwrap_or(1);
+    let widest = placed.iter().map(|pane| pane.drawn()[0]).max().unwrap_or(1);
     let width = ((texels.sqrt() * 1.05) as u32).next_multiple_of(64).clamp(widest, largest_side.max(widest));
     let mut order: Vec<usize> = (0..placed.len()).collect();
-    order.sort_by_key(|&number| std::cmp::Reverse(placed[number].side));
+    order.sort_by_key(|&number| std::cmp::Reverse(placed[number].size[1]));
     let (mut x, mut y, mut row_height) = (0, 0, 0);
     for number in order {
-        let side = placed[number].drawn_side();
-        if x + side > width {
+        let [across, down] = placed[number].drawn();
+        if x + across > width {
             (x, y) = (0, y + row_height);
             row_height = 0;
         }
         placed[number].place = [x, y];
-        x += side;
-        row_height = row_height.max(side);
+        x += across;
+        row_height = row_height.max(down);
     }
     [width, (y + row_height).max(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    //! Every pixel must find its direction in a pane, at any speed, and there as many texels as were promised: a plan that leaves a direction
+    //! out shows a stretched neighbour there, one that is too coarse shows blocks, one that is too fine costs more the faster one goes.
+
+    use super::*;
+    use crate::views::Camera;
+    use physics::{Aberration, Celerity};
+
+    const SIZE: [u32; 2] = [320, 180];
+    const MANY: f64 = 1e9;
+    const EXACT: Fineness = Fineness { texels_per_pixel: 2.0, exact: true, pane_cost: 2e3 };
+
+    /// A pixel's place on the cube, as `warp.wgsl` finds it: face and tangents.
+    fn on_cube(sight: &Sight, aberration: &Aberration, observed: DVec3) -> (usize, DVec2) {
+        let (world, _) = aberration.world_from_observer(observed);
+        let direction = sight.cube_from_world * world;
+        let face = (0..6).max_by(|&a, &b| FACES[a][2].dot(direction).total_cmp(&FACES[b][2].dot(direction)));
+        let face = face.expect("a cube has faces");
+        let [right, up, forward] = FACES[face];
+        (face, DVec2::new(right.dot(direction), up.dot(direction)) / forward.dot(direction))
+    }
+
+    /// The pane that holds a place on the cube, if there is one.
+    fn find<'a>(plan: &'a Plan, face: usize, at: DVec2) -> Option<&'a Placed> {
+        let rounding = 1e-9;
+        plan.placed.iter().find(|pane| {
+            let Window { face: of, low, high } = pane.window;
+            of == face && (at + rounding).cmpge(low).all() && (at - rounding).cmple(high).all()
+        })
+    }
+
+    fn each_pixel(camera: &Camera, mut check: impl FnMut(DVec3, DVec3)) {
+        let tan = (0.5 * camera.fov_y_rad).tan() * 2.0 / f64::from(SIZE[1]);
+        for row in (0..SIZE[1]).step_by(3) {
+            for column in (0..SIZE[0]).step_by(3) {
+                let x = (f64::from(column) + 0.5 - 0.5 * f64::from(SIZE[0])) * tan;
+                let y = (0.5 * f64::from(SIZE[1]) - f64::from(row) - 0.5) * tan;
+                let direction = |x: f64| (camera.observer_from_eye * DVec3::new(x, y, -1.0)).normalize();
+                check(direction(x), direction(x + tan));
+            }
+        }
+    }
+
+    fn looks() -> [DVec3; 4] {
+        [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::new(0.3, -0.5, 0.8)]
+    }
+
+    #[test]
+    fn every_pixel_finds_a_pane_with_enough_texels() {
+        for gamma_minus_one in [0.0, 0.15, 1.3, 70.0, 1e4] {
+            let celerity = Celerity::new(
+                DVec3::new(0.1, 0.2, -1.0).normalize() * f64::sqrt(gamma_minus_one * (gamma_minus_one + 2.0)),
+            );
+            let celerity = celerity.expect("a finite celerity");
+            let aberration = Aberration::new(celerity);
+            for look in looks() {
+                let camera = Camera::looking(look, DVec3::Y, 1.1);
+                let sight = Sight::new(&camera, SIZE, celerity);
+                let plan = sight.plan(EXACT, MANY, 1 << 20);
+                let (mut few, mut all) = (0, 0);
+                each_pixel(&camera, |here, neighbour| {
+                    let (face, at) = on_cube(&sight, &aberration, here);
+                    let pane = find(&plan, face, at);
+                    let pane = pane.expect("no pane holds a pixel");
+                    let (next_face, next) = on_cube(&sight, &aberration, neighbour);
+                    if next_face == face {
+                        // Texels from a pixel to the next.
+                        let scale = DVec2::from_array(pane.size.map(f64::from)) / (pane.window.high - pane.window.low);
+                        all += 1;
+                        few += i32::from(((next - at) * scale).length() < 0.8 * EXACT.texels_per_pixel);
+                    }
+                });
+                assert!(few * 200 <= all, "{few} of {all} pixels looking to {look} at γ − 1 = {gamma_minus_one}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_hardly_grows_with_speed() {
+        let mean = Fineness { texels_per_pixel: 1.0, exact: false, pane_cost: 2e3 };
+        let pixels = f64::from(SIZE[0] * SIZE[1]);
+        for gamma in [1.0, 1.2, 1.7, 3.0, 10.0, 100.0, 1e4] {
+            let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
+            for look in looks() {
+                let plan = Sight::new(&Camera::looking(look, DVec3::Y, 1.1), SIZE, celerity).plan(mean, MANY, 1 << 20);
+                let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
+                assert!(texels < 3.0 * pixels, "{texels} texels for {pixels} pixels at γ = {gamma} looking to {look}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plan_keeps_to_its_limits() {
+        let celerity = Celerity::new(DVec3::NEG_Z * 2.0).expect("a finite celerity");
+        let sight = Sight::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.1), SIZE, celerity);
+        let plan = sight.plan(EXACT, 50_000.0, 400);
+        assert!(plan.placed.iter().map(Placed::texels).sum::<f64>() <= 50_000.0);
+        assert!(plan.size.iter().all(|&side| side <= 400), "{:?}", plan.size);
+        assert!(plan.texels_per_pixel < EXACT.texels_per_pixel);
+    }
+
+    #[test]
+    fn panes_do_not_overlap_in_the_atlas() {
+        let celerity = Celerity::new(DVec3::new(1.0, 0.0, -2.0)).expect("a finite celerity");
+        let plan = Sight::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE, celerity).plan(EXACT, MANY, 1 << 20);
+        assert!(plan.placed.len() > 3);
+        for (number, one) in plan.placed.iter().enumerate() {
+            for other in &plan.placed[..number] {
+                let apart = (0..2).any(|axis| {
+                    one.place[axis] >= other.place[axis] + other.drawn()[axis]
+                        || other.place[axis] >= one.place[axis] + one.drawn()[axis]
+                });
+                assert!(apart, "{one:?} and {other:?}");
+            }
+        }
+    }
 }

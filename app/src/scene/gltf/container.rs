@@ -12,6 +12,7 @@ use ::gltf::json;
 use serde::Deserialize;
 
 use super::extras::SceneExtras;
+use super::spectrum::stays_below;
 use super::{EXTENSIONS, GltfError, Notices};
 
 /// The largest file that is read, in bytes: a `.glb` cannot count further.
@@ -116,6 +117,15 @@ impl Document {
         }
         let name = urlencoding::decode(uri).unwrap_or(Cow::Borrowed(uri));
         read_file(&self.path.parent().unwrap_or(Path::new("")).join(name.as_ref()))
+    }
+
+    /// The bytes of a file that must lie in the scene's own folder or below it.
+    pub(super) fn beside(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
+        let name = urlencoding::decode(uri).unwrap_or(Cow::Borrowed(uri));
+        if !stays_below(Path::new(name.as_ref())) {
+            return Err(self.damaged(place, format!("{uri} is not a file beside the scene")));
+        }
+        self.fetch(uri, place)
     }
 
     /// An item of one of the JSON's lists; `place` is where its index stands.

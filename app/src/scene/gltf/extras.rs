@@ -3,6 +3,7 @@
 use ::gltf::json::Extras;
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::scene::{Lighting, Start};
@@ -18,7 +19,11 @@ pub(in crate::scene) const COLOURS: &str = "RAPIDITY_COLOR";
 #[derive(Debug, Default, PartialEq)]
 pub(in crate::scene) struct SceneExtras {
     pub(in crate::scene) origin: Option<[f64; 3]>,
-    pub(in crate::scene) light: Option<Lighting>,
+    pub(in crate::scene) light: LightExtras,
+    /// Luminance shown as white, cd/m².
+    pub(in crate::scene) white: Option<f64>,
+    /// Name of a file beside the scene, or a picture within it.
+    pub(in crate::scene) panorama: Option<Value>,
     pub(in crate::scene) start: Option<Start>,
     pub(in crate::scene) circuit: Vec<[f64; 3]>,
 }
@@ -36,23 +41,66 @@ struct SceneJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     origin: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    light: Option<LightJson>,
+    light: Option<LightExtras>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    white: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    panorama: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<StartJson>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     circuit: Vec<[f64; 3]>,
 }
 
-#[derive(Serialize, Deserialize)]
+/// `light` of a scene's `extras.rapidity`; what it does not mention stays as it is.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-struct LightJson {
-    sun_direction: [f32; 3],
-    sun: [f32; 3],
-    sky: [f32; 3],
-    ground: [f32; 3],
-    zenith: [f32; 3],
-    horizon: [f32; 3],
-    shadows: bool,
+pub(in crate::scene) struct LightExtras {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sun_direction: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sun: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sky: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ground: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    zenith: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    horizon: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shadows: Option<bool>,
+    /// Not yet understood.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spectrum: Option<Value>,
+}
+
+impl LightExtras {
+    /// All of a scene's light, its spectrum as `spectrum::to_json` writes it.
+    pub(in crate::scene) fn of(light: Lighting, spectrum: Option<Value>) -> Self {
+        Self {
+            sun_direction: Some(light.sun_direction.to_array()),
+            sun: Some(light.sun),
+            sky: Some(light.sky),
+            ground: Some(light.ground),
+            zenith: Some(light.zenith),
+            horizon: Some(light.horizon),
+            shadows: Some(light.shadows),
+            spectrum,
+        }
+    }
+
+    /// Changes what the file mentions.
+    pub(super) fn apply(&self, light: &mut Lighting) {
+        let Lighting { sun_direction, sun, sky, ground, zenith, horizon, shadows } = light;
+        *sun_direction = self.sun_direction.map_or(*sun_direction, Vec3::from_array);
+        for (ours, theirs) in
+            [(sun, self.sun), (sky, self.sky), (ground, self.ground), (zenith, self.zenith), (horizon, self.horizon)]
+        {
+            *ours = theirs.unwrap_or(*ours);
+        }
+        *shadows = self.shadows.unwrap_or(*shadows);
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -98,41 +146,36 @@ impl SceneExtras {
             let unit = if off <= UNIT_TOLERANCE { Some(vector) } else { vector.try_normalize() };
             unit.ok_or_else(|| format!("{name} is no direction"))
         };
-        let light = json.light.map(|light| {
-            let colours = [light.sun, light.sky, light.ground, light.zenith, light.horizon];
-            if !colours.as_flattened().iter().all(|value| value.is_finite()) {
-                return Err("a colour of light is beyond all numbers".to_owned());
-            }
-            Ok(Lighting {
-                sun_direction: unit(Vec3::from_array(light.sun_direction).as_dvec3(), "light.sunDirection")?.as_vec3(),
-                sun: light.sun,
-                sky: light.sky,
-                ground: light.ground,
-                zenith: light.zenith,
-                horizon: light.horizon,
-                shadows: light.shadows,
-            })
-        });
+        let mut light = json.light.unwrap_or_default();
+        let colours = [light.sun, light.sky, light.ground, light.zenith, light.horizon];
+        if !colours.into_iter().flatten().flatten().all(f32::is_finite) {
+            return Err("a colour of light is beyond all numbers".to_owned());
+        }
+        if let Some(direction) = &mut light.sun_direction {
+            *direction = unit(Vec3::from_array(*direction).as_dvec3(), "light.sunDirection")?.as_vec3().to_array();
+        }
+        if let Some(white) = json.white.filter(|white| !(white.is_finite() && *white > 0.0)) {
+            return Err(format!("white: expected a luminance in cd/m², a number above 0, not {white}"));
+        }
         let start = json.start.map(|start| {
             let look = unit(DVec3::from_array(start.look), "start.look")?;
             Ok::<_, String>(Start { position: DVec3::from_array(start.position), look })
         });
-        Ok(Self { origin: json.origin, light: light.transpose()?, start: start.transpose()?, circuit: json.circuit })
+        Ok(Self {
+            origin: json.origin,
+            light,
+            white: json.white,
+            panorama: json.panorama,
+            start: start.transpose()?,
+            circuit: json.circuit,
+        })
     }
 
-    pub(in crate::scene) fn to_json(&self) -> serde_json::Value {
-        let light = self.light.map(|light| LightJson {
-            sun_direction: light.sun_direction.to_array(),
-            sun: light.sun,
-            sky: light.sky,
-            ground: light.ground,
-            zenith: light.zenith,
-            horizon: light.horizon,
-            shadows: light.shadows,
-        });
+    pub(in crate::scene) fn into_json(self) -> serde_json::Value {
         let start =
             self.start.map(|start| StartJson { position: start.position.to_array(), look: start.look.to_array() });
-        let json = SceneJson { origin: self.origin, light, start, circuit: self.circuit.clone() };
+        let (origin, light, white) = (self.origin, Some(self.light), self.white);
+        let json = SceneJson { origin, light, white, panorama: self.panorama, start, circuit: self.circuit };
         serde_json::json!({ "rapidity": json })
     }
 }

@@ -8,6 +8,7 @@ use ::gltf::json::validation::Checked;
 use glam::{Mat2, Vec2};
 
 use super::container::Document;
+use super::spectrum::Spectra;
 use super::{GltfError, Notices};
 use crate::scene::{Alpha, Material};
 
@@ -47,12 +48,13 @@ impl Channel {
 /// Texture indices are still those of the file; `picture::textures` replaces them.
 pub(super) fn materials(
     document: &Document,
+    spectra: &mut Spectra<'_>,
     notices: &mut Notices,
 ) -> Result<(Vec<Material>, Vec<Channel>), GltfError> {
     let mut materials = Vec::new();
     let mut channels = Vec::new();
     for (index, material) in document.json.materials.iter().enumerate() {
-        let (material, channel) = read(document, index, material, notices)?;
+        let (material, channel) = read(document, index, material, spectra, notices)?;
         materials.push(material);
         channels.push(channel);
     }
@@ -71,6 +73,7 @@ fn read(
     document: &Document,
     index: usize,
     material: &json::Material,
+    spectra: &mut Spectra<'_>,
     notices: &mut Notices,
 ) -> Result<(Material, Channel), GltfError> {
     let place = format!("materials[{index}]");
@@ -81,8 +84,10 @@ fn read(
     let Checked::Valid(mode) = material.alpha_mode else {
         return Err(document.damaged(&format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND"));
     };
+    let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
     let read = Material {
-        name: material.name.clone().unwrap_or_else(|| format!("material {index}")),
+        spectrum: spectra.of_extras(&material.extras, &format!("{place} \"{name}\"")),
+        name,
         base_colour: surface.base_color_factor.0,
         base_colour_texture: surface.base_color_texture.as_ref().map(|texture| texture.index.value()),
         emissive: material.emissive_factor.0.map(|factor| factor * strength),
@@ -94,7 +99,6 @@ fn read(
             AlphaMode::Mask => Alpha::Mask(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
             AlphaMode::Blend => Alpha::Blend,
         },
-        spectrum: None,
     };
     let numbers = read.base_colour.iter().chain(&read.emissive);
     if !numbers.copied().all(f32::is_finite) {

@@ -1,7 +1,7 @@
 //! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
 //!
-//! A file passes five doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
-//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture` and `material`. The `gltf` crate only reads
+//! A file passes several doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
+//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture`, `material`, `light` and `spectrum`. The `gltf` crate only reads
 //! the JSON; every index, offset and length in it is looked up with a check here, because a file may come from
 //! anywhere and none may bring the program down or make it ask for more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
 //!
@@ -11,10 +11,12 @@
 mod accessor;
 mod container;
 pub(super) mod extras;
+mod light;
 mod material;
 mod nodes;
 mod picture;
 mod primitive;
+pub(super) mod spectrum;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -25,10 +27,14 @@ use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use self::container::Document;
+use self::extras::SceneExtras;
 use self::nodes::{Bounds, Placement};
 use self::primitive::Primitive;
+use self::spectrum::Spectra;
+pub use self::spectrum::SpectrumFault;
 use super::collision::Collision;
-use super::{MAX_TRIANGLES, Mesh, Scene, Start};
+use super::panorama::{self, PanoramaError};
+use super::{MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
 use crate::vehicle::Surroundings;
 
 /// The most meshes a scene may have, one for each primitive and instance.
@@ -104,6 +110,22 @@ pub enum GltfError {
         /// What there is instead.
         found: &'static str,
     },
+    /// Spectra that are none: a sentence for each.
+    #[error("{}", sentences(path, faults))]
+    Spectra {
+        /// The scene.
+        path: PathBuf,
+        /// All that are wrong, in the file's order.
+        faults: Vec<SpectrumFault>,
+    },
+    /// A panorama that is none.
+    #[error(transparent)]
+    Panorama(#[from] PanoramaError),
+}
+
+fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
+    let sentence = |fault| format!("{} has a spectrum that cannot be used: {fault}", path.display());
+    faults.iter().map(sentence).collect::<Vec<_>>().join("\n")
 }
 
 /// What `load` is doing.
@@ -130,7 +152,8 @@ pub struct Progress {
 ///
 /// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
 /// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
-/// What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
+/// The first directional light of `KHR_lights_punctual` is the sun; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
+/// tells all of it. What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
 /// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
 /// first camera, else at the origin or in front of the scene.
 ///
@@ -149,8 +172,14 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     let placements = nodes::placements(&document, scene_index, &mut notices)?;
     let instances = instances(&document, &placements, &mut notices)?;
 
+    // Read surfaces and light.
+    let mut spectra = Spectra::new(&document);
+    let (mut materials, channels) = material::materials(&document, &mut spectra, &mut notices)?;
+    let (light, illuminant) =
+        light::lighting(&document, scene_index, &extras, &placements, &mut spectra, &mut notices)?;
+    spectra.finish()?;
+
     // Unpack every primitive once.
-    let (mut materials, channels) = material::materials(&document, &mut notices)?;
     let mut primitives = BTreeMap::new();
     for instance in &instances {
         let key = (instance.mesh, instance.primitive);
@@ -162,6 +191,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         let found = if document.json.meshes.is_empty() { "nodes" } else { "points and lines" };
         return Err(GltfError::Nothing { path: document.path, found });
     }
+    let panorama = around(&document, scene_index, &extras, &mut notices)?;
     let textures = picture::textures(&document, &mut materials, &mut notices, &progress)?;
 
     // Choose the origin, then place the primitives relative to it.
@@ -197,13 +227,13 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         textures,
         materials,
         meshes,
-        light: extras.light.unwrap_or_default(),
+        light,
+        illuminant,
+        white: extras.white,
+        panorama,
         start: extras.start.unwrap_or_else(|| bounds.start()),
         circuit: extras.circuit.into_iter().map(DVec3::from_array).collect(),
         notices: notices.into_sentences(),
-        illuminant: None,
-        white: None,
-        panorama: None,
     };
     if extras.start.is_none()
         && let Some(camera) = placements.iter().find(|placement| placement.camera)
@@ -211,6 +241,27 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         scene.start = start_below(camera.transform, &scene);
     }
     Ok(scene)
+}
+
+/// The panorama that the scene names: a file beside it, or a picture in a buffer view.
+fn around(
+    document: &Document,
+    scene: Option<usize>,
+    extras: &SceneExtras,
+    notices: &mut Notices,
+) -> Result<Option<Panorama>, GltfError> {
+    let (Some(scene), Some(value)) = (scene, &extras.panorama) else {
+        return Ok(None);
+    };
+    let place = format!("scenes[{scene}].extras.rapidity.panorama");
+    let view = value.get("bufferView").and_then(|view| usize::try_from(view.as_u64()?).ok());
+    let (bytes, path) = match (value.as_str(), view) {
+        (Some(data), _) if data.starts_with("data:") => (document.fetch(data, &place)?, document.path.clone()),
+        (Some(name), _) => (document.beside(name, &place)?, document.path.with_file_name(name)),
+        (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
+        (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
+    };
+    Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
 }
 
 /// A primitive of a mesh, at a node.
@@ -275,8 +326,13 @@ fn start_below(camera: DAffine3, scene: &Scene) -> Start {
 }
 
 /// Extensions that are drawn.
-const EXTENSIONS: [&str; 4] =
-    ["KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"];
+const EXTENSIONS: [&str; 5] = [
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
 
 fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
     let json = &document.json;

@@ -16,6 +16,8 @@ pub(super) struct Placement {
     pub(super) node: usize,
     /// Index into the file's meshes, not yet checked.
     pub(super) mesh: Option<usize>,
+    /// Index into the file's lights, not yet checked.
+    pub(super) light: Option<usize>,
     /// Whether it bears a camera.
     pub(super) camera: bool,
     /// File's frame from the node's.
@@ -24,7 +26,7 @@ pub(super) struct Placement {
     pub(super) solid: Option<bool>,
 }
 
-/// All nodes of a scene that bear a mesh or a camera, parents before children, in the file's order.
+/// All nodes of a scene that bear a mesh, a light or a camera, parents before children, in the file's order.
 pub(super) fn placements(
     document: &Document,
     scene: Option<usize>,
@@ -45,13 +47,15 @@ pub(super) fn placements(
             return Err(document.damaged(&place, "it has two parents or is its own ancestor"));
         }
         let transform = parent * local(&document.transforms[index], &place, notices);
-        if node.mesh.is_some() || node.camera.is_some() {
+        let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+        if node.mesh.is_some() || node.camera.is_some() || light.is_some() {
             let extras = NodeExtras::read(&node.extras);
             let extras = extras.map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
             let mesh = node.mesh.map(|mesh| mesh.value());
             placements.push(Placement {
                 node: index,
                 mesh,
+                light: light.map(|light| light.light.value()),
                 camera: node.camera.is_some(),
                 transform,
                 solid: extras.solid,

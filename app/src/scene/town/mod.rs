@@ -23,7 +23,6 @@ mod square;
 mod street;
 mod surface;
 mod town_hall;
-mod turn;
 
 use glam::{DVec3, Vec3};
 use rand::SeedableRng;

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
 use crate::scene::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
-use crate::scene::town::turn::circle;
+use crate::scene::turn::circle;
 
 /// The topmost of many scattered things at a point: `layers` sheets of them, each on a jittered lattice of `cells` per unit.
 ///

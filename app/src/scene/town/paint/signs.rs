@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
 use crate::scene::town::canvas::{Area, Canvas, ENDLESS, cloud, noise, smoothstep};
-use crate::scene::town::turn::circle;
+use crate::scene::turn::circle;
 
 /// A clock face that fills a unit square: gilt hours on blue, hands at twenty to eleven.
 pub(in crate::scene::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {

@@ -1,11 +1,11 @@
-//! Points of the unit circle from sums and products alone, so that the town is the same to the bit everywhere.
+//! Points of the unit circle from sums and products alone, so that built-in scenes are the same to the bit everywhere.
 
 use glam::{Vec2, vec2};
 
 /// (cos, sin) of an angle given in turns.
 ///
 /// *Accuracy*: 1e-6, by the Taylor series on ±1/8 turn.
-pub(super) fn circle(turns: f32) -> Vec2 {
+pub(in crate::scene) fn circle(turns: f32) -> Vec2 {
     let quarters = (turns * 4.0).round();
     let x = (turns * 4.0 - quarters) * std::f32::consts::FRAC_PI_2;
     let q = x * x;

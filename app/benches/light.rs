@@ -1,0 +1,165 @@
+//! What the image renderer and each effect cost in the old town, over speed and over the map's fineness, and in memory.
+//!
+//! In each table the alternatives take turns, a few frames each, so that whatever else the machine does hits all alike; ratios are of frame
+//! times in one round. A frame is drawn as a window draws it, without the window.
+//!
+//! `cargo bench -p rapidity --bench light`
+
+mod support;
+
+use glam::{DVec2, DVec3};
+use physics::Beta;
+use physics::photo_surface::Eye;
+use rapidity::gpu::{Gpu, GpuError};
+use rapidity::renderers::image::MapQuality;
+use rapidity::renderers::target::{Format, Radiance};
+use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
+use rapidity::scene::refine::refine;
+use rapidity::scene::{Scene, town};
+use rapidity::views::Camera;
+use std::error::Error;
+use std::time::{Duration, Instant};
+use support::{commit, median, milliseconds, processor, quantile};
+
+/// Pixels of a frame.
+const SIZE: [u32; 2] = [1280, 720];
+/// Of a window.
+const QUALITY: MapQuality = MapQuality { texels_per_pixel: 1.0, smooth: true };
+/// Frames drawn in one way before the next has its turn.
+const FRAMES: usize = 3;
+/// How long each table is measured.
+const TIME: Duration = Duration::from_secs(15);
+/// Longest edge of a triangle of the polygon renderer, metres: the program's default.
+const EDGE_M: f32 = 0.5;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let gpu = Gpu::new()?;
+    let cores = std::thread::available_parallelism()?;
+    println!("commit {}, {}, {cores} cores", commit(), processor());
+    println!("{}, {} x {} pixels, the old town from its start", gpu.description(), SIZE[0], SIZE[1]);
+    println!("medians; ratio = frame time over that of the table's first row, with its quartiles");
+
+    let town = town::build(1);
+    let refined = refine(&town, EDGE_M)?;
+    let mut image = Stage::new(&gpu, &town, Method::Image(QUALITY))?;
+    let mut polygon = Stage::new(&gpu, &refined, Method::Polygon)?;
+    let (doppler, searchlight) =
+        (Effects { doppler: true, ..Effects::GEOMETRY }, Effects { searchlight: true, ..Effects::GEOMETRY });
+
+    println!("\nimage renderer at 0.8 c: what each effect costs");
+    let rows = [
+        ("none (drawn plainly)", Effects::NONE),
+        ("geometry", Effects::GEOMETRY),
+        ("geometry, doppler", doppler),
+        ("geometry, searchlight", searchlight),
+        ("all", Effects::ALL),
+    ];
+    table(&rows, |effects| image.frame(0.8, *effects))?;
+    println!("\npolygon renderer at 0.8 c, {} triangles; the photo-surface is not counted", refined.triangle_count());
+    table(&rows, |effects| polygon.frame(0.8, *effects))?;
+
+    println!("\nimage renderer, all effects: what speed costs");
+    let speeds = [0.0, 0.5, 0.8, 0.95, 0.99, 0.999].map(|beta| (format!("{beta} c"), beta));
+    table(&speeds, |beta| image.frame(*beta, Effects::ALL))?;
+    for (name, beta) in &speeds {
+        image.frame(*beta, Effects::ALL)?;
+        println!("  {name:>8}: {}", image.memory());
+    }
+
+    println!("\nimage renderer, all effects, at 0.8 c: what the map's fineness costs");
+    let scales = [0.75, 1.0, 1.25, 2.0, 3.0].map(|scale| (format!("{scale} texels a pixel"), scale));
+    let mut stages = Vec::new();
+    for (_, texels_per_pixel) in &scales {
+        let quality = MapQuality { texels_per_pixel: *texels_per_pixel, ..QUALITY };
+        stages.push(Stage::new(&gpu, &town, Method::Image(quality))?);
+    }
+    let numbered: Vec<_> = scales.iter().enumerate().map(|(number, (name, _))| (name.clone(), number)).collect();
+    table(&numbered, |number| stages[*number].frame(0.8, Effects::ALL))?;
+    for ((name, _), stage) in scales.iter().zip(&stages) {
+        println!("  {name:>22}: {}", stage.memory());
+    }
+    Ok(())
+}
+
+/// Measures the rows in turns, and prints them.
+fn table<Row>(
+    rows: &[(impl AsRef<str>, Row)],
+    mut frame: impl FnMut(&Row) -> Result<(), GpuError>,
+) -> Result<(), GpuError> {
+    let mut rounds = vec![Vec::new(); rows.len()];
+    let started = Instant::now();
+    let mut warm = false;
+    while !warm || started.elapsed() < TIME {
+        for ((_, row), medians) in rows.iter().zip(&mut rounds) {
+            let mut times = Vec::new();
+            for _ in 0..FRAMES {
+                let begun = Instant::now();
+                frame(row)?;
+                times.push(milliseconds(begun.elapsed()));
+            }
+            // The first round compiles shaders and touches memory.
+            if warm {
+                medians.push(median(&times));
+            }
+        }
+        warm = true;
+    }
+    for ((name, _), medians) in rows.iter().zip(&rounds) {
+        let ratios: Vec<f64> = medians.iter().zip(&rounds[0]).map(|(time, first)| time / first).collect();
+        let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
+        println!("  {:>22}: {:7.1} ms, ratio {middle:.3} ({low:.3} to {high:.3})", name.as_ref(), median(medians));
+    }
+    Ok(())
+}
+
+/// A scene on the device, an eye at its start, and a target.
+struct Stage<'gpu> {
+    gpu: &'gpu Gpu,
+    renderer: SceneRenderer,
+    target: Radiance,
+    eye: DVec3,
+    look: DVec3,
+}
+
+impl<'gpu> Stage<'gpu> {
+    fn new(gpu: &'gpu Gpu, scene: &Scene, method: Method) -> Result<Self, Box<dyn Error>> {
+        let format = Format::fast(1);
+        let eye = scene.start.position + DVec3::Y * 1.6;
+        let mut renderer = SceneRenderer::new(gpu, scene, format, None, method)?;
+        // The photo-surface stands still: what it costs, `frames` measures.
+        if renderer.transforms(Effects::ALL) {
+            renderer.submit(gpu, Eye::new(eye, scene.start.look * 0.8 / 0.6)?)?;
+            let transformed = renderer.receive()?;
+            renderer.show(gpu, transformed);
+        }
+        Ok(Self { gpu, renderer, target: Radiance::new(gpu, SIZE, format), eye, look: scene.start.look })
+    }
+
+    fn frame(&mut self, beta: f64, effects: Effects) -> Result<(), GpuError> {
+        let celerity = Beta::new(self.look * beta).expect("a speed below light's").celerity();
+        let eye = Eye::new(self.eye, celerity.vector()).expect("an eye that is somewhere");
+        let camera = Camera::looking(self.look, DVec3::Y, 60.0_f64.to_radians());
+        let shot = Shot { camera, eye, effects };
+        let t = Instant::now();
+        self.renderer.prepare(self.gpu, &shot, SIZE);
+        if std::env::var("SPLIT").is_ok() {
+            self.gpu.wait()?;
+            println!("   map {:.1}", milliseconds(t.elapsed()));
+        }
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.wait()
+    }
+
+    fn memory(&self) -> String {
+        let stats = self.renderer.map_stats().unwrap_or_default();
+        format!(
+            "{} panes, {:.2} million texels, {:.1} MB, planned in {:.2} ms",
+            stats.panes,
+            stats.texels as f64 / 1e6,
+            stats.bytes as f64 / 1e6,
+            stats.plan_ms
+        )
+    }
+}

@@ -1,0 +1,41 @@
+//! What benchmarks share: medians, ratios, and which machine it was.
+
+use std::process::Command;
+use std::time::Duration;
+
+/// A duration as a number.
+pub fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// The value below which `share` of them lie.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+}
+
+pub fn median(values: &[f64]) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// Frame rate of the second over the first, turn by turn: median and quartiles.
+pub fn ratios(plain: &[f64], other: &[f64]) -> String {
+    let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
+    let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
+    format!("{middle:.3} ({low:.3} to {high:.3})")
+}
+
+/// What is measured, as version control names it.
+pub fn commit() -> String {
+    let output = Command::new("git").args(["describe", "--always", "--dirty"]).output();
+    let name = output.ok().and_then(|output| String::from_utf8(output.stdout).ok()).unwrap_or_default();
+    if name.is_empty() { "unknown".to_owned() } else { name.trim().to_owned() }
+}
+
+/// The processor as Linux names it.
+pub fn processor() -> String {
+    let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    name.map_or("unknown processor".to_owned(), |(_, name)| name.to_owned())
+}

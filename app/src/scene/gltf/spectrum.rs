@@ -1,0 +1,244 @@
+//! Spectra of materials and lights: `extras.spectrum`, which glTF leaves to us.
+//!
+//! A spectrum is one of `{"planck": K}`, `{"sampled": [[nm, value], …]}`, `{"sampled": "paint.csv"}`, `{"rgb": [r, g, b]}` and
+//! `{"gray": true}`; `"paint.csv"` and `"gray"` alone say the same. Someone who writes these by hand makes more than one mistake at a time,
+//! so all of a file's are collected and told together.
+
+use std::fmt;
+use std::path::{Component, Path};
+
+use ::gltf::json::Extras;
+use physics::colour::{Spectrum, SpectrumError};
+use serde_json::value::RawValue;
+use serde_json::{Value, json};
+
+use super::GltfError;
+use super::container::Document;
+
+/// What a spectrum may be.
+const KINDS: [&str; 4] = ["planck", "sampled", "rgb", "gray"];
+
+/// What is wrong with one spectrum of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpectrumFault {
+    /// The material, light, node or scene, as it is numbered and called in the file.
+    pub owner: String,
+    /// Keys from there to what is wrong, with dots between them.
+    pub key: String,
+    /// What is wrong, and what was expected.
+    pub fault: String,
+}
+
+impl fmt::Display for SpectrumFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}: {}", self.owner, self.key, self.fault)
+    }
+}
+
+/// Reads the spectra of a file and remembers what is wrong with them.
+pub(super) struct Spectra<'a> {
+    document: &'a Document,
+    faults: Vec<SpectrumFault>,
+}
+
+/// Keys below `spectrum`, and what is wrong there.
+type Refusal = (&'static str, String);
+
+impl<'a> Spectra<'a> {
+    pub(super) fn new(document: &'a Document) -> Self {
+        Self { document, faults: Vec::new() }
+    }
+
+    /// The spectrum in somebody's extras, if there is one and it is good.
+    pub(super) fn of_extras(&mut self, extras: &Extras, owner: &str) -> Option<Spectrum> {
+        in_extras(extras).and_then(|value| self.read(&value, owner, "extras.spectrum"))
+    }
+
+    /// A spectrum, if it is good; `key` is where in its owner it stands.
+    pub(super) fn read(&mut self, value: &Value, owner: &str, key: &str) -> Option<Spectrum> {
+        match self.parse(value) {
+            Ok(spectrum) => Some(spectrum),
+            Err((below, fault)) => {
+                let key = if below.is_empty() { key.to_owned() } else { format!("{key}.{below}") };
+                self.refuse(owner, &key, fault);
+                None
+            }
+        }
+    }
+
+    pub(super) fn refuse(&mut self, owner: &str, key: &str, fault: impl Into<String>) {
+        self.faults.push(SpectrumFault { owner: owner.into(), key: key.into(), fault: fault.into() });
+    }
+
+    /// Refuses the file if anything was wrong.
+    pub(super) fn finish(self) -> Result<(), GltfError> {
+        if self.faults.is_empty() {
+            return Ok(());
+        }
+        Err(GltfError::Spectra { path: self.document.path.clone(), faults: self.faults })
+    }
+
+    fn parse(&self, value: &Value) -> Result<Spectrum, Refusal> {
+        let kinds = KINDS.join(", ");
+        let object = match value {
+            Value::String(text) if text == "gray" => return Ok(Spectrum::Gray),
+            Value::String(name) if is_csv(name) => return self.csv(name).map_err(|fault| ("", fault)),
+            Value::Object(object) => object,
+            other => {
+                let fault =
+                    format!("expected an object with one of {kinds}, or \"gray\", or \"FILE.csv\", not {other}");
+                return Err(("", fault));
+            }
+        };
+        if let Some(unknown) = object.keys().find(|key| !KINDS.contains(&key.as_str())) {
+            return Err(("", format!("there is no spectrum \"{unknown}\"; expected one of {kinds}")));
+        }
+        let mut given = KINDS.into_iter().filter_map(|kind| Some((kind, object.get(kind)?)));
+        let Some((kind, value)) = given.next() else {
+            return Err(("", format!("it is empty; expected one of {kinds}")));
+        };
+        if let Some((second, _)) = given.next() {
+            return Err(("", format!("it is {kind} and {second} at once; keep one")));
+        }
+        self.kind(kind, value).map_err(|fault| (kind, fault))
+    }
+
+    fn kind(&self, kind: &str, value: &Value) -> Result<Spectrum, String> {
+        let told = |error: SpectrumError| error.to_string();
+        match (kind, value) {
+            ("planck", Value::Number(kelvin)) => Spectrum::planck(number(kelvin)).map_err(told),
+            ("planck", other) => Err(format!("expected a temperature in kelvin, a number, not {other}")),
+            ("sampled", Value::String(name)) => self.csv(name),
+            ("sampled", Value::Array(samples)) => {
+                let samples: Vec<_> = samples.iter().enumerate().map(sample).collect::<Result<_, _>>()?;
+                Spectrum::sampled(samples).map_err(told)
+            }
+            ("sampled", other) => {
+                Err(format!("expected pairs [[nm, value], …] or the name of a .csv file, not {other}"))
+            }
+            ("rgb", other) => match numbers(other) {
+                Some(rgb) => Spectrum::rgb(rgb).map_err(told),
+                None => Err(format!("expected three numbers [red, green, blue], not {other}")),
+            },
+            (_, Value::Bool(true)) => Ok(Spectrum::Gray),
+            (_, other) => Err(format!("expected true, not {other}")),
+        }
+    }
+
+    /// Samples from a file beside the scene.
+    fn csv(&self, name: &str) -> Result<Spectrum, String> {
+        if !is_csv(name) {
+            return Err(format!("expected the name of a .csv file, not \"{name}\""));
+        }
+        let bytes = self.document.beside(name, "extras.spectrum").map_err(|error| match error {
+            GltfError::Damaged { fault, .. } => fault,
+            other => other.to_string(),
+        })?;
+        let lines = samples_of_csv(&String::from_utf8_lossy(&bytes)).map_err(|fault| format!("{name}, {fault}"))?;
+        let samples: Vec<[f64; 2]> = lines.iter().map(|&(_, sample)| sample).collect();
+        Spectrum::sampled(samples).map_err(|error| match error {
+            SpectrumError::Wavelength { index, .. } | SpectrumError::Value { index, .. } => {
+                format!("{name}, line {}: {error}", lines[index].0)
+            }
+            _ => format!("{name}: {error}"),
+        })
+    }
+}
+
+/// What stands under `spectrum` in extras, which may hold anything of anybody.
+pub(super) fn in_extras(extras: &Extras) -> Option<Value> {
+    let value: Value = serde_json::from_str(extras.as_deref().map(RawValue::get)?).ok()?;
+    value.get("spectrum").cloned()
+}
+
+/// A spectrum as it is read back to the bit.
+pub(in crate::scene) fn to_json(spectrum: &Spectrum) -> Value {
+    match spectrum {
+        Spectrum::Planck { kelvin } => json!({ "planck": kelvin }),
+        Spectrum::Sampled(sampled) => json!({ "sampled": sampled.samples() }),
+        Spectrum::Rgb(rgb) => json!({ "rgb": rgb }),
+        Spectrum::Gray => json!({ "gray": true }),
+    }
+}
+
+fn is_csv(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+}
+
+/// Whether a relative path stays in the folder that it starts from.
+pub(super) fn stays_below(path: &Path) -> bool {
+    path.components().all(|component| matches!(component, Component::Normal(_) | Component::CurDir))
+}
+
+fn number(number: &serde_json::Number) -> f64 {
+    number.as_f64().unwrap_or(f64::NAN)
+}
+
+fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let values: Vec<f64> = value.as_array()?.iter().map(|value| value.as_f64()).collect::<Option<_>>()?;
+    values.try_into().ok()
+}
+
+fn sample((index, value): (usize, &Value)) -> Result<[f64; 2], String> {
+    numbers(value).ok_or_else(|| format!("expected a pair [nm, value], but sample {index} is {value}"))
+}
+
+/// The samples of a table `nm,value` with the lines, from 1, on which they stand. `#` begins a comment; the first line may be a heading.
+fn samples_of_csv(text: &str) -> Result<Vec<(usize, [f64; 2])>, String> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let contents =
+        text.lines().enumerate().map(|(index, line)| (index + 1, line.split('#').next().unwrap_or("").trim()));
+    let mut samples = Vec::new();
+    let mut heading_allowed = true;
+    for (line, content) in contents.filter(|(_, content)| !content.is_empty()) {
+        let fields: Vec<Option<f64>> = content.split(',').map(|field| field.trim().parse().ok()).collect();
+        match fields[..] {
+            [Some(nm), Some(value)] => samples.push((line, [nm, value])),
+            [None, None] if heading_allowed => {}
+            _ => {
+                return Err(format!(
+                    "line {line}: expected a wavelength in nm, a comma and a value, not \"{content}\""
+                ));
+            }
+        }
+        heading_allowed = false;
+    }
+    Ok(samples)
+}
+
+#[cfg(test)]
+mod tests {
+    //! A wrong reader of tables would take a heading for data or the other way round, lose a line, or point at the wrong one.
+
+    use super::*;
+
+    #[test]
+    fn comments_blank_lines_and_one_heading_are_skipped() {
+        let text = "\u{feff}# measured\r\nwavelength,value\n\n400, 0.25 # violet\n 7e2,1\n";
+        assert_eq!(samples_of_csv(text), Ok(vec![(4, [400.0, 0.25]), (5, [700.0, 1.0])]));
+        assert_eq!(samples_of_csv("400,1"), Ok(vec![(1, [400.0, 1.0])]));
+        assert_eq!(samples_of_csv("# nothing"), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn lines_that_are_no_pair_are_named() {
+        let refused = |text: &str, line: &str| {
+            let fault = samples_of_csv(text).unwrap_err();
+            assert!(fault.starts_with(line), "{fault}");
+        };
+        refused("nm,value\nnm,value\n", "line 2:");
+        refused("400,1\n\n500;2\n", "line 3:");
+        refused("400,1\n500,2,3\n", "line 2:");
+        refused("400\n", "line 1:");
+        refused("400,x\n", "line 1:");
+        refused("# a\n400,1\n500,\n", "line 3:");
+    }
+
+    #[test]
+    fn a_path_stays_in_its_folder() {
+        assert!(stays_below("a/./b.csv".as_ref()));
+        assert!(!stays_below("../b.csv".as_ref()));
+        assert!(!stays_below("a/../../b.csv".as_ref()));
+        assert!(!stays_below("/etc/b.csv".as_ref()));
+    }
+}

@@ -1,0 +1,251 @@
+//! A picture of everything around as a scene: PNG, JPEG, HDR (Radiance) or EXR.
+//!
+//! A picture twice as wide as high is equirectangular already; the shapes that cube maps come in (`cube`) are converted, so that
+//! everything behind knows one shape. PNG and JPEG are sRGB and become linear, HDR and EXR are linear and stay as they are.
+//! Sizes are known before anything is decoded; what is larger than graphics processors take is scaled down while it becomes linear.
+
+mod cube;
+
+use std::fs;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use rayon::prelude::*;
+
+use self::cube::Unfolding;
+use super::mipmap::linear_from_srgb;
+use super::{Lighting, Panorama, Scene};
+
+/// How the names of pictures end.
+const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
+
+/// The widest panorama, in pixels: what graphics processors take.
+pub const MAX_WIDTH: u32 = 16384;
+
+/// The most bytes that a picture may have when decoded, before it is scaled down.
+const MAX_BYTES: u64 = 4 << 30;
+
+/// Stands for an infinite radiance: the largest half float, beyond which EXR files overflow.
+const BRIGHTEST: f32 = 65504.0;
+
+/// Why a picture is no panorama. Every message says what is wrong, where, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum PanoramaError {
+    /// The operating system refuses.
+    #[error("cannot read {path}: {error}; check the name and the permissions")]
+    Read {
+        /// The picture.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// Another format.
+    #[error("{path} is no picture that can be read; save it as PNG, JPEG, HDR (Radiance) or EXR")]
+    Format {
+        /// The picture.
+        path: PathBuf,
+    },
+    /// Damaged, or of a kind that is not read.
+    #[error("{path} cannot be decoded: {fault}; save it again as PNG, JPEG, HDR (Radiance) or EXR")]
+    Damaged {
+        /// The picture.
+        path: PathBuf,
+        /// As the decoder says it.
+        fault: String,
+    },
+    /// More than is worth decoding.
+    #[error(
+        "{path} would have {bytes} bytes when decoded, above {MAX_BYTES}; scale it down to {MAX_WIDTH} pixels in width"
+    )]
+    TooLarge {
+        /// The picture.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// Not all around.
+    #[error(
+        "{path} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a cube \
+         side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)"
+    )]
+    Shape {
+        /// The picture.
+        path: PathBuf,
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+}
+
+/// Whether a file is a picture, by its name.
+pub fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
+}
+
+/// Reads a picture as a scene without meshes: a visitor hangs in its middle and looks at the middle of the picture.
+///
+/// # Errors
+/// [`PanoramaError`].
+pub fn load(path: &Path) -> Result<Scene, PanoramaError> {
+    let cannot_read = |error| PanoramaError::Read { path: path.into(), error };
+    // A pipe would never come to an end.
+    if !fs::metadata(path).map_err(cannot_read)?.is_file() {
+        return Err(PanoramaError::Format { path: path.into() });
+    }
+    let mut notices = Vec::new();
+    let panorama = decode(&fs::read(path).map_err(cannot_read)?, path, |notice| notices.push(notice))?;
+    Ok(Scene {
+        name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        panorama: Some(panorama),
+        light: Lighting { shadows: false, ..Lighting::default() },
+        notices,
+        ..Scene::default()
+    })
+}
+
+/// Reads a picture of any of the shapes above; `path` is for messages, `notice` takes what had to be changed.
+pub(super) fn decode(bytes: &[u8], path: &Path, notice: impl FnMut(String)) -> Result<Panorama, PanoramaError> {
+    decode_up_to(MAX_WIDTH, bytes, path, notice)
+}
+
+fn decode_up_to(
+    max_width: u32,
+    bytes: &[u8],
+    path: &Path,
+    mut notice: impl FnMut(String),
+) -> Result<Panorama, PanoramaError> {
+    // Look at the size before decoding.
+    let damaged = |error: image::ImageError| PanoramaError::Damaged { path: path.into(), fault: error.to_string() };
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr | ImageFormat::OpenExr)) => format,
+        _ => return Err(PanoramaError::Format { path: path.into() }),
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.no_limits(); // checked below, by what the decoder says it needs
+    let decoder = reader.into_decoder().map_err(damaged)?;
+    let bytes = decoder.total_bytes();
+    if bytes > MAX_BYTES {
+        return Err(PanoramaError::TooLarge { path: path.into(), bytes });
+    }
+    let (width, height) = decoder.dimensions();
+    let shape = Shape::of(width, height).ok_or_else(|| PanoramaError::Shape { path: path.into(), width, height })?;
+
+    // Decode, and make it linear and no larger than need be.
+    let image = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    let [target_width, target_height] = shape.reduced([width, height], max_width);
+    let (picture, mended) = linear(image, [target_width, target_height]);
+    if [target_width, target_height] != [width, height] {
+        notice(format!(
+            "the panorama of {width} × {height} pixels was scaled down to {target_width} × {target_height}"
+        ));
+    }
+    if mended > 0 {
+        notice(format!("numbers of the panorama that were negative or not finite: {mended}; they were replaced"));
+    }
+    Ok(match shape {
+        Shape::Equirectangular => picture,
+        Shape::Cube(unfolding) => unfolding.equirectangular(&picture),
+    })
+}
+
+/// Whether a picture is twice as wide as high, as nearly as stitchers make it.
+pub(super) fn is_equirectangular(width: u32, height: u32) -> bool {
+    let (width, height) = (u64::from(width), u64::from(height));
+    width > 0 && 1000 * width.abs_diff(2 * height) <= width
+}
+
+/// What a picture's proportions say it is.
+#[derive(Clone, Copy)]
+enum Shape {
+    Equirectangular,
+    Cube(&'static Unfolding),
+}
+
+impl Shape {
+    fn of(width: u32, height: u32) -> Option<Self> {
+        if is_equirectangular(width, height) {
+            return Some(Self::Equirectangular);
+        }
+        Unfolding::of(width, height).map(Self::Cube)
+    }
+
+    /// The size at which no panorama is wider than `max_width`: divided by a whole number, cubes face by face.
+    fn reduced(self, [width, height]: [u32; 2], max_width: u32) -> [u32; 2] {
+        match self {
+            Self::Equirectangular => {
+                let divisor = width.div_ceil(max_width);
+                [width / divisor, (height / divisor).max(1)]
+            }
+            Self::Cube(unfolding) => {
+                let side = width / unfolding.columns;
+                let side = side / (cube::WIDTH_PER_SIDE * side).div_ceil(max_width);
+                [side * unfolding.columns, side * unfolding.rows]
+            }
+        }
+    }
+}
+
+/// A picture in linear light, each of its pixels the mean of those of `image` that it covers, and the number of values that no light has.
+fn linear(image: DynamicImage, [width, height]: [u32; 2]) -> (Panorama, usize) {
+    match image {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            let image = image.into_rgb32f();
+            let size = image.dimensions();
+            let mut values = image.into_raw();
+            let mended = values.par_iter_mut().map(|value| usize::from(mend(value))).sum();
+            (reduced(&values, size, [width, height], |value| value), mended)
+        }
+        DynamicImage::ImageLuma16(_)
+        | DynamicImage::ImageLumaA16(_)
+        | DynamicImage::ImageRgb16(_)
+        | DynamicImage::ImageRgba16(_) => {
+            let image = image.into_rgb16();
+            let of_code: Vec<f32> = (0..=u16::MAX).map(|code| linear_from_srgb(f32::from(code) / 65535.0)).collect();
+            (reduced(image.as_raw(), image.dimensions(), [width, height], |code| of_code[usize::from(code)]), 0)
+        }
+        _ => {
+            let image = image.into_rgb8();
+            let of_code: Vec<f32> = (0..=u8::MAX).map(|code| linear_from_srgb(f32::from(code) / 255.0)).collect();
+            (reduced(image.as_raw(), image.dimensions(), [width, height], |code| of_code[usize::from(code)]), 0)
+        }
+    }
+}
+
+/// Makes a radiance of any number; says whether that was needed.
+fn mend(value: &mut f32) -> bool {
+    let bad = !(value.is_finite() && *value >= 0.0);
+    if bad {
+        *value = if *value == f32::INFINITY { BRIGHTEST } else { 0.0 };
+    }
+    bad
+}
+
+fn reduced<T: Copy + Sync>(
+    values: &[T],
+    (width, height): (u32, u32),
+    target: [u32; 2],
+    linear: impl Fn(T) -> f32 + Sync,
+) -> Panorama {
+    let covered = |index: u32, target: u32, source: u32| {
+        let edge = |index: u32| (u64::from(index) * u64::from(source) / u64::from(target)) as usize;
+        edge(index)..edge(index + 1)
+    };
+    let pixel = |x: u32, y: u32| {
+        let (columns, rows) = (covered(x, target[0], width), covered(y, target[1], height));
+        let share = 1.0 / (columns.len() * rows.len()) as f32;
+        let mut sum = [0.0; 3];
+        for first in rows.flat_map(|row| columns.clone().map(move |column| 3 * (row * width as usize + column))) {
+            for (sum, &value) in sum.iter_mut().zip(&values[first..first + 3]) {
+                *sum += linear(value) * share;
+            }
+        }
+        sum
+    };
+    let rgb = (0..target[1]).into_par_iter().flat_map_iter(|y| (0..target[0]).map(move |x| (x, y)));
+    Panorama { width: target[0], height: target[1], rgb: rgb.map(|(x, y)| pixel(x, y)).collect() }
+}
+
+#[cfg(test)]
+mod tests;
