@@ -258,7 +258,7 @@ fn a_report_warns_of_what_is_burnt_out_or_black() {
     let planck = || Some(Spectrum::Planck { kelvin: 2800.0 });
     warned(&|_| (), "1000.0 times as bright as white");
     warned(&|scene| scene.illuminant = planck(), "1000.0 times as bright as white");
-    warned(&|scene| scene.white = Some(1000.0), "beside which colours, of 1 cd/m², are black (default)");
+    warned(&|scene| scene.white = Some(1e6), "beside which colours, of 1 cd/m², are black (default)");
     warned(
         &|scene| {
             scene.light.sun = [1.0; 3];
@@ -274,6 +274,7 @@ fn a_report_warns_of_what_is_burnt_out_or_black() {
     };
     quiet(&|_| ());
     quiet(&|scene| scene.white = Some(100.0));
+    quiet(&|scene| (scene.white, scene.light.sun) = (Some(25000.0), [25465.0; 3]));
     quiet(&|scene| scene.illuminant = planck());
 }
 
