@@ -259,7 +259,7 @@ impl fmt::Display for Report {
         }
         writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
         for notice in &self.notices {
-            writeln!(f, "not drawn:  {notice}")?;
+            writeln!(f, "notice:     {notice}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "warning:    {warning}")?;
