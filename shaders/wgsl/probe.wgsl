@@ -11,3 +11,10 @@ fn aberration(@builtin(global_invocation_id) id: vec3<u32>) {
         result[id.x] = vec4(aberrated.direction, aberrated.doppler);
     }
 }
+
+@compute @workgroup_size(64)
+fn doppler(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x < arrayLength(&result)) {
+        result[id.x] = vec4(doppler_of_world(observed[id.x].xyz, motion[id.x]));
+    }
+}

@@ -1,4 +1,5 @@
-//! Law: the shader's `world_from_observer` is `physics::Aberration::world_from_observer`, in f32. Sky and later effects stand on it.
+//! Law: the shader's `world_from_observer` is `physics::Aberration::world_from_observer` in f32, and its `doppler_of_world` the Doppler factor
+//! of `observer_from_world`. Sky, colours and brightness stand on them.
 //!
 //! A wrong twin shows: with the textbook formula, directions that scatter ahead at high speed; with a swapped sign, agreement at rest only;
 //! with D for 1/D, a Doppler factor that is right nowhere but abeam of rest.
@@ -41,8 +42,8 @@ impl Question {
     }
 }
 
-/// Runs the probe shader.
-fn answers(questions: &[Question]) -> Vec<Vec4> {
+/// Runs an entry point of the probe shader.
+fn answers(entry_point: &str, questions: &[Question]) -> Vec<Vec4> {
     let gpu = gpu();
     let device = &gpu.device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -53,7 +54,7 @@ fn answers(questions: &[Question]) -> Vec<Vec4> {
         label: Some("aberration"),
         layout: None,
         module: &module,
-        entry_point: Some("aberration"),
+        entry_point: Some(entry_point),
         compilation_options: Default::default(),
         cache: None,
     });
@@ -110,7 +111,7 @@ fn answers(questions: &[Question]) -> Vec<Vec4> {
 /// The part of a direction across the motion is known to a step. What becomes of that: aberration enlarges it by D, so much is a direction off;
 /// and D falls with that part's square from 2γ dead ahead, so close to there D is known only to a step by the angle.
 fn assert_twins(questions: &[Question]) {
-    for (question, answer) in questions.iter().zip(answers(questions)) {
+    for (question, answer) in questions.iter().zip(answers("aberration", questions)) {
         let Question { motion, observed } = question;
         let (direction, doppler) = question.exact();
         let step = STEPS * f64::from(f32::EPSILON);
@@ -129,7 +130,7 @@ fn assert_twins(questions: &[Question]) {
 fn abeam_of_an_observer_at_0_6_c_light_comes_from_astern_gpu() {
     // kappa = gamma + u = 1.25 + 0.75; cos(theta) = -beta, D = 1 / gamma.
     let question = Question { motion: Vec4::new(1.0, 0.0, 0.0, 2.0), observed: Vec3::Y };
-    assert_eq!(answers(&[question]), [Vec4::new(-0.6, 0.8, 0.0, 0.8)]);
+    assert_eq!(answers("aberration", &[question]), [Vec4::new(-0.6, 0.8, 0.0, 0.8)]);
 }
 
 #[test]
@@ -138,7 +139,7 @@ fn an_observer_at_rest_sees_every_direction_as_it_is_gpu() {
     let questions: Vec<_> = (0..1000)
         .map(|_| Question { motion: Vec4::new(0.0, 0.0, -1.0, 1.0), observed: direction(&mut random).as_vec3() })
         .collect();
-    for (question, answer) in questions.iter().zip(answers(&questions)) {
+    for (question, answer) in questions.iter().zip(answers("aberration", &questions)) {
         assert!(answer.truncate().distance(question.observed) <= 4.0 * f32::EPSILON);
         assert!((answer.w - 1.0).abs() <= 4.0 * f32::EPSILON);
     }
@@ -167,4 +168,26 @@ fn directions_close_to_ahead_and_astern_agree_with_physics_gpu() {
         })
         .collect();
     assert_twins(&questions);
+}
+
+#[test]
+fn doppler_factors_of_world_directions_agree_with_physics_gpu() {
+    let mut random = seeded(4);
+    let questions: Vec<_> = (0..100_000)
+        .map(|_| {
+            let (rapidity, angle) = (random.random_range(0.0..14.0), random.random_range(0.0..std::f64::consts::PI));
+            Question::new(&mut random, rapidity, angle)
+        })
+        .collect();
+    for (question, answer) in questions.iter().zip(answers("doppler", &questions)) {
+        let Question { motion, observed } = question;
+        let rapidity = f64::from(motion.w).ln();
+        let celerity = Celerity::from_rapidity(motion.truncate().as_dvec3(), rapidity).unwrap();
+        let (_, doppler) = Aberration::new(celerity).observer_from_world(observed.as_dvec3());
+        // D falls with the square of the angle off astern down to 1/2γ: there it is known to a step by the angle.
+        let off_astern = observed.as_dvec3().distance(-motion.truncate().as_dvec3());
+        let allowed = STEPS * f64::from(f32::EPSILON) * (1.0 + 1.0 / (off_astern + 1.0 / f64::from(motion.w)));
+        let error = (f64::from(answer.x) / doppler - 1.0).abs();
+        assert!(error <= allowed, "D is off by {error} > {allowed} of {doppler} for {observed} at {motion}");
+    }
 }
