@@ -1,11 +1,12 @@
 //! Pictures by the program: a scene, a device, and a studio of one size.
 
 use glam::DVec3;
-use image::RgbaImage;
+use image::{Rgb32FImage, RgbaImage};
 use physics::Celerity;
 use physics::photo_surface::Eye;
 use rapidity::gpu::{Gpu, GpuError};
 use rapidity::renderers::display::{Development, Gamut};
+use rapidity::renderers::image::MapQuality;
 use rapidity::renderers::picture::Studio;
 use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::Scene;
@@ -57,14 +58,27 @@ impl Photographer {
 
     /// What an eye that moves sees, with these effects.
     pub fn seen(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> RgbaImage {
-        assert_eq!(view.size, self.size, "a studio takes pictures of one size");
-        let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
-        let shot = Shot { camera: view.camera(), eye, effects };
-        if self.renderer.transforms(effects) {
-            self.renderer.submit(gpu(), eye).expect("the device is there");
-        }
+        let shot = self.aim(view, eye, celerity, effects);
         // Channels are cut off one by one, as `colour` does.
         let development = Development { gamut: Gamut::Clamp, ..Default::default() };
         self.studio.photograph(gpu(), &mut self.renderer, &shot, &development, None).expect("the device is there")
     }
+
+    /// The light that an eye sees that moves: linear sRGB in cd/m².
+    pub fn light(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Rgb32FImage {
+        let shot = self.aim(view, eye, celerity, effects);
+        self.studio.expose(gpu(), &mut self.renderer, &shot).expect("the device is there")
+    }
+
+    fn aim(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
+        assert_eq!(view.size, self.size, "a studio takes pictures of one size");
+        let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
+        if self.renderer.transforms(effects) {
+            self.renderer.submit(gpu(), eye).expect("the device is there");
+        }
+        Shot { camera: view.camera(), eye, effects }
+    }
 }
+
+/// The map of the image renderer as a picture of one sample a pixel has it.
+pub const DEFAULT_MAP: Method = Method::Image(MapQuality { texels_per_pixel: 8.0, smooth: false });

@@ -66,3 +66,17 @@ fn scene() -> impl TypedValueParser<Value = SceneChoice> {
         Ok::<_, Infallible>(path.to_str().map_or_else(|| SceneChoice::File(path.clone()), SceneChoice::from_name))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_is_found_again_by_its_name() {
+        for choice in
+            [SceneChoice::Town, SceneChoice::Spectra, SceneChoice::Lattice, SceneChoice::File("/a/b.hdr".into())]
+        {
+            assert_eq!(SceneChoice::from_name(&choice.name()), choice);
+        }
+    }
+}

@@ -11,7 +11,7 @@ use physics::colour::Spectrum;
 
 use super::collision::Collision;
 use super::source::{LoadError, read};
-use super::{Scene, SceneFault};
+use super::{Material, Scene, SceneFault};
 use crate::vehicle::Surroundings;
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
@@ -19,6 +19,9 @@ const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
 /// A sun by which white surfaces are more than this many times as bright as what is shown as white is probably measured otherwise.
 const PLAUSIBLE_SUN: f64 = 8.0;
+
+/// Beside a white of more than this, cd/m², what has the white of a colour, 1 cd/m², cannot be seen.
+const PLAUSIBLE_WHITE: f64 = 300.0;
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
@@ -190,12 +193,28 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
         let advice = "the spectrum is multiplied by the base colour's luminance; make it white";
         warn(black, format!("material \"{}\" has a spectrum and a black base colour: {advice}", material.name));
     }
-    let white = if scene.illuminant.is_some() { 1.0 } else { scene.white.unwrap_or(1.0) };
-    let brightest = scene.light.sun.into_iter().map(f64::from).fold(0.0, f64::max) / white;
+    // What white surfaces in full light, and colours without a spectrum, are of what is shown as white.
+    let white = scene.white_luminance();
+    let lit = scene.illuminant.as_ref().map_or(1.0, |spectrum| spectrum.xyz(1.0).y) / white;
+    let brightest = scene.light.sun.into_iter().map(f64::from).fold(0.0, f64::max) * lit;
     let advice = "name their luminance in cd/m² as extras.rapidity.white of the scene, or dim the sun to π lux";
     warn(
         brightest > PLAUSIBLE_SUN,
         format!("surfaces in the sun are up to {brightest:.1} times as bright as white: {advice}"),
+    );
+    let dark = |material: &&Material| {
+        let lit_by_colours = !material.is_source() && scene.illuminant.is_none();
+        lit_by_colours || (material.is_source() && material.spectrum.is_none())
+    };
+    let dark: Vec<_> = scene.materials.iter().filter(dark).map(|material| material.name.as_str()).collect();
+    let advice =
+        "give a spectrum to them, or to the light that falls on them, or lower extras.rapidity.white of the scene";
+    warn(
+        white > PLAUSIBLE_WHITE && !dark.is_empty(),
+        format!(
+            "{white:.3e} cd/m² are white, beside which colours, of 1 cd/m², are black ({}): {advice}",
+            dark.join(", ")
+        ),
     );
     if let Some([least, most]) = survey.bounds {
         let size = (most - least).max_element();
@@ -240,7 +259,7 @@ impl fmt::Display for Report {
         }
         writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
         for notice in &self.notices {
-            writeln!(f, "not drawn:  {notice}")?;
+            writeln!(f, "notice:     {notice}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "warning:    {warning}")?;

@@ -261,6 +261,21 @@ impl Scene {
         hash
     }
 
+    /// The luminance that is shown as white at rest, cd/m²: [`Scene::white`], else that of the brightest spectrum, be it sent out or that of a
+    /// white surface in the scene's light; 1 where colours are all there is.
+    pub fn white_luminance(&self) -> f64 {
+        let luminance = |spectrum: &Spectrum| spectrum.xyz(1.0).y;
+        let sources = self.materials.iter().filter(|material| material.is_source()).filter_map(|material| {
+            let [red, green, blue, _] = material.base_colour.map(f64::from);
+            let share = physics::colour::luminance(DVec3::new(red, green, blue));
+            Some(share * luminance(material.spectrum.as_ref()?))
+        });
+        self.white.unwrap_or_else(|| {
+            let brightest = sources.chain(self.illuminant.as_ref().map(luminance)).fold(0.0, f64::max);
+            if brightest > 0.0 && brightest.is_finite() { brightest } else { 1.0 }
+        })
+    }
+
     /// Number of vertices in all meshes.
     pub fn vertex_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.positions.len()).sum()

@@ -5,7 +5,7 @@
 
 use super::geometry::Attributes;
 use super::materials::Materials;
-use super::spectra::{Carriers, Spectra, is_source};
+use super::spectra::{Carriers, Spectra};
 use crate::gpu::Gpu;
 use crate::renderers::Effects;
 use crate::renderers::target::{DEPTH_FORMAT, Format};
@@ -211,7 +211,7 @@ impl Look {
     fn of(material: &Material, carriers: Carriers) -> Self {
         let spectral = material.spectrum.is_some();
         // A spectrum on an emissive material is all that it sends out.
-        let source = material.unlit || (spectral && is_source(material));
+        let source = material.unlit || (spectral && material.is_source());
         let emissive = !source && material.emissive != [0.0; 3];
         let split = emissive && carriers.surface != carriers.emission;
         Self {

@@ -5,8 +5,8 @@
 //! carriers is worked out once, on all cores, and the shaders look it up (B eq. 2.16, 2.17).
 
 use crate::gpu::Gpu;
-use crate::scene::{Material, Scene};
-use physics::colour::{Carrier, ShiftTable, Spectrum};
+use crate::scene::Scene;
+use physics::colour::{Carrier, ShiftTable};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// The carriers of a scene, each once.
@@ -49,7 +49,7 @@ impl Spectra {
             .map(|material| {
                 let emission = 0;
                 let surface = match &material.spectrum {
-                    Some(spectrum) if is_source(material) => number(Carrier::emitted(spectrum.clone())),
+                    Some(spectrum) if material.is_source() => number(Carrier::emitted(spectrum.clone())),
                     None if material.unlit => emission,
                     reflectance => number(Carrier::reflected(reflectance.clone(), scene.illuminant.clone())),
                 };
@@ -57,8 +57,7 @@ impl Spectra {
             })
             .collect();
         let sky = number(Carrier::reflected(None, scene.illuminant.clone()));
-        let white_luminance = scene.white.unwrap_or_else(|| brightest(scene));
-        Self { carriers, materials, sky, white: 0, white_luminance }
+        Self { carriers, materials, sky, white: 0, white_luminance: scene.white_luminance() }
     }
 
     /// The shift table for the shaders, with luminances relative to the scene's white.
@@ -86,24 +85,4 @@ impl Spectra {
             .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
             .create_view(&wgpu::TextureViewDescriptor::default())
     }
-}
-
-/// Whether a material's spectrum is of light that it sends out, not of what it reflects.
-pub fn is_source(material: &Material) -> bool {
-    material.unlit || material.emissive != [0.0; 3]
-}
-
-/// Luminance of the brightest spectrum in the scene at rest, cd/m²; 1 where colours are all there is.
-fn brightest(scene: &Scene) -> f64 {
-    let sources = scene.materials.iter().filter(|material| is_source(material)).filter_map(|material| {
-        let [red, green, blue, _] = material.base_colour.map(f64::from);
-        let share = physics::colour::luminance([red, green, blue].into());
-        Some(share * luminance(material.spectrum.as_ref()?))
-    });
-    let brightest = sources.chain(scene.illuminant.as_ref().map(luminance)).fold(0.0, f64::max);
-    if brightest > 0.0 && brightest.is_finite() { brightest } else { 1.0 }
-}
-
-fn luminance(spectrum: &Spectrum) -> f64 {
-    spectrum.xyz(1.0).y
 }

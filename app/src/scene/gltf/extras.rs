@@ -70,7 +70,7 @@ pub(in crate::scene) struct LightExtras {
     horizon: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     shadows: Option<bool>,
-    /// Not yet understood.
+    /// As it stands in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spectrum: Option<Value>,
 }

@@ -5,12 +5,17 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use image::{Rgb32FImage, RgbImage};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use super::*;
 
 /// Bilinear interpolation of a smooth function over faces of [`SIDE`] pixels; at edges the outer half of a pixel is constant.
 const INTERPOLATION: f32 = 0.6 / SIDE as f32;
 const SIDE: u32 = 64;
+
+/// How many broken files are tried in each format.
+const BROKEN_FILES: usize = 500;
 
 fn encoded(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
@@ -190,6 +195,30 @@ fn what_is_no_picture_is_refused() {
     refused(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 40000 +X 80000\n", "38400000000 bytes when decoded");
     assert!(load(Path::new("/")).unwrap_err().to_string().contains("no picture"));
     assert!(load(Path::new("/nowhere.png")).unwrap_err().to_string().contains("check the name"));
+}
+
+#[test]
+fn broken_bytes_never_panic() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::OpenExr] {
+        let linear = matches!(format, ImageFormat::Hdr | ImageFormat::OpenExr);
+        let whole =
+            if linear { encoded(Rgb32FImage::new(16, 8), format) } else { encoded(RgbImage::new(16, 8), format) };
+        let mut read = 0;
+        for _ in 0..BROKEN_FILES {
+            let mut bytes = whole.clone();
+            for _ in 0..random.random_range(1..4) {
+                let place = random.random_range(0..bytes.len());
+                bytes[place] = random.random();
+            }
+            if let Ok(panorama) = decode(&bytes, Path::new("x"), |_| {}) {
+                assert_eq!(panorama.rgb.len(), (panorama.width * panorama.height) as usize);
+                assert!(panorama.rgb.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0));
+                read += 1;
+            }
+        }
+        assert!(read < BROKEN_FILES, "{format:?}: every broken file was taken for a whole one");
+    }
 }
 
 #[test]

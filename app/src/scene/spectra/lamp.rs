@@ -174,7 +174,8 @@ mod tests {
         let found = room(Vec::new()).direct(vec3(0.0, 0.0, -5.0), Vec3::Y);
         // Forty points instead of an integral.
         assert!((found / expected - 1.0).abs() < 0.002, "{found} is not {expected}");
-        assert_eq!(room(Vec::new()).direct(vec3(0.0, 0.0, -5.0), Vec3::NEG_Y), 0.0);
+        assert_eq!(room(Vec::new()).direct(vec3(0.0, 0.0, -5.0), Vec3::NEG_Y), 0.0, "facing away");
+        assert_eq!(room(Vec::new()).direct(vec3(0.0, 6.0, -5.0), Vec3::NEG_Y), 0.0, "behind the lamp");
     }
 
     #[test]
