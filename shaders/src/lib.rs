@@ -125,7 +125,15 @@ pub const ACCUMULATE: Module =
 /// Radiance as it is.
 pub const COPY: Module = Module { name: "copy", files: &[FULLSCREEN, include_str!("../wgsl/copy.wgsl")] };
 /// What the eye adapts to: exposure, white and the histogram's curve.
-pub const METER: Module = Module { name: "meter", files: &[RADIANCE, include_str!("../wgsl/meter.wgsl")] };
+pub const METER: Module = Module {
+    name: "meter",
+    files: &[
+        RADIANCE,
+        include_str!("../wgsl/meter.wgsl"),
+        include_str!("../wgsl/expose.wgsl"),
+        include_str!("../wgsl/equalise.wgsl"),
+    ],
+};
 /// Linear radiance to the screen's sRGB.
 pub const DISPLAY: Module = Module {
     name: "display",

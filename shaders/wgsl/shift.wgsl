@@ -8,6 +8,8 @@ override GEOMETRY: bool = true;
 override DOPPLER: bool = true;
 override SEARCHLIGHT: bool = true;
 override IDENTITY: bool = false;
+// The largest value that the target holds.
+override LARGEST: f32 = HALF_LIMIT;
 
 @group(0) @binding(4) var shift_table: texture_2d<f32>;
 
@@ -30,7 +32,7 @@ fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
     } else {
         colour *= view.shift.y;
     }
-    return vec4(clamp(colour, vec3(-HALF_LIMIT), vec3(HALF_LIMIT)), at_rest);
+    return vec4(clamp(colour, vec3(-LARGEST), vec3(LARGEST)), at_rest);
 }
 
 // The colour of weights at a place in the table, and its luminance. Beyond its ends the colour stays, and the luminance goes on as a power.

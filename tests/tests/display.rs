@@ -6,14 +6,20 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use exr::prelude::{FlatImage, FlatSamples, read_all_flat_layers_from_file};
+use glam::DVec3;
 use image::Rgb32FImage;
+use physics::{Beta, Celerity};
 use rand::RngExt;
 use rapidity::error::Error;
+use rapidity::renderers::Effects;
 use rapidity::renderers::display::adaptation::TIME_CONSTANT_S;
 use rapidity::renderers::display::{Development, Exposure, Gamut, Stored, Tone};
+use rapidity::scene::lattice::Lattice;
 use system_tests::colour::encoded;
 use system_tests::display::{Onlooker, adapted, in_gamut, luminance, toned};
+use system_tests::photographer::Photographer;
 use system_tests::random::seeded;
+use system_tests::view::{View, middle};
 
 /// Relative error of a shader's result: powers and exponentials of graphics devices, there and back through the screen's curve.
 const SHADER: f64 = 5e-5;
@@ -432,4 +438,34 @@ fn a_place_that_cannot_be_written_is_named() {
     let path = folder.path().join("nowhere/light.exr");
     let error = rapidity::exr::save(&Rgb32FImage::new(2, 2), &path).unwrap_err();
     assert!(matches!(&error, Error::Write { path: named, .. } if *named == path), "{error}");
+}
+
+#[test]
+fn light_of_a_scene_is_its_picture_before_the_screen_and_the_searchlight_effect_multiplies_it_by_d_to_the_4th() {
+    let view = View { look: DVec3::new(0.2, 0.1, -1.0), up: DVec3::Y, fov_degrees: 70.0, size: [96, 64] };
+    let scene = Lattice::default().build();
+    let mut photographer = Photographer::new(&scene, view.size, 1, None);
+    let eye = DVec3::new(0.3, 0.2, 0.1);
+    let at_rest = photographer.light(&view, eye, Celerity::ZERO, Effects::ALL);
+    for (light, pixel) in at_rest.pixels().zip(photographer.seen(&view, eye, Celerity::ZERO, Effects::ALL).pixels()) {
+        for (light, byte) in light.0.iter().zip(pixel.0) {
+            assert!((encoded(f64::from(*light)) - f64::from(byte)).abs() < 0.51, "{light} cd/m² is {byte}");
+        }
+    }
+    // Only brightness, in the directions of rest: D = γ + u·n.
+    let searchlight = Effects { searchlight: true, ..Effects::NONE };
+    for beta in [0.6, 0.999] {
+        let celerity = Beta::new(DVec3::NEG_Z * beta).unwrap().celerity();
+        let light = photographer.light(&view, eye, celerity, searchlight);
+        for (column, row, pixel) in light.enumerate_pixels() {
+            let doppler = celerity.gamma() + celerity.vector().dot(view.direction(middle([column, row])));
+            for (shifted, rest) in pixel.0.iter().zip(at_rest.get_pixel(column, row).0) {
+                let expected = f64::from(rest) * doppler.powi(4);
+                assert!(
+                    (f64::from(*shifted) - expected).abs() <= 1e-3 * expected,
+                    "{shifted} instead of {expected} at D = {doppler}"
+                );
+            }
+        }
+    }
 }

@@ -167,7 +167,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --out a.png --background 0,0,1.5", ["--background", "from 0 to 1"]),
         ("render --out a.png --background -0.1,0,0", ["--background", "from 0 to 1"]),
         ("render --out a.png --renderer raytrace", ["the raytrace renderer is not there yet", "polygon"]),
-        ("render --out a.png --renderer vulkan", ["--renderer", "auto or polygon"]),
+        ("render --out a.png --renderer vulkan", ["--renderer", "auto, polygon or image"]),
         ("render --out a.png --effects colour", ["--effects", "geometry"]),
         ("render --out a.png --exposure bright", ["--exposure", "auto, white, or a number of stops"]),
         ("render --out a.png --exposure 1e9", ["--exposure", "from -60 to 60"]),

@@ -22,6 +22,11 @@ impl Format {
         Self { colour, samples: 1 }
     }
 
+    /// The largest value that every channel holds.
+    pub fn largest(self) -> f32 {
+        if self.colour == wgpu::TextureFormat::Rgba32Float { f32::MAX } else { shaders::HALF_LIMIT }
+    }
+
     /// For windows: half the memory traffic, edges smoothed by the hardware.
     pub fn fast(samples: u32) -> Self {
         Self { colour: wgpu::TextureFormat::Rgba16Float, samples }

@@ -199,7 +199,7 @@ impl ImageRenderer {
         }
         let layers = world.spectra.carriers.len();
         let own = [("LAYERS", layers as f64), ("SMOOTH", f64::from(u8::from(smooth)))];
-        let constants = [own.as_slice(), &effect_constants(effects, layers == 1)].concat();
+        let constants = [own.as_slice(), &effect_constants(effects, layers == 1, self.format)].concat();
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("warp"),
             bind_group_layouts: &[Some(world.view_layout()), Some(&self.group_layout)],

@@ -106,7 +106,8 @@ impl Pipelines {
                         depth_write: !look.blended,
                         depth_compare: wgpu::CompareFunction::Greater,
                         target: Some((format, look.blended.then(|| blending(mode)))),
-                        constants: &[look.constants(self.shadows).as_slice(), &mode.constants(look.identity)].concat(),
+                        constants: &[look.constants(self.shadows).as_slice(), &mode.constants(look.identity, format)]
+                            .concat(),
                     };
                     let pipeline = description.build(gpu);
                     made.push((look, pipeline.clone()));
@@ -124,7 +125,8 @@ impl Pipelines {
             depth_write: false,
             depth_compare: wgpu::CompareFunction::GreaterEqual,
             target: Some((format, None)),
-            constants: &[[("PANORAMA", flag(self.panorama))].as_slice(), &mode.constants(self.sky_identity)].concat(),
+            constants: &[[("PANORAMA", flag(self.panorama))].as_slice(), &mode.constants(self.sky_identity, format)]
+                .concat(),
         }
         .build(gpu);
         self.made.push(ModePipelines { mode, format, surface, sky });
@@ -140,23 +142,24 @@ type Constant = (&'static str, f64);
 
 impl Mode {
     /// The shaders' overrides. `identity`: weights are linear sRGB at D = 1.
-    fn constants(self, identity: bool) -> Vec<Constant> {
+    fn constants(self, identity: bool, format: Format) -> Vec<Constant> {
         let effects = match self {
             Self::Light(effects) => effects,
             Self::Weights => Effects::NONE,
         };
         let map = [("MAP", flag(self == Self::Weights))];
-        [map.as_slice(), &effect_constants(effects, identity)].concat()
+        [map.as_slice(), &effect_constants(effects, identity, format)].concat()
     }
 }
 
-/// The overrides of `shift.wgsl`.
-pub fn effect_constants(effects: Effects, identity: bool) -> [Constant; 4] {
+/// The overrides of `shift.wgsl`, for targets of `format`.
+pub fn effect_constants(effects: Effects, identity: bool, format: Format) -> [Constant; 5] {
     [
         ("GEOMETRY", flag(effects.geometry)),
         ("DOPPLER", flag(effects.doppler)),
         ("SEARCHLIGHT", flag(effects.searchlight)),
         ("IDENTITY", flag(identity)),
+        ("LARGEST", f64::from(format.largest())),
     ]
 }
 
