@@ -1,7 +1,7 @@
 //! The structs that Rust writes and a shader reads, byte for byte.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{IVec4, Mat4, Vec2, Vec4};
+use glam::{Mat4, Vec2, Vec4};
 
 /// One draw: where the eye's camera points and how the eye moves.
 ///
@@ -59,18 +59,6 @@ pub struct Material {
     pub carriers: Vec4,
 }
 
-/// A place where a pane of the image renderer's map is cut in four: an inner node of a quadtree over a cube's face.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Cut {
-    /// Where, in tangents from the face's middle, right and up.
-    pub at: Vec2,
-    /// Fills up to the alignment of `parts`.
-    pub padding: Vec2,
-    /// Left below, right below, left above, right above: a cut, or, if negative, the pane −1 − value.
-    pub parts: IVec4,
-}
-
 /// A part of a cube's face, drawn somewhere in the atlas.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -91,10 +79,6 @@ pub struct Pane {
 pub struct Map {
     /// From the observer's axes (or the world's, turned alike) to the cube's: +z is along the motion.
     pub cube_from_observer: Mat4,
-    /// Where each face begins, as a cut or, if negative, a pane: +z, −z, +x, −x; w unused.
-    pub first_roots: IVec4,
-    /// The same for +y, −y; zw unused.
-    pub last_roots: IVec4,
 }
 
 /// How samples are summed.

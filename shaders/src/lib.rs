@@ -8,7 +8,7 @@
 
 mod layout;
 
-pub use layout::{Accumulate, Adaptation, Cut, Lighting, Map, Material, Metering, Pane, View};
+pub use layout::{Accumulate, Adaptation, Lighting, Map, Material, Metering, Pane, View};
 
 use physics::colour::ShiftTable;
 
@@ -78,6 +78,8 @@ pub const GAMUT_CLAMP: u32 = 2;
 pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
 /// Luminance of linear sRGB red, green and blue (IEC 61966-2-1).
 pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+/// Cells along each side of a face of the image renderer's map, and of a cell that is cut further; a power of two.
+pub const MAP_CELLS: u32 = 32;
 /// The largest value that a half float holds safely.
 pub const HALF_LIMIT: f32 = 60_000.0;
 /// The most looks along a stretched footprint in a panorama.
@@ -179,6 +181,7 @@ fn constants() -> String {
     }
     for (name, value) in [
         ("SHIFT_NODES", SHIFT_NODES),
+        ("MAP_CELLS", MAP_CELLS),
         ("BRIGHTEST_BITS", BRIGHTEST.to_bits()),
         ("METER_WORKGROUP", METER_WORKGROUP),
         ("METER_BINS", METER_BINS),

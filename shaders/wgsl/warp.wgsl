@@ -1,11 +1,5 @@
 // From the map of the world around the eye to what the observer sees: a pixel's direction, bent, finds its pane, and the pane its light.
 
-struct Cut {
-    at: vec2<f32>,
-    padding: vec2<f32>,
-    parts: vec4<i32>,
-}
-
 struct Pane {
     corner: vec2<f32>,
     scale: vec2<f32>,
@@ -15,8 +9,6 @@ struct Pane {
 
 struct Map {
     cube_from_observer: mat4x4<f32>,
-    first_roots: vec4<i32>,
-    last_roots: vec4<i32>,
 }
 
 // How many carriers the map has, and whether texels are mixed or the nearest one is taken.
@@ -24,8 +16,10 @@ override LAYERS: u32 = 1u;
 override SMOOTH: bool = true;
 
 @group(1) @binding(0) var<uniform> map: Map;
-@group(1) @binding(1) var<storage, read> cuts: array<Cut>;
-@group(1) @binding(2) var<storage, read> panes: array<Pane>;
+// Which pane is where: one layer for each face, and one for each of their cells that is cut further.
+@group(1) @binding(1) var cells: texture_2d_array<i32>;
+// Two texels each: corner and scale, low and high.
+@group(1) @binding(2) var panes: texture_2d<f32>;
 @group(1) @binding(3) var atlas: texture_2d_array<f32>;
 
 @vertex
@@ -33,28 +27,40 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return vec4(vec2(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-// The cube's face that a direction meets: where its tree begins.
-fn root(direction: vec3<f32>) -> i32 {
-    let size = abs(direction);
-    if (size.z >= size.x && size.z >= size.y) {
-        return select(map.first_roots.y, map.first_roots.x, direction.z >= 0.0);
-    }
-    if (size.x >= size.y) {
-        return select(map.first_roots.w, map.first_roots.z, direction.x >= 0.0);
-    }
-    return select(map.last_roots.y, map.last_roots.x, direction.y >= 0.0);
+struct OnCube {
+    face: u32,
+    // Tangents from the face's middle, right and up for one who looks at it from within.
+    tangent: vec2<f32>,
 }
 
-// Where on that face, in tangents from its middle, right and up for one who looks at it from within.
-fn tangents(direction: vec3<f32>) -> vec2<f32> {
+// Where a direction meets the cube. Faces: +z, -z, +x, -x, +y, -y.
+fn on_cube(direction: vec3<f32>) -> OnCube {
     let size = abs(direction);
     if (size.z >= size.x && size.z >= size.y) {
-        return select(direction.xy, direction.yx, direction.z >= 0.0) / size.z;
+        let ahead = direction.z >= 0.0;
+        return OnCube(select(1u, 0u, ahead), select(direction.xy, direction.yx, ahead) / size.z);
     }
     if (size.x >= size.y) {
-        return select(direction.yz, direction.zy, direction.x >= 0.0) / size.x;
+        let beside = direction.x >= 0.0;
+        return OnCube(select(3u, 2u, beside), select(direction.yz, direction.zy, beside) / size.x);
     }
-    return select(direction.zx, direction.xz, direction.y >= 0.0) / size.y;
+    let above = direction.y >= 0.0;
+    return OnCube(select(5u, 4u, above), select(direction.zx, direction.xz, above) / size.y);
+}
+
+// The pane that holds a place on the cube.
+fn pane_at(place: OnCube) -> Pane {
+    let side = f32(MAP_CELLS);
+    var within = clamp((place.tangent * 0.5 + 0.5) * side, vec2(0.0), vec2(side));
+    var found = i32(place.face);
+    while (found >= 0) {
+        let cell = min(floor(within), vec2(side - 1.0));
+        found = textureLoad(cells, vec2<i32>(cell), found, 0).x;
+        within = (within - cell) * side;
+    }
+    let first = textureLoad(panes, vec2(0, -1 - found), 0);
+    let last = textureLoad(panes, vec2(1, -1 - found), 0);
+    return Pane(first.xy, first.zw, last.xy, last.zw);
 }
 
 // Weights of one carrier at a place in the atlas, within a pane.
@@ -87,16 +93,9 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let observed = normalize((map.cube_from_observer * vec4(pixel_direction(at.xy), 0.0)).xyz);
     let seen = world_from_observer(observed, vec4(0.0, 0.0, 1.0, view.motion.w));
 
-    var node = root(seen.direction);
-    let tangent = tangents(seen.direction);
-    while (node >= 0) {
-        let cut = cuts[node];
-        let right = select(0u, 1u, tangent.x >= cut.at.x);
-        let above = select(0u, 2u, tangent.y >= cut.at.y);
-        node = cut.parts[right + above];
-    }
-    let pane = panes[-1 - node];
-    let place = pane.low + pane.scale * (tangent - pane.corner);
+    let on_cube = on_cube(seen.direction);
+    let pane = pane_at(on_cube);
+    let place = pane.low + pane.scale * (on_cube.tangent - pane.corner);
 
     var light = vec4(0.0);
     for (var layer = 0u; layer < LAYERS; layer++) {

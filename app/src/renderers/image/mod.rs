@@ -47,6 +47,8 @@ pub struct MapStats {
     pub plan_ms: f64,
 }
 
+/// Texels of a pane's entry in the table of panes.
+const PANE_TEXELS: u32 = (size_of::<shaders::Pane>() / 16) as u32;
 /// Texels that drawing a pane is worth beside its own.
 const PANE_COST: f64 = 20e3;
 /// The same where the CPU draws, and a change of pipeline costs more.
@@ -75,13 +77,19 @@ impl ImageRenderer {
             source: wgpu::ShaderSource::Wgsl(shaders::WARP.source().into()),
         });
         let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-        let storage = buffer(wgpu::BufferBindingType::Storage { read_only: true });
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2Array,
+        let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
             multisampled: false,
         };
-        let group_layout = layout(gpu, "map", &[buffer(wgpu::BufferBindingType::Uniform), storage, storage, texture]);
+        let float = wgpu::TextureSampleType::Float { filterable: false };
+        let types = [
+            buffer(wgpu::BufferBindingType::Uniform),
+            texture(wgpu::TextureSampleType::Sint, wgpu::TextureViewDimension::D2Array),
+            texture(float, wgpu::TextureViewDimension::D2),
+            texture(float, wgpu::TextureViewDimension::D2Array),
+        ];
+        let group_layout = layout(gpu, "map", &types);
         Self {
             module,
             group_layout,
@@ -159,16 +167,21 @@ impl ImageRenderer {
         let buffer = |label, contents: &[u8], usage| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
-        // Nothing cut: an empty buffer cannot be bound.
-        let cuts = if plan.cuts.is_empty() { &[shaders::Cut::default()] } else { plan.cuts.as_slice() };
+        // No texture may be empty, and a picture that sees nothing of the cube has no panes.
         let panes = if plan.panes.is_empty() { &[shaders::Pane::default()] } else { plan.panes.as_slice() };
         let map = buffer("map", bytes_of(&plan.map), wgpu::BufferUsages::UNIFORM);
-        let cuts = buffer("cuts", cast_slice(cuts), wgpu::BufferUsages::STORAGE);
-        let panes = buffer("panes", cast_slice(panes), wgpu::BufferUsages::STORAGE);
+        let side = shaders::MAP_CELLS;
+        let cells = [side, side, plan.cells.len() as u32];
+        let cells = small_texture(gpu, "cells", cells, wgpu::TextureFormat::R32Sint, cast_slice(&plan.cells));
+        let size = [PANE_TEXELS, panes.len() as u32, 1];
+        let panes = small_texture(gpu, "panes", size, wgpu::TextureFormat::Rgba32Float, cast_slice(panes));
         let resources = [
             map.as_entire_binding(),
-            cuts.as_entire_binding(),
-            panes.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&cells.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            })),
+            wgpu::BindingResource::TextureView(&panes.create_view(&wgpu::TextureViewDescriptor::default())),
             wgpu::BindingResource::TextureView(&atlas.all_layers),
         ];
         bind_group(gpu, "map", &self.group_layout, resources)
@@ -245,4 +258,25 @@ impl ImageRenderer {
 fn may_see(planes: &[DVec3; 5], eye: DVec3, group: &Group) -> bool {
     let centre = group.centre - eye;
     planes.iter().all(|plane| plane.dot(centre) >= -group.radius)
+}
+
+/// A texture without mip levels that holds a table.
+fn small_texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height, depth_or_array_layers]: [u32; 3],
+    format: wgpu::TextureFormat,
+    contents: &[u8],
+) -> wgpu::Texture {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    gpu.device.create_texture_with_data(&gpu.queue, &descriptor, wgpu::util::TextureDataOrder::LayerMajor, contents)
 }

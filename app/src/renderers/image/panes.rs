@@ -6,8 +6,8 @@
 
 use super::sight::{Extent, FACES, Part, Sight};
 use crate::views::matrix;
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, IVec4, Mat4, Vec4};
-use shaders::{Cut, Map, Pane, View};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
+use shaders::{Map, Pane, View};
 
 /// Parts smaller than this many texels are not cut.
 const SMALLEST_SIDE: f64 = 24.0;
@@ -45,7 +45,7 @@ struct Tree {
 enum Kind {
     Unseen,
     Pane([u32; 2]),
-    Cut(DVec2, Box<[Tree; 4]>),
+    Cut(Box<[Tree; 4]>),
 }
 
 /// A rectangle on a cube's face.
@@ -57,6 +57,12 @@ struct Window {
     /// Tangents of its right upper corner.
     high: DVec2,
 }
+
+/// Cells of a face of the cube, or of one of its cells, row by row from below: −1 − the number of a pane, or the number of a layer.
+pub type Layer = [[i32; CELLS]; CELLS];
+
+const CELLS: usize = shaders::MAP_CELLS as usize;
+const NO_PANE: Layer = [[-1; CELLS]; CELLS];
 
 /// A window that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,8 +80,8 @@ pub struct Plan {
     pub placed: Vec<Placed>,
     /// For the shader; as long as `placed`.
     pub panes: Vec<Pane>,
-    /// For the shader.
-    pub cuts: Vec<Cut>,
+    /// For the shader: which pane is where, a layer for each face and for each cell of a layer that is cut further.
+    pub cells: Vec<Layer>,
     /// For the shader.
     pub map: Map,
     /// Texels of the atlas.
@@ -120,7 +126,7 @@ impl Sight {
                 return whole;
             }
         }
-        Tree { cost, window, kind: Kind::Cut(part.middle, Box::new(parts)) }
+        Tree { cost, window, kind: Kind::Cut(Box::new(parts)) }
     }
 
     /// Plans the map for a picture: `texels_per_pixel` along each axis, or as many as fit into `most_texels` and `largest_side`.
@@ -129,8 +135,10 @@ impl Sight {
         loop {
             let roots =
                 [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0));
-            let mut plan = Planner::default();
-            let numbers = roots.map(|root| plan.number(root));
+            let mut plan = Planner { placed: Vec::new(), cells: vec![NO_PANE; 6] };
+            for (face, root) in roots.into_iter().enumerate() {
+                plan.fill(face, [0, 0], CELLS, root, -1);
+            }
             let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
             let size = pack(&mut plan.placed, texels, largest_side);
             let fits = texels <= most_texels && size[1] <= largest_side;
@@ -138,18 +146,12 @@ impl Sight {
                 wanted.texels_per_pixel *= (most_texels / texels).sqrt().min(0.98) * 0.98;
                 continue;
             }
-            // A face that nobody sees is never looked up: any pane will do.
-            let [ahead, astern, x, minus_x, y, minus_y] = numbers.map(|number| number.unwrap_or(-1));
-            let map = Map {
-                cube_from_observer: Mat4::from_mat3(self.cube_from_world.as_mat3()),
-                first_roots: IVec4::new(ahead, astern, x, minus_x),
-                last_roots: IVec4::new(y, minus_y, 0, 0),
-            };
+            let map = Map { cube_from_observer: Mat4::from_mat3(self.cube_from_world.as_mat3()) };
             let panes = plan.placed.iter().map(Placed::pane).collect();
             return Plan {
                 placed: plan.placed,
                 panes,
-                cuts: plan.cuts,
+                cells: plan.cells,
                 map,
                 size,
                 texels_per_pixel: wanted.texels_per_pixel,
@@ -234,31 +236,43 @@ impl Placed {
     }
 }
 
-/// Gives panes and cuts their numbers.
-#[derive(Default)]
+/// Gives panes their numbers, and writes down where each is found.
 struct Planner {
     placed: Vec<Placed>,
-    cuts: Vec<Cut>,
+    cells: Vec<Layer>,
 }
 
 impl Planner {
-    /// A cut's number, −1 − a pane's, or nothing for what is not seen.
-    fn number(&mut self, tree: Tree) -> Option<i32> {
-        match tree.kind {
-            Kind::Unseen => None,
+    /// Fills a square of cells of a layer with what becomes of it. `nearby`: what is shown where nothing is drawn.
+    ///
+    /// Nobody looks there but for rounding, which may send a pixel at an edge next door: it takes the nearest texel of a neighbour.
+    fn fill(&mut self, layer: usize, corner: [usize; 2], side: usize, tree: Tree, nearby: i32) {
+        let number = match tree.kind {
+            Kind::Unseen => nearby,
             Kind::Pane(size) => {
                 self.placed.push(Placed { window: tree.window, size, place: [0; 2] });
-                Some(-(self.placed.len() as i32))
+                -(self.placed.len() as i32)
             }
-            Kind::Cut(at, parts) => {
-                let number = self.cuts.len();
-                self.cuts.push(Cut { at: at.as_vec2(), ..Default::default() });
-                let parts = parts.map(|part| self.number(part));
-                // Rounding may send a pixel at an edge next door, where nothing is drawn: it takes the nearest texel of a neighbour.
-                let neighbour = parts.iter().flatten().next().copied()?;
-                self.cuts[number].parts = IVec4::from_array(parts.map(|part| part.unwrap_or(neighbour)));
-                Some(number as i32)
+            Kind::Cut(parts) => {
+                // A single cell has no room for four: a layer of its own has.
+                let (layer, [x, y], half) = if side == 1 {
+                    self.cells.push(NO_PANE);
+                    let below = self.cells.len() - 1;
+                    self.cells[layer][corner[1]][corner[0]] = below as i32;
+                    (below, [0, 0], CELLS / 2)
+                } else {
+                    (layer, corner, side / 2)
+                };
+                let next = -(self.placed.len() as i32) - 1;
+                let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
+                for (corner, part) in corners.into_iter().zip(*parts) {
+                    self.fill(layer, corner, half, part, next);
+                }
+                return;
             }
+        };
+        for row in &mut self.cells[layer][corner[1]..corner[1] + side] {
+            row[corner[0]..corner[0] + side].fill(number);
         }
     }
 }
@@ -306,13 +320,20 @@ mod tests {
         (face, DVec2::new(right.dot(direction), up.dot(direction)) / forward.dot(direction))
     }
 
-    /// The pane that holds a place on the cube, if there is one.
-    fn find<'a>(plan: &'a Plan, face: usize, at: DVec2) -> Option<&'a Placed> {
+    /// The pane that a place on the cube is looked up in, if it holds it.
+    fn find(plan: &Plan, face: usize, at: DVec2) -> Option<&Placed> {
+        let side = CELLS as f64;
+        let mut within = (0.5 * at + 0.5) * side;
+        let mut found = face as i32;
+        while found >= 0 {
+            let cell = within.floor().clamp(DVec2::ZERO, DVec2::splat(side - 1.0));
+            found = plan.cells[found as usize][cell.y as usize][cell.x as usize];
+            within = (within - cell) * side;
+        }
+        let pane = &plan.placed[(-1 - found) as usize];
+        let Window { face: of, low, high } = pane.window;
         let rounding = 1e-9;
-        plan.placed.iter().find(|pane| {
-            let Window { face: of, low, high } = pane.window;
-            of == face && (at + rounding).cmpge(low).all() && (at - rounding).cmple(high).all()
-        })
+        (of == face && (at + rounding).cmpge(low).all() && (at - rounding).cmple(high).all()).then_some(pane)
     }
 
     fn each_pixel(camera: &Camera, mut check: impl FnMut(DVec3, DVec3)) {
