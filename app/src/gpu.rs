@@ -96,9 +96,9 @@ impl Gpu {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// Whether colour targets of 32-bit floats can be blended into here.
+    /// Whether colour targets of 32-bit floats can be blended into, and filtered, here.
     pub fn has_full_precision(&self) -> bool {
-        self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE)
+        self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE)
     }
 
     /// The first fault that the driver reported, if any.

@@ -21,6 +21,7 @@ override SMOOTH: bool = true;
 // Two texels each: corner and scale, low and high.
 @group(1) @binding(2) var panes: texture_2d<f32>;
 @group(1) @binding(3) var atlas: texture_2d_array<f32>;
+@group(1) @binding(4) var atlas_sampler: sampler;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
@@ -70,27 +71,14 @@ fn weights_at(place: vec2<f32>, pane: Pane, layer: u32) -> vec3<f32> {
         return textureLoad(atlas, vec2<i32>(texel), layer, 0).rgb;
     }
     // Panes are drawn one texel beyond their edges, so that there is always a neighbour.
-    let middle = clamp(place, pane.low, pane.high) - 0.5;
-    let corner = floor(middle);
-    let share = middle - corner;
-    let texel = vec2<i32>(corner);
-    let below = mix(
-        textureLoad(atlas, texel, layer, 0).rgb,
-        textureLoad(atlas, texel + vec2(1, 0), layer, 0).rgb,
-        share.x,
-    );
-    let above = mix(
-        textureLoad(atlas, texel + vec2(0, 1), layer, 0).rgb,
-        textureLoad(atlas, texel + vec2(1, 1), layer, 0).rgb,
-        share.x,
-    );
-    return mix(below, above, share.y);
+    let within = clamp(place, pane.low, pane.high) / vec2<f32>(textureDimensions(atlas));
+    return textureSampleLevel(atlas, atlas_sampler, within, layer, 0.0).rgb;
 }
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     // In the cube's axes the motion is along z: a boost changes z alone, and x and y keep every digit beside the stern.
-    let observed = normalize((map.cube_from_observer * vec4(pixel_direction(at.xy), 0.0)).xyz);
+    let observed = (map.cube_from_observer * vec4(pixel_direction(at.xy), 0.0)).xyz;
     let seen = world_from_observer(observed, vec4(0.0, 0.0, 1.0, view.motion.w));
 
     let on_cube = on_cube(seen.direction);

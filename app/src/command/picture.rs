@@ -50,7 +50,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
     pub renderer: Renderer,
     /// Texels of the image renderer's map for each pixel, along each axis [default: 8 for a picture of one sample a pixel, 3 for one of
-    /// several, 1.25 in a window].
+    /// several, 1.5 in a window, 0.9 in one that the CPU draws].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 16.0))]
     pub map_scale: Option<f64>,
     /// Colour where no surface is: linear red, green, blue, each 0 to 1 [default: the scene's sky].
@@ -87,8 +87,9 @@ impl PictureOptions {
         MapQuality { texels_per_pixel: self.map_scale.unwrap_or(usual), smooth: false }
     }
 
-    /// How finely it is drawn for a window.
-    pub fn map_of_windows(&self) -> MapQuality {
-        MapQuality { texels_per_pixel: self.map_scale.unwrap_or(1.25), smooth: true }
+    /// How finely it is drawn for a window, `software`: by the CPU.
+    pub fn map_of_windows(&self, software: bool) -> MapQuality {
+        let usual = if software { 0.9 } else { 1.5 };
+        MapQuality { texels_per_pixel: self.map_scale.unwrap_or(usual), smooth: true }
     }
 }

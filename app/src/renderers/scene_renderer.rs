@@ -4,7 +4,7 @@ use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
 use super::polygon::{PhotoSurface, Transformed};
 use super::target::{Format, Radiance};
-use super::world::{Draws, Mode, World};
+use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
 use crate::gpu::{Gpu, GpuError};
 use crate::scene::Scene;
@@ -209,6 +209,6 @@ impl SceneRenderer {
         self.world.prepare(gpu, mode, self.format);
         self.world.write_views(gpu, &[view]);
         let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position() };
-        self.world.draw(gpu, &mut target.begin(encoder), 0, &draws, |_| true);
+        self.world.draw(gpu, &mut target.begin(encoder), &draws, &[Part::WHOLE]);
     }
 }

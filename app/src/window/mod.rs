@@ -151,7 +151,8 @@ impl Open {
         let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
         let format = Format::fast(samples);
         let picture = &options.picture;
-        let choice = Choice::of(scene, picture.renderer, options.world.edge, picture.map_of_windows())?;
+        let choice =
+            Choice::of(scene, picture.renderer, options.world.edge, picture.map_of_windows(gpu.is_software()))?;
         let Choice { scene, method, because } = choice;
         eprintln!("{because}, on {}", gpu.description());
         let spinner = progress::spinner("uploading");

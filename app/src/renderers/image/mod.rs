@@ -11,14 +11,14 @@ mod panes;
 mod sight;
 
 use super::target::{Format, Radiance};
-use super::world::{Draws, Group, Mode, World, bind_group, effect_constants, layout};
+use super::world::{Draws, Mode, Part, World, bind_group, effect_constants, layout};
 use super::{Effects, Shot};
 use crate::gpu::Gpu;
 use crate::views::NEAR_M;
 use atlas::Atlas;
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};
-use panes::{Fineness, Plan};
+use panes::{Fineness, Placed, Plan};
 use sight::Sight;
 use std::time::Instant;
 use wgpu::util::DeviceExt;
@@ -60,6 +60,7 @@ const MOST_BYTES: u64 = 1 << 30;
 pub struct ImageRenderer {
     module: wgpu::ShaderModule,
     group_layout: wgpu::BindGroupLayout,
+    sampler: wgpu::Sampler,
     format: Format,
     /// As the user wants it.
     pub quality: MapQuality,
@@ -82,17 +83,24 @@ impl ImageRenderer {
             view_dimension,
             multisampled: false,
         };
-        let float = wgpu::TextureSampleType::Float { filterable: false };
+        let float = |filterable| wgpu::TextureSampleType::Float { filterable };
         let types = [
             buffer(wgpu::BufferBindingType::Uniform),
             texture(wgpu::TextureSampleType::Sint, wgpu::TextureViewDimension::D2Array),
-            texture(float, wgpu::TextureViewDimension::D2),
-            texture(float, wgpu::TextureViewDimension::D2Array),
+            texture(float(false), wgpu::TextureViewDimension::D2),
+            texture(float(true), wgpu::TextureViewDimension::D2Array),
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         ];
         let group_layout = layout(gpu, "map", &types);
         Self {
             module,
             group_layout,
+            sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("map"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
             format,
             quality,
             atlas: None,
@@ -114,17 +122,14 @@ impl ImageRenderer {
         let format = atlas::format(self.format);
         let texel_bytes = atlas::texel_bytes(format, layers);
         let sight = Sight::new(&shot.camera, size, shot.celerity());
-        let most_texels = MOST_BYTES as f64 / texel_bytes as f64;
-        let largest_side = gpu.device.limits().max_texture_dimension_2d;
-        let fineness = Fineness {
-            texels_per_pixel: self.quality.texels_per_pixel,
-            exact: !self.quality.smooth,
-            pane_cost: if gpu.is_software() { PANE_COST_SOFTWARE } else { PANE_COST },
-        };
-        let plan = sight.plan(fineness, most_texels, largest_side);
+        let room = MOST_BYTES as f64 / texel_bytes as f64;
+        // A smooth map costs the same at any speed: it has so many texels for each pixel of the picture, wherever they are needed.
+        let budget = self.quality.texels_per_pixel.powi(2) * f64::from(size[0]) * f64::from(size[1]);
+        let most_texels = if self.quality.smooth { budget.min(room) } else { room };
+        let plan = self.plan(gpu, &sight, most_texels);
         self.stats = MapStats {
             panes: plan.placed.len(),
-            texels: plan.placed.iter().map(panes::Placed::texels).sum::<f64>() as u64,
+            texels: plan.texels() as u64,
             bytes: u64::from(plan.size[0]) * u64::from(plan.size[1]) * texel_bytes,
             texels_per_pixel: plan.texels_per_pixel,
             plan_ms: started.elapsed().as_secs_f64() * 1e3,
@@ -148,19 +153,35 @@ impl ImageRenderer {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let draws = Draws { streams: None, mode: Mode::Weights, format, eye: shot.eye.position() };
         for layer in 0..layers {
-            let mut pass = atlas.begin(&mut encoder, layer);
-            for (number, (pane, (_, planes))) in plan.placed.iter().zip(&views).enumerate() {
-                let ([x, y], [across, down]) = (pane.place, pane.drawn());
-                pass.set_viewport(x as f32, y as f32, across as f32, down as f32, 0.0, 1.0);
-                pass.set_scissor_rect(x, y, across, down);
-                let number = layer * views.len() as u32 + number as u32;
-                let eye = shot.eye.position();
-                world.draw(gpu, &mut pass, number, &draws, |group| may_see(planes, eye, group));
-            }
+            let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
+                let ([x, y], [width, height]) = (pane.place, pane.drawn());
+                let view = layer * views.len() as u32 + number as u32;
+                Part { view, place: Some([x, y, width, height]), planes: Some(*planes) }
+            };
+            let parts: Vec<Part> = plan.placed.iter().zip(&views).enumerate().map(part).collect();
+            world.draw(gpu, &mut atlas.begin(&mut encoder, layer), &draws, &parts);
         }
         gpu.queue.submit([encoder.finish()]);
         self.group = Some(self.bind(gpu, &plan, &atlas));
         self.atlas = Some(atlas);
+    }
+
+    /// As fine as is wanted, or as there is room for. The frame before tells about how fine that is.
+    fn plan(&self, gpu: &Gpu, sight: &Sight, most_texels: f64) -> Plan {
+        let MapQuality { texels_per_pixel: wanted, smooth } = self.quality;
+        let fineness = |texels_per_pixel: f64| Fineness {
+            texels_per_pixel: texels_per_pixel.min(wanted),
+            exact: !smooth,
+            pane_cost: if gpu.is_software() { PANE_COST_SOFTWARE } else { PANE_COST },
+        };
+        let largest_side = gpu.device.limits().max_texture_dimension_2d;
+        let before = if smooth && self.stats.panes > 0 { self.stats.texels_per_pixel } else { wanted };
+        let plan = sight.plan(fineness(before), most_texels, largest_side);
+        if plan.texels_per_pixel >= wanted || plan.texels() > 0.8 * most_texels {
+            return plan;
+        }
+        let finer = plan.texels_per_pixel * 0.95 * (most_texels / plan.texels().max(1.0)).sqrt();
+        sight.plan(fineness(finer), most_texels, largest_side)
     }
 
     fn bind(&self, gpu: &Gpu, plan: &Plan, atlas: &Atlas) -> wgpu::BindGroup {
@@ -183,6 +204,7 @@ impl ImageRenderer {
             })),
             wgpu::BindingResource::TextureView(&panes.create_view(&wgpu::TextureViewDescriptor::default())),
             wgpu::BindingResource::TextureView(&atlas.all_layers),
+            wgpu::BindingResource::Sampler(&self.sampler),
         ];
         bind_group(gpu, "map", &self.group_layout, resources)
     }
@@ -252,12 +274,6 @@ impl ImageRenderer {
         self.pipelines.push((effects, smooth, pipeline.clone()));
         pipeline
     }
-}
-
-/// Whether any of a group of triangles may lie within planes through the eye.
-fn may_see(planes: &[DVec3; 5], eye: DVec3, group: &Group) -> bool {
-    let centre = group.centre - eye;
-    planes.iter().all(|plane| plane.dot(centre) >= -group.radius)
 }
 
 /// A texture without mip levels that holds a table.

@@ -90,6 +90,13 @@ pub struct Plan {
     pub texels_per_pixel: f64,
 }
 
+impl Plan {
+    /// Texels that are drawn.
+    pub fn texels(&self) -> f64 {
+        self.placed.iter().map(Placed::texels).sum()
+    }
+}
+
 impl Sight {
     /// Finds the cheapest panes of a part.
     fn cut(&self, part: Part, fineness: Fineness, depth: u32) -> Tree {

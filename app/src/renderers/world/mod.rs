@@ -10,7 +10,7 @@ mod pipelines;
 mod spectra;
 mod sun;
 
-pub use geometry::{Group, stream_stride};
+pub use geometry::stream_stride;
 pub use pipelines::{Mode, effect_constants, layout};
 pub use spectra::Spectra;
 
@@ -18,7 +18,7 @@ use super::target::Format;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 use bytemuck::bytes_of;
-use geometry::{Draw, Geometry};
+use geometry::{Draw, Geometry, Group};
 use glam::DVec3;
 use materials::Materials;
 use pipelines::Pipelines;
@@ -61,6 +61,21 @@ pub struct Draws<'a> {
     pub format: Format,
     /// World position of the eye, to draw blended surfaces from far to near.
     pub eye: DVec3,
+}
+
+/// A part of a target, with a view of its own.
+pub struct Part {
+    /// Which of the views written.
+    pub view: u32,
+    /// x, y, width and height in the target; `None`: all of it.
+    pub place: Option<[u32; 4]>,
+    /// What bounds the view: planes through the eye, as inward unit normals (world axes). Without them nothing is left out.
+    pub planes: Option<[DVec3; 5]>,
+}
+
+impl Part {
+    /// All of a target, by the view written first.
+    pub const WHOLE: Self = Self { view: 0, place: None, planes: None };
 }
 
 impl World {
@@ -117,20 +132,12 @@ impl World {
         pass.set_bind_group(shaders::VIEW_GROUP, &self.view_group, &[view * view_stride(gpu) as u32]);
     }
 
-    /// Draws surfaces and sky into one view. `visible` says of a group of triangles whether any of it may be seen.
-    pub fn draw(
-        &self,
-        gpu: &Gpu,
-        pass: &mut wgpu::RenderPass<'_>,
-        view: u32,
-        draws: &Draws<'_>,
-        visible: impl Fn(&Group) -> bool,
-    ) {
+    /// Draws surfaces and sky into each part of a target.
+    pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[Part]) {
         let Some(pipelines) = self.pipelines.get(draws.mode, draws.format) else { return };
         let mut blended: Vec<&Draw> = self.geometry.blended.iter().collect();
         blended.sort_by(|a, b| b.centre.distance(draws.eye).total_cmp(&a.centre.distance(draws.eye)));
 
-        self.bind_view(gpu, pass, view);
         pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let streams = draws.streams.unwrap_or(&self.geometry.plain);
         for axis in 0..3 {
@@ -138,33 +145,57 @@ impl World {
             pass.set_vertex_buffer(axis, streams.slice(start..start + self.geometry.stream_stride));
         }
         pass.set_vertex_buffer(3, self.geometry.attributes.slice(..));
-        let draw_all = |pass: &mut wgpu::RenderPass<'_>, list: &mut dyn Iterator<Item = &Draw>| {
-            for draw in list {
-                let mut ranges = ranges(draw, &visible).peekable();
-                if ranges.peek().is_some() {
+
+        // Material by material, all parts each: going on to another part is cheap, another material is not.
+        let draw_all = |pass: &mut wgpu::RenderPass<'_>, draw: &Draw| {
+            let mut bound = false;
+            for part in parts {
+                let ranges = ranges(draw, part, draws.eye);
+                if ranges.is_empty() {
+                    continue;
+                }
+                if !bound {
+                    bound = true;
                     pass.set_pipeline(&pipelines.surface[draw.material]);
                     pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
                 }
-                ranges.for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
+                self.go_to(gpu, pass, part);
+                ranges.into_iter().for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
             }
         };
-        draw_all(pass, &mut self.geometry.opaque.iter());
+        self.geometry.opaque.iter().for_each(|draw| draw_all(pass, draw));
         pass.set_pipeline(&pipelines.sky);
-        pass.draw(0..3, 0..1);
-        draw_all(pass, &mut blended.into_iter());
+        for part in parts {
+            self.go_to(gpu, pass, part);
+            pass.draw(0..3, 0..1);
+        }
+        blended.into_iter().for_each(|draw| draw_all(pass, draw));
+    }
+
+    fn go_to(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, part: &Part) {
+        self.bind_view(gpu, pass, part.view);
+        if let Some([x, y, width, height]) = part.place {
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+            pass.set_scissor_rect(x, y, width, height);
+        }
     }
 }
 
-/// The visible groups of a draw, those that follow each other as one.
-fn ranges(draw: &Draw, visible: &impl Fn(&Group) -> bool) -> impl Iterator<Item = Range<u32>> {
+/// The groups of a draw that may be seen in a part, those that follow each other as one.
+fn ranges(draw: &Draw, part: &Part, eye: DVec3) -> Vec<Range<u32>> {
+    let Some(planes) = &part.planes else { return vec![draw.indices.clone()] };
+    let may_be_seen = |group: &&Group| {
+        let centre = group.centre - eye;
+        planes.iter().all(|plane| plane.dot(centre) >= -group.radius)
+    };
     let mut ranges: Vec<Range<u32>> = Vec::new();
-    for group in draw.groups.iter().filter(|group| visible(group)) {
+    for group in draw.groups.iter().filter(may_be_seen) {
         match ranges.last_mut() {
             Some(last) if last.end == group.indices.start => last.end = group.indices.end,
             _ => ranges.push(group.indices.clone()),
         }
     }
-    ranges.into_iter()
+    ranges
 }
 
 /// Bytes from one view to the next.
