@@ -22,7 +22,7 @@ use rapidity::scene::{Mesh, Scene};
 use rapidity::views::Camera;
 use std::error::Error;
 use std::time::{Duration, Instant};
-use support::{commit, median, milliseconds, processor, ratios};
+use support::{commit, median, milliseconds, processor, quantile};
 
 /// Pixels of a frame.
 const SIZE: [u32; 2] = [1280, 1024];
@@ -189,4 +189,11 @@ fn append(mesh: &mut Mesh, source: &Mesh, offset: Vec3) {
     mesh.uvs.extend(&source.uvs);
     mesh.colours.extend(&source.colours);
     mesh.indices.extend(source.indices.iter().map(|index| first + index));
+}
+
+/// Frame rate of the second over the first, turn by turn: median and quartiles.
+fn ratios(plain: &[f64], other: &[f64]) -> String {
+    let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
+    let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
+    format!("{middle:.3} ({low:.3} to {high:.3})")
 }

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! devices ─► samples ─► controls ─► vehicle: RK4 in proper time ─► worldline ─► observer ─► eye
-//!     ─► photo-surface of the scene (rayon, beside the render thread, into mapped buffers)
-//!         ─► draw ─► tone and curve of the screen ─► window
+//!     ─► polygon: photo-surface of the scene (rayon, beside the render thread, into mapped buffers) ─► draw
+//!        image: map of the world around the eye ─► bend, pixel by pixel
+//!         ─► exposure, tone, gamut, curve of the screen ─► window
 //! ```
 
 use crate::command::Latency;

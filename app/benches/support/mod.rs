@@ -19,13 +19,6 @@ pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
-/// Frame rate of the second over the first, turn by turn: median and quartiles.
-pub fn ratios(plain: &[f64], other: &[f64]) -> String {
-    let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
-    let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
-    format!("{middle:.3} ({low:.3} to {high:.3})")
-}
-
 /// What is measured, as version control names it.
 pub fn commit() -> String {
     let output = Command::new("git").args(["describe", "--always", "--dirty"]).output();
