@@ -56,9 +56,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("all", Effects::ALL),
     ];
     table(&rows, |effects| image.frame(0.8, *effects))?;
-    if std::env::var("SPLIT").is_ok() {
-        return Ok(());
-    }
     println!("\npolygon renderer at 0.8 c, {} triangles; the photo-surface is not counted", refined.triangle_count());
     table(&rows, |effects| polygon.frame(0.8, *effects))?;
 
@@ -157,12 +154,7 @@ impl<'gpu> Stage<'gpu> {
         let eye = Eye::new(self.eye, celerity.vector()).expect("an eye that is somewhere");
         let camera = Camera::looking(self.look, DVec3::Y, 60.0_f64.to_radians());
         let shot = Shot { camera, eye, effects };
-        let t = Instant::now();
         self.renderer.prepare(self.gpu, &shot, SIZE);
-        if std::env::var("SPLIT").is_ok() {
-            self.gpu.wait()?;
-            println!("   map {:.1}", milliseconds(t.elapsed()));
-        }
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);
         self.gpu.queue.submit([encoder.finish()]);

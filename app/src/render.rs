@@ -13,7 +13,7 @@ use crate::progress;
 use crate::renderers::choice::Choice;
 use crate::renderers::picture::{Studio, largest_side};
 use crate::renderers::{Effects, SceneRenderer, Shot};
-use crate::scene::{Scene, source};
+use crate::scene::{Scene, Start, source};
 use crate::views::{Camera, Gaze};
 use glam::DVec3;
 use image::RgbaImage;
@@ -38,17 +38,18 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
         return recorded_ride(options, &gpu, recording);
     }
     let scene = source::load(&options.world.scene)?;
-    let mut camera = Cameraman::new(&gpu, scene.clone(), &options.picture, options.world.edge)?;
+    let start = scene.start;
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
     let speed_of_light = options.world.speed_of_light;
     match &options.out {
-        Output::Picture(path) => camera.still(inertial(&options.viewpoint, &scene, 0.0)?, path),
-        Output::Light(path) => camera.light(inertial(&options.viewpoint, &scene, 0.0)?, path),
+        Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0)?, path),
+        Output::Light(path) => camera.light(inertial(&options.viewpoint, start, 0.0)?, path),
         Output::Film(path) => {
             let rate = options.frames_per_second();
             let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
             let moment = |frame: u64| {
                 let own_s = frame as f64 / rate;
-                Ok(Moment { gaze: inertial(&options.viewpoint, &scene, own_s * speed_of_light)?, own_s })
+                Ok(Moment { gaze: inertial(&options.viewpoint, start, own_s * speed_of_light)?, own_s })
             };
             camera.film((0..count as u64).map(moment), count as u64, rate, path)
         }
@@ -71,11 +72,11 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result
 }
 
 /// What an observer in uniform motion sees, `proper_time` metres of light travel after the start.
-fn inertial(viewpoint: &Viewpoint, scene: &Scene, proper_time: f64) -> Result<Gaze, Error> {
-    let start = viewpoint.position.unwrap_or(scene.start.position + DVec3::Y * EYE_HEIGHT_M);
+fn inertial(viewpoint: &Viewpoint, start: Start, proper_time: f64) -> Result<Gaze, Error> {
+    let position = viewpoint.position.unwrap_or(start.position + DVec3::Y * EYE_HEIGHT_M);
     let celerity = viewpoint.celerity();
-    let eye = Eye::new(start + celerity.vector() * proper_time, celerity.vector())?;
-    let look = viewpoint.look.unwrap_or(scene.start.look);
+    let eye = Eye::new(position + celerity.vector() * proper_time, celerity.vector())?;
+    let look = viewpoint.look.unwrap_or(start.look);
     Ok(Gaze { eye, observer_from_eye: Camera::looking(look, viewpoint.up, 1.0).observer_from_eye })
 }
 

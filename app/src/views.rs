@@ -87,12 +87,12 @@ impl Camera {
         }
     }
 
-    /// Doppler factor of light from the world in the middle of the picture.
-    pub fn doppler_ahead(&self, motion: Celerity, geometry: bool) -> f64 {
-        let forward = self.observer_from_eye * DVec3::NEG_Z;
+    /// Doppler factor of light from the world at a place in the picture: −1 to 1 from below to above, and to the right by the same measure.
+    pub fn doppler_at(&self, place: DVec2, motion: Celerity, geometry: bool) -> f64 {
+        let seen = self.observer_from_eye * (place * (0.5 * self.fov_y_rad).tan()).extend(-1.0);
         let aberration = Aberration::new(motion);
         let (_, doppler) =
-            if geometry { aberration.world_from_observer(forward) } else { aberration.observer_from_world(forward) };
+            if geometry { aberration.world_from_observer(seen) } else { aberration.observer_from_world(seen) };
         doppler
     }
 }

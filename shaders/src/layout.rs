@@ -41,7 +41,7 @@ pub struct Lighting {
     pub ground: Vec4,
     /// Radiance of the sky overhead; w = its carrier, and that of all sky.
     pub zenith: Vec4,
-    /// Radiance of the sky at the horizon; w = carrier of the background and of a panorama.
+    /// Radiance of the sky at the horizon; w = what the sky's weights are multiplied by to be relative to white.
     pub horizon: Vec4,
     /// Radiance behind everything, if w = 1; w = 0 shows the sky.
     pub background: Vec4,
@@ -55,7 +55,8 @@ pub struct Material {
     pub base_colour: Vec4,
     /// Linear radiance; w = opacity below which nothing is drawn, if the pipeline is masked.
     pub emissive: Vec4,
-    /// Carriers: of what it reflects, or, unlit, sends out; of what it emits besides; zw unused.
+    /// Carriers: of what it reflects, or, unlit, sends out; of what it emits besides. Then what their weights are multiplied by to be
+    /// relative to white.
     pub carriers: Vec4,
 }
 

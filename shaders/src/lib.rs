@@ -10,7 +10,8 @@ mod layout;
 
 pub use layout::{Accumulate, Adaptation, Lighting, Map, Material, Metering, Pane, View};
 
-use physics::colour::ShiftTable;
+use glam::DVec3;
+use physics::colour::{ShiftTable, luminance};
 
 /// Bind group that holds [`View`], [`Lighting`] and the shadow map.
 pub const VIEW_GROUP: u32 = 0;
@@ -39,7 +40,7 @@ pub const METER_WORKGROUP: u32 = 16;
 /// Bins of a light meter's histogram.
 pub const METER_BINS: u32 = 1024;
 /// Bins for each doubling.
-pub const METER_BINS_PER_OCTAVE: f32 = 8.0;
+pub const METER_BINS_PER_OCTAVE: f32 = 4.0;
 /// Doublings from 1 to either end of the histogram.
 pub const METER_OCTAVES: f32 = METER_BINS as f32 / METER_BINS_PER_OCTAVE / 2.0;
 /// Share of the samples that the mean gain leaves out at either end.
@@ -76,10 +77,8 @@ pub const GAMUT_CLAMP: u32 = 2;
 
 /// Nodes of the shift table over ln D; odd, so that D = 1 is one.
 pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
-/// Luminance of linear sRGB red, green and blue (IEC 61966-2-1).
-pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
-/// Cells along each side of a face of the image renderer's map, and of a cell that is cut further; a power of two.
-pub const MAP_CELLS: u32 = 32;
+/// Cells along each side of a quarter of a face of the image renderer's map, and of a cell that is cut further; a power of two.
+pub const MAP_CELLS: u32 = 16;
 /// The largest value that a half float holds safely.
 pub const HALF_LIMIT: f32 = 60_000.0;
 /// The most looks along a stretched footprint in a panorama.
@@ -199,7 +198,7 @@ fn constants() -> String {
     ] {
         source.push_str(&format!("const {name}: u32 = {value}u;\n"));
     }
-    let [red, green, blue] = LUMINANCE;
+    let [red, green, blue] = DVec3::AXES.map(|primary| luminance(primary) as f32);
     let [columns, rows] = METER_GRID;
     source.push_str(&format!("const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n"));
     source.push_str(&format!("const METER_GRID: vec2<u32> = vec2({columns}u, {rows}u);\n"));

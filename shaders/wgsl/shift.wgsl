@@ -28,7 +28,7 @@ fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
     }
     if (SEARCHLIGHT) {
         // In logarithms: the fourth power of a large factor times a small scale must not pass through infinity.
-        colour *= exp2(4.0 * log2(doppler) + log2(view.shift.y));
+        colour *= exp2(min(4.0 * log2(doppler) + log2(view.shift.y), LARGEST_LOG2));
     } else {
         colour *= view.shift.y;
     }

@@ -63,7 +63,7 @@ fn fragment(in: Pixel) -> @location(0) vec4<f32> {
     let observed = normalize(view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz);
     let seen = world_from_observer(observed, view.motion);
     var weights = lighting.background.rgb;
-    var carrier = lighting.horizon.w;
+    var carrier = 0.0;
     if (lighting.background.w != 1.0) {
         if (PANORAMA) {
             // The neighbouring pixels' directions, at unit distance along the view's middle.
@@ -74,12 +74,12 @@ fn fragment(in: Pixel) -> @location(0) vec4<f32> {
             let down = world_from_observer(normalize(middle + step_down), view.motion).direction;
             weights = surrounding(seen.direction, right, down);
         } else {
-            weights = sky(seen.direction);
+            weights = lighting.horizon.w * sky(seen.direction);
             carrier = lighting.zenith.w;
         }
     }
     if (MAP) {
-        return vec4(select(vec3(0.0), weights, carrier == view.layer.x), 1.0);
+        return vec4(select(vec3(0.0), min(weights, vec3(LARGEST)), carrier == view.layer.x), 1.0);
     }
     var doppler = 1.0;
     if (DOPPLER || SEARCHLIGHT) {

@@ -101,6 +101,8 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
         let normal = normalize(in.normal) * select(-1.0, 1.0, front);
         weights *= falling(in.world, normal);
     }
+    weights *= material.carriers.z;
+    emitted *= material.carriers.w;
     if (EMISSIVE && !SPLIT) {
         weights += emitted;
     }
@@ -111,7 +113,7 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
         if (SPLIT) {
             kept += select(vec3(0.0), emitted, material.carriers.y == view.layer.x);
         }
-        return vec4(kept, base.a);
+        return vec4(min(kept, vec3(LARGEST)), base.a);
     }
 
     var doppler = 1.0;

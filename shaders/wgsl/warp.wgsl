@@ -16,7 +16,7 @@ override LAYERS: u32 = 1u;
 override SMOOTH: bool = true;
 
 @group(1) @binding(0) var<uniform> map: Map;
-// Which pane is where: one layer for each face, and one for each of their cells that is cut further.
+// Which pane is where: one layer for each quarter of a face, and one for each of their cells that is cut further.
 @group(1) @binding(1) var cells: texture_2d_array<i32>;
 // Two texels each: corner and scale, low and high.
 @group(1) @binding(2) var panes: texture_2d<f32>;
@@ -49,11 +49,13 @@ fn on_cube(direction: vec3<f32>) -> OnCube {
     return OnCube(select(5u, 4u, above), select(direction.zx, direction.xz, above) / size.y);
 }
 
-// The pane that holds a place on the cube.
+// The pane that holds a place on the cube. Each quarter of a face is counted from its middle outwards, so that nothing is added to a
+// place beside the motion's axis, and no digit lost.
 fn pane_at(place: OnCube) -> Pane {
     let side = f32(MAP_CELLS);
-    var within = clamp((place.tangent * 0.5 + 0.5) * side, vec2(0.0), vec2(side));
-    var found = i32(place.face);
+    let quarter = select(0u, 1u, place.tangent.x < 0.0) + select(0u, 2u, place.tangent.y < 0.0);
+    var within = min(abs(place.tangent) * side, vec2(side));
+    var found = i32(4u * place.face + quarter);
     while (found >= 0) {
         let cell = min(floor(within), vec2(side - 1.0));
         found = textureLoad(cells, vec2<i32>(cell), found, 0).x;

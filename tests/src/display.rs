@@ -76,7 +76,7 @@ impl Onlooker {
 
 /// Luminance of linear sRGB (IEC 61966-2-1).
 pub fn luminance(rgb: [f64; 3]) -> f64 {
-    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+    physics::colour::luminance(rgb.into())
 }
 
 /// A colour after its tone curve. `white`: the luminance that is white.

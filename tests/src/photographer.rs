@@ -8,6 +8,7 @@ use rapidity::gpu::{Gpu, GpuError};
 use rapidity::renderers::display::{Development, Gamut};
 use rapidity::renderers::image::MapQuality;
 use rapidity::renderers::picture::Studio;
+use rapidity::renderers::target::Format;
 use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::Scene;
 use std::sync::LazyLock;
@@ -54,6 +55,14 @@ impl Photographer {
     /// The plain world, as if light were infinitely fast.
     pub fn plain(&mut self, view: &View, eye: DVec3) -> RgbaImage {
         self.seen(view, eye, Celerity::ZERO, Effects::NONE)
+    }
+
+    /// The same as a window holds it, in half floats.
+    pub fn of_window(scene: &Scene, size: [u32; 2], method: Method) -> Self {
+        let format = Format::fast(1);
+        let renderer =
+            SceneRenderer::new(gpu(), scene, format, None, method).expect("scenes of tests have a finite origin");
+        Self { renderer, studio: Studio::with_format(gpu(), size, 1, format), size }
     }
 
     /// What an eye that moves sees, with these effects.

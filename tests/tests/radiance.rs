@@ -10,10 +10,12 @@ use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
 use physics::colour::{Spectrum, rgb_from_xyz, xyz_from_rgb};
 use physics::{Aberration, Beta, Celerity};
+use rapidity::renderers::image::MapQuality;
 use rapidity::renderers::{Effects, Method};
 use rapidity::scene::lattice::Lattice;
 use rapidity::scene::refine::refine;
 use rapidity::scene::{Material, Scene};
+use system_tests::colour::srgb_byte;
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::view::{View, middle};
 
@@ -156,4 +158,82 @@ fn light_far_brighter_than_the_screen_keeps_its_colour_on_file() {
     let brightest = light.pixels().map(|pixel| pixel.0[2]).fold(0.0, f32::max);
     let expected = (rgb_from_xyz() * spectrum.xyz(3.0)).z;
     assert!((f64::from(brightest) / expected - 1.0).abs() < TOLERANCE, "{brightest} instead of {expected}");
+}
+
+/// The renderers of windows, for coarse and fine.
+fn windows(scene: &Scene) -> [(Photographer, &'static str); 2] {
+    let map = Method::Image(MapQuality { texels_per_pixel: 1.5, smooth: true });
+    [
+        (Photographer::of_window(&refine(scene, 0.5).unwrap(), SIZE, Method::Polygon), "polygon"),
+        (Photographer::of_window(scene, SIZE, map), "image"),
+    ]
+}
+
+/// How far half floats may be off: two steps of theirs, of weights and of light.
+const HALF_TOLERANCE: f64 = 0.01 + 2.0 / 1024.0;
+
+#[test]
+fn half_floats_hold_black_bodies_of_any_brightness() {
+    // Red-hot to blue-white; a base colour that dims an absolute luminance of 1e10 cd/m² to that of a lamp.
+    for (kelvin, base, white) in [(2800.0, 1.0, None), (10_000.0, 4e-9, Some(100.0)), (10_000.0, 1.0, None)] {
+        let spectrum = Spectrum::planck(kelvin).unwrap();
+        let material =
+            Material { spectrum: Some(spectrum), base_colour: [base, base, base, 1.0], ..Material::default() };
+        let scene = Scene { white, ..room(material) };
+        for (mut photographer, name) in windows(&scene) {
+            for beta in [0.0, 0.5, 0.9] {
+                let view = view(at(0.5).vector());
+                let light = photographer.light(&view, DVec3::ZERO, at(beta), Effects::ALL);
+                let middle = light.get_pixel(SIZE[0] / 2, SIZE[1] / 2);
+                let (_, doppler) = Aberration::new(at(beta)).world_from_observer(view.look);
+                let expected =
+                    f64::from(base) * (rgb_from_xyz() * Spectrum::planck(kelvin * doppler).unwrap().xyz(1.0));
+                let seen = Vec3::from_array(middle.0).as_dvec3();
+                let error = (seen - expected).abs().max_element() / expected.max_element();
+                assert!(error < HALF_TOLERANCE, "{name}, {kelvin} K at {beta} c: {seen} instead of {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn half_floats_hold_the_whole_picture_at_high_speed() {
+    let scene = room(Material { base_colour: [0.5, 0.5, 0.5, 1.0], ..Material::default() });
+    for (mut photographer, name) in windows(&scene) {
+        let motion = Celerity::new(at(0.5).direction().unwrap() * 54.0).unwrap();
+        let light = photographer.light(&view(motion.vector()), DVec3::ZERO, motion, Effects::ALL);
+        let dark = light.pixels().filter(|pixel| pixel.0[1] <= 0.0).count();
+        assert_eq!(dark, 0, "{name}: pixels of {} that half floats have lost", light.pixels().len());
+    }
+}
+
+#[test]
+fn a_scene_in_candela_is_the_same_at_rest_with_any_effects() {
+    // A white wall in daylight of 80,000 lux, and what is shown as white a little darker.
+    let mut scene = room(Material { base_colour: [0.5, 0.25, 0.125, 1.0], ..Material::default() });
+    scene.materials[0].unlit = false;
+    scene.white = Some(25_000.0);
+    scene.light.sky = [20_000.0; 3];
+    scene.light.ground = [20_000.0; 3];
+    scene.light.sun = [0.0; 3];
+    for (mut photographer, name) in photographers(&scene) {
+        let mut picture = |effects| photographer.seen(&view(DVec3::X), DVec3::ZERO, Celerity::ZERO, effects);
+        let plain = picture(Effects::NONE);
+        let expected = [0.5, 0.25, 0.125].map(|colour| srgb_byte(colour * 0.8));
+        assert_eq!(plain.get_pixel(9, 9).0[..3], expected, "{name}");
+        for effects in ["geometry", "doppler", "searchlight", "doppler,searchlight", "all"] {
+            assert!(picture(effects.parse().unwrap()) == plain, "{name}: {effects} changes what stands still");
+        }
+    }
+}
+
+#[test]
+fn a_background_is_as_bright_as_it_is_said_to_be_whatever_is_white() {
+    let scene = Scene { white: Some(1e7), ..Scene::default() };
+    for method in [Method::Polygon, DEFAULT_MAP] {
+        let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.25, 0.5, 1.0]), method);
+        let picture = photographer.seen(&view(DVec3::X), DVec3::ZERO, Celerity::ZERO, Effects::ALL);
+        let expected = [0.25, 0.5, 1.0].map(srgb_byte);
+        assert!(picture.pixels().all(|pixel| pixel.0[..3] == expected), "{method:?}");
+    }
 }

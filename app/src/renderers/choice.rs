@@ -29,8 +29,9 @@ impl Choice {
     /// Chooses, unless the user has, and cuts triangles longer than `edge` metres where that is needed.
     ///
     /// # Errors
-    /// [`RefineError`] if that would make too many.
+    /// [`RefineError`] if that would make too many, or the scene breaks a promise.
     pub fn of(scene: Scene, wanted: Renderer, edge: f64, quality: MapQuality) -> Result<Self, RefineError> {
+        scene.validate()?;
         let triangles = scene.triangle_count();
         let (image, why): (bool, Cow<'_, str>) = match wanted {
             Renderer::Image => (true, "as asked".into()),

@@ -113,7 +113,11 @@ pub struct Studio {
 impl Studio {
     /// Makes the targets. `samples` per pixel; one sample is each pixel's centre.
     pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
-        let format = Self::format(gpu);
+        Self::with_format(gpu, size, samples, Self::format(gpu))
+    }
+
+    /// The same for renderers that draw in another format.
+    pub fn with_format(gpu: &Gpu, size: [u32; 2], samples: u32, format: Format) -> Self {
         let darkroom = Darkroom::new(gpu, size, format.colour);
         Self {
             size,

@@ -30,14 +30,18 @@ impl Shot {
         Celerity::new(self.eye.celerity()).unwrap_or_default()
     }
 
-    /// What radiance is multiplied by so that targets of `format` can hold it: the searchlight effect in the middle of the picture undone,
-    /// where floats are short.
-    pub fn scale(&self, format: Format) -> f64 {
-        if !self.effects.searchlight || format.colour == wgpu::TextureFormat::Rgba32Float {
+    /// What radiance is multiplied by so that short floats can hold it: the searchlight effect undone, as it is in the mean of a picture of
+    /// usual shape.
+    pub fn scale(&self) -> f64 {
+        const ASPECT: f64 = 1.6;
+        if !self.effects.searchlight {
             return 1.0;
         }
-        let doppler = self.camera.doppler_ahead(self.celerity(), self.effects.geometry);
-        doppler.powi(-4).clamp(1e-30, 1e30)
+        let steps = [-0.8, -0.4, 0.0, 0.4, 0.8];
+        let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x * ASPECT, y)));
+        let logs = places.map(|place| self.camera.doppler_at(place, self.celerity(), self.effects.geometry).ln());
+        let mean = logs.sum::<f64>() / (steps.len() * steps.len()) as f64;
+        (-4.0 * mean).exp().clamp(1e-30, 1e30)
     }
 }
 
@@ -107,7 +111,7 @@ impl SceneRenderer {
     pub fn stored(&self, shot: &Shot) -> Stored {
         Stored {
             white: self.white_luminance(),
-            scale: shot.scale(self.format),
+            scale: shot.scale(),
             shifted: shot.effects.shift_light() && shot.celerity() != Celerity::ZERO,
         }
     }
@@ -191,7 +195,7 @@ impl SceneRenderer {
         offset: DVec2,
     ) {
         let (celerity, geometry) = (shot.celerity(), shot.effects.geometry);
-        let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale(self.format));
+        let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale());
         let streams = match &mut self.way {
             Way::Image(image) if geometry => {
                 self.world.write_views(gpu, &[view]);

@@ -27,6 +27,9 @@ use physics::colour::Spectrum;
 /// before memory is asked for.
 pub const MAX_TRIANGLES: usize = 50_000_000;
 
+/// The most different spectra that a scene's materials may have: each takes a fifth of a second to prepare, and a layer of the map.
+pub const MAX_SPECTRA: usize = 64;
+
 /// A world at rest: geometry, materials, light, and a place to start from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -350,6 +353,21 @@ impl Scene {
             let beyond = mesh.indices.iter().find(|&&index| index as usize >= count)?;
             Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
         };
+        let spectra = || {
+            let mut different: Vec<(&Spectrum, bool)> = Vec::new();
+            for material in &self.materials {
+                if let Some(spectrum) = material.spectrum.as_ref().map(|spectrum| (spectrum, material.is_source()))
+                    && different.len() <= MAX_SPECTRA
+                    && !different.contains(&spectrum)
+                {
+                    different.push(spectrum);
+                }
+            }
+            let many = different.len() > MAX_SPECTRA;
+            many.then(|| {
+                format!("its materials have more than {MAX_SPECTRA} different spectra, which is all that can be drawn")
+            })
+        };
         let textures = self.textures.iter().find_map(texture);
         textures
             .or_else(|| self.materials.iter().find_map(material))
@@ -357,5 +375,6 @@ impl Scene {
             .or_else(|| spectrum(&self.illuminant, "the light"))
             .or_else(white)
             .or_else(panorama)
+            .or_else(spectra)
     }
 }

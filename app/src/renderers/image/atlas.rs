@@ -5,6 +5,8 @@ use crate::renderers::target::{DEPTH_FORMAT, Format, texture};
 
 /// Room beyond what is needed now, in parts of it: a little more speed should not ask for another texture.
 const SPARE: u32 = 8;
+/// What that makes of an area, and the gaps between panes.
+pub const WITH_SPARE: f64 = 1.3;
 
 /// The textures of a map.
 pub struct Atlas {
@@ -59,6 +61,11 @@ impl Atlas {
             }),
             depth: texture(gpu, "map's depth", size, DEPTH_FORMAT, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
         }
+    }
+
+    /// Texels of a layer.
+    pub fn texels(&self) -> u64 {
+        u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
     /// Whether there is room for `size`, and not far too much.

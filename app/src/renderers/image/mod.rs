@@ -53,7 +53,7 @@ const PANE_TEXELS: u32 = (size_of::<shaders::Pane>() / 16) as u32;
 const PANE_COST: f64 = 20e3;
 /// The same where the CPU draws, and a change of pipeline costs more.
 const PANE_COST_SOFTWARE: f64 = 60e3;
-/// Texels of a map at most: what a gigabyte holds.
+/// What a map may take, with its depth and room to spare.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// The map of a scene around an eye, and what looks it up.
@@ -122,7 +122,7 @@ impl ImageRenderer {
         let format = atlas::format(self.format);
         let texel_bytes = atlas::texel_bytes(format, layers);
         let sight = Sight::new(&shot.camera, size, shot.celerity());
-        let room = MOST_BYTES as f64 / texel_bytes as f64;
+        let room = MOST_BYTES as f64 / (texel_bytes as f64 * atlas::WITH_SPARE);
         // A smooth map costs the same at any speed: it has so many texels for each pixel of the picture, wherever they are needed.
         let budget = self.quality.texels_per_pixel.powi(2) * f64::from(size[0]) * f64::from(size[1]);
         let most_texels = if self.quality.smooth { budget.min(room) } else { room };
@@ -130,7 +130,7 @@ impl ImageRenderer {
         self.stats = MapStats {
             panes: plan.placed.len(),
             texels: plan.texels() as u64,
-            bytes: u64::from(plan.size[0]) * u64::from(plan.size[1]) * texel_bytes,
+            bytes: 0,
             texels_per_pixel: plan.texels_per_pixel,
             plan_ms: started.elapsed().as_secs_f64() * 1e3,
         };
@@ -148,8 +148,13 @@ impl ImageRenderer {
 
         let atlas = match self.atlas.take() {
             Some(atlas) if atlas.holds(plan.size) => atlas,
-            _ => Atlas::new(gpu, plan.size, format, layers),
+            old => {
+                // Let go of the old one first: two may not fit.
+                drop((old, self.group.take()));
+                Atlas::new(gpu, plan.size, format, layers)
+            }
         };
+        self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let draws = Draws { streams: None, mode: Mode::Weights, format, eye: shot.eye.position() };
         for layer in 0..layers {

@@ -58,7 +58,7 @@ struct Window {
     high: DVec2,
 }
 
-/// Cells of a face of the cube, or of one of its cells, row by row from below: −1 − the number of a pane, or the number of a layer.
+/// Cells of a quarter of a cube's face, or of one of its cells, row by row from the face's middle: −1 − the number of a pane, or the number of a layer.
 pub type Layer = [[i32; CELLS]; CELLS];
 
 const CELLS: usize = shaders::MAP_CELLS as usize;
@@ -80,7 +80,7 @@ pub struct Plan {
     pub placed: Vec<Placed>,
     /// For the shader; as long as `placed`.
     pub panes: Vec<Pane>,
-    /// For the shader: which pane is where, a layer for each face and for each cell of a layer that is cut further.
+    /// For the shader: which pane is where, a layer for each quarter of a face and for each cell that is cut further.
     pub cells: Vec<Layer>,
     /// For the shader.
     pub map: Map,
@@ -142,9 +142,9 @@ impl Sight {
         loop {
             let roots =
                 [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0));
-            let mut plan = Planner { placed: Vec::new(), cells: vec![NO_PANE; 6] };
+            let mut plan = Planner { placed: Vec::new(), cells: vec![NO_PANE; 4 * FACES.len()] };
             for (face, root) in roots.into_iter().enumerate() {
-                plan.fill(face, [0, 0], CELLS, root, -1);
+                plan.fill_face(face, root);
             }
             let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
             let size = pack(&mut plan.placed, texels, largest_side);
@@ -250,38 +250,72 @@ struct Planner {
 }
 
 impl Planner {
-    /// Fills a square of cells of a layer with what becomes of it. `nearby`: what is shown where nothing is drawn.
+    /// Fills the four quarters of a face with what becomes of it.
+    fn fill_face(&mut self, face: usize, root: Tree) {
+        let layer = |quarter: usize| 4 * face + quarter;
+        match root.kind {
+            // Below is before above, and left before right; quarters are counted from the right above.
+            Kind::Cut(parts) => {
+                let nearby = -(self.placed.len() as i32) - 1;
+                for (quarter, part) in [3, 2, 1, 0].into_iter().zip(*parts) {
+                    self.fill(Square { layer: layer(quarter), quarter, corner: [0, 0], side: CELLS }, part, nearby);
+                }
+            }
+            kind => {
+                let number = self.pane(kind, root.window, -1);
+                (0..4).for_each(|quarter| self.cells[layer(quarter)] = [[number; CELLS]; CELLS]);
+            }
+        }
+    }
+
+    /// Fills a square of cells with what becomes of it. `nearby`: what is shown where nothing is drawn.
     ///
     /// Nobody looks there but for rounding, which may send a pixel at an edge next door: it takes the nearest texel of a neighbour.
-    fn fill(&mut self, layer: usize, corner: [usize; 2], side: usize, tree: Tree, nearby: i32) {
-        let number = match tree.kind {
-            Kind::Unseen => nearby,
-            Kind::Pane(size) => {
-                self.placed.push(Placed { window: tree.window, size, place: [0; 2] });
-                -(self.placed.len() as i32)
-            }
-            Kind::Cut(parts) => {
-                // A single cell has no room for four: a layer of its own has.
-                let (layer, [x, y], half) = if side == 1 {
-                    self.cells.push(NO_PANE);
-                    let below = self.cells.len() - 1;
-                    self.cells[layer][corner[1]][corner[0]] = below as i32;
-                    (below, [0, 0], CELLS / 2)
-                } else {
-                    (layer, corner, side / 2)
-                };
-                let next = -(self.placed.len() as i32) - 1;
-                let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
-                for (corner, part) in corners.into_iter().zip(*parts) {
-                    self.fill(layer, corner, half, part, next);
-                }
+    fn fill(&mut self, square: Square, tree: Tree, nearby: i32) {
+        let Square { layer, quarter, corner: [x, y], side } = square;
+        let parts = match tree.kind {
+            Kind::Cut(parts) => parts,
+            kind => {
+                let number = self.pane(kind, tree.window, nearby);
+                self.cells[layer][y..y + side].iter_mut().for_each(|row| row[x..x + side].fill(number));
                 return;
             }
         };
-        for row in &mut self.cells[layer][corner[1]..corner[1] + side] {
-            row[corner[0]..corner[0] + side].fill(number);
+        // A single cell has no room for four: a layer of its own has.
+        let (layer, [x, y], half) = if side == 1 {
+            self.cells.push(NO_PANE);
+            let below = self.cells.len() - 1;
+            self.cells[layer][y][x] = below as i32;
+            (below, [0, 0], CELLS / 2)
+        } else {
+            (layer, [x, y], side / 2)
+        };
+        let nearby = -(self.placed.len() as i32) - 1;
+        for (part, tree) in (*parts).into_iter().enumerate() {
+            // In quarters left of the middle, or below it, cells count the other way.
+            let [right, above] = [0, 1].map(|axis| (part >> axis & 1) ^ (quarter >> axis & 1));
+            let corner = [x + half * right, y + half * above];
+            self.fill(Square { layer, quarter, corner, side: half }, tree, nearby);
         }
     }
+
+    /// The number of what is no cut.
+    fn pane(&mut self, kind: Kind, window: Window, nearby: i32) -> i32 {
+        let Kind::Pane(size) = kind else { return nearby };
+        self.placed.push(Placed { window, size, place: [0; 2] });
+        -(self.placed.len() as i32)
+    }
+}
+
+/// A square of cells.
+#[derive(Clone, Copy)]
+struct Square {
+    layer: usize,
+    /// Of the face: 1 is left of the middle, 2 below it, 3 both.
+    quarter: usize,
+    /// The cell nearest to the face's middle, of a layer of cells.
+    corner: [usize; 2],
+    side: usize,
 }
 
 /// Places panes in rows, the highest first. Returns the size of the whole.
@@ -330,8 +364,8 @@ mod tests {
     /// The pane that a place on the cube is looked up in, if it holds it.
     fn find(plan: &Plan, face: usize, at: DVec2) -> Option<&Placed> {
         let side = CELLS as f64;
-        let mut within = (0.5 * at + 0.5) * side;
-        let mut found = face as i32;
+        let mut within = at.abs() * side;
+        let mut found = 4 * face as i32 + i32::from(at.x < 0.0) + 2 * i32::from(at.y < 0.0);
         while found >= 0 {
             let cell = within.floor().clamp(DVec2::ZERO, DVec2::splat(side - 1.0));
             found = plan.cells[found as usize][cell.y as usize][cell.x as usize];
@@ -361,7 +395,7 @@ mod tests {
 
     #[test]
     fn every_pixel_finds_a_pane_with_enough_texels() {
-        for gamma_minus_one in [0.0, 0.15, 1.3, 70.0, 1e4] {
+        for gamma_minus_one in [0.0, 0.15, 1.3, 70.0, 1e4, 1e6] {
             let celerity = Celerity::new(
                 DVec3::new(0.1, 0.2, -1.0).normalize() * f64::sqrt(gamma_minus_one * (gamma_minus_one + 2.0)),
             );

@@ -1,6 +1,6 @@
 //! Materials on the GPU: a uniform and two textures each.
 
-use super::spectra::{Carriers, Spectra};
+use super::spectra::{Spectra, WHITE};
 use crate::gpu::Gpu;
 use crate::scene::mipmap::mipmap;
 use crate::scene::{Alpha, Material, Scene, Texture, Wrap};
@@ -49,10 +49,11 @@ impl Materials {
             .materials
             .iter()
             .zip(&spectra.materials)
-            .map(|(material, carriers)| {
+            .map(|(material, &carrier)| {
                 let texture = |index: Option<usize>| &textures[index.unwrap_or(scene.textures.len())];
                 let (base, emissive) = (texture(material.base_colour_texture), texture(material.emissive_texture));
-                bind(gpu, &layout, material, *carriers, base, emissive)
+                let carriers = [carrier, WHITE].map(|carrier| (carrier as f32, spectra.factor(carrier)));
+                bind(gpu, &layout, material, carriers, base, emissive)
             })
             .collect();
         Self { layout, bind_groups }
@@ -65,7 +66,7 @@ fn bind(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     material: &Material,
-    carriers: Carriers,
+    [surface, emission]: [(f32, f32); 2],
     base: &Sampled,
     emissive: &Sampled,
 ) -> wgpu::BindGroup {
@@ -74,7 +75,7 @@ fn bind(
     let uniform = shaders::Material {
         base_colour: Vec4::from_array(material.base_colour),
         emissive: Vec4::new(red, green, blue, threshold),
-        carriers: Vec4::new(carriers.surface as f32, carriers.emission as f32, 0.0, 0.0),
+        carriers: Vec4::new(surface.0, emission.0, surface.1, emission.1),
     };
     let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(&material.name),

@@ -100,7 +100,8 @@ impl World {
 
     /// Triangles that a draw of everything takes.
     pub fn triangle_count(&self) -> u64 {
-        self.geometry.indices.size() / 12
+        let draws = self.geometry.opaque.iter().chain(&self.geometry.blended);
+        draws.map(|draw| draw.indices.len() as u64 / 3).sum()
     }
 
     /// Layout of the group that holds view, light and spectra.

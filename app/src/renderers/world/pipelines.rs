@@ -5,7 +5,7 @@
 
 use super::geometry::Attributes;
 use super::materials::Materials;
-use super::spectra::{Carriers, Spectra};
+use super::spectra::{Spectra, WHITE};
 use crate::gpu::Gpu;
 use crate::renderers::Effects;
 use crate::renderers::target::{DEPTH_FORMAT, Format};
@@ -75,8 +75,8 @@ impl Pipelines {
         Self {
             surface_module: module(shaders::SURFACE),
             sky_module: module(shaders::SKY),
-            looks: looks.map(|(material, carriers)| Look::of(material, *carriers)).collect(),
-            sky_identity: spectra.sky == spectra.white,
+            looks: looks.map(|(material, carrier)| Look::of(material, *carrier)).collect(),
+            sky_identity: spectra.sky == WHITE,
             panorama: scene.panorama.is_some(),
             shadows: scene.light.shadows,
             made: Vec::new(),
@@ -211,12 +211,12 @@ struct Look {
 }
 
 impl Look {
-    fn of(material: &Material, carriers: Carriers) -> Self {
+    fn of(material: &Material, carrier: usize) -> Self {
         let spectral = material.spectrum.is_some();
         // A spectrum on an emissive material is all that it sends out.
         let source = material.unlit || (spectral && material.is_source());
         let emissive = !source && material.emissive != [0.0; 3];
-        let split = emissive && carriers.surface != carriers.emission;
+        let split = emissive && carrier != WHITE;
         Self {
             blended: material.alpha == Alpha::Blend,
             double_sided: material.double_sided,
@@ -225,7 +225,7 @@ impl Look {
             masked: matches!(material.alpha, Alpha::Mask(_)),
             spectral,
             split,
-            identity: carriers.surface == carriers.emission,
+            identity: carrier == WHITE,
         }
     }
 

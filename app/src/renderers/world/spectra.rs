@@ -5,32 +5,33 @@
 //! carriers is worked out once, on all cores, and the shaders look it up (B eq. 2.16, 2.17).
 
 use crate::gpu::Gpu;
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
+use glam::DVec3;
 use physics::colour::{Carrier, ShiftTable};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
+/// The carrier whose weights are linear sRGB: of plain colours, of a background and of a panorama.
+pub const WHITE: usize = 0;
+
+/// Luminances below this, cd/m², are none: a carrier that dark at rest is not measured by what it is at rest.
+const DARKEST: f64 = 1e-30;
+
 /// The carriers of a scene, each once.
+///
+/// Weights are given to the shaders relative to what is white at rest, whatever the carrier: absolute luminance differs by many orders of
+/// magnitude from black body to black body, and half floats hold but few. [`Spectra::factor`] says by how much.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectra {
     /// What weights are on.
     pub carriers: Vec<Carrier>,
-    /// One for each material, in the scene's order.
-    pub materials: Vec<Carriers>,
+    /// The carrier of what each material reflects or, unlit, sends out, in the scene's order.
+    pub materials: Vec<usize>,
     /// Carrier of the sky.
     pub sky: usize,
-    /// The carrier whose weights are linear sRGB: of a background and of a panorama.
-    pub white: usize,
     /// Luminance that is white at rest, cd/m².
     pub white_luminance: f64,
-}
-
-/// A material's carriers, as indices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Carriers {
-    /// Of what it reflects or, unlit, sends out.
-    pub surface: usize,
-    /// Of what it emits besides.
-    pub emission: usize,
+    /// Of each carrier at rest with weights of 1, cd/m².
+    luminances: Vec<f64>,
 }
 
 impl Spectra {
@@ -43,29 +44,37 @@ impl Spectra {
                 carriers.len() - 1
             })
         };
-        let materials = scene
-            .materials
-            .iter()
-            .map(|material| {
-                let emission = 0;
-                let surface = match &material.spectrum {
-                    Some(spectrum) if material.is_source() => number(Carrier::emitted(spectrum.clone())),
-                    None if material.unlit => emission,
-                    reflectance => number(Carrier::reflected(reflectance.clone(), scene.illuminant.clone())),
-                };
-                Carriers { surface, emission }
-            })
-            .collect();
+        let carrier_of = |material: &Material| match &material.spectrum {
+            Some(spectrum) if material.is_source() => Carrier::emitted(spectrum.clone()),
+            None if material.unlit => Carrier::white(),
+            reflectance => Carrier::reflected(reflectance.clone(), scene.illuminant.clone()),
+        };
+        let materials = scene.materials.iter().map(|material| number(carrier_of(material))).collect();
         let sky = number(Carrier::reflected(None, scene.illuminant.clone()));
-        Self { carriers, materials, sky, white: 0, white_luminance: scene.white_luminance() }
+        let at_rest = |carrier: &Carrier| {
+            let luminance = (carrier.xyz_from_weights(1.0) * DVec3::ONE).y;
+            if luminance > DARKEST { luminance } else { 1.0 }
+        };
+        let luminances = carriers.iter().map(at_rest).collect();
+        Self { carriers, materials, sky, white_luminance: scene.white_luminance(), luminances }
     }
 
-    /// The shift table for the shaders, with luminances relative to the scene's white.
+    /// What weights on a carrier are multiplied by to be relative to the scene's white.
+    pub fn factor(&self, carrier: usize) -> f32 {
+        (self.luminances[carrier] / self.white_luminance) as f32
+    }
+
+    /// The shift table for the shaders: of weights relative to white.
     pub fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
         let table = ShiftTable::new(&self.carriers, shaders::SHIFT_NODES as usize);
-        let log_white = self.white_luminance.log2() as f32;
-        let texels: Vec<[f32; 4]> =
-            table.texels().iter().map(|&[r, g, b, log_y]| [r, g, b, log_y - log_white]).collect();
+        let rows_of_a_carrier = 3 * shaders::SHIFT_NODES as usize;
+        let carriers = table.texels().chunks_exact(rows_of_a_carrier).zip(&self.luminances);
+        let texels: Vec<[f32; 4]> = carriers
+            .flat_map(|(texels, luminance)| {
+                let log = luminance.log2() as f32;
+                texels.iter().map(move |&[red, green, blue, log_y]| [red, green, blue, log_y - log])
+            })
+            .collect();
         let descriptor = wgpu::TextureDescriptor {
             label: Some("shift table"),
             size: wgpu::Extent3d {

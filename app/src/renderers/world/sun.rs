@@ -113,7 +113,7 @@ fn lighting(scene: &Scene, spectra: &Spectra, background: Option<[f32; 3]>) -> s
         sky: colour(light.sky),
         ground: colour(light.ground),
         zenith: colour(light.zenith).with_w(spectra.sky as f32),
-        horizon: colour(light.horizon).with_w(spectra.white as f32),
+        horizon: colour(light.horizon).with_w(spectra.factor(spectra.sky)),
         background: background.map_or(Vec4::ZERO, |b| colour(b).with_w(1.0)),
     }
 }
