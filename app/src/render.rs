@@ -163,6 +163,7 @@ impl<'gpu> Cameraman<'gpu> {
         if let Some(moment) = &next {
             self.submit(&moment.gaze)?;
         }
+        let mut done = 0;
         while let Some(moment) = next {
             next = if stop.load(Ordering::Relaxed) { None } else { moments.next().transpose()? };
             if let Some(moment) = &next {
@@ -172,9 +173,13 @@ impl<'gpu> Cameraman<'gpu> {
             if !film.add(self.take(&moment.gaze, elapsed_s)?) {
                 break;
             }
+            done += 1;
             bar.inc(1);
         }
         bar.finish_and_clear();
+        if done < count && stop.load(Ordering::Relaxed) {
+            eprintln!("interrupted: the film ends after {done} of {count} pictures");
+        }
         match film.finish()? {
             Written::Film(path) => eprintln!("wrote {}", path.display()),
             Written::Pictures(folder) => eprintln!(

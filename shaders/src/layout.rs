@@ -96,7 +96,7 @@ pub struct Accumulate {
 pub struct Metering {
     /// Exposure over the texture's scale, if it is not automatic.
     pub exposure: f32,
-    /// Base-2 logarithm of the exposure, if it is not automatic.
+    /// Base-2 logarithm of the exposure, or of what is added to the automatic one.
     pub log2_exposure: f32,
     /// Base-2 logarithm of the texture's scale.
     pub log2_scale: f32,

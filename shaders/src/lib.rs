@@ -43,6 +43,8 @@ pub const METER_BINS: u32 = 1024;
 pub const METER_BINS_PER_OCTAVE: f32 = 4.0;
 /// Doublings from 1 to either end of the histogram.
 pub const METER_OCTAVES: f32 = METER_BINS as f32 / METER_BINS_PER_OCTAVE / 2.0;
+/// Doublings below the brightest gain that the mean gain reaches down to.
+pub const METER_REACH: f32 = 8.0;
 /// Share of the samples that the mean gain leaves out at either end.
 pub const METER_TRIM_PERCENT: u32 = 10;
 /// Share of the samples that are darker than what is shown as white.
@@ -168,6 +170,7 @@ fn constants() -> String {
         ("LARGEST_LOG2", LARGEST_LOG2),
         ("METER_BINS_PER_OCTAVE", METER_BINS_PER_OCTAVE),
         ("METER_OCTAVES", METER_OCTAVES),
+        ("METER_REACH", METER_REACH),
         ("SCREEN_OCTAVES", SCREEN_OCTAVES),
         ("HISTOGRAM_TOLERANCE", HISTOGRAM_TOLERANCE),
         ("FILMIC_A", FILMIC[0]),

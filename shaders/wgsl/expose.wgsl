@@ -32,11 +32,18 @@ fn expose(@builtin(local_invocation_index) thread: u32) {
     var from_below = below[thread];
     for (var own = 0u; own < OWN; own++) {
         let end = from_below + counts[own];
-        let kept = max(min(end, samples - trimmed), trimmed) - min(max(from_below, trimmed), samples - trimmed);
-        sums[thread] += f32(kept) * means[own];
         if (from_below < rank && rank <= end) {
             bright = means[own];
         }
+        from_below = end;
+    }
+    workgroupBarrier();
+    // What is far darker than the brightest could not be shown beside it: it counts as that dark and no darker.
+    from_below = below[thread];
+    for (var own = 0u; own < OWN; own++) {
+        let end = from_below + counts[own];
+        let kept = max(min(end, samples - trimmed), trimmed) - min(max(from_below, trimmed), samples - trimmed);
+        sums[thread] += f32(kept) * max(means[own], bright - METER_REACH);
         from_below = end;
     }
     workgroupBarrier();
@@ -57,8 +64,9 @@ fn expose(@builtin(local_invocation_index) thread: u32) {
     adaptation.log2_exposure = metering.log2_exposure;
     adaptation.exposure = metering.exposure;
     if (metering.automatic == 1u) {
-        adaptation.log2_exposure = -adaptation.gain;
-        adaptation.exposure = exp2(clamp(-adaptation.gain - metering.log2_scale, -LARGEST_LOG2, LARGEST_LOG2));
+        adaptation.log2_exposure = metering.log2_exposure - adaptation.gain;
+        let stops = adaptation.log2_exposure - metering.log2_scale;
+        adaptation.exposure = exp2(clamp(stops, -LARGEST_LOG2, LARGEST_LOG2));
     }
     adaptation.white = exp2(max(0.0, adaptation.bright + adaptation.log2_exposure));
 }

@@ -120,11 +120,13 @@ pub fn in_gamut(gamut: Gamut, rgb: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// Mean of the base-2 logarithms of gains without the lowest and the highest tenth, and the gain's logarithm that 99 of 100 do not exceed.
+/// Mean of the base-2 logarithms of gains without the lowest and the highest tenth, none taken to be more than eight below the brightest; and the
+/// brightest: the logarithm that 99 of 100 do not exceed.
 pub fn adapted(gains: &[f64]) -> (f64, f64) {
     let mut sorted: Vec<f64> = gains.iter().map(|gain| gain.log2()).collect();
     sorted.sort_by(f64::total_cmp);
     let trimmed = sorted.len() / 10;
     let kept = &sorted[trimmed..sorted.len() - trimmed];
-    (kept.iter().sum::<f64>() / kept.len() as f64, sorted[(sorted.len() * 99).div_ceil(100) - 1])
+    let bright = sorted[(sorted.len() * 99).div_ceil(100) - 1];
+    (kept.iter().map(|gain| gain.max(bright - 8.0)).sum::<f64>() / kept.len() as f64, bright)
 }

@@ -35,7 +35,7 @@ fn fixed(stops: f32, tone: Tone) -> Development {
 }
 
 fn automatic(tone: Tone) -> Development {
-    Development { exposure: Exposure::Auto, ..fixed(0.0, tone) }
+    Development { exposure: Exposure::AUTO, ..fixed(0.0, tone) }
 }
 
 /// Greys of these luminances, seen with a gain.
@@ -72,7 +72,7 @@ fn at_rest_the_screen_shows_the_colours_themselves() {
             assert!((f64::from(*shown) - exact).abs() < SHADER, "{value}: {shown} instead of {exact}");
         }
     }
-    for exposure in [Exposure::Auto, Exposure::WHITE] {
+    for exposure in [Exposure::AUTO, Exposure::WHITE] {
         for tone in [Tone::Linear, Tone::Reinhard] {
             for gamut in GAMUTS {
                 let development = Development { exposure, tone, gamut };
@@ -233,7 +233,7 @@ fn tone_curves_rise_from_black_to_white_over_twenty_decades() {
     let mut eye = Onlooker::new();
     let ramp: Vec<f64> = (0..1024).map(|step| 10.0_f64.powf(-10.0 + 20.0 * f64::from(step) / 1023.0)).collect();
     let texels = greys(ramp.iter().map(|gain| (1.0, *gain)));
-    for exposure in [Exposure::Auto, Exposure::WHITE, Exposure::Stops(60.0), Exposure::Stops(-60.0)] {
+    for exposure in [Exposure::AUTO, Exposure::WHITE, Exposure::Stops(60.0), Exposure::Stops(-60.0)] {
         for tone in TONES.into_iter().chain([Tone::Histogram]) {
             let development = Development { exposure, tone, gamut: Gamut::Desaturate };
             let shown = eye.shown(32, &texels, SHIFTED, development, None);
@@ -266,7 +266,7 @@ fn what_is_infinite_is_white_and_what_is_no_number_black() {
     frame.extend([[0.25; 4]; 58]);
     for stored in [Stored::UNSHIFTED, SHIFTED, Stored { scale: 1e-200, ..SHIFTED }, Stored { scale: 1e200, ..SHIFTED }]
     {
-        for exposure in [Exposure::Auto, Exposure::WHITE] {
+        for exposure in [Exposure::AUTO, Exposure::WHITE] {
             for tone in TONES.into_iter().chain([Tone::Histogram]) {
                 for gamut in GAMUTS {
                     let development = Development { exposure, tone, gamut };

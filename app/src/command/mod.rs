@@ -49,6 +49,12 @@ pub enum Command {
     /// Write the built-in old town to a glTF file.
     Town(TownOptions),
     /// Answer questions about relativity: JSON Lines from standard input to standard output.
+    ///
+    /// A question names itself by "ask" and gives its keys; lengths and times are in metres, c = 1, velocities are a "celerity" (gamma v/c) or
+    /// a "beta" (v/c), of three numbers each. Questions: aberration {direction}, boost {event}, compose {vehicle, head}, apparent {observer,
+    /// source}, eyes {observer, separation, right}, worldline {start, legs, step}, perceived {eyes, source, time}, and
+    /// colour {spectrum: {planck: kelvin} or {sampled: [[nm, W/sr/m³], …]} or {rgb: [r, g, b]}, D: ν observed over ν emitted},
+    /// answered by xyz in cd/m² and linear sRGB.
     Probe,
     /// List the input devices that are plugged in, with live values.
     Devices(DevicesOptions),

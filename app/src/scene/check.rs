@@ -195,7 +195,10 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
     }
     // What a white surface in light of the colour 1 is of what is shown as white.
     let white = scene.white_luminance();
-    let lit = scene.illuminant.as_ref().map_or(1.0, |spectrum| spectrum.xyz(1.0).y) / white;
+    let anything_lit =
+        scene.materials.iter().any(|material| !(material.unlit || material.spectrum.is_some() && material.is_source()));
+    let lit =
+        if anything_lit { scene.illuminant.as_ref().map_or(1.0, |spectrum| spectrum.xyz(1.0).y) / white } else { 0.0 };
     let greatest = |colour: [f32; 3]| colour.into_iter().map(f64::from).fold(0.0, f64::max);
     let (brightest, sky) = (greatest(scene.light.sun) * lit, greatest(scene.light.sky) * lit);
     let advice = "name their luminance in cd/m² as extras.rapidity.white of the scene, or dim the sun to π lux";

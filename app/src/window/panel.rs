@@ -131,15 +131,16 @@ fn light(ui: &mut Ui, development: &mut Development) {
     ui.label("Exposure");
     ui.horizontal(|ui| {
         let exposure = &mut development.exposure;
-        ui.selectable_value(exposure, Exposure::Auto, "auto");
-        ui.selectable_value(exposure, Exposure::WHITE, "white");
-        let mut stops = match *exposure {
-            Exposure::Auto => 0.0,
-            Exposure::Stops(stops) => stops,
-        };
+        if ui.selectable_label(matches!(exposure, Exposure::Auto(_)), "auto").clicked() {
+            *exposure = Exposure::AUTO;
+        }
+        if ui.selectable_label(matches!(exposure, Exposure::Stops(_)), "white").clicked() {
+            *exposure = Exposure::WHITE;
+        }
+        let mut stops = exposure.stops();
         let slider = Slider::new(&mut stops, -10.0..=10.0).fixed_decimals(1).clamping(egui::SliderClamping::Edits);
         if ui.add(slider).changed() {
-            *exposure = Exposure::Stops(0.0).changed(stops);
+            *exposure = exposure.changed(stops - exposure.stops());
         }
     });
     ui.end_row();

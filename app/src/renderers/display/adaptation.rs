@@ -124,10 +124,7 @@ impl Meter {
         adaptation.metered = now;
 
         // An exposure that is known without looking.
-        let stops = match development.exposure {
-            Exposure::Auto => 0.0,
-            Exposure::Stops(stops) => stops,
-        };
+        let stops = development.exposure.stops();
         let exposure = factor(f64::from(stops).exp2() / stored.scale);
         if !now.gains {
             let state = shaders::Adaptation {
@@ -151,7 +148,7 @@ impl Meter {
             log2_exposure: stops,
             log2_scale: stored.scale.log2() as f32,
             share: seen.elapsed_s.filter(|_| !fresh).map_or(1.0, share),
-            automatic: u32::from(development.exposure == Exposure::Auto),
+            automatic: u32::from(matches!(development.exposure, Exposure::Auto(_))),
             gains: u32::from(now.gains),
             luminances: u32::from(now.luminances),
         };

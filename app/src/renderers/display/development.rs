@@ -20,11 +20,10 @@ pub struct Development {
 }
 
 /// How bright the picture is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// As bright as the same surfaces are at rest, on the average over the picture.
-    #[default]
-    Auto,
+    /// As bright as the same surfaces are at rest, on the average over the picture, and so many stops brighter.
+    Auto(f32),
     /// So many stops brighter than with the world's own white shown as white; a stop is a factor of two.
     Stops(f32),
 }
@@ -32,21 +31,36 @@ pub enum Exposure {
 impl Exposure {
     /// What is white at rest is shown as white.
     pub const WHITE: Self = Self::Stops(0.0);
+    /// As bright as at rest.
+    pub const AUTO: Self = Self::Auto(0.0);
 
-    /// Brighter by `stops`, automatic no more.
+    /// Stops from what it starts from: white, or what is automatic.
+    pub fn stops(self) -> f32 {
+        let (Self::Auto(stops) | Self::Stops(stops)) = self;
+        stops
+    }
+
+    /// Brighter by `stops`, from where it is; automatic if it was.
     pub fn changed(self, stops: f32) -> Self {
-        let from = match self {
-            Self::Auto => 0.0,
-            Self::Stops(stops) => stops,
-        };
-        Self::Stops((from + stops).clamp(-MOST_STOPS, MOST_STOPS))
+        let changed = (self.stops() + stops).clamp(-MOST_STOPS, MOST_STOPS);
+        match self {
+            Self::Auto(_) => Self::Auto(changed),
+            Self::Stops(_) => Self::Stops(changed),
+        }
+    }
+}
+
+impl Default for Exposure {
+    fn default() -> Self {
+        Self::AUTO
     }
 }
 
 impl Display for Exposure {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Auto => formatter.write_str("auto"),
+            Self::Auto(stops) if *stops == 0.0 => formatter.write_str("auto"),
+            Self::Auto(stops) => write!(formatter, "auto{stops:+}"),
             Self::Stops(stops) if *stops == 0.0 => formatter.write_str("white"),
             Self::Stops(stops) => write!(formatter, "{stops:+}"),
         }
@@ -55,20 +69,23 @@ impl Display for Exposure {
 
 /// A text that names no exposure.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("expected auto, white, or a number of stops from -{MOST_STOPS} to {MOST_STOPS}, as in -1.5")]
+#[error("expected auto, white, or a number of stops from -{MOST_STOPS} to {MOST_STOPS}, as in -1.5 or auto+1")]
 pub struct ExposureError;
 
 impl FromStr for Exposure {
     type Err = ExposureError;
 
     fn from_str(text: &str) -> Result<Self, ExposureError> {
-        match text.trim() {
-            "auto" => Ok(Self::Auto),
-            "white" => Ok(Self::WHITE),
-            number => match number.parse::<f32>() {
-                Ok(stops) if stops.abs() <= MOST_STOPS => Ok(Self::Stops(stops)),
-                _ => Err(ExposureError),
-            },
+        let text = text.trim();
+        let stops = |text: &str| match text.parse::<f32>() {
+            Ok(stops) if stops.abs() <= MOST_STOPS => Ok(stops),
+            _ => Err(ExposureError),
+        };
+        match (text, text.strip_prefix("auto")) {
+            ("white", _) => Ok(Self::WHITE),
+            (_, Some("")) => Ok(Self::AUTO),
+            (_, Some(more)) if more.starts_with(['+', '-']) => stops(more).map(Self::Auto),
+            _ => stops(text).map(Self::Stops),
         }
     }
 }
@@ -123,7 +140,8 @@ mod tests {
     #[test]
     fn exposures_survive_their_text() {
         for (text, exposure) in [
-            ("auto", Exposure::Auto),
+            ("auto", Exposure::AUTO),
+            ("auto-0.5", Exposure::Auto(-0.5)),
             ("white", Exposure::WHITE),
             ("+2", Exposure::Stops(2.0)),
             ("-1.5", Exposure::Stops(-1.5)),
@@ -139,7 +157,7 @@ mod tests {
 
     #[test]
     fn a_change_leaves_automatic_from_white_and_stops_at_the_ends() {
-        assert_eq!(Exposure::Auto.changed(0.5), Exposure::Stops(0.5));
+        assert_eq!(Exposure::AUTO.changed(0.5), Exposure::Auto(0.5));
         assert_eq!(Exposure::Stops(-1.0).changed(-0.5), Exposure::Stops(-1.5));
         assert_eq!(Exposure::Stops(MOST_STOPS).changed(0.5), Exposure::Stops(MOST_STOPS));
     }

@@ -138,7 +138,8 @@ impl Sight {
             let place = DVec2::new(column as f64, row as f64) * (2.0 / STEPS as f64) - 1.0;
             self.pixel(part.direction(place))
         };
-        let near = 1.25 * self.half_size;
+        // At least as far as a part can be seen that is only just in sight.
+        let near = 1.25 * self.half_size + 2.0;
         let shown = |pixel: DVec2| pixel.abs().cmple(near).all();
         let (mut most, mut squares, mut counts) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
         let (mut behind, mut inside) = (false, true);
