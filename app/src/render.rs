@@ -124,6 +124,7 @@ impl<'gpu> Cameraman<'gpu> {
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         self.submit(&gaze)?;
         let picture = self.take(&gaze, None)?;
+        self.tell_of_map();
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -137,6 +138,7 @@ impl<'gpu> Cameraman<'gpu> {
         self.submit(&gaze)?;
         let shot = shot(&gaze, self.options.fov, self.options.effects);
         let light = self.studio.expose(self.gpu, &mut self.renderer, &shot)?;
+        self.tell_of_map();
         exr::save(&light, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -188,6 +190,20 @@ impl<'gpu> Cameraman<'gpu> {
             ),
         }
         Ok(())
+    }
+
+    /// Says if the map could not be as fine as was wanted.
+    fn tell_of_map(&self) {
+        let wanted = self.options.map_of_pictures().texels_per_pixel;
+        if let Some(stats) = self.renderer.map_stats()
+            && stats.panes > 0
+            && stats.texels_per_pixel < 0.99 * wanted
+        {
+            eprintln!(
+                "the map had room for {:.1} texels a pixel along each axis instead of {wanted}; a smaller --size has more",
+                stats.texels_per_pixel
+            );
+        }
     }
 
     fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {

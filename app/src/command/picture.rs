@@ -66,19 +66,7 @@ impl PictureOptions {
     pub fn development(&self) -> Development {
         Development { exposure: self.exposure, tone: self.tone, gamut: self.gamut }
     }
-}
 
-fn renderer(text: &str) -> Result<Renderer, ValueError> {
-    match text {
-        "auto" => Ok(Renderer::Auto),
-        "polygon" => Ok(Renderer::Polygon),
-        "image" => Ok(Renderer::Image),
-        "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
-        _ => Err(ValueError::Renderer),
-    }
-}
-
-impl PictureOptions {
     /// How finely the image renderer's map is drawn for pictures that are kept.
     ///
     /// One sample a pixel is the light of one ray, so the map must be fine, and its texels must not be mixed; several samples mix by themselves.
@@ -91,5 +79,15 @@ impl PictureOptions {
     pub fn map_of_windows(&self, software: bool) -> MapQuality {
         let usual = if software { 0.9 } else { 1.5 };
         MapQuality { texels_per_pixel: self.map_scale.unwrap_or(usual), smooth: true }
+    }
+}
+
+fn renderer(text: &str) -> Result<Renderer, ValueError> {
+    match text {
+        "auto" => Ok(Renderer::Auto),
+        "polygon" => Ok(Renderer::Polygon),
+        "image" => Ok(Renderer::Image),
+        "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
+        _ => Err(ValueError::Renderer),
     }
 }
