@@ -15,6 +15,7 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
     sorted[((sorted.len() - 1) as f64 * share).round() as usize]
 }
 
+/// The middle one.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }

@@ -3,8 +3,8 @@
 //! Light that reaches the eye now left what is at rest in the world on straight lines, so an ordinary picture of all directions, drawn in the world
 //! frame from where the eye is, holds all that the observer sees. First that map is drawn: linear weights on the scene's spectra, into
 //! an atlas of `panes`, as fine as the picture needs it and only where the picture sees it. Then each pixel's direction is taken to the world by
-//! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut; the cost hardly
-//! depends on the speed.
+//! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut. The texels do
+//! not grow with the speed, but the panes do, slowly.
 
 mod atlas;
 mod panes;
@@ -62,8 +62,7 @@ pub struct ImageRenderer {
     group_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     format: Format,
-    /// As the user wants it.
-    pub quality: MapQuality,
+    quality: MapQuality,
     atlas: Option<Atlas>,
     group: Option<wgpu::BindGroup>,
     pipelines: Vec<(Effects, bool, wgpu::RenderPipeline)>,

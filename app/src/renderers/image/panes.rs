@@ -448,6 +448,22 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_of_a_few_pixels_takes_a_few_panes() {
+        // Parts that are in sight but between the points of every grid would be cut without end.
+        for size in [[1, 1], [640, 1], [1, 4096], [1000, 3]] {
+            for gamma in [1.0, 1.7, 70.0] {
+                let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
+                for look in looks() {
+                    let plan =
+                        Sight::new(&Camera::looking(look, DVec3::Y, 1.1), size, celerity).plan(EXACT, MANY, 1 << 20);
+                    let panes = plan.placed.len();
+                    assert!((1..1000).contains(&panes), "{panes} panes for {size:?} pixels at γ = {gamma} to {look}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn panes_do_not_overlap_in_the_atlas() {
         let celerity = Celerity::new(DVec3::new(1.0, 0.0, -2.0)).expect("a finite celerity");
         let plan = Sight::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE, celerity).plan(EXACT, MANY, 1 << 20);
