@@ -13,6 +13,7 @@ pub mod frame;
 pub mod gpu;
 pub mod live;
 pub mod log;
+pub mod measure;
 pub mod pace;
 pub mod photo;
 pub mod probe;

@@ -222,7 +222,7 @@ fn onlooker(said: &[Sample]) -> Vec<Action> {
 pub fn gaze(frame: &Frame) -> Result<Gaze, Error> {
     let observer = frame.eye.observer;
     let eye = Eye::new(observer.event.position, observer.celerity.vector())?;
-    Ok(Gaze { eye, observer_from_eye: frame.eye.orientation })
+    Ok(Gaze { eye, ct: observer.event.ct, observer_from_eye: frame.eye.orientation })
 }
 
 /// The first of `stem-001.extension`, `stem-002.extension`, … that is not there yet.

@@ -3,7 +3,7 @@
 use rapidity::command::{self, Command};
 use rapidity::error::Error;
 use rapidity::scene::{export, source};
-use rapidity::{check, devices, probe, render, ride};
+use rapidity::{check, devices, measure, probe, render, ride};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -28,6 +28,7 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
             limit_threads(options.picture.threads);
             render::render(options)?;
         }
+        Command::Measure(options) => measure::measure(options)?,
         Command::Town(options) => {
             render::writable(&options.out)?;
             let scene = source::load(&command::SceneChoice::Town)?;

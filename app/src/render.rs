@@ -77,7 +77,8 @@ fn inertial(viewpoint: &Viewpoint, start: Start, proper_time: f64) -> Result<Gaz
     let celerity = viewpoint.celerity();
     let eye = Eye::new(position + celerity.vector() * proper_time, celerity.vector())?;
     let look = viewpoint.look.unwrap_or(start.look);
-    Ok(Gaze { eye, observer_from_eye: Camera::looking(look, viewpoint.up, 1.0).observer_from_eye })
+    let ct = celerity.gamma() * proper_time;
+    Ok(Gaze { eye, ct, observer_from_eye: Camera::looking(look, viewpoint.up, 1.0).observer_from_eye })
 }
 
 /// What an observer sees, and when by his own clock.
@@ -223,7 +224,7 @@ impl<'gpu> Cameraman<'gpu> {
 /// A gaze through a camera of `fov` degrees.
 pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
     let camera = Camera { observer_from_eye: gaze.observer_from_eye, fov_y_rad: fov.to_radians() };
-    Shot { camera, eye: gaze.eye, effects }
+    Shot { camera, eye: gaze.eye, ct: gaze.ct, effects }
 }
 
 /// Looks before long work whether its result can be put there.

@@ -15,6 +15,8 @@ pub const NEAR_M: f64 = 0.02;
 pub struct Gaze {
     /// Place and celerity, world axes.
     pub eye: Eye,
+    /// World time of the look, metres of light travel.
+    pub ct: f64,
     /// From eye axes (x right, y up, −z ahead) to the observer's.
     pub observer_from_eye: DQuat,
 }

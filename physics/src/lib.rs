@@ -33,6 +33,7 @@ pub mod eyes;
 pub mod observer;
 pub mod perceived;
 pub mod photo_surface;
+pub mod retarded;
 pub mod worldline;
 
 pub use aberration::Aberration;

@@ -85,7 +85,7 @@ impl Photographer {
         if self.renderer.transforms(effects) {
             self.renderer.submit(gpu(), eye).expect("the device is there");
         }
-        Shot { camera: view.camera(), eye, effects }
+        Shot { camera: view.camera(), eye, ct: 0.0, effects }
     }
 }
 

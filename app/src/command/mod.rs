@@ -19,12 +19,14 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use thiserror::Error;
 
+mod measure;
 mod picture;
 mod render;
 mod ride;
 mod values;
 mod world;
 
+pub use measure::MeasureOptions;
 pub use picture::{PictureOptions, Renderer};
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
@@ -46,6 +48,8 @@ pub enum Command {
     Ride(Box<RideOptions>),
     /// Draw a still or a film, without a window.
     Render(Box<RenderOptions>),
+    /// Measure what each speed-up costs in error, on a scene and on this machine.
+    Measure(Box<MeasureOptions>),
     /// Write the built-in old town to a glTF file.
     Town(TownOptions),
     /// Answer questions about relativity: JSON Lines from standard input to standard output.
@@ -138,6 +142,7 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
     match &command {
         Command::Ride(options) => options.check(),
         Command::Render(options) => options.check(),
+        Command::Measure(options) => options.check(),
         Command::Town(_) | Command::Probe | Command::Devices(_) | Command::Check(_) => Ok(()),
     }
     .map_err(Stop::Usage)?;

@@ -10,8 +10,8 @@ use crate::gpu::{Gpu, GpuError};
 use crate::scene::Scene;
 use crate::views::{Camera, matrix};
 use glam::{DMat4, DVec2};
-use physics::Celerity;
 use physics::photo_surface::{Eye, PhotoSurfaceError};
+use physics::{Celerity, Event, Observer};
 
 /// What one picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,11 +20,19 @@ pub struct Shot {
     pub camera: Camera,
     /// Place and celerity of the eye, world axes.
     pub eye: Eye,
+    /// World time of the look, metres of light travel.
+    pub ct: f64,
     /// What relativity does to the picture.
     pub effects: Effects,
 }
 
 impl Shot {
+    /// Who looks, when, and from where.
+    pub fn observer(&self) -> Observer {
+        let event = Event { ct: self.ct, position: self.eye.position() };
+        Observer { event, celerity: self.celerity() }
+    }
+
     /// How the eye moves.
     pub fn celerity(&self) -> Celerity {
         Celerity::new(self.eye.celerity()).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! What there is to see: flattened meshes at rest in the world, their materials, the light that falls on them.
+//! What there is to see: flattened meshes, at rest in the world or moving, their materials, the light that falls on them.
 //!
 //! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
 //! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
@@ -10,9 +10,11 @@
 pub mod check;
 pub mod collision;
 pub mod export;
+pub mod falling;
 pub mod gltf;
 pub mod lattice;
 pub mod mipmap;
+pub mod motion;
 pub mod panorama;
 pub mod refine;
 pub mod source;
@@ -43,6 +45,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Triangles, one entry per primitive and instance.
     pub meshes: Vec<Mesh>,
+    /// How some of them move.
+    pub motions: Vec<motion::Motion>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
     /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: that of the colours themselves.
@@ -84,7 +88,7 @@ pub struct Mesh {
     pub name: String,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Metres, relative to [`Scene::origin`].
+    /// Metres, relative to [`Scene::origin`]; of what moves, in its own frame (see [`motion`]).
     pub positions: Vec<Vec3>,
     /// Unit vectors, world axes.
     pub normals: Vec<Vec3>,
@@ -96,6 +100,8 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Whether a vehicle collides with it and rides on it; foliage and signs do not count.
     pub solid: bool,
+    /// Index into [`Scene::motions`]; `None`: it rests in the world.
+    pub motion: Option<usize>,
 }
 
 /// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
@@ -343,6 +349,9 @@ impl Scene {
             let (name, count) = (&mesh.name, mesh.positions.len());
             if mesh.material >= self.materials.len() {
                 return Some(format!("mesh \"{name}\" uses material {} of {}", mesh.material, self.materials.len()));
+            }
+            if let Some(motion) = mesh.motion.filter(|&motion| motion >= self.motions.len()) {
+                return Some(format!("mesh \"{name}\" has motion {motion} of {}", self.motions.len()));
             }
             if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
                 return Some(format!("mesh \"{name}\" has vertex arrays of different lengths"));

@@ -114,6 +114,7 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         textures: scene.textures.clone(),
         materials: scene.materials.clone(),
         meshes: scene.meshes.par_iter().map(|mesh| refine_mesh(mesh, rule)).collect(),
+        motions: scene.motions.clone(),
         light: scene.light,
         start: scene.start,
         circuit: scene.circuit.clone(),

@@ -227,6 +227,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         textures,
         materials,
         meshes,
+        motions: Vec::new(),
         light,
         illuminant,
         white: extras.white,

@@ -180,7 +180,20 @@ impl Primitive {
         }
         let not_finite = positions.iter().filter(|position| !position.is_finite()).count();
         let (uvs, colours) = (self.uvs.clone(), self.colours.clone());
-        (Mesh { name, material: self.material, positions, normals, uvs, colours, indices, solid: true }, not_finite)
+        (
+            Mesh {
+                name,
+                material: self.material,
+                positions,
+                normals,
+                uvs,
+                colours,
+                indices,
+                solid: true,
+                motion: None,
+            },
+            not_finite,
+        )
     }
 }
 

@@ -1,0 +1,81 @@
+//! The light that falls on a surface, in the surface's own frame, as every renderer takes it.
+//!
+//! On what rests in the world it is the scene's sun and its hemisphere of sky and ground. On what moves uniformly the sun comes from the
+//! aberrated direction, with shifted colour and D² times the flux (a parallel beam: D⁴ of radiance over D² of solid angle), and the
+//! hemisphere is the world's, boosted, to first order in the normal (W 5.1.4). Colours stay weights on the sky's carrier: after a shift, those
+//! that look the same to the standard observer.
+
+use super::Lighting;
+use glam::{DMat3, DVec3, DVec4, Vec3};
+use physics::colour::Carrier;
+use physics::{Aberration, Celerity};
+
+/// Light on a diffuse surface, by its normal: weights on the sky's carrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falling {
+    /// Unit vector towards the sun.
+    pub sun_direction: DVec3,
+    /// Of the sun, on a surface that faces it.
+    pub sun: DVec3,
+    /// Of all else: red, green and blue as xyz · normal + w.
+    pub ambient: [DVec4; 3],
+}
+
+impl Falling {
+    /// On what rests in the world.
+    pub fn at_rest(light: &Lighting) -> Self {
+        let [sky, ground, sun] = [light.sky, light.ground, light.sun].map(|colour| Vec3::from_array(colour).as_dvec3());
+        let (mean, half) = (0.5 * (sky + ground), 0.5 * (sky - ground));
+        let ambient = [0, 1, 2].map(|channel| DVec4::new(0.0, half[channel], 0.0, mean[channel]));
+        Self { sun_direction: light.sun_direction.as_dvec3(), sun, ambient }
+    }
+
+    /// On what moves with `celerity`, in its own frame. `carrier`: the sky's.
+    ///
+    /// *Equation:* the hemisphere a + b·n is the irradiance of the radiance a + (3/2) b·ω; in the moving frame a' = ⟨L'⟩ and
+    /// b' = 2 ⟨L' ω'⟩ over all directions there, which are means of D² L in the world.
+    pub fn on_moving(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> Self {
+        let rest = Self::at_rest(light);
+        if celerity == Celerity::ZERO {
+            return rest;
+        }
+        let back = carrier.rgb_from_weights(1.0).inverse();
+        let shifted = |doppler: f64| back * carrier.rgb_from_weights(doppler);
+        let object = Aberration::new(celerity);
+        let (sun_direction, doppler) = object.observer_from_world(rest.sun_direction);
+        let sun = shifted(doppler) * rest.sun * (doppler * doppler);
+
+        // Directions of the world around the motion: D depends on the angle from it alone.
+        const RINGS: u32 = 96;
+        const SPOKES: u32 = 12;
+        let along = celerity.vector().normalize_or(DVec3::NEG_Z);
+        let across = along.any_orthonormal_vector();
+        let other = along.cross(across);
+        let mut sums = DMat3::ZERO;
+        let mut mean = DVec3::ZERO;
+        for ring in 0..RINGS {
+            let cosine = -1.0 + (2.0 * f64::from(ring) + 1.0) / f64::from(RINGS);
+            let sine = (1.0 - cosine * cosine).sqrt();
+            let (_, doppler) = object.observer_from_world(along * cosine + across * sine);
+            let weights_of = shifted(doppler) * (doppler * doppler / f64::from(RINGS * SPOKES));
+            for spoke in 0..SPOKES {
+                let (s, c) = (std::f64::consts::TAU * f64::from(spoke) / f64::from(SPOKES)).sin_cos();
+                let direction = along * cosine + (across * c + other * s) * sine;
+                let (seen, _) = object.observer_from_world(direction);
+                let radiance =
+                    DVec3::from_array(rest.ambient.map(|channel| channel.w + 1.5 * channel.truncate().dot(direction)));
+                let weights = weights_of * radiance;
+                mean += weights;
+                sums += DMat3::from_cols(weights * seen.x, weights * seen.y, weights * seen.z);
+            }
+        }
+        let ambient = [0, 1, 2].map(|channel| (2.0 * sums.row(channel)).extend(mean[channel]));
+        Self { sun_direction, sun, ambient }
+    }
+
+    /// Light on a surface with this unit normal of which the sun sees a share (0 to 1).
+    pub fn on(&self, normal: DVec3, sunlit: f64) -> DVec3 {
+        let ambient = DVec3::from_array(self.ambient.map(|channel| channel.dot(normal.extend(1.0)).max(0.0)));
+        ambient + self.sun * (normal.dot(self.sun_direction).max(0.0) * sunlit)
+    }
+}
