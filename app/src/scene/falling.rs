@@ -79,3 +79,81 @@ impl Falling {
         ambient + self.sun * (normal.dot(self.sun_direction).max(0.0) * sunlit)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    //! Light that falls on a moving surface is the world's light as that surface's own observer would see it. A wrong power of D, a boost the
+    //! wrong way or a colour shifted twice shows against a plain sum over directions of the surface's own frame.
+
+    use super::*;
+    use physics::Beta;
+
+    fn celerity(beta: DVec3) -> Celerity {
+        Beta::new(beta).expect("slower than light").celerity()
+    }
+
+    /// Means over directions of the moving frame: of L', and of L' times the direction.
+    fn summed(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> (DVec3, [DVec3; 3]) {
+        let rest = Falling::at_rest(light);
+        let object = Aberration::new(celerity);
+        let back = carrier.rgb_from_weights(1.0).inverse();
+        let count = 4000;
+        let (mut mean, mut sums) = (DVec3::ZERO, [DVec3::ZERO; 3]);
+        for n in 0..count {
+            // Fibonacci's spiral: even over the sphere.
+            let z = 1.0 - (2.0 * f64::from(n) + 1.0) / f64::from(count);
+            let (sine, cosine) = (f64::from(n) * 2.399_963_229_728_653).sin_cos();
+            let seen = DVec3::new(cosine, sine, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z;
+            let (direction, doppler) = object.world_from_observer(seen);
+            let radiance = rest.ambient.map(|channel| channel.w + 1.5 * channel.truncate().dot(direction));
+            let weights = back * carrier.rgb_from_weights(doppler) * DVec3::from_array(radiance) * doppler.powi(4)
+                / f64::from(count);
+            mean += weights;
+            for (sum, weight) in sums.iter_mut().zip(weights.to_array()) {
+                *sum += seen * weight;
+            }
+        }
+        (mean, sums)
+    }
+
+    #[test]
+    fn at_rest_light_is_the_scenes_own() {
+        let light = Lighting::default();
+        let falling = Falling::on_moving(&light, Celerity::ZERO, &Carrier::white());
+        assert_eq!(falling.on(DVec3::Y, 0.0), Vec3::from_array(light.sky).as_dvec3());
+        let below = falling.on(DVec3::NEG_Y, 0.0) - Vec3::from_array(light.ground).as_dvec3();
+        assert!(below.length() < 1e-15);
+        let facing = falling.on(light.sun_direction.as_dvec3(), 1.0) - falling.on(light.sun_direction.as_dvec3(), 0.0);
+        assert!((facing - Vec3::from_array(light.sun).as_dvec3()).length() < 1e-6);
+    }
+
+    #[test]
+    fn the_hemisphere_of_a_moving_surface_is_the_worlds_boosted() {
+        let (light, carrier) = (Lighting::default(), Carrier::white());
+        for beta in [DVec3::X * 0.1, DVec3::new(0.3, -0.2, 0.6), DVec3::Y * -0.9] {
+            let falling = Falling::on_moving(&light, celerity(beta), &carrier);
+            let (mean, sums) = summed(&light, celerity(beta), &carrier);
+            for channel in 0..3 {
+                let scale = mean.length();
+                assert!((falling.ambient[channel].w - mean[channel]).abs() < 0.01 * scale, "{beta}");
+                let slope = falling.ambient[channel].truncate();
+                assert!((slope - 2.0 * sums[channel]).length() < 0.02 * scale, "{beta}: {slope} {:?}", sums[channel]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_sun_ahead_is_brighter_by_the_square_of_its_shift() {
+        // A body that flies into the sun at 0.6 c: D = 2. Grey light of a white carrier keeps about its colour.
+        let light = Lighting { sun: [1.0; 3], sun_direction: Vec3::X, ..Lighting::default() };
+        let carrier = Carrier::white();
+        let falling = Falling::on_moving(&light, celerity(DVec3::X * 0.6), &carrier);
+        assert!((falling.sun_direction - DVec3::X).length() < 1e-15);
+        let seen = carrier.rgb_from_weights(1.0) * falling.sun;
+        let shifted = carrier.rgb_from_weights(2.0) * DVec3::ONE * 4.0;
+        assert!((seen - shifted).length() < 1e-9 * shifted.length(), "{seen} {shifted}");
+        // From abeam it seems to come from ahead: cos θ' = β, D = γ.
+        let abeam = Falling::on_moving(&light, celerity(DVec3::NEG_Z * 0.6), &carrier);
+        assert!((abeam.sun_direction - DVec3::new(0.8, 0.0, -0.6)).length() < 1e-15);
+    }
+}
