@@ -5,6 +5,7 @@
 
 use super::Method;
 use super::image::MapQuality;
+use super::polygon::Tolerance;
 use crate::command::Renderer;
 use crate::progress;
 use crate::scene::Scene;
@@ -13,6 +14,21 @@ use std::borrow::Cow;
 
 /// A scene that has to be cut into so many times as many triangles is coarse.
 const COARSE: usize = 4;
+
+/// An edge of this length, in metres, bends well enough where a scene is seen from as near as people come.
+const USUAL_EDGE_M: f64 = 0.5;
+
+/// How the polygon renderer's straight edges are made to bend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bending {
+    /// Longer ones are cut, once.
+    Fixed {
+        /// Metres.
+        edge_m: f64,
+    },
+    /// They are cut for every picture.
+    Adaptive(Tolerance),
+}
 
 /// A scene as a method draws it.
 #[derive(Debug)]
@@ -26,13 +42,17 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Chooses, unless the user has, and cuts triangles longer than `edge` metres where that is needed.
+    /// Chooses, unless the user has, and cuts long triangles once where that is wanted.
     ///
     /// # Errors
     /// [`RefineError`] if that would make too many, or the scene breaks a promise.
-    pub fn of(scene: Scene, wanted: Renderer, edge: f64, quality: MapQuality) -> Result<Self, RefineError> {
+    pub fn of(scene: Scene, wanted: Renderer, bending: Bending, quality: MapQuality) -> Result<Self, RefineError> {
         scene.validate()?;
         let triangles = scene.triangle_count();
+        let edge = match bending {
+            Bending::Fixed { edge_m } => edge_m,
+            Bending::Adaptive(_) => USUAL_EDGE_M,
+        };
         let (image, why): (bool, Cow<'_, str>) = match wanted {
             Renderer::Image => (true, "as asked".into()),
             Renderer::Polygon => (false, "as asked".into()),
@@ -52,9 +72,13 @@ impl Choice {
             let because = format!("{name}: drawn by the image renderer ({why})");
             return Ok(Self { scene, method: Method::Image(quality), because });
         }
+        let because = format!("{name}: drawn by the polygon renderer ({why})");
+        if let Bending::Adaptive(tolerance) = bending {
+            return Ok(Self { scene, method: Method::Adaptive(tolerance), because });
+        }
         let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
         let scene = refine(&scene, edge as f32)?;
         spinner.finish_and_clear();
-        Ok(Self { scene, method: Method::Polygon, because: format!("{name}: drawn by the polygon renderer ({why})") })
+        Ok(Self { scene, method: Method::Polygon, because })
     }
 }
