@@ -127,7 +127,7 @@ impl<'gpu> Cameraman<'gpu> {
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         self.submit(&gaze)?;
         let picture = self.take(&gaze, None)?;
-        self.tell_of_quality();
+        self.tell_of_quality(&gaze);
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -141,7 +141,7 @@ impl<'gpu> Cameraman<'gpu> {
         self.submit(&gaze)?;
         let shot = shot(&gaze, self.options.fov, self.options.effects);
         let light = self.studio.expose(self.gpu, &mut self.renderer, &shot)?;
-        self.tell_of_quality();
+        self.tell_of_quality(&gaze);
         exr::save(&light, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -195,8 +195,13 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(())
     }
 
-    /// Says if the map or the cut could not be as fine as was wanted.
-    fn tell_of_quality(&self) {
+    /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel off.
+    fn tell_of_quality(&self, gaze: &Gaze) {
+        let shot = shot(gaze, self.options.fov, self.options.effects);
+        let certainty = self.renderer.certainty(&shot, self.options.size);
+        if certainty.error_px() > 1.0 {
+            eprintln!("{}", certainty.sentence());
+        }
         if let Some(CutStats { tolerance_px, triangles, duration }) = self.renderer.cut_stats() {
             eprintln!(
                 "cut into {triangles} triangles for {tolerance_px} pixels in {:.0} ms",

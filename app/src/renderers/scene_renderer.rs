@@ -1,5 +1,6 @@
 //! A scene, and whichever method draws it.
 
+use super::certainty::{Certainty, Drawn, Edges};
 use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
 use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed};
@@ -8,6 +9,8 @@ use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
 use crate::gpu::{Gpu, GpuError};
 use crate::scene::Scene;
+use crate::scene::cut::Sight;
+use crate::scene::motion::Motion;
 use crate::views::{Camera, matrix};
 use glam::{DMat4, DVec2};
 use physics::photo_surface::{Eye, PhotoSurfaceError};
@@ -72,6 +75,9 @@ pub enum Method {
 pub struct SceneRenderer {
     world: World,
     way: Way,
+    /// Some edges of the scene, and what moves in it.
+    edges: Edges,
+    motions: Vec<Motion>,
     format: Format,
 }
 
@@ -98,7 +104,8 @@ impl SceneRenderer {
             Method::Adaptive(tolerance) => Way::Adaptive(Box::new(Adaptive::new(scene, tolerance))),
             Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
         };
-        Ok(Self { world: World::new(gpu, scene, background), way, format })
+        let (edges, motions) = (Edges::of(scene), scene.motions.clone());
+        Ok(Self { world: World::new(gpu, scene, background), way, edges, motions, format })
     }
 
     /// Triangles that a draw of everything takes.
@@ -139,6 +146,21 @@ impl SceneRenderer {
     /// What the newest cut is, where the scene is cut for every picture.
     pub fn cut_stats(&self) -> Option<CutStats> {
         if let Way::Adaptive(adaptive) = &self.way { adaptive.stats() } else { None }
+    }
+
+    /// How far from their places things are drawn in the picture of a shot that was drawn last.
+    pub fn certainty(&self, shot: &Shot, size: [u32; 2]) -> Certainty {
+        if !shot.effects.geometry {
+            return Certainty::default();
+        }
+        let (edges, drawn) = match &self.way {
+            Way::Polygon(_) => (&self.edges, Drawn::ByKernel),
+            Way::Adaptive(adaptive) => (adaptive.edges().unwrap_or(&self.edges), Drawn::InFull),
+            Way::Image(image) => (&self.edges, Drawn::FromMap { texels_per_pixel: image.stats().texels_per_pixel }),
+        };
+        let observer = shot.observer();
+        let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, motion);
+        Certainty::of(edges, sight, shot, size, drawn)
     }
 
     /// Whether pictures with these effects need a photo-surface.

@@ -135,12 +135,17 @@ pub struct Sight {
 impl Sight {
     /// Of what rests in the world, or moves as said.
     pub fn new(scene: &Scene, observer: &Observer, motion: Option<usize>) -> Self {
+        Self::of(scene.origin, &scene.motions, observer, motion)
+    }
+
+    /// The same by what of the scene counts.
+    pub fn of(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
         let rest = |position: DVec3, celerity: Celerity, turn| Self {
             bend: Bend::new(celerity),
-            place: position - scene.origin,
+            place: position - origin,
             observer_from_group: turn,
         };
-        match motion.map(|motion| &scene.motions[motion]) {
+        match motion.map(|motion| &motions[motion]) {
             Some(Motion::Uniform(uniform)) => {
                 let seen = uniform.seen_by(observer);
                 rest(seen.position, seen.celerity, seen.observer_from_group)

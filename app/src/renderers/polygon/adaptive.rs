@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use crate::gpu::Gpu;
 use crate::renderers::Shot;
+use crate::renderers::certainty::Edges;
 use crate::renderers::world::{Prepared, World, stream_stride};
 use crate::scene::Scene;
 use crate::scene::cut::{Cut, Fineness, Sight, Viewpoint};
@@ -74,6 +75,8 @@ pub struct Adaptive {
 struct Shown {
     cut: Arc<Cut>,
     stats: CutStats,
+    /// Some of its edges.
+    edges: Edges,
     /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart.
     streams: wgpu::Buffer,
 }
@@ -114,7 +117,8 @@ impl Adaptive {
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            self.shown = Some(Shown { cut, stats, streams });
+            let edges = Edges::of_cut(&self.scene, &cut);
+            self.shown = Some(Shown { cut, stats, edges, streams });
         }
         if let Some(shown) = &self.shown {
             let streams = apparent(&self.scene, &shown.cut, &viewpoint);
@@ -125,6 +129,11 @@ impl Adaptive {
     /// The apparent positions of the newest cut.
     pub fn streams(&self) -> Option<&wgpu::Buffer> {
         self.shown.as_ref().map(|shown| &shown.streams)
+    }
+
+    /// Some edges of the newest cut.
+    pub fn edges(&self) -> Option<&Edges> {
+        self.shown.as_ref().map(|shown| &shown.edges)
     }
 
     /// What the newest cut is.
