@@ -98,6 +98,13 @@ impl Bend {
         2.0 * self.w * sine * cosine / (doppler * doppler)
     }
 
+    /// F of a direction of the world, of any length: by what angle a place there is drawn wrongly for each part of its distance by which
+    /// that is taken to be too long.
+    pub fn steepness(&self, direction: DVec3) -> f64 {
+        let along = self.direction.dot(direction);
+        self.sensitivity(self.direction.cross(direction).length().atan2(along))
+    }
+
     /// The observed angle from ahead of a world angle, also of one beyond π.
     fn observed(&self, angle: f64) -> f64 {
         let (sine, cosine) = (0.5 * angle).sin_cos();

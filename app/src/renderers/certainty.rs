@@ -3,7 +3,9 @@
 //! Two things move them. Straight edges should bend ([`physics::bend`]), and a map has texels; and f32 has 24 bits, of which the map of the
 //! world astern loses as many as a boost enlarges by. What is estimated is the largest of either that was found in the picture.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use physics::Aberration;
+use physics::bend::Bend;
 
 use super::Shot;
 use crate::scene::Scene;
@@ -11,6 +13,9 @@ use crate::scene::cut::{Cut, Sight};
 
 /// Edges that are looked at.
 const SAMPLES: usize = 512;
+
+/// Fewer edges than this in the picture say little of it.
+const FEW: usize = 8;
 
 /// A rounded direction, radians.
 const STEP: f64 = f32::EPSILON as f64;
@@ -51,6 +56,26 @@ pub struct Certainty {
     pub rounded_rad: f64,
     /// A pixel in the picture's middle, radians.
     pub pixel_rad: f64,
+}
+
+/// What edges are like, wherever they are: their lengths, and the lengths of their coordinates, for each metre of their distance.
+#[derive(Default)]
+struct Usual {
+    lengths: Vec<f64>,
+    coordinates: Vec<f64>,
+}
+
+impl Usual {
+    fn add(&mut self, length: f64, coordinate: f64) {
+        self.lengths.push(length);
+        self.coordinates.push(coordinate);
+    }
+
+    fn median(mut self) -> (f64, f64) {
+        [&mut self.lengths, &mut self.coordinates].into_iter().for_each(|values| values.sort_by(f64::total_cmp));
+        let middle = self.lengths.len() / 2;
+        (self.lengths[middle], self.coordinates[middle])
+    }
 }
 
 impl Edges {
@@ -111,6 +136,8 @@ impl Certainty {
             }
         }
         let mut sights = Vec::new();
+        let mut seen_edges = 0;
+        let mut usual = Usual::default();
         for ([a, b], motion) in &edges.ends {
             let index = sights.iter().position(|(of, _)| of == motion).unwrap_or_else(|| {
                 sights.push((*motion, sight_of(*motion)));
@@ -118,19 +145,36 @@ impl Certainty {
             });
             let sight: &Sight = &sights[index].1;
             let [from, to] = [a, b].map(|end| *end - sight.place);
-            let middle = 0.5 * (from + to);
-            let seen = sight.bend.apparent(middle);
+            let (middle, seen) = (0.5 * (from + to), sight.bend.apparent(0.5 * (from + to)));
+            // Positions about the scene's origin are turned and shifted in f32.
+            let about = (0.5 * (*a + *b)).abs().max_element().max(sight.place.abs().max_element());
+            usual.add(from.distance(to) / middle.length(), about / middle.length());
             if !in_picture(sight.observer_from_group * seen) {
                 continue;
             }
+            seen_edges += 1;
             if let Drawn::FromMap { .. } = drawn {
-                // Positions about the scene's origin are turned and shifted in f32, and enlarged 1/D times.
-                let about = (0.5 * (*a + *b)).abs().max_element().max(sight.place.abs().max_element());
-                let (doppler, distance) = (seen.length() / middle.length(), middle.length());
-                certainty.rounded_rad = certainty.rounded_rad.max(2.0 * STEP * about / distance / doppler);
+                let rounded = 2.0 * STEP * about / seen.length();
+                certainty.rounded_rad = certainty.rounded_rad.max(rounded);
             } else {
                 let error = sight.bend.error(middle, 0.5 * (from.length() + to.length()));
                 certainty.drawn_rad = certainty.drawn_rad.max(error);
+            }
+        }
+        // Where so little of the world fills the picture that no edge was met, those elsewhere have to do.
+        if seen_edges < FEW && drawn != Drawn::InFull && !edges.ends.is_empty() {
+            let aberration = Aberration::new(shot.celerity());
+            let bend = Bend::new(shot.celerity());
+            let (length, about) = usual.median();
+            for place in (0..81).map(|place| DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 4.0 - 1.0) {
+                let eye = DVec3::new(place.x * tan_y * width / height, place.y * tan_y, -1.0);
+                let (world, doppler) = aberration.world_from_observer(shot.camera.observer_from_eye * eye);
+                if let Drawn::FromMap { .. } = drawn {
+                    certainty.rounded_rad = certainty.rounded_rad.max((2.0 * STEP * about / doppler).min(1.0));
+                } else {
+                    let error = length * length / 8.0 * bend.steepness(world);
+                    certainty.drawn_rad = certainty.drawn_rad.max(error.min(1.0));
+                }
             }
         }
         certainty
@@ -172,6 +216,7 @@ impl Certainty {
 /// An angle for people.
 fn arcminutes(angle_rad: f64) -> String {
     match angle_rad.to_degrees() * 60.0 {
+        minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
         minutes if minutes >= 10.0 => format!("{minutes:.0}′"),
         minutes if minutes >= 0.1 => format!("{minutes:.1}′"),
         minutes => format!("{:.1}″", 60.0 * minutes),
@@ -187,7 +232,6 @@ mod tests {
     use crate::scene::lattice::Lattice;
     use crate::scene::refine::refine;
     use crate::views::Camera;
-    use glam::Vec3;
     use physics::photo_surface::Eye;
 
     fn of(scene: &Scene, speed: f64, look: DVec3, drawn: Drawn) -> Certainty {
@@ -203,7 +247,7 @@ mod tests {
 
     #[test]
     fn coarse_edges_are_told_and_fine_ones_are_not() {
-        let coarse = Lattice::default().build();
+        let coarse = Lattice { count: [4, 4, 4], ..Lattice::default() }.build();
         let fine = refine(&coarse, 0.05).unwrap();
         let said = |scene, speed| of(scene, speed, DVec3::NEG_Z, Drawn::ByKernel);
         assert!(said(&coarse, 0.0).error_px() < 0.01);
@@ -214,13 +258,22 @@ mod tests {
 
     #[test]
     fn the_map_loses_directions_astern_and_says_so() {
-        // Boxes dead astern, and far from the scene's origin.
-        let mut scene = Lattice { count: [1, 1, 12], spacing: 4.0, side: 1.0 }.build();
-        let shift = Vec3::new(0.3, 0.1, 0.2);
-        scene.meshes[0].positions.iter_mut().for_each(|place| *place += shift);
+        let scene = Lattice { count: [12, 12, 12], ..Lattice::default() }.build();
         let map = Drawn::FromMap { texels_per_pixel: 4.0 };
-        let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 1e5, DVec3::Z, map));
-        assert!(slow.notice().is_none() && slow.rounded_rad < 1e-5, "{slow:?}");
-        assert!(fast.rounded_rad > 100.0 * slow.rounded_rad, "{fast:?}");
+        let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 701.0, DVec3::Z, map));
+        assert!(slow.notice().is_none() && slow.rounded_rad < 1e-4, "{slow:?}");
+        // A step of f32, enlarged 1400 times.
+        assert!((1e-4..1e-2).contains(&fast.rounded_rad), "{fast:?}");
+        assert!(of(&scene, 1e6, DVec3::Z, map).notice().is_some_and(|said| said.contains("astern")));
+        let ahead = of(&scene, 1e6, DVec3::NEG_Z, map);
+        assert!(ahead.rounded_rad < 0.1 * of(&scene, 1e6, DVec3::Z, map).rounded_rad, "{ahead:?}");
+    }
+
+    #[test]
+    fn edges_half_a_metre_long_do_not_do_astern_at_gamma_701() {
+        let scene = refine(&Lattice::default().build(), 0.5).unwrap();
+        let fixed = of(&scene, 701.0, DVec3::Z, Drawn::ByKernel);
+        assert!(fixed.notice().is_some(), "{fixed:?}");
+        assert!(of(&scene, 701.0, DVec3::Z, Drawn::InFull).notice().is_none());
     }
 }
