@@ -111,6 +111,15 @@ impl Bend {
         2.0 * sine.atan2(self.kappa * cosine)
     }
 
+    /// What [`Bend::bound`] claims at most of an edge of such a length at such a distance, whichever way it lies; infinite where that is
+    /// nothing. It takes no angle, and most edges of a scene are small enough for it.
+    pub fn bound_anywhere(&self, distance: f64, length: f64) -> f64 {
+        let nearest = distance - REACH * length;
+        let bend = INTERPOLATION * (length / nearest).powi(2);
+        let share = bend * self.w * self.kappa;
+        if nearest > 0.0 && share < LARGEST_SHARE { bend * self.worst.1 / (1.0 - share) } else { f64::INFINITY }
+    }
+
     /// What can be claimed of triangles of which an edge is the longest: `middle` is the displacement of its middle from the observer.
     ///
     /// *Equation:* (δ/r) F / (1 − (δ/r) w/D), each at its worst in the ball of √3/2 L about the middle, which holds all such triangles. The

@@ -50,6 +50,8 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
         let edges = [(a, b), (b, c), (c, a)];
         let (from, to) = edges.into_iter().max_by(|x, y| x.0.distance(x.1).total_cmp(&y.0.distance(y.1))).unwrap();
         let bound = bend.bound(0.5 * (from + to), from.distance(to));
+        let anywhere = bend.bound_anywhere((0.5 * (from + to)).length(), from.distance(to));
+        assert!(bound.error_rad <= anywhere * (1.0 + ROUNDING), "{} > {anywhere}", bound.error_rad);
         let observer = Observer { event: Event::default(), celerity };
         for _ in 0..6 {
             let (i, j): (f64, f64) = (random.random_range(0.0..1.0), random.random_range(0.0..1.0));

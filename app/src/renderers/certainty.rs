@@ -217,9 +217,9 @@ impl Certainty {
 fn arcminutes(angle_rad: f64) -> String {
     match angle_rad.to_degrees() * 60.0 {
         minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
-        minutes if minutes >= 10.0 => format!("{minutes:.0}′"),
-        minutes if minutes >= 0.1 => format!("{minutes:.1}′"),
-        minutes => format!("{:.1}″", 60.0 * minutes),
+        minutes if minutes >= 10.0 => format!("{minutes:.0} arcmin"),
+        minutes if minutes >= 0.1 => format!("{minutes:.1} arcmin"),
+        minutes => format!("{:.1} arcsec", 60.0 * minutes),
     }
 }
 

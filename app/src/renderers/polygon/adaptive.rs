@@ -31,6 +31,9 @@ const RIDE_SHARE: f64 = 0.7;
 /// By what angle the rider may turn until the next cut, radians.
 const RIDE_TURN_RAD: f64 = 0.15;
 
+/// After each cut its thread rests so many times as long as that took, and leaves the processor to those who draw.
+const REST: u32 = 2;
+
 /// Vertices that a thread transforms at a time.
 const CHUNK: usize = 4096;
 
@@ -189,6 +192,10 @@ struct Cutter {
     wanted: Sender<(Viewpoint, Arc<Cut>)>,
     made: Receiver<Made>,
     busy: bool,
+    /// Whose cut was asked for last.
+    asked: Option<Viewpoint>,
+    /// When the next one may be.
+    due: Instant,
 }
 
 impl Cutter {
@@ -205,16 +212,20 @@ impl Cutter {
                 }
             })
             .expect("the system can start a thread");
-        Self { wanted, made, busy: false }
+        Self { wanted, made, busy: false, asked: None, due: Instant::now() }
     }
 
     /// The newest cut, if there is a new one; asks for the next one.
     fn follow(&mut self, viewpoint: Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
         let made = self.made.try_recv().ok();
-        self.busy &= made.is_none();
-        if !self.busy {
+        if let Some(made) = &made {
+            self.busy = false;
+            self.due = Instant::now() + REST * made.stats.duration;
+        }
+        if !self.busy && Instant::now() >= self.due && self.asked != Some(viewpoint) {
             let before = made.as_ref().map_or(shown, |made| &made.cut);
             self.busy = self.wanted.try_send((viewpoint, Arc::clone(before))).is_ok();
+            self.asked = Some(viewpoint);
         }
         made
     }
