@@ -1,11 +1,11 @@
 //! Which method draws a scene best.
 //!
-//! Straight edges must bend. `polygon` bends vertices, so it wants triangles that are short beside their distance, and draws them all again; `image`
-//! bends pixels, so it takes the scene as it was modelled, however coarse.
+//! Straight edges must bend. `polygon` bends vertices, so it wants triangles that are short beside their distance: cut once, or for every picture;
+//! `image` bends pixels, so it takes the scene as it was modelled, however coarse.
 
 use super::Method;
 use super::image::MapQuality;
-use super::polygon::Tolerance;
+use super::polygon::{Pace, Tolerance};
 use crate::command::Renderer;
 use crate::progress;
 use crate::scene::Scene;
@@ -57,6 +57,11 @@ impl Choice {
             Renderer::Image => (true, "as asked".into()),
             Renderer::Polygon => (false, "as asked".into()),
             Renderer::Auto if triangles == 0 => (false, "there is only sky, which needs no map".into()),
+            // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too. In a window they
+            // share the time with drawing, and the map of a coarse scene is faster.
+            Renderer::Auto if matches!(bending, Bending::Adaptive(Tolerance { pace: Pace::Still, .. })) => {
+                (false, "its triangles are cut for every picture".into())
+            }
             Renderer::Auto if cut_beyond(&scene, edge as f32, COARSE * triangles) => (
                 true,
                 format!(
@@ -80,5 +85,30 @@ impl Choice {
         let scene = refine(&scene, edge as f32)?;
         spinner.finish_and_clear();
         Ok(Self { scene, method: Method::Polygon, because })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Who says how he wants it gets it; who does not gets what was measured to be best.
+
+    use super::*;
+    use crate::scene::lattice::Lattice;
+
+    #[test]
+    fn a_fixed_edge_cuts_once_and_a_tolerance_for_every_picture() {
+        let quality = MapQuality { texels_per_pixel: 1.0, smooth: true };
+        let choose = |wanted, bending| {
+            let choice = Choice::of(Lattice::default().build(), wanted, bending, quality).unwrap();
+            (choice.method, choice.scene.triangle_count())
+        };
+        let whole = Lattice::default().build().triangle_count();
+        let fixed = Bending::Fixed { edge_m: 0.3 };
+        assert!(matches!(choose(Renderer::Polygon, fixed), (Method::Polygon, cut) if cut > 10 * whole));
+        let still = Tolerance { pixels: 0.5, pace: Pace::Still };
+        assert_eq!(choose(Renderer::Auto, Bending::Adaptive(still)), (Method::Adaptive(still), whole));
+        let ride = Tolerance { pixels: 1.5, pace: Pace::Ride };
+        assert_eq!(choose(Renderer::Polygon, Bending::Adaptive(ride)), (Method::Adaptive(ride), whole));
+        assert_eq!(choose(Renderer::Auto, Bending::Adaptive(ride)), (Method::Image(quality), whole));
     }
 }
