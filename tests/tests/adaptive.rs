@@ -80,21 +80,27 @@ fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64>
         let image = |at| apparent::at_rest(&viewpoint.observer, at).position;
         let images: Vec<DVec3> = mesh.vertices.iter().map(|vertex| image(vertex.place)).collect();
         for corners in mesh.indices.chunks_exact(3) {
-            let mut shares = [0, 1, 2].map(|_| random.random_range(1e-3..1.0_f64));
-            let sum: f64 = shares.iter().sum();
-            shares.iter_mut().for_each(|share| *share /= sum);
-            let mean = |of: &dyn Fn(usize) -> DVec3| {
-                corners.iter().zip(shares).map(|(&corner, share)| of(corner as usize) * share).sum::<DVec3>()
-            };
-            let (drawn, seen) = (mean(&|corner| images[corner]), image(mean(&|corner| mesh.vertices[corner].place)));
-            match (pixel(viewpoint, seen), pixel(viewpoint, drawn)) {
-                (Some(seen), Some(drawn)) => errors.push(seen.distance(drawn)),
-                (None, None) => {}
-                // Beyond the picture's rim on one side: only nearly so.
-                _ => {
-                    let (seen, drawn) = (seen.normalize(), drawn.normalize());
-                    let angle = seen.cross(drawn).length().atan2(seen.dot(drawn));
-                    errors.push(angle * 0.5 * f64::from(SIZE[1]) / (0.5 * viewpoint.camera.fov_y_rad).tan());
+            // Large ones are few, and could reach from far beside the picture into it.
+            let [a, b, c] = [0, 1, 2].map(|corner: usize| images[corners[corner] as usize].normalize());
+            let size = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            for _ in 0..1 + (40.0 * size) as usize {
+                let mut shares = [0, 1, 2].map(|_| random.random_range(1e-3..1.0_f64));
+                let sum: f64 = shares.iter().sum();
+                shares.iter_mut().for_each(|share| *share /= sum);
+                let mean = |of: &dyn Fn(usize) -> DVec3| {
+                    corners.iter().zip(shares).map(|(&corner, share)| of(corner as usize) * share).sum::<DVec3>()
+                };
+                let (drawn, seen) =
+                    (mean(&|corner| images[corner]), image(mean(&|corner| mesh.vertices[corner].place)));
+                match (pixel(viewpoint, seen), pixel(viewpoint, drawn)) {
+                    (Some(seen), Some(drawn)) => errors.push(seen.distance(drawn)),
+                    (None, None) => {}
+                    // Beyond the picture's rim on one side: only nearly so.
+                    _ => {
+                        let (seen, drawn) = (seen.normalize(), drawn.normalize());
+                        let angle = seen.cross(drawn).length().atan2(seen.dot(drawn));
+                        errors.push(angle * 0.5 * f64::from(SIZE[1]) / (0.5 * viewpoint.camera.fov_y_rad).tan());
+                    }
                 }
             }
         }
@@ -143,7 +149,10 @@ fn a_closed_surface_stays_closed_across_meshes_too() {
     let mut random = seeded(42);
     for _ in 0..12 {
         let viewpoint = somebody(&mut random, 8.0);
-        let before = Cut::new(&torn, &somebody(&mut random, 8.0), FINENESS, None);
+        // Where the observer was a little before, there is much on the verge.
+        let mut earlier = viewpoint;
+        earlier.observer.event.position += 0.1 * direction(&mut random);
+        let before = Cut::new(&torn, &earlier, FINENESS, None);
         for scene in [&whole, &torn] {
             let cut = Cut::new(scene, &viewpoint, FINENESS, Some(&before));
             let mut edges = HashMap::<[[u64; 3]; 2], i64>::new();
