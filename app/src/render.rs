@@ -202,7 +202,9 @@ impl<'gpu> Cameraman<'gpu> {
         if certainty.error_px() > 1.0 {
             eprintln!("{}", certainty.sentence());
         }
-        if let Some(CutStats { tolerance_px, triangles, duration }) = self.renderer.cut_stats() {
+        if let Some(CutStats { tolerance_px, triangles, duration }) = self.renderer.cut_stats()
+            && triangles > 0
+        {
             eprintln!(
                 "cut into {triangles} triangles for {tolerance_px} pixels in {:.0} ms",
                 1000.0 * duration.as_secs_f64()
