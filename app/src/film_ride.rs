@@ -10,6 +10,7 @@ use crate::live::gaze;
 use crate::log::Log;
 use crate::progress;
 use crate::render::{Cameraman, Moment, interrupted};
+use crate::renderers::polygon::Pace;
 use crate::ride::{first_actions, prepared, present, recorded};
 use crate::scene::{Scene, source};
 use crate::simulation::{Frame, ReplayError, Replayed, Simulation, Tour};
@@ -50,7 +51,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             (scene, reel.moments)
         }
     };
-    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     let count = moments.len() as u64;
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }

@@ -13,6 +13,7 @@ use crate::gpu::Gpu;
 use crate::live::{Live, gaze};
 use crate::pace::Pace;
 use crate::render::shot;
+use crate::renderers::certainty::Certainty;
 use crate::renderers::display::Stored;
 use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer};
@@ -48,6 +49,8 @@ pub struct Ride {
     not_finite: usize,
     /// The newest frame.
     pub frame: Option<Frame>,
+    /// How far from their places things are drawn in it.
+    certainty: Certainty,
     /// How the target holds the light of what was drawn last.
     pub stored: Stored,
     /// Time that the eye had to adapt since the frame before, seconds; `None` at first.
@@ -66,6 +69,7 @@ impl Ride {
             shown: None,
             not_finite: 0,
             frame: None,
+            certainty: Certainty::default(),
             stored: Stored::UNSHIFTED,
             elapsed_s: None,
             pace: Pace::default(),
@@ -116,6 +120,7 @@ impl Ride {
         self.renderer.draw(gpu, &mut encoder, pictured.target, &shot, DVec2::ZERO);
         gpu.queue.submit([encoder.finish()]);
         self.stored = self.renderer.stored(&shot);
+        self.certainty = self.renderer.certainty(&shot, pictured.target.size);
         self.pace.stage("draw");
         Ok(Some(actions))
     }
@@ -129,6 +134,7 @@ impl Ride {
         if self.not_finite > 0 {
             notices.push(format!("{} vertices are nowhere and not drawn", self.not_finite));
         }
+        notices.extend(self.certainty.notice());
         if frame.time_scale != 1.0 {
             notices.push(format!("own time × {:.2}", frame.time_scale));
         }
@@ -143,6 +149,7 @@ impl Ride {
             own_m: frame.vehicle.odometer().own_m,
             frame_rate: self.pace.frame_rate(),
             stages_ms: self.pace.stages_ms(),
+            certainty: self.certainty.reading(),
             notices,
             paused: frame.paused,
             recording: self.live.is_recording(),

@@ -10,8 +10,9 @@ use crate::film::{Film, Written};
 use crate::film_ride;
 use crate::gpu::Gpu;
 use crate::progress;
-use crate::renderers::choice::Choice;
+use crate::renderers::choice::{Bending, Choice};
 use crate::renderers::picture::{Studio, largest_side};
+use crate::renderers::polygon::{CutStats, Pace};
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, Start, source};
 use crate::views::{Camera, Gaze};
@@ -39,7 +40,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     }
     let scene = source::load(&options.world.scene)?;
     let start = scene.start;
-    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.edge)?;
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     let speed_of_light = options.world.speed_of_light;
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0)?, path),
@@ -60,7 +61,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
     let (scene, moments) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
-    let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.edge)?;
+    let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     match &options.out {
         Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
@@ -102,13 +103,14 @@ impl<'gpu> Cameraman<'gpu> {
     /// Chooses how to draw the scene, says so, and uploads it.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if `edge` metres cut the scene too finely.
-    pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, edge: f64) -> Result<Self, Error> {
+    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the scene too finely.
+    pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, bending: Bending) -> Result<Self, Error> {
         let limit = largest_side(gpu);
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
         }
-        let Choice { scene, method, because } = Choice::of(scene, options.renderer, edge, options.map_of_pictures())?;
+        let Choice { scene, method, because } =
+            Choice::of(scene, options.renderer, bending, options.map_of_pictures())?;
         eprintln!("{because}, on {}", gpu.description());
         let spinner = progress::spinner("uploading");
         let renderer = SceneRenderer::new(gpu, &scene, Studio::format(gpu), options.background, method)?;
@@ -125,7 +127,7 @@ impl<'gpu> Cameraman<'gpu> {
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         self.submit(&gaze)?;
         let picture = self.take(&gaze, None)?;
-        self.tell_of_map();
+        self.tell_of_quality(&gaze);
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -139,7 +141,7 @@ impl<'gpu> Cameraman<'gpu> {
         self.submit(&gaze)?;
         let shot = shot(&gaze, self.options.fov, self.options.effects);
         let light = self.studio.expose(self.gpu, &mut self.renderer, &shot)?;
-        self.tell_of_map();
+        self.tell_of_quality(&gaze);
         exr::save(&light, path)?;
         eprintln!("wrote {}", path.display());
         Ok(())
@@ -193,8 +195,21 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(())
     }
 
-    /// Says if the map could not be as fine as was wanted.
-    fn tell_of_map(&self) {
+    /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel off.
+    fn tell_of_quality(&self, gaze: &Gaze) {
+        let shot = shot(gaze, self.options.fov, self.options.effects);
+        let certainty = self.renderer.certainty(&shot, self.options.size);
+        if certainty.error_px() > 1.0 {
+            eprintln!("{}", certainty.sentence());
+        }
+        if let Some(CutStats { tolerance_px, triangles, duration }) = self.renderer.cut_stats()
+            && triangles > 0
+        {
+            eprintln!(
+                "cut into {triangles} triangles for {tolerance_px} pixels in {:.0} ms",
+                1000.0 * duration.as_secs_f64()
+            );
+        }
         let wanted = self.options.map_of_pictures().texels_per_pixel;
         if let Some(stats) = self.renderer.map_stats()
             && stats.panes > 0

@@ -7,6 +7,14 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::values;
+use crate::renderers::choice::Bending;
+use crate::renderers::polygon::{Pace, Tolerance};
+
+/// Pixels by which a still may be wrong.
+const STILL_PX: f64 = 0.5;
+
+/// Pixels by which a window may be wrong.
+const RIDE_PX: f64 = 1.5;
 
 /// Which scene is shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -54,11 +62,29 @@ pub struct WorldOptions {
     /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,
-    /// Longest edge of a triangle in metres: longer ones are cut, because straight edges must bend.
+    /// Longest edge of a triangle in metres for the polygon renderer, cut once [default: cut for every picture, see --tolerance].
     ///
     /// Around a scene that names a circuit, edges further than 4 m from it may be longer in proportion.
-    #[arg(long, value_name = "METRES", default_value = "0.5", value_parser = values::positive)]
-    pub edge: f64,
+    #[arg(long, value_name = "METRES", value_parser = values::positive, conflicts_with = "tolerance")]
+    pub edge: Option<f64>,
+    /// How far from its place the polygon renderer may draw anything, in pixels: edges are cut for every picture until they bend as well as
+    /// that [default: 0.5, in a window 1.5].
+    #[arg(long, value_name = "PIXELS", value_parser = values::within(0.01, 100.0))]
+    pub tolerance: Option<f64>,
+}
+
+impl WorldOptions {
+    /// How the polygon renderer's straight edges are made to bend, in a picture that waits for it or in a window.
+    pub fn bending(&self, pace: Pace) -> Bending {
+        let usual = match pace {
+            Pace::Still => STILL_PX,
+            Pace::Ride => RIDE_PX,
+        };
+        match self.edge {
+            Some(edge) => Bending::Fixed { edge_m: edge },
+            None => Bending::Adaptive(Tolerance { pixels: self.tolerance.unwrap_or(usual), pace }),
+        }
+    }
 }
 
 fn scene() -> impl TypedValueParser<Value = SceneChoice> {

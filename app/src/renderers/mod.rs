@@ -4,6 +4,7 @@
 //! [`world`], and [`SceneRenderer`] is whichever a scene is drawn by. All draw into a [`target::Radiance`] target of linear
 //! values, which [`display`] turns into pixels.
 
+pub mod certainty;
 pub mod choice;
 pub mod display;
 pub mod image;

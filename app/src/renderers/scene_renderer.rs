@@ -1,13 +1,16 @@
 //! A scene, and whichever method draws it.
 
+use super::certainty::{Certainty, Drawn, Edges};
 use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
-use super::polygon::{PhotoSurface, Transformed};
+use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed};
 use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
 use crate::gpu::{Gpu, GpuError};
 use crate::scene::Scene;
+use crate::scene::cut::Sight;
+use crate::scene::motion::Motion;
 use crate::views::{Camera, matrix};
 use glam::{DMat4, DVec2};
 use physics::photo_surface::{Eye, PhotoSurfaceError};
@@ -58,6 +61,8 @@ impl Shot {
 pub enum Method {
     /// The photo-surface of every vertex.
     Polygon,
+    /// The same, of a scene that is cut for every picture.
+    Adaptive(Tolerance),
     /// A map of the world around the eye, of this quality.
     Image(MapQuality),
 }
@@ -70,11 +75,15 @@ pub enum Method {
 pub struct SceneRenderer {
     world: World,
     way: Way,
+    /// Some edges of the scene, and what moves in it.
+    edges: Edges,
+    motions: Vec<Motion>,
     format: Format,
 }
 
 enum Way {
     Polygon(Box<PhotoSurface>),
+    Adaptive(Box<Adaptive>),
     Image(Box<ImageRenderer>),
 }
 
@@ -92,9 +101,11 @@ impl SceneRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let way = match method {
             Method::Polygon => Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?)),
+            Method::Adaptive(tolerance) => Way::Adaptive(Box::new(Adaptive::new(scene, tolerance))),
             Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
         };
-        Ok(Self { world: World::new(gpu, scene, background), way, format })
+        let (edges, motions) = (Edges::of(scene), scene.motions.clone());
+        Ok(Self { world: World::new(gpu, scene, background), way, edges, motions, format })
     }
 
     /// Triangles that a draw of everything takes.
@@ -105,7 +116,7 @@ impl SceneRenderer {
     /// Name of the method.
     pub fn name(&self) -> &'static str {
         match self.way {
-            Way::Polygon(_) => "polygon",
+            Way::Polygon(_) | Way::Adaptive(_) => "polygon",
             Way::Image(_) => "image",
         }
     }
@@ -128,8 +139,28 @@ impl SceneRenderer {
     pub fn map_stats(&self) -> Option<MapStats> {
         match &self.way {
             Way::Image(image) => Some(image.stats()),
-            Way::Polygon(_) => None,
+            Way::Polygon(_) | Way::Adaptive(_) => None,
         }
+    }
+
+    /// What the newest cut is, where the scene is cut for every picture.
+    pub fn cut_stats(&self) -> Option<CutStats> {
+        if let Way::Adaptive(adaptive) = &self.way { adaptive.stats() } else { None }
+    }
+
+    /// How far from their places things are drawn in the picture of a shot that was drawn last.
+    pub fn certainty(&self, shot: &Shot, size: [u32; 2]) -> Certainty {
+        if !shot.effects.geometry {
+            return Certainty::default();
+        }
+        let (edges, drawn) = match &self.way {
+            Way::Polygon(_) => (&self.edges, Drawn::ByKernel),
+            Way::Adaptive(adaptive) => (adaptive.edges().unwrap_or(&self.edges), Drawn::InFull),
+            Way::Image(image) => (&self.edges, Drawn::FromMap { texels_per_pixel: image.stats().texels_per_pixel }),
+        };
+        let observer = shot.observer();
+        let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, motion);
+        Certainty::of(edges, sight, shot, size, drawn)
     }
 
     /// Whether pictures with these effects need a photo-surface.
@@ -184,12 +215,12 @@ impl SceneRenderer {
         if let Way::Polygon(surface) = &mut self.way { Some(surface) } else { None }
     }
 
-    /// Draws what all samples of a picture share: the map, where the method has one.
+    /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
-        if let Way::Image(image) = &mut self.way
-            && shot.effects.geometry
-        {
-            image.draw_map(gpu, &mut self.world, shot, size);
+        match &mut self.way {
+            Way::Image(image) if shot.effects.geometry => image.draw_map(gpu, &mut self.world, shot, size),
+            Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
+            _ => {}
         }
     }
 
@@ -210,6 +241,7 @@ impl SceneRenderer {
                 return image.draw(gpu, &self.world, encoder, target, shot.effects);
             }
             Way::Polygon(surface) if geometry => Some(&surface.streams),
+            Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => adaptive.streams(),
             _ => {
                 // The plain world: positions are relative to its origin, not to the eye.
                 let eye_from_origin = DMat4::from_translation(self.world.origin - shot.eye.position());

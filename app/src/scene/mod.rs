@@ -9,6 +9,7 @@
 
 pub mod check;
 pub mod collision;
+pub mod cut;
 pub mod export;
 pub mod falling;
 pub mod gltf;

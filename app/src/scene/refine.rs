@@ -240,7 +240,7 @@ fn midpoint(a: Vec3, b: Vec3) -> Vec3 {
 /// Hands on the triangles that one becomes, by its edges' midpoints (0–1, 1–2, 2–0). Winding is kept.
 ///
 /// A quadrilateral is cut along its shorter diagonal, which keeps the angles wide.
-fn divide<V: Copy>(
+pub(super) fn divide<V: Copy>(
     [a, b, c]: [V; 3],
     midpoints: [Option<V>; 3],
     distance: impl Fn(V, V) -> f64,

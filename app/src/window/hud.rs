@@ -1,6 +1,6 @@
 //! The head-up display: how fast, which time it is for whom, how far, and how the program is doing.
 
-use egui::{Align2, Color32, CornerRadius, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2};
+use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2};
 
 /// What the display shows.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +25,8 @@ pub struct Readings {
     pub frame_rate: f64,
     /// Name and milliseconds of each stage of a frame.
     pub stages_ms: Vec<(&'static str, f64)>,
+    /// How far from its place anything is drawn.
+    pub certainty: String,
     /// What the rider should know now, most urgent first.
     pub notices: Vec<String>,
     /// The clock stands.
@@ -56,22 +58,29 @@ pub fn show(ui: &Ui, readings: &Readings) {
         Rect::from_min_size(bar.min + Vec2::new(width * index as f32, 0.0), Vec2::new(width, bar.height()))
             .shrink2(Vec2::new(18.0, 8.0) * scale)
     };
-    let text = |at: Pos2, anchor, words: &str, size: f32, colour| {
-        painter.text(at, anchor, words, FontId::proportional(size * scale), colour)
+    // At the left and at the right of a field, both smaller if they would meet.
+    let row = |area: Rect, y: f32, left: (&str, f32, Color32), right: (&str, f32, Color32)| {
+        let laid = |(words, size, colour): (&str, f32, Color32), share: f32| {
+            painter.layout_no_wrap(words.to_owned(), FontId::proportional(size * scale * share), colour)
+        };
+        let wanted = laid(left, 1.0).size().x + laid(right, 1.0).size().x + 8.0 * scale;
+        let share = (area.width() / wanted).min(1.0);
+        let (left, right) = (laid(left, share), laid(right, share));
+        painter.galley(Pos2::new(area.left(), y - 0.5 * left.size().y), left, INK);
+        painter.galley(Pos2::new(area.right() - right.size().x, y - 0.5 * right.size().y), right, INK);
     };
     let pair = |area: Rect, rows: [(&str, String); 2]| {
-        for (row, (label, value)) in rows.into_iter().enumerate() {
-            let y = area.top() + area.height() * (0.27 + 0.5 * row as f32);
-            text(Pos2::new(area.left(), y), Align2::LEFT_CENTER, label, 14.0, FAINT);
-            text(Pos2::new(area.right(), y), Align2::RIGHT_CENTER, &value, 22.0, INK);
+        for (number, (label, value)) in rows.into_iter().enumerate() {
+            let y = area.top() + area.height() * (0.27 + 0.5 * number as f32);
+            row(area, y, (label, 14.0, FAINT), (&value, 22.0, INK));
         }
     };
 
     let area = field(0);
     let kilometres_per_hour = readings.beta * readings.speed_of_light * 3.6;
-    text(area.left_top(), Align2::LEFT_TOP, &speed(kilometres_per_hour), 34.0, INK);
     let limit = format!("light: {}", speed(readings.speed_of_light * 3.6));
-    text(area.right_top() + Vec2::new(0.0, 12.0 * scale), Align2::RIGHT_TOP, &limit, 14.0, FAINT);
+    let own = speed(kilometres_per_hour);
+    row(area, area.top() + 20.0 * scale, (&own, 34.0, INK), (&limit, 14.0, FAINT));
     let track = Rect::from_min_max(Pos2::new(area.left(), area.bottom() - 16.0 * scale), area.max);
     let filled = Rect::from_min_size(track.min, Vec2::new(track.width() * readings.beta as f32, track.height()));
     painter.rect_filled(filled, CornerRadius::same(3), ACCENT);
@@ -87,31 +96,40 @@ pub fn show(ui: &Ui, readings: &Readings) {
         ],
     );
 
-    // Above: state and notices at the left, the program's own pace at the right.
-    let mut y = screen.top() + 10.0;
-    let mut line = |words: &str, colour| {
-        let at = Pos2::new(screen.left() + 14.0, y);
-        let galley = painter.layout_no_wrap(words.to_owned(), FontId::proportional(17.0), colour);
-        let back = Rect::from_min_size(at, galley.size()).expand(5.0);
-        painter.rect_filled(back, CornerRadius::same(4), BACKDROP);
-        painter.galley(at, galley, colour);
-        y += 30.0;
-    };
-    if readings.recording {
-        line("recording", ALERT);
-    }
-    if readings.paused {
-        line("paused", ACCENT);
-    }
-    for notice in &readings.notices {
-        line(notice, INK);
-    }
+    // Above: the program's own pace at the right; state and notices at the left, below it where they would meet.
     let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    let pace = format!("{:.1} frames/s   {} ms   F1 help · F3 settings", readings.frame_rate, stages.join(" · "));
-    let galley = painter.layout_no_wrap(pace, FontId::proportional(13.0), INK);
-    let at = Pos2::new(screen.right() - galley.size().x - 12.0, screen.top() + 8.0);
-    painter.rect_filled(Rect::from_min_size(at, galley.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
-    painter.galley(at, galley, INK);
+    let pace = format!(
+        "{}   {:.1} frames/s   {} ms   F1 help · F3 settings",
+        readings.certainty,
+        readings.frame_rate,
+        stages.join(" · ")
+    );
+    let pace = painter.layout(pace, FontId::proportional(13.0), INK, screen.width() - 24.0);
+    let words = [(readings.recording, "recording", ALERT), (readings.paused, "paused", ACCENT)];
+    let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, words, colour)| (words, colour));
+    let lines: Vec<_> = states
+        .chain(readings.notices.iter().map(|notice| (notice.as_str(), INK)))
+        .map(|(words, colour)| {
+            painter.layout(
+                words.to_owned(),
+                FontId::proportional(17.0 * scale.max(0.75)),
+                colour,
+                screen.width() - 28.0,
+            )
+        })
+        .collect();
+    let widest = lines.iter().map(|line| line.size().x).fold(0.0, f32::max);
+    let meet = widest + pace.size().x + 50.0 > screen.width();
+    let mut y = screen.top() + 10.0 + if meet { pace.size().y + 12.0 } else { 0.0 };
+    for line in lines {
+        let at = Pos2::new(screen.left() + 14.0, y);
+        y += line.size().y + 10.0;
+        painter.rect_filled(Rect::from_min_size(at, line.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
+        painter.galley(at, line, INK);
+    }
+    let at = Pos2::new(screen.right() - pace.size().x - 12.0, screen.top() + 8.0);
+    painter.rect_filled(Rect::from_min_size(at, pace.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
+    painter.galley(at, pace, INK);
 }
 
 /// β with as many nines as there are: digits follow 1 − β = 1/(γ² (1 + β)).

@@ -21,6 +21,7 @@ use crate::render::interrupted;
 use crate::renderers::SceneRenderer;
 use crate::renderers::choice::Choice;
 use crate::renderers::display::{Adaptation, Display, Seen, development};
+use crate::renderers::polygon::Pace;
 use crate::renderers::target::{Format, Radiance};
 use crate::scene::Scene;
 pub use hud::Readings;
@@ -151,8 +152,8 @@ impl Open {
         let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
         let format = Format::fast(samples);
         let picture = &options.picture;
-        let choice =
-            Choice::of(scene, picture.renderer, options.world.edge, picture.map_of_windows(gpu.is_software()))?;
+        let bending = options.world.bending(Pace::Ride);
+        let choice = Choice::of(scene, picture.renderer, bending, picture.map_of_windows(gpu.is_software()))?;
         let Choice { scene, method, because } = choice;
         eprintln!("{because}, on {}", gpu.description());
         let spinner = progress::spinner("uploading");

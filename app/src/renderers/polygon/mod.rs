@@ -5,6 +5,11 @@
 //! one [`PhotoSurface::submit`] serves any number of draws. Hidden surfaces by depth are
 //! right as they stand: along one line of sight the nearer apparent position is the later emission (W 5.1.1).
 
+//!
+//! A scene is either refined to one edge length before it comes here, or cut for every picture by [`Adaptive`].
+
+mod adaptive;
 mod photo_surface;
 
+pub use adaptive::{Adaptive, CutStats, Pace, Tolerance};
 pub use photo_surface::{PhotoSurface, Transformed};

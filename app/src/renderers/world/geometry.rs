@@ -1,6 +1,7 @@
 //! The scene on the GPU: static attributes, indices, and the list of draws.
 
 use crate::gpu::Gpu;
+use crate::scene::cut::Cut;
 use crate::scene::{Alpha, Scene};
 use bytemuck::{Pod, Zeroable, cast_slice};
 use glam::{DVec3, Vec3};
@@ -12,7 +13,7 @@ const GROUP_TRIANGLES: usize = 512;
 
 /// What a vertex carries besides its apparent position.
 #[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Attributes {
     /// Metres, relative to the scene's origin.
     pub world: [f32; 3],
@@ -69,11 +70,19 @@ pub fn stream_stride(count: usize) -> u64 {
     (count as u64 * 4).next_multiple_of(256).max(256)
 }
 
-impl Geometry {
-    /// Uploads everything of the scene that does not depend on the observer.
-    pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
-        let count = scene.vertex_count();
-        let mut attributes = Vec::with_capacity(count);
+/// What a [`Geometry`] is made of, in memory.
+#[derive(Clone, Debug, Default)]
+pub struct Prepared {
+    attributes: Vec<Attributes>,
+    indices: Vec<u32>,
+    opaque: Vec<Draw>,
+    blended: Vec<Draw>,
+}
+
+impl Prepared {
+    /// Everything of the scene that does not depend on the observer.
+    pub fn of(scene: &Scene) -> Self {
+        let mut attributes = Vec::with_capacity(scene.vertex_count());
         for mesh in &scene.meshes {
             attributes.extend((0..mesh.positions.len()).map(|i| Attributes {
                 world: mesh.positions[i].to_array(),
@@ -83,7 +92,51 @@ impl Geometry {
             }));
         }
         let (indices, opaque, blended) = draws(scene);
-        let stream_stride = stream_stride(count);
+        Self { attributes, indices, opaque, blended }
+    }
+
+    /// The same of a scene that was cut. It is drawn as a whole: there are no groups.
+    pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
+        let mut prepared = Self { attributes: Vec::with_capacity(cut.vertex_count()), ..Self::default() };
+        let mut bases = Vec::with_capacity(cut.meshes.len());
+        for mesh in &cut.meshes {
+            bases.push(prepared.attributes.len() as u32);
+            prepared.attributes.extend(mesh.vertices.iter().map(|vertex| Attributes {
+                world: vertex.place.as_vec3().to_array(),
+                normal: vertex.normal.to_array(),
+                uv: vertex.uv.to_array(),
+                colour: vertex.colour,
+            }));
+        }
+        for mesh in order(scene) {
+            let (base, source) = (bases[mesh], &cut.meshes[mesh]);
+            let start = prepared.indices.len() as u32;
+            // As for the whole scene: what is nowhere would be drawn at the eye.
+            let drawable = |corners: &&[u32]| corners.iter().all(|&i| source.vertices[i as usize].place.is_finite());
+            let triangles = source.indices.chunks_exact(3).filter(drawable);
+            prepared.indices.extend(triangles.flatten().map(|index| base + index));
+            let draw = Draw {
+                material: scene.meshes[mesh].material,
+                indices: start..prepared.indices.len() as u32,
+                centre: scene.origin + centre(&scene.meshes[mesh].positions),
+                groups: Vec::new(),
+            };
+            push_draw(&mut prepared.opaque, &mut prepared.blended, draw, blends(scene, mesh));
+        }
+        prepared
+    }
+}
+
+impl Geometry {
+    /// Uploads everything of the scene that does not depend on the observer.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
+        Self::upload(gpu, Prepared::of(scene))
+    }
+
+    /// Uploads what was prepared.
+    pub fn upload(gpu: &Gpu, prepared: Prepared) -> Self {
+        let Prepared { attributes, indices, opaque, blended } = prepared;
+        let stream_stride = stream_stride(attributes.len());
         let mut plain = vec![0.0_f32; (stream_stride / 4 * 3) as usize];
         for (axis, stream) in plain.chunks_mut((stream_stride / 4) as usize).enumerate() {
             for (value, vertex) in stream.iter_mut().zip(&attributes) {
@@ -106,6 +159,27 @@ impl Geometry {
     }
 }
 
+/// Whether a mesh is drawn blended.
+fn blends(scene: &Scene, mesh: usize) -> bool {
+    scene.materials[scene.meshes[mesh].material].alpha == Alpha::Blend
+}
+
+/// The meshes in the order in which they are drawn: opaque ones first, by material.
+fn order(scene: &Scene) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..scene.meshes.len()).collect();
+    order.sort_by_key(|&mesh| (blends(scene, mesh), scene.meshes[mesh].material));
+    order
+}
+
+/// Adds a draw, to the one before it if that is opaque and of the same material.
+fn push_draw(opaque: &mut Vec<Draw>, blended: &mut Vec<Draw>, draw: Draw, blends: bool) {
+    match opaque.last_mut() {
+        _ if blends => blended.push(draw),
+        Some(last) if last.material == draw.material => last.indices.end = draw.indices.end,
+        _ => opaque.push(draw),
+    }
+}
+
 /// Concatenates the meshes' indices: opaque ones grouped by material, blended ones kept apart.
 fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
     let mut base = 0;
@@ -118,12 +192,8 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
             first
         })
         .collect();
-    let blends = |mesh: usize| scene.materials[scene.meshes[mesh].material].alpha == Alpha::Blend;
-    let mut order: Vec<usize> = (0..scene.meshes.len()).collect();
-    order.sort_by_key(|&mesh| (blends(mesh), scene.meshes[mesh].material));
-
     let (mut indices, mut opaque, mut blended) = (Vec::new(), Vec::<Draw>::new(), Vec::new());
-    for mesh in order {
+    for mesh in order(scene) {
         let start = indices.len() as u32;
         let source = &scene.meshes[mesh];
         // A corner that is nowhere would be drawn at the eye: leave its triangles out.
@@ -136,11 +206,7 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
             centre: scene.origin + centre(&source.positions),
             groups: Vec::new(),
         };
-        match opaque.last_mut() {
-            _ if blends(mesh) => blended.push(draw),
-            Some(last) if last.material == draw.material => last.indices.end = draw.indices.end,
-            _ => opaque.push(draw),
-        }
+        push_draw(&mut opaque, &mut blended, draw, blends(scene, mesh));
     }
     let positions: Vec<Vec3> = scene.meshes.iter().flat_map(|mesh| mesh.positions.iter().copied()).collect();
     for draw in &mut opaque {

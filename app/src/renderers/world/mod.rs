@@ -10,7 +10,7 @@ mod pipelines;
 mod spectra;
 mod sun;
 
-pub use geometry::stream_stride;
+pub use geometry::{Prepared, stream_stride};
 pub use pipelines::{Mode, effect_constants, layout};
 pub use spectra::Spectra;
 
@@ -102,6 +102,11 @@ impl World {
     pub fn triangle_count(&self) -> u64 {
         let draws = self.geometry.opaque.iter().chain(&self.geometry.blended);
         draws.map(|draw| draw.indices.len() as u64 / 3).sum()
+    }
+
+    /// Replaces the triangles by the same surfaces, cut otherwise.
+    pub fn replace(&mut self, gpu: &Gpu, prepared: Prepared) {
+        self.geometry = Geometry::upload(gpu, prepared);
     }
 
     /// Layout of the group that holds view, light and spectra.

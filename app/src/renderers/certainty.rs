@@ -1,0 +1,279 @@
+//! How far from their places things may be drawn: an estimate for the picture that is shown now, from a few hundred edges.
+//!
+//! Two things move them. Straight edges should bend ([`physics::bend`]), and a map has texels; and f32 has 24 bits, of which the map of the
+//! world astern loses as many as a boost enlarges by. What is estimated is the largest of either that was found in the picture.
+
+use glam::{DVec2, DVec3};
+use physics::Aberration;
+use physics::bend::Bend;
+
+use super::Shot;
+use crate::scene::Scene;
+use crate::scene::cut::{Cut, Sight};
+
+/// Edges that are looked at.
+const SAMPLES: usize = 512;
+
+/// Fewer edges than this in the picture say little of it.
+const FEW: usize = 8;
+
+/// A rounded direction, radians.
+const STEP: f64 = f32::EPSILON as f64;
+
+/// What the transform's kernel promises, radians (`physics::photo_surface`): up to this γ, and beyond.
+const KERNEL: (f64, f64, f64) = (7e-7, 1e9, 4e-4);
+
+/// Pixels from which on the picture should not be trusted without a word.
+const NOTICED_PX: f64 = 2.0;
+
+/// How the directions of a picture come about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drawn {
+    /// Straight edges between vertices that the kernel has bent.
+    ByKernel,
+    /// The same, bent in f64.
+    InFull,
+    /// Looked up in a map that has so many texels a pixel along each axis.
+    FromMap {
+        /// Texels.
+        texels_per_pixel: f64,
+    },
+}
+
+/// Some edges of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edges {
+    /// Ends relative to the scene's origin, and the mesh's motion.
+    ends: Vec<([DVec3; 2], Option<usize>)>,
+}
+
+/// How far things may be from their places.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certainty {
+    /// Because edges are straight, or texels not points; radians.
+    pub drawn_rad: f64,
+    /// Because numbers are rounded, radians.
+    pub rounded_rad: f64,
+    /// A pixel in the picture's middle, radians.
+    pub pixel_rad: f64,
+}
+
+/// What edges are like, wherever they are: their lengths, and the lengths of their coordinates, for each metre of their distance.
+#[derive(Default)]
+struct Usual {
+    lengths: Vec<f64>,
+    coordinates: Vec<f64>,
+}
+
+impl Usual {
+    fn add(&mut self, length: f64, coordinate: f64) {
+        self.lengths.push(length);
+        self.coordinates.push(coordinate);
+    }
+
+    fn median(mut self) -> (f64, f64) {
+        [&mut self.lengths, &mut self.coordinates].into_iter().for_each(|values| values.sort_by(f64::total_cmp));
+        let middle = self.lengths.len() / 2;
+        (self.lengths[middle], self.coordinates[middle])
+    }
+}
+
+impl Edges {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let meshes = scene.meshes.iter().map(|mesh| (mesh.indices.as_slice(), mesh.motion));
+        Self::sampled(meshes, |mesh, corner: u32| scene.meshes[mesh].positions[corner as usize].as_dvec3())
+    }
+
+    /// Of a scene that was cut.
+    pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
+        let motions = scene.meshes.iter().map(|mesh| mesh.motion);
+        let meshes = cut.meshes.iter().zip(motions).map(|(mesh, motion)| (mesh.indices.as_slice(), motion));
+        Self::sampled(meshes, |mesh, corner: u32| cut.meshes[mesh].vertices[corner as usize].place)
+    }
+
+    /// Every so many triangles one edge, each time another.
+    fn sampled<'a>(
+        meshes: impl Iterator<Item = (&'a [u32], Option<usize>)> + Clone,
+        place: impl Fn(usize, u32) -> DVec3,
+    ) -> Self {
+        let count: usize = meshes.clone().map(|(indices, _)| indices.len() / 3).sum();
+        let step = count.div_ceil(SAMPLES).max(1);
+        let triangles = meshes
+            .enumerate()
+            .flat_map(|(mesh, (indices, motion))| indices.chunks_exact(3).map(move |corners| (mesh, corners, motion)));
+        let ends = triangles.step_by(step).enumerate().map(|(number, (mesh, corners, motion))| {
+            ([number % 3, (number + 1) % 3].map(|corner| place(mesh, corners[corner])), motion)
+        });
+        Self { ends: ends.collect() }
+    }
+}
+
+impl Certainty {
+    /// Of a picture in which these edges are, each seen as `sight_of` its motion.
+    pub fn of(
+        edges: &Edges,
+        sight_of: impl Fn(Option<usize>) -> Sight,
+        shot: &Shot,
+        size: [u32; 2],
+        drawn: Drawn,
+    ) -> Self {
+        let [width, height] = size.map(f64::from);
+        let tan_y = (0.5 * shot.camera.fov_y_rad).tan();
+        let pixel_rad = 2.0 * tan_y / height;
+        let in_picture = |seen: DVec3| {
+            let eye = shot.camera.observer_from_eye.conjugate() * seen;
+            eye.z < 0.0 && (eye.x / eye.z).abs() < tan_y * width / height && (eye.y / eye.z).abs() < tan_y
+        };
+        let kernel = if shot.celerity().gamma() <= KERNEL.1 { KERNEL.0 } else { KERNEL.2 };
+        let mut certainty = Self { pixel_rad, ..Self::default() };
+        match drawn {
+            Drawn::ByKernel => certainty.rounded_rad = kernel,
+            Drawn::InFull => certainty.rounded_rad = 2.0 * STEP,
+            Drawn::FromMap { texels_per_pixel } => {
+                certainty.drawn_rad = 0.5 * pixel_rad / texels_per_pixel.max(1e-3);
+                certainty.rounded_rad = 2.0 * STEP;
+            }
+        }
+        let mut sights = Vec::new();
+        let mut seen_edges = 0;
+        let mut usual = Usual::default();
+        for ([a, b], motion) in &edges.ends {
+            let index = sights.iter().position(|(of, _)| of == motion).unwrap_or_else(|| {
+                sights.push((*motion, sight_of(*motion)));
+                sights.len() - 1
+            });
+            let sight: &Sight = &sights[index].1;
+            let [from, to] = [a, b].map(|end| *end - sight.place);
+            let (middle, seen) = (0.5 * (from + to), sight.bend.apparent(0.5 * (from + to)));
+            // Positions about the scene's origin are turned and shifted in f32.
+            let about = (0.5 * (*a + *b)).abs().max_element().max(sight.place.abs().max_element());
+            usual.add(from.distance(to) / middle.length(), about / middle.length());
+            if !in_picture(sight.observer_from_group * seen) {
+                continue;
+            }
+            seen_edges += 1;
+            if let Drawn::FromMap { .. } = drawn {
+                let rounded = 2.0 * STEP * about / seen.length();
+                certainty.rounded_rad = certainty.rounded_rad.max(rounded);
+            } else {
+                let error = sight.bend.error(middle, 0.5 * (from.length() + to.length()));
+                certainty.drawn_rad = certainty.drawn_rad.max(error);
+            }
+        }
+        // Where so little of the world fills the picture that no edge was met, those elsewhere have to do.
+        if seen_edges < FEW && drawn != Drawn::InFull && !edges.ends.is_empty() {
+            let aberration = Aberration::new(shot.celerity());
+            let bend = Bend::new(shot.celerity());
+            let (length, about) = usual.median();
+            for place in (0..81).map(|place| DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 4.0 - 1.0) {
+                let eye = DVec3::new(place.x * tan_y * width / height, place.y * tan_y, -1.0);
+                let (world, doppler) = aberration.world_from_observer(shot.camera.observer_from_eye * eye);
+                if let Drawn::FromMap { .. } = drawn {
+                    certainty.rounded_rad = certainty.rounded_rad.max((2.0 * STEP * about / doppler).min(1.0));
+                } else {
+                    let error = length * length / 8.0 * bend.steepness(world);
+                    certainty.drawn_rad = certainty.drawn_rad.max(error.min(1.0));
+                }
+            }
+        }
+        certainty
+    }
+
+    /// Both together, radians.
+    pub fn error_rad(&self) -> f64 {
+        self.drawn_rad + self.rounded_rad
+    }
+
+    /// Both together, pixels.
+    pub fn error_px(&self) -> f64 {
+        if self.pixel_rad > 0.0 { self.error_rad() / self.pixel_rad } else { 0.0 }
+    }
+
+    /// The reading, in arcminutes.
+    pub fn reading(&self) -> String {
+        format!("±{}", arcminutes(self.error_rad()))
+    }
+
+    /// What should be known of a picture that is too far off.
+    pub fn notice(&self) -> Option<String> {
+        (self.error_px() > NOTICED_PX).then(|| self.sentence())
+    }
+
+    /// How far off, and why.
+    pub fn sentence(&self) -> String {
+        let about = arcminutes(self.error_rad());
+        if self.rounded_rad > self.drawn_rad {
+            format!("directions astern are uncertain by about {about}: 32 bits hold no more; --renderer polygon does")
+        } else {
+            format!(
+                "directions are uncertain by about {about}; a smaller --tolerance, --edge or a larger --map-scale helps"
+            )
+        }
+    }
+}
+
+/// An angle for people.
+fn arcminutes(angle_rad: f64) -> String {
+    match angle_rad.to_degrees() * 60.0 {
+        minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
+        minutes if minutes >= 10.0 => format!("{minutes:.0} arcmin"),
+        minutes if minutes >= 0.1 => format!("{minutes:.1} arcmin"),
+        minutes => format!("{:.1} arcsec", 60.0 * minutes),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! What is said of a picture must be what is so: coarse edges are told in pixels, fine ones are not, and the map's loss astern is found.
+
+    use super::*;
+    use crate::renderers::Effects;
+    use crate::scene::lattice::Lattice;
+    use crate::scene::refine::refine;
+    use crate::views::Camera;
+    use physics::photo_surface::Eye;
+
+    fn of(scene: &Scene, speed: f64, look: DVec3, drawn: Drawn) -> Certainty {
+        let shot = Shot {
+            camera: Camera::looking(look, DVec3::Y, 1.2),
+            eye: Eye::new(DVec3::new(0.3, 0.1, 0.2), DVec3::NEG_Z * speed).unwrap(),
+            ct: 0.0,
+            effects: Effects::ALL,
+        };
+        let sight = |motion| Sight::new(scene, &shot.observer(), motion);
+        Certainty::of(&Edges::of(scene), sight, &shot, [1280, 720], drawn)
+    }
+
+    #[test]
+    fn coarse_edges_are_told_and_fine_ones_are_not() {
+        let coarse = Lattice { count: [4, 4, 4], ..Lattice::default() }.build();
+        let fine = refine(&coarse, 0.05).unwrap();
+        let said = |scene, speed| of(scene, speed, DVec3::NEG_Z, Drawn::ByKernel);
+        assert!(said(&coarse, 0.0).error_px() < 0.01);
+        assert!(said(&coarse, 5.0).notice().is_some(), "{:?}", said(&coarse, 5.0));
+        assert!(said(&fine, 0.75).notice().is_none(), "{:?}", said(&fine, 0.75));
+        assert!(said(&fine, 0.75).error_rad() < said(&coarse, 0.75).error_rad() / 10.0);
+    }
+
+    #[test]
+    fn the_map_loses_directions_astern_and_says_so() {
+        let scene = Lattice { count: [12, 12, 12], ..Lattice::default() }.build();
+        let map = Drawn::FromMap { texels_per_pixel: 4.0 };
+        let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 701.0, DVec3::Z, map));
+        assert!(slow.notice().is_none() && slow.rounded_rad < 1e-4, "{slow:?}");
+        // A step of f32, enlarged 1400 times.
+        assert!((1e-4..1e-2).contains(&fast.rounded_rad), "{fast:?}");
+        assert!(of(&scene, 1e6, DVec3::Z, map).notice().is_some_and(|said| said.contains("astern")));
+        let ahead = of(&scene, 1e6, DVec3::NEG_Z, map);
+        assert!(ahead.rounded_rad < 0.1 * of(&scene, 1e6, DVec3::Z, map).rounded_rad, "{ahead:?}");
+    }
+
+    #[test]
+    fn edges_half_a_metre_long_do_not_do_astern_at_gamma_701() {
+        let scene = refine(&Lattice::default().build(), 0.5).unwrap();
+        let fixed = of(&scene, 701.0, DVec3::Z, Drawn::ByKernel);
+        assert!(fixed.notice().is_some(), "{fixed:?}");
+        assert!(of(&scene, 701.0, DVec3::Z, Drawn::InFull).notice().is_none());
+    }
+}

@@ -1,0 +1,232 @@
+//! The scene cut for the very picture: no place of it is drawn further from its own than a part of a pixel.
+//!
+//! A still waits for its cut. A ride does not: a thread of its own cuts for the newest picture that there is, and the cut is shown, whole,
+//! as soon as it is ready, while every frame bends the vertices of the cut that it has. Such a cut is a little late, so it is a little
+//! finer than was promised, wider than the picture, and edges on the verge stay as they were, so that nothing flickers.
+//!
+//! A cut's vertices are few, and kept in f64: they are transformed here, not by the kernel, and hold at every speed.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, Sender, bounded};
+use rayon::prelude::*;
+
+use crate::gpu::Gpu;
+use crate::renderers::Shot;
+use crate::renderers::certainty::Edges;
+use crate::renderers::world::{Prepared, World, stream_stride};
+use crate::scene::Scene;
+use crate::scene::cut::{Cut, Fineness, Sight, Viewpoint};
+
+/// The most triangles of a still.
+const STILL_TRIANGLES: usize = 8_000_000;
+
+/// The most triangles while riding.
+const RIDE_TRIANGLES: usize = 1_000_000;
+
+/// In a ride edges are cut at this share of the tolerance, since the picture is a little further on when the cut is shown.
+const RIDE_SHARE: f64 = 0.7;
+
+/// By what angle the rider may turn until the next cut, radians.
+const RIDE_TURN_RAD: f64 = 0.15;
+
+/// After each cut its thread rests so many times as long as that took, and leaves the processor to those who draw.
+const REST: u32 = 2;
+
+/// Vertices that a thread transforms at a time.
+const CHUNK: usize = 4096;
+
+/// How finely, and when, a scene is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// How far from its place anything may be drawn, pixels.
+    pub pixels: f64,
+    /// Who waits for whom.
+    pub pace: Pace,
+}
+
+/// Whether a picture waits for its cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// It does.
+    Still,
+    /// It is drawn with the newest cut that there is.
+    Ride,
+}
+
+/// What a cut is, and how good.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CutStats {
+    /// The tolerance that was kept, pixels; more than was asked for if that would have made too many triangles.
+    pub tolerance_px: f64,
+    /// Triangles.
+    pub triangles: usize,
+    /// How long it took.
+    pub duration: Duration,
+}
+
+/// A scene, and its newest cut.
+pub struct Adaptive {
+    scene: Arc<Scene>,
+    tolerance: Tolerance,
+    shown: Option<Shown>,
+    cutter: Option<Cutter>,
+}
+
+/// The cut that is drawn.
+struct Shown {
+    cut: Arc<Cut>,
+    stats: CutStats,
+    /// Some of its edges.
+    edges: Edges,
+    /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart.
+    streams: wgpu::Buffer,
+}
+
+/// A cut, ready to be uploaded.
+struct Made {
+    cut: Arc<Cut>,
+    prepared: Prepared,
+    stats: CutStats,
+}
+
+impl Adaptive {
+    /// Of `scene`, whose surfaces must be those that the world shows.
+    pub fn new(scene: &Scene, tolerance: Tolerance) -> Self {
+        let scene = Arc::new(Scene {
+            origin: scene.origin,
+            materials: scene.materials.clone(),
+            meshes: scene.meshes.clone(),
+            motions: scene.motions.clone(),
+            ..Scene::default()
+        });
+        let cutter = (tolerance.pace == Pace::Ride).then(|| Cutter::start(Arc::clone(&scene), tolerance));
+        Self { scene, tolerance, shown: None, cutter }
+    }
+
+    /// Makes, or takes, the cut for a picture, and bends its vertices.
+    pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2]) {
+        let viewpoint = Viewpoint { observer: shot.observer(), camera: shot.camera, size };
+        let made = match (&mut self.cutter, &self.shown) {
+            (Some(cutter), Some(shown)) => cutter.follow(viewpoint, &shown.cut),
+            _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
+        };
+        if let Some(Made { cut, prepared, stats }) = made {
+            world.replace(gpu, prepared);
+            let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("photo-surface of a cut"),
+                size: 3 * stream_stride(cut.vertex_count()),
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            let edges = Edges::of_cut(&self.scene, &cut);
+            self.shown = Some(Shown { cut, stats, edges, streams });
+        }
+        if let Some(shown) = &self.shown {
+            let streams = apparent(&self.scene, &shown.cut, &viewpoint);
+            gpu.queue.write_buffer(&shown.streams, 0, bytemuck::cast_slice(&streams));
+        }
+    }
+
+    /// The apparent positions of the newest cut.
+    pub fn streams(&self) -> Option<&wgpu::Buffer> {
+        self.shown.as_ref().map(|shown| &shown.streams)
+    }
+
+    /// Some edges of the newest cut.
+    pub fn edges(&self) -> Option<&Edges> {
+        self.shown.as_ref().map(|shown| &shown.edges)
+    }
+
+    /// What the newest cut is.
+    pub fn stats(&self) -> Option<CutStats> {
+        self.shown.as_ref().map(|shown| shown.stats)
+    }
+}
+
+/// Cuts for one picture.
+fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Option<&Cut>) -> Made {
+    let started = Instant::now();
+    let fineness = match tolerance.pace {
+        Pace::Still => Fineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
+        Pace::Ride => {
+            Fineness { tolerance_px: RIDE_SHARE * tolerance.pixels, turn_rad: RIDE_TURN_RAD, triangles: RIDE_TRIANGLES }
+        }
+    };
+    let cut = Cut::new(scene, viewpoint, fineness, before);
+    let prepared = Prepared::of_cut(scene, &cut);
+    let kept = cut.tolerance_px / fineness.tolerance_px * tolerance.pixels;
+    let stats = CutStats { tolerance_px: kept, triangles: cut.triangle_count(), duration: started.elapsed() };
+    Made { cut: Arc::new(cut), prepared, stats }
+}
+
+/// Where the vertices of a cut appear: x, y and z streams. What appears nowhere is put at the eye.
+fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
+    let stride = stream_stride(cut.vertex_count()) as usize / 4;
+    let mut streams = vec![0.0_f32; 3 * stride];
+    let (mut x, rest) = streams.split_at_mut(stride);
+    let (mut y, mut z) = rest.split_at_mut(stride);
+    let mut jobs = Vec::new();
+    for (mesh, source) in cut.meshes.iter().zip(&scene.meshes) {
+        let sight = Sight::new(scene, &viewpoint.observer, source.motion);
+        for vertices in mesh.vertices.chunks(CHUNK) {
+            let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..vertices.len()));
+            jobs.push((sight, vertices, streams));
+        }
+    }
+    jobs.into_par_iter().for_each(|(sight, vertices, [x, y, z])| {
+        let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
+        for (place, vertex) in vertices.iter().enumerate() {
+            let seen = sight.observer_from_group * sight.bend.apparent(vertex.place - sight.place);
+            let seen = seen.as_vec3();
+            let seen = if seen.is_finite() { seen } else { glam::Vec3::ZERO };
+            (x[place], y[place], z[place]) = (seen.x, seen.y, seen.z);
+        }
+    });
+    streams
+}
+
+/// The thread that cuts while others draw.
+struct Cutter {
+    wanted: Sender<(Viewpoint, Arc<Cut>)>,
+    made: Receiver<Made>,
+    busy: bool,
+    /// Whose cut was asked for last.
+    asked: Option<Viewpoint>,
+    /// When the next one may be.
+    due: Instant,
+}
+
+impl Cutter {
+    fn start(scene: Arc<Scene>, tolerance: Tolerance) -> Self {
+        let (wanted, wishes) = bounded::<(Viewpoint, Arc<Cut>)>(1);
+        let (makes, made) = bounded(1);
+        std::thread::Builder::new()
+            .name("cut".to_owned())
+            .spawn(move || {
+                for (viewpoint, before) in wishes {
+                    if makes.send(make(&scene, &viewpoint, tolerance, Some(&before))).is_err() {
+                        return;
+                    }
+                }
+            })
+            .expect("the system can start a thread");
+        Self { wanted, made, busy: false, asked: None, due: Instant::now() }
+    }
+
+    /// The newest cut, if there is a new one; asks for the next one.
+    fn follow(&mut self, viewpoint: Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
+        let made = self.made.try_recv().ok();
+        if let Some(made) = &made {
+            self.busy = false;
+            self.due = Instant::now() + REST * made.stats.duration;
+        }
+        if !self.busy && Instant::now() >= self.due && self.asked != Some(viewpoint) {
+            let before = made.as_ref().map_or(shown, |made| &made.cut);
+            self.busy = self.wanted.try_send((viewpoint, Arc::clone(before))).is_ok();
+            self.asked = Some(viewpoint);
+        }
+        made
+    }
+}
