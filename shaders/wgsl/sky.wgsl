@@ -2,6 +2,8 @@
 
 // Weights for the map instead of the light that an observer sees.
 override MAP: bool = false;
+// Places of surfaces are drawn, and here is none.
+override PLACES: bool = false;
 // What is shown instead of sky, haze and sun.
 override PANORAMA: bool = false;
 
@@ -60,6 +62,9 @@ fn surrounding(middle: vec3<f32>, right: vec3<f32>, down: vec3<f32>) -> vec3<f32
 
 @fragment
 fn fragment(in: Pixel) -> @location(0) vec4<f32> {
+    if (PLACES) {
+        return vec4(0.0);
+    }
     let observed = normalize(view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz);
     let seen = world_from_observer(observed, view.motion);
     var weights = lighting.background.rgb;

@@ -20,6 +20,8 @@ override SPLIT: bool = false;
 override BLENDED: bool = false;
 // Weights for the map instead of the light that an observer sees.
 override MAP: bool = false;
+// Where the surface is, instead of any light.
+override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
@@ -90,6 +92,10 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     // A shader that may discard is run for hidden fragments as well: only masked materials do.
     if (MASKED && base.a < material.emissive.w) {
         discard;
+    }
+
+    if (PLACES) {
+        return vec4(in.world, 1.0);
     }
 
     // Weights that leave the surface: on its own carrier, and what it emits besides.

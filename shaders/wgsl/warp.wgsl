@@ -14,6 +14,8 @@ struct Map {
 // How many carriers the map has, and whether texels are mixed or the nearest one is taken.
 override LAYERS: u32 = 1u;
 override SMOOTH: bool = true;
+// The map holds places of surfaces instead of weights.
+override PLACES: bool = false;
 
 @group(1) @binding(0) var<uniform> map: Map;
 // Which pane is where: one layer for each quarter of a face, and one for each of their cells that is cut further.
@@ -87,6 +89,10 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let pane = pane_at(on_cube);
     let place = pane.low + pane.scale * (on_cube.tangent - pane.corner);
 
+    if (PLACES) {
+        let texel = clamp(floor(place), pane.low, pane.high - 1.0);
+        return textureLoad(atlas, vec2<i32>(texel), 0, 0);
+    }
     var light = vec4(0.0);
     for (var layer = 0u; layer < LAYERS; layer++) {
         light += observed_light(weights_at(place, pane, layer), layer, seen.doppler);

@@ -79,6 +79,12 @@ impl Photographer {
         self.studio.expose(gpu(), &mut self.renderer, &shot).expect("the device is there")
     }
 
+    /// Where in the scene is what each pixel's centre shows to an eye that moves: metres relative to the scene's origin, row by row.
+    pub fn places(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> Vec<Option<DVec3>> {
+        let shot = self.aim(view, eye, celerity, Effects::GEOMETRY);
+        self.studio.places(gpu(), &mut self.renderer, &shot).expect("the device is there")
+    }
+
     fn aim(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
         let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");

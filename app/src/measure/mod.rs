@@ -1,5 +1,6 @@
 //! `rapidity measure`: what each speed-up costs in error.
 
+pub mod direction;
 pub mod extremes;
 pub mod sweep;
 

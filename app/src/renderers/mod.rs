@@ -14,7 +14,7 @@ mod scene_renderer;
 pub mod target;
 pub mod world;
 
-pub use scene_renderer::{Method, SceneRenderer, Shot};
+pub use scene_renderer::{Method, SceneRenderer, Shot, Subject};
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;

@@ -2,9 +2,10 @@
 
 use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, Stored};
 use super::target::{Format, Radiance};
-use super::{SceneRenderer, Shot};
+use super::{SceneRenderer, Shot, Subject};
 use crate::gpu::{Gpu, GpuError};
 use crate::views::sample_offset;
+use glam::{DVec3, Vec3};
 use image::{Rgb32FImage, RgbaImage};
 
 /// What a picture is stored as.
@@ -168,19 +169,48 @@ impl Studio {
         light(gpu, radiance, &stored)
     }
 
+    /// Where in the scene is what each pixel's centre shows: metres relative to the scene's origin, row by row; `None` where it shows no
+    /// surface. Only where the device draws 32-bit floats are these true.
+    ///
+    /// # Errors
+    /// As [`Studio::photograph`].
+    pub fn places(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+    ) -> Result<Vec<Option<DVec3>>, GpuError> {
+        renderer.subject = Subject::Places;
+        let drawn = self.draw_samples(gpu, renderer, shot, 1);
+        renderer.subject = Subject::Light;
+        drawn?;
+        let place = |[x, y, z, there]: [f32; 4]| (there > 0.5).then(|| Vec3::new(x, y, z).as_dvec3());
+        Ok(texels(gpu, self.radiance.result())?.into_iter().map(place).collect())
+    }
+
     /// Draws each sample, and adds it up.
     fn draw(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Stored, GpuError> {
+        self.draw_samples(gpu, renderer, shot, self.samples)
+    }
+
+    fn draw_samples(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        samples: u32,
+    ) -> Result<Stored, GpuError> {
         if renderer.transforms(shot.effects) {
             let transformed = renderer.receive()?;
             renderer.show(gpu, transformed);
         }
         renderer.prepare(gpu, shot, self.size);
         self.sum.restart();
-        for sample in 0..self.samples {
+        for sample in 0..samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, self.samples));
-            if self.samples > 1 {
-                self.darkroom.display.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), self.samples);
+            renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, samples));
+            if samples > 1 {
+                self.darkroom.display.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), samples);
             }
             gpu.queue.submit([encoder.finish()]);
         }
@@ -194,19 +224,24 @@ impl Studio {
 /// [`GpuError::Lost`] if the device went away.
 pub fn light(gpu: &Gpu, radiance: &wgpu::TextureView, stored: &Stored) -> Result<Rgb32FImage, GpuError> {
     let size = radiance.texture().size();
-    let sheet = Sheet::new(gpu, [size.width, size.height], LIGHT_FORMAT);
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    display::copy(gpu, &mut encoder, radiance, &sheet.view(), LIGHT_FORMAT);
-    let bytes = sheet.fetch(gpu, encoder)?;
 
     let candela = stored.white / stored.scale;
     let largest = f64::from(f32::MAX);
-    let values = bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&bytes)
+    let values = texels(gpu, radiance)?
         .into_iter()
         .flat_map(|[red, green, blue, _]| [red, green, blue])
         .map(|value| (f64::from(value) * candela).clamp(-largest, largest) as f32)
         .collect();
     Ok(Rgb32FImage::from_raw(size.width, size.height, values).expect("the sheet has three colours a pixel"))
+}
+
+/// Fetches a texture as it is.
+fn texels(gpu: &Gpu, texture: &wgpu::TextureView) -> Result<Vec<[f32; 4]>, GpuError> {
+    let size = texture.texture().size();
+    let sheet = Sheet::new(gpu, [size.width, size.height], LIGHT_FORMAT);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    display::copy(gpu, &mut encoder, texture, &sheet.view(), LIGHT_FORMAT);
+    Ok(bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&sheet.fetch(gpu, encoder)?))
 }
 
 /// Size of the largest picture that the device can draw, pixels along each side.

@@ -56,6 +56,16 @@ impl Shot {
     }
 }
 
+/// What a picture shows of the surfaces that are seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// Their light.
+    #[default]
+    Light,
+    /// Their places: x, y and z in metres, relative to the scene's origin, and 1; zeros where no surface is.
+    Places,
+}
+
 /// How a scene is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
@@ -79,6 +89,8 @@ pub struct SceneRenderer {
     edges: Edges,
     motions: Vec<Motion>,
     format: Format,
+    /// What pictures show.
+    pub subject: Subject,
 }
 
 enum Way {
@@ -105,7 +117,7 @@ impl SceneRenderer {
             Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
         };
         let (edges, motions) = (Edges::of(scene), scene.motions.clone());
-        Ok(Self { world: World::new(gpu, scene, background), way, edges, motions, format })
+        Ok(Self { world: World::new(gpu, scene, background), way, edges, motions, format, subject: Subject::Light })
     }
 
     /// Triangles that a draw of everything takes.
@@ -218,7 +230,9 @@ impl SceneRenderer {
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
         match &mut self.way {
-            Way::Image(image) if shot.effects.geometry => image.draw_map(gpu, &mut self.world, shot, size),
+            Way::Image(image) if shot.effects.geometry => {
+                image.draw_map(gpu, &mut self.world, shot, size, self.subject);
+            }
             Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
             _ => {}
         }
@@ -238,7 +252,7 @@ impl SceneRenderer {
         let streams = match &mut self.way {
             Way::Image(image) if geometry => {
                 self.world.write_views(gpu, &[view]);
-                return image.draw(gpu, &self.world, encoder, target, shot.effects);
+                return image.draw(gpu, &self.world, encoder, target, shot.effects, self.subject);
             }
             Way::Polygon(surface) if geometry => Some(&surface.streams),
             Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => adaptive.streams(),
@@ -249,7 +263,10 @@ impl SceneRenderer {
                 None
             }
         };
-        let mode = Mode::Light(shot.effects);
+        let mode = match self.subject {
+            Subject::Light => Mode::Light(shot.effects),
+            Subject::Places => Mode::Places,
+        };
         self.world.prepare(gpu, mode, self.format);
         self.world.write_views(gpu, &[view]);
         let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position() };

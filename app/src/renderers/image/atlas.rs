@@ -68,9 +68,10 @@ impl Atlas {
         u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
-    /// Whether there is room for `size`, and not far too much.
-    pub fn holds(&self, size: [u32; 2]) -> bool {
-        (0..2).all(|axis| size[axis] <= self.size[axis] && self.size[axis] <= 2 * size[axis].max(64))
+    /// Whether there is room for `size`, and not far too much, and these layers.
+    pub fn holds(&self, size: [u32; 2], layers: u32) -> bool {
+        self.layers.len() == layers as usize
+            && (0..2).all(|axis| size[axis] <= self.size[axis] && self.size[axis] <= 2 * size[axis].max(64))
     }
 
     /// Begins drawing the panes of one layer over a cleared texture.

@@ -12,7 +12,7 @@ mod sight;
 
 use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World, bind_group, effect_constants, layout};
-use super::{Effects, Shot};
+use super::{Effects, Shot, Subject};
 use crate::gpu::Gpu;
 use crate::views::NEAR_M;
 use atlas::Atlas;
@@ -65,7 +65,7 @@ pub struct ImageRenderer {
     quality: MapQuality,
     atlas: Option<Atlas>,
     group: Option<wgpu::BindGroup>,
-    pipelines: Vec<(Effects, bool, wgpu::RenderPipeline)>,
+    pipelines: Vec<(Effects, Subject, wgpu::RenderPipeline)>,
     stats: MapStats,
 }
 
@@ -115,9 +115,12 @@ impl ImageRenderer {
     }
 
     /// Draws the map for a picture of `size` pixels.
-    pub fn draw_map(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2]) {
+    pub fn draw_map(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2], subject: Subject) {
         let started = Instant::now();
-        let layers = world.spectra.carriers.len() as u32;
+        let (mode, layers) = match subject {
+            Subject::Light => (Mode::Weights, world.spectra.carriers.len() as u32),
+            Subject::Places => (Mode::Places, 1),
+        };
         let format = atlas::format(self.format);
         let texel_bytes = atlas::texel_bytes(format, layers);
         let sight = Sight::new(&shot.camera, size, shot.celerity());
@@ -143,10 +146,10 @@ impl ImageRenderer {
             views.iter().map(move |(view, _)| shaders::View { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
-        world.prepare(gpu, Mode::Weights, format);
+        world.prepare(gpu, mode, format);
 
         let atlas = match self.atlas.take() {
-            Some(atlas) if atlas.holds(plan.size) => atlas,
+            Some(atlas) if atlas.holds(plan.size, layers) => atlas,
             old => {
                 // Let go of the old one first: two may not fit.
                 drop((old, self.group.take()));
@@ -155,7 +158,7 @@ impl ImageRenderer {
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws = Draws { streams: None, mode: Mode::Weights, format, eye: shot.eye.position() };
+        let draws = Draws { streams: None, mode, format, eye: shot.eye.position() };
         for layer in 0..layers {
             let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
@@ -221,8 +224,9 @@ impl ImageRenderer {
         encoder: &mut wgpu::CommandEncoder,
         target: &Radiance,
         effects: Effects,
+        subject: Subject,
     ) {
-        let pipeline = self.pipeline(gpu, world, effects);
+        let pipeline = self.pipeline(gpu, world, effects, subject);
         let Some(group) = &self.group else { return };
         let mut pass = target.begin(encoder);
         pass.set_pipeline(&pipeline);
@@ -231,13 +235,16 @@ impl ImageRenderer {
         pass.draw(0..3, 0..1);
     }
 
-    fn pipeline(&mut self, gpu: &Gpu, world: &World, effects: Effects) -> wgpu::RenderPipeline {
+    fn pipeline(&mut self, gpu: &Gpu, world: &World, effects: Effects, subject: Subject) -> wgpu::RenderPipeline {
         let smooth = self.quality.smooth;
-        if let Some((.., pipeline)) = self.pipelines.iter().find(|(of, way, _)| (*of, *way) == (effects, smooth)) {
+        let known = self.pipelines.iter().find(|(of, what, _)| (*of, *what) == (effects, subject));
+        if let Some((.., pipeline)) = known {
             return pipeline.clone();
         }
         let layers = world.spectra.carriers.len();
-        let own = [("LAYERS", layers as f64), ("SMOOTH", f64::from(u8::from(smooth)))];
+        let flag = |value: bool| f64::from(u8::from(value));
+        let places = subject == Subject::Places;
+        let own = [("LAYERS", layers as f64), ("SMOOTH", flag(smooth)), ("PLACES", flag(places))];
         let constants = [own.as_slice(), &effect_constants(effects, layers == 1, self.format)].concat();
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("warp"),
@@ -275,7 +282,7 @@ impl ImageRenderer {
             multiview_mask: None,
             cache: None,
         });
-        self.pipelines.push((effects, smooth, pipeline.clone()));
+        self.pipelines.push((effects, subject, pipeline.clone()));
         pipeline
     }
 }

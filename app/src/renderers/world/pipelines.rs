@@ -19,6 +19,8 @@ pub enum Mode {
     Light(Effects),
     /// The weights of one carrier after another, for the image renderer's map.
     Weights,
+    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1; zeros where there is none.
+    Places,
 }
 
 /// Pipelines for every material and the sky, in one mode, for targets of one format.
@@ -145,9 +147,9 @@ impl Mode {
     fn constants(self, identity: bool, format: Format) -> Vec<Constant> {
         let effects = match self {
             Self::Light(effects) => effects,
-            Self::Weights => Effects::NONE,
+            Self::Weights | Self::Places => Effects::NONE,
         };
-        let map = [("MAP", flag(self == Self::Weights))];
+        let map = [("MAP", flag(self == Self::Weights)), ("PLACES", flag(self == Self::Places))];
         [map.as_slice(), &effect_constants(effects, identity, format)].concat()
     }
 }
@@ -170,7 +172,7 @@ fn flag(value: bool) -> f64 {
 /// Over what is there by opacity. The light that an observer sees has its luminance at rest where opacity would be: it stays.
 fn blending(mode: Mode) -> wgpu::BlendState {
     match mode {
-        Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
+        Mode::Weights | Mode::Places => wgpu::BlendState::ALPHA_BLENDING,
         Mode::Light(_) => wgpu::BlendState {
             alpha: wgpu::BlendComponent {
                 src_factor: wgpu::BlendFactor::Zero,
