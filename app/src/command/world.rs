@@ -87,7 +87,7 @@ impl WorldOptions {
     }
 }
 
-fn scene() -> impl TypedValueParser<Value = SceneChoice> {
+pub(super) fn scene() -> impl TypedValueParser<Value = SceneChoice> {
     PathBufValueParser::new().try_map(|path| {
         Ok::<_, Infallible>(path.to_str().map_or_else(|| SceneChoice::File(path.clone()), SceneChoice::from_name))
     })

@@ -31,6 +31,13 @@ impl DirectionErrors {
         Self { arcmin }
     }
 
+    /// Of several pictures as of one.
+    pub fn together(pictures: impl IntoIterator<Item = Self>) -> Self {
+        let mut arcmin: Vec<f64> = pictures.into_iter().flat_map(|picture| picture.arcmin).collect();
+        arcmin.sort_by(f64::total_cmp);
+        Self { arcmin }
+    }
+
     /// How many pixels show a surface.
     pub fn count(&self) -> usize {
         self.arcmin.len()
