@@ -15,6 +15,9 @@ pub enum Error {
     /// Nothing to draw with.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// No plot.
+    #[error(transparent)]
+    Plot(#[from] crate::measure::plot::PlotError),
     /// No film.
     #[error(transparent)]
     Film(#[from] FilmError),

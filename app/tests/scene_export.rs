@@ -31,6 +31,7 @@ fn scene(origin: DVec3) -> Scene {
             indices: (0..30).map(|_| random.random_range(0..33)).collect(),
             positions,
             solid,
+            motion: None,
         }
     };
     let meshes = vec![mesh("house 1", 1, true), mesh("tree \"é\"", 0, false), mesh("", 2, true)];

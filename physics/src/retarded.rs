@@ -87,9 +87,9 @@ pub fn retarded(observer: Event, worldline: &impl Worldline) -> Result<Retarded,
     for _ in 0..200 {
         let (seen, lag, direction) = look(guess.ct)?;
         if lag >= 0.0 {
-            early = seen.ct
+            early = seen.ct;
         } else {
-            late = seen.ct
+            late = seen.ct;
         }
         guess = seen;
         let newton = seen.ct + lag / (1.0 + direction.dot(seen.beta));

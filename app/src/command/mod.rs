@@ -142,8 +142,7 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
     match &command {
         Command::Ride(options) => options.check(),
         Command::Render(options) => options.check(),
-        Command::Measure(options) => options.check(),
-        Command::Town(_) | Command::Probe | Command::Devices(_) | Command::Check(_) => Ok(()),
+        Command::Measure(_) | Command::Town(_) | Command::Probe | Command::Devices(_) | Command::Check(_) => Ok(()),
     }
     .map_err(Stop::Usage)?;
     Ok(command)

@@ -125,6 +125,16 @@ pub(super) fn glb() -> impl TypedValueParser<Value = PathBuf> {
     file(&["glb"], ".glb")
 }
 
+/// A plot to write.
+pub(super) fn plot() -> impl TypedValueParser<Value = PathBuf> {
+    file(&["svg", "png"], ".svg or .png")
+}
+
+/// A table to write.
+pub(super) fn table() -> impl TypedValueParser<Value = PathBuf> {
+    file(&["csv"], ".csv")
+}
+
 fn file(extensions: &'static [&'static str], allowed: &'static str) -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(move |path| {
         if has_extension(&path, extensions) { Ok(path) } else { Err(ValueError::Extension { allowed }) }

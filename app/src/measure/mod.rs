@@ -1,7 +1,7 @@
 //! `rapidity measure`: what each speed-up costs in error.
 
 pub mod direction;
-pub mod extremes;
+pub mod plot;
 pub mod sweep;
 
 use crate::command::MeasureOptions;
@@ -12,5 +12,5 @@ use crate::error::Error;
 /// # Errors
 /// Whatever keeps it from being measured or written.
 pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
-    if options.extremes { extremes::run() } else { sweep::run(options) }
+    sweep::run(options)
 }

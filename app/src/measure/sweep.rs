@@ -14,6 +14,7 @@ use physics::photo_surface::Eye;
 use physics::{Beta, Celerity};
 
 use super::direction::DirectionErrors;
+use super::plot::plot;
 use crate::command::{MeasureOptions, Renderer};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -102,8 +103,8 @@ pub struct Row {
 /// What keeps the scene from being drawn or the table from being written.
 pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     let stop = interrupted();
-    if let Some(out) = &options.out {
-        writable(out)?;
+    for path in options.out.iter().chain(&options.plot) {
+        writable(path)?;
     }
     let gpu = Gpu::new()?;
     let scene = source::load(&options.scene)?;
@@ -163,6 +164,12 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     if let Some(out) = &options.out {
         write_csv(&rows, out)?;
         eprintln!("wrote {}", out.display());
+    }
+    if let Some(path) = options.plot.as_ref().filter(|_| !rows.is_empty()) {
+        let [width, height] = options.size;
+        let title = format!("{}, {width} × {height}, {}", scene.name, gpu.description());
+        plot(&rows, &title, pixel_arcmin, path)?;
+        eprintln!("wrote {}", path.display());
     }
     Ok(())
 }

@@ -1,15 +1,11 @@
-//! What of a scene moves, and how: uniformly, as a file's `celerity` says, or as an animation has it.
+//! What of a scene moves, and how: uniformly, so far.
 //!
 //! A uniformly moving body is modelled at rest: the file places it as it would stand in its own frame, whose axes are a pure boost of the
 //! world's and whose origin event is the node's own place at world time `at`. In the world it is therefore shorter along its motion, and all
 //! its own laws of light are those of a scene at rest: an observer is to it what he is to the world, with another celerity. So each group of one
 //! celerity is drawn as a world of its own, seen by [`Uniform::seen_by`]'s eye (W 5.1.2).
-//!
-//! An animated body has a pose at each time of the world, and each of its points a worldline, which must stay slower than light.
-//! Nothing is claimed about what holds it together.
 
-use glam::{DAffine3, DQuat, DVec3};
-use physics::retarded::Worldline;
+use glam::{DQuat, DVec3};
 use physics::{Boost, Celerity, Event, FourVector, Observer, compose};
 
 /// How meshes move.
@@ -17,8 +13,6 @@ use physics::{Boost, Celerity, Event, FourVector, Observer, compose};
 pub enum Motion {
     /// Always at one celerity.
     Uniform(Uniform),
-    /// As keys of the file say.
-    Animated(Animation),
 }
 
 /// Uniform motion.
@@ -58,34 +52,46 @@ impl Uniform {
     }
 }
 
-/// Motion by keys.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Animation {}
+#[cfg(test)]
+mod tests {
+    //! An object's own world shows the observer what the world does: a point of it appears where, and in the colour in which, a moving point
+    //! appears to him directly. A boost the wrong way, or Wigner's rotation left out, shows at once.
 
-impl Animation {
-    /// Where the body is at world time `ct` (metres): takes world points from where the file has them at rest to where they are then.
-    pub fn world_from_rest(&self, _ct: f64) -> DAffine3 {
-        DAffine3::IDENTITY
-    }
+    use super::*;
+    use physics::{Source, apparent};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
-    /// How fast that changes, per metre of `ct`.
-    pub fn rate(&self, _ct: f64) -> DAffine3 {
-        DAffine3::from_mat3_translation(glam::DMat3::ZERO, DVec3::ZERO)
-    }
-}
+    #[test]
+    fn a_point_of_an_object_appears_where_a_moving_point_does() {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        for _ in 0..2000 {
+            let mut vector = |size: f64| DVec3::from_array([0, 1, 2].map(|_| size * random.random_range(-1.0..1.0)));
+            let celerity = |vector: DVec3| Celerity::new(vector).expect("finite");
+            let anchor = Event { ct: vector(10.0).x, position: vector(30.0) };
+            let motion = Uniform { celerity: celerity(vector(3.0)), anchor };
+            let observer = Observer {
+                event: Event { ct: vector(20.0).x, position: vector(30.0) },
+                celerity: celerity(vector(3.0)),
+            };
+            let place = vector(30.0);
 
-/// A point of an animated body.
-#[derive(Clone, Copy, Debug)]
-pub struct Point<'a> {
-    /// How the body moves.
-    pub animation: &'a Animation,
-    /// World position where the file has it at rest, metres.
-    pub rest: DVec3,
-}
+            // In the object's frame it rests.
+            let seen_by = motion.seen_by(&observer);
+            let own = Observer { event: Event { ct: 0.0, position: seen_by.position }, celerity: seen_by.celerity };
+            let seen = apparent::at_rest(&own, place);
+            let position = seen_by.observer_from_group * seen.position;
 
-impl Worldline for Point<'_> {
-    fn at(&self, ct: f64) -> (DVec3, DVec3) {
-        let place = self.animation.world_from_rest(ct).transform_point3(self.rest);
-        (place, self.animation.rate(ct).transform_point3(self.rest))
+            // In the world it moves: at world time 0 it is where its worldline, taken from the object's frame, crosses that time.
+            let world_from_object = Boost::observer_from_world(motion.celerity).inverse();
+            let event = world_from_object.apply(FourVector { t: 0.0, r: place - anchor.position });
+            let beta = motion.celerity.beta().vector();
+            let at_zero = anchor.position + event.r - beta * (anchor.ct + event.t);
+            let direct = apparent::moving(&observer, &Source { position: at_zero, celerity: motion.celerity });
+
+            let scale = 1e-12 * (direct.position.length() + 200.0);
+            assert!(position.distance(direct.position) < scale, "{position} {}", direct.position);
+            assert!((seen.doppler / direct.doppler - 1.0).abs() < 1e-11, "{} {}", seen.doppler, direct.doppler);
+        }
     }
 }

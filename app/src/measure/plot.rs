@@ -1,0 +1,123 @@
+//! The table as a picture: time across, error up, both in logarithms; what nothing beats is joined by a line.
+
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use super::sweep::Row;
+
+/// Pixels.
+const SIZE: (u32, u32) = (1000, 620);
+const FONT: &str = "sans-serif";
+const FRONT: RGBColor = RGBColor(120, 120, 120);
+
+/// What a renderer's points look like.
+const KINDS: [(&str, &str, RGBColor); 3] = [
+    ("--edge", "polygon, cut once (--edge, metres)", RGBColor(214, 96, 36)),
+    ("--tolerance", "polygon, cut for the picture (--tolerance, pixels)", RGBColor(20, 110, 180)),
+    ("--map-scale", "image (--map-scale, texels a pixel)", RGBColor(40, 140, 60)),
+];
+
+/// Why there is no plot.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot plot {path}: {reason}")]
+pub struct PlotError {
+    path: std::path::PathBuf,
+    reason: String,
+}
+
+/// Draws the rows into an .svg or .png file.
+///
+/// # Arguments
+/// * `title` — what was measured, on what.
+/// * `pixel_arcmin` — size of a pixel, for a line across.
+///
+/// # Errors
+/// [`PlotError`] if the file cannot be written.
+pub fn plot(rows: &[Row], title: &str, pixel_arcmin: f64, path: &Path) -> Result<(), PlotError> {
+    let fault = |reason: String| PlotError { path: path.to_owned(), reason };
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| fault("its font is damaged".to_owned()))?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
+        draw(&SVGBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin).map_err(fault)
+    } else {
+        draw(&BitMapBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin).map_err(fault)
+    }
+}
+
+fn draw<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    rows: &[Row],
+    title: &str,
+    pixel_arcmin: f64,
+) -> Result<(), String> {
+    let told = |error: DrawingAreaErrorKind<B::ErrorType>| error.to_string();
+    area.fill(&WHITE).map_err(told)?;
+    let span = |values: Vec<f64>, below: f64, above: f64| {
+        let positive = || values.iter().copied().filter(|value| *value > 0.0);
+        (positive().fold(f64::INFINITY, f64::min) * below)..(positive().fold(0.0, f64::max) * above)
+    };
+    let across = span(rows.iter().map(|row| row.ms[0]).collect(), 0.8, 1.6);
+    let up = span(rows.iter().map(|row| row.arcmin[1]).chain([pixel_arcmin]).collect(), 0.6, 1.8);
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, (FONT, 22))
+        .margin(14)
+        .x_label_area_size(52)
+        .y_label_area_size(70)
+        .build_cartesian_2d(across.clone().log_scale(), up.log_scale())
+        .map_err(told)?;
+    let plain = |value: &f64| if *value < 10.0 { format!("{value:.1}") } else { format!("{value:.0}") };
+    chart
+        .configure_mesh()
+        .x_desc("milliseconds a picture, from nothing")
+        .y_desc("direction error that 99 of 100 pixels do not exceed, arcmin")
+        .x_label_formatter(&plain)
+        .y_label_formatter(&plain)
+        .axis_desc_style((FONT, 18))
+        .label_style((FONT, 15))
+        .light_line_style(RGBColor(238, 238, 238))
+        .bold_line_style(RGBColor(220, 220, 220))
+        .draw()
+        .map_err(told)?;
+
+    // A pixel, and what nothing beats.
+    let pixel = [(across.start, pixel_arcmin), (across.end, pixel_arcmin)];
+    chart.draw_series(LineSeries::new(pixel, BLACK.mix(0.35))).map_err(told)?;
+    let note = Text::new("one pixel", (across.start * 1.03, pixel_arcmin * 0.93), (FONT, 15).into_font());
+    chart.draw_series([note]).map_err(told)?;
+    let mut front: Vec<(f64, f64)> = rows.iter().filter(|row| row.best).map(|row| (row.ms[0], row.arcmin[1])).collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0));
+    chart
+        .draw_series(LineSeries::new(front, FRONT.stroke_width(2)))
+        .map_err(told)?
+        .label("no setting is both faster and closer")
+        .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], FRONT.stroke_width(2)));
+
+    for (flag, name, colour) in KINDS {
+        let points = rows.iter().filter_map(|row| {
+            let value = row.flags.split_once(flag)?.1.trim().to_owned();
+            Some((row.ms[0], row.arcmin[1], value))
+        });
+        let marks = points.map(|(ms, arcmin, value)| {
+            EmptyElement::at((ms, arcmin))
+                + Circle::new((0, 0), 6, colour.filled())
+                + Text::new(value, (10, -14), (FONT, 17).into_font().color(&colour))
+        });
+        chart
+            .draw_series(marks)
+            .map_err(told)?
+            .label(name)
+            .legend(move |(x, y)| Circle::new((x + 9, y), 5, colour.filled()));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .label_font((FONT, 16))
+        .background_style(WHITE.mix(0.9))
+        .border_style(RGBColor(200, 200, 200))
+        .draw()
+        .map_err(told)?;
+    area.present().map_err(told)
+}
