@@ -75,6 +75,8 @@ fn draw<B: DrawingBackend>(
         .y_desc("direction error that 99 of 100 pixels do not exceed, arcmin")
         .x_label_formatter(&plain)
         .y_label_formatter(&plain)
+        .x_labels(6)
+        .max_light_lines(4)
         .axis_desc_style((FONT, 18))
         .label_style((FONT, 15))
         .light_line_style(RGBColor(238, 238, 238))

@@ -1,7 +1,8 @@
 //! The renderers at several settings of their dials: how long a picture takes, and how far from its place anything in it is drawn.
 //!
 //! Poses lie along the scene's circuit, or in a straight line from its start, at speeds from rest up. At each pose every setting draws the same
-//! picture, one after the other, several times over: what the machine does besides falls on all alike.
+//! picture, one after the other, several times over: what the machine does besides falls on all alike. A picture is drawn from nothing, as a
+//! still is: in a window, cuts and photo-surfaces are made beside the drawing.
 
 use std::fs::File;
 use std::io::Write;
@@ -187,7 +188,7 @@ fn shots(scene: &Scene, poses: u32) -> Result<Vec<Shot>, Error> {
         };
         let speed = SPEEDS[number as usize % SPEEDS.len()];
         let celerity = Beta::new(ahead.normalize() * speed).map_or(Celerity::ZERO, Beta::celerity);
-        let look = if number % 2 == 0 { ahead } else { ahead + 0.7 * ahead.cross(DVec3::Y) };
+        let look = if number.is_multiple_of(2) { ahead } else { ahead + 0.7 * ahead.cross(DVec3::Y) };
         let eye = Eye::new(place + DVec3::Y * EYE_HEIGHT_M, celerity.vector())?;
         let camera = Camera::looking(look, DVec3::Y, FOV_DEGREES.to_radians());
         Ok(Shot { camera, eye, ct: 0.0, effects: Effects::ALL })
