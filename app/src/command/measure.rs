@@ -17,7 +17,7 @@ pub struct MeasureOptions {
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub poses: u32,
     /// How often each picture is timed, 1 to 1000.
-    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// Write the table to a file as well, as comma-separated values.
     #[arg(long, value_name = "FILE.csv", value_parser = values::table())]
