@@ -18,6 +18,9 @@ pub enum Error {
     /// No plot.
     #[error(transparent)]
     Plot(#[from] crate::measure::plot::PlotError),
+    /// Physics less exact than promised.
+    #[error(transparent)]
+    Extremes(#[from] crate::measure::extremes::ExtremesError),
     /// No film.
     #[error(transparent)]
     Film(#[from] FilmError),

@@ -172,6 +172,13 @@ impl DoubleDoubleVec3 {
         leading + (a.cross(other.low) + self.low.cross(b))
     }
 
+    /// `self × other` to about 106 bits of the product of their lengths.
+    pub(crate) fn precise_cross(self, other: Self) -> Self {
+        let product = |i, j| self.component(i) * other.component(j) - self.component(j) * other.component(i);
+        let [x, y, z] = [product(1, 2), product(2, 0), product(0, 1)];
+        Self { high: DVec3::new(x.high, y.high, z.high), low: DVec3::new(x.low, y.low, z.low) }
+    }
+
     /// The nearest f64 vector.
     pub(crate) fn rounded(self) -> DVec3 {
         self.high + self.low

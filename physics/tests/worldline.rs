@@ -100,6 +100,31 @@ fn circle_at_gamma_1000_reaches_the_tabled_accuracy() {
 }
 
 #[test]
+fn circle_at_gamma_1000_is_the_same_in_long_and_short_steps() {
+    // An orientation rounded to f64 at each step drifts apart by 1e-9 in ten turns: γ² = 1e6 times rounding.
+    const TOLERANCE: f64 = 1e-14;
+    const WAY: f64 = 60_000.0;
+    let (start, thrust, _) = circle(1e3, 1.0, 0.0);
+    let long = travel(&Exact, &start, WAY, 16.0, &thrust).unwrap();
+    let short = travel(&Exact, &start, WAY, 0.125, &thrust).unwrap();
+    assert!(relative_difference(short.celerity.vector(), long.celerity.vector()) < TOLERANCE, "{short:?} {long:?}");
+    assert!(turn_between(short.orientation, long.orientation) < TOLERANCE);
+    assert!(short.position.distance(long.position) < TOLERANCE * long.ct);
+}
+
+#[test]
+fn ship_stopped_from_outside_rests_exactly() {
+    let thrust = Thrust { acceleration: DVec3::new(0.3, 0.1, -0.7), turn_rate: DVec3::new(0.1, 0.5, 0.0) };
+    let mut state = travel(&Exact, &State::default(), 1.0, 1.0 / 240.0, &thrust).unwrap();
+    state.celerity = Celerity::ZERO;
+    for integrator in [&Exact as &dyn Integrator, &Rk4] {
+        let end = travel(integrator, &state, 10.0, 1.0 / 240.0, &Thrust::default()).unwrap();
+        assert_eq!((end.position, end.celerity), (state.position, state.celerity));
+        assert_eq!(end.orientation, state.orientation);
+    }
+}
+
+#[test]
 fn gyroscope_on_a_circle_at_gamma_1000_reaches_the_tabled_accuracy() {
     // The same circle with gyroscopic axes: now the thrust turns, once every 0.6 of proper time, and Thomas precession
     // is all the rotation.

@@ -10,6 +10,9 @@ use super::{SceneChoice, values, world};
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct MeasureOptions {
+    /// Print instead, as ACCURACY.md, how far the physics is off at extreme speeds, distances and steps, against 180 digits: takes minutes.
+    #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene"])]
+    pub extremes: bool,
     /// Width and height of the pictures, pixels.
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = values::size)]
     pub size: [u32; 2],

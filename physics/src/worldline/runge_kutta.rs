@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec3};
 
 use super::control::finite_thrust;
-use super::state::Increment;
+use super::state::{Increment, Rest};
 use super::{Control, State, WorldlineError};
 
 /// Rates of change with proper time.
@@ -60,6 +60,7 @@ impl Rates {
             position: span * self.position,
             celerity: state.celerity.vector() + span * self.celerity,
             orientation: state.orientation + self.orientation * span,
+            rest: Rest::default(),
         }
     }
 }

@@ -1,8 +1,9 @@
 //! A point of a worldline, and how an increment is added to it without losing what rounding drops.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, DVec4};
 
 use super::WorldlineError;
+use super::rotation::Rotation;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
 
@@ -21,7 +22,7 @@ pub struct State {
     pub celerity: Celerity,
     /// Rotation from the pilot's axes to the axes of the pure boost from the world.
     pub orientation: DQuat,
-    /// What the sums in `proper_time`, `ct` and `position` have lost to rounding.
+    /// What the other fields have lost to rounding.
     remainder: Remainder,
 }
 
@@ -30,6 +31,7 @@ struct Remainder {
     proper_time: f64,
     ct: f64,
     position: DVec3,
+    rest: Rest,
 }
 
 /// What a step adds to a state.
@@ -40,6 +42,15 @@ pub(super) struct Increment {
     pub(super) celerity: DVec3,
     /// The new orientation; its length is corrected.
     pub(super) orientation: DQuat,
+    /// What the new celerity and orientation leave, for a step that knows them that well.
+    pub(super) rest: Rest,
+}
+
+/// Parts of a celerity and an orientation below the last place of f64.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Rest {
+    pub(super) celerity: DVec3,
+    pub(super) orientation: DVec4,
 }
 
 impl State {
@@ -71,7 +82,25 @@ impl State {
         let head = Celerity::from_finite(self.orientation * celerity.vector());
         let Composition { celerity, wigner } = compose(self.celerity, head);
         let orientation = wigner.inverse() * self.orientation;
-        Self { ct, position, celerity, orientation, ..*self }
+        let remainder = Remainder { rest: Rest::default(), ..self.remainder };
+        Self { ct, position, celerity, orientation, remainder, ..*self }
+    }
+
+    /// The celerity to about 106 bits.
+    pub(super) fn precise_celerity(&self) -> DoubleDoubleVec3 {
+        let (high, low) = (self.celerity.vector(), self.remainder.rest.celerity);
+        // A component that was set since keeps nothing of the old one's that would show.
+        DoubleDoubleVec3 { high, low: DVec3::select((high + low).cmpeq(high), low, DVec3::ZERO) }
+    }
+
+    /// The orientation to about 106 bits.
+    pub(super) fn precise_orientation(&self) -> Rotation {
+        let (high, low) = (DVec4::from(self.orientation), self.remainder.rest.orientation);
+        let low = DVec4::select((high + low).cmpeq(high), low, DVec4::ZERO);
+        Rotation {
+            vector: DoubleDoubleVec3 { high: high.truncate(), low: low.truncate() },
+            scalar: DoubleDouble { high: high.w, low: low.w },
+        }
     }
 
     /// The state after a step, if it is finite.
@@ -85,7 +114,12 @@ impl State {
             proper_time: proper_time.high,
             ct: ct.high,
             position: position.high,
-            remainder: Remainder { proper_time: proper_time.low, ct: ct.low, position: position.low },
+            remainder: Remainder {
+                proper_time: proper_time.low,
+                ct: ct.low,
+                position: position.low,
+                rest: increment.rest,
+            },
             ..self.turned(step, increment)?
         };
         if end.proper_time.is_finite() && end.ct.is_finite() && end.position.is_finite() {

@@ -1,0 +1,214 @@
+//! Where light is seen and how its frequency is raised, at extreme speeds, angles and distances, against the textbook's formulas.
+//!
+//! The textbook form of aberration, x' = d + u (r + u·d/(1 + γ)), loses ε γ² astern; at 180 digits that is nothing. The reference starts from
+//! the very f64 numbers that the program is given, so that what it measures is the program's own rounding.
+
+use glam::DVec3;
+use physics::{Aberration, Celerity, Event, Observer, Source, apparent};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::real::{Real, RealVec, angle, gamma, real, relative, to_f64};
+use super::row::{Row, Worst};
+
+const DIRECTION: &str = "direction, rad";
+const DISTANCE: &str = "distance, share";
+const DOPPLER: &str = "Doppler factor, share";
+const EMISSION: &str = "time of emission, share of the light's way and the clock";
+
+/// |u| at γ = 1 + 1e-12 and at γ = 1e12, as powers of ten.
+const CELERITY_DECADES: std::ops::RangeInclusive<f64> = -5.849..=12.0;
+
+/// Within this angle of the line of motion, radians.
+const CLOSE_RAD: f64 = 1e-12;
+
+/// Metres from the eye.
+const DISTANCES: [(f64, &str); 4] =
+    [(0.0, "at the eye"), (1e-9, "1e-9 m away"), (1.0, "1 m away"), (1e15, "1e15 m away")];
+
+/// A world origin this far away, metres.
+const FAR_ORIGIN: f64 = 1e9;
+
+/// Where the light comes from in the world, by the observer's motion.
+#[derive(Clone, Copy)]
+enum From {
+    Ahead,
+    Astern,
+    CloseToAstern,
+    CloseToAhead,
+    Anywhere,
+}
+
+const DIRECTIONS: [(From, &str); 5] = [
+    (From::Ahead, "straight ahead"),
+    (From::Astern, "straight behind"),
+    (From::CloseToAhead, "within 1e-12 rad of straight ahead"),
+    (From::CloseToAstern, "within 1e-12 rad of straight behind"),
+    (From::Anywhere, "from anywhere"),
+];
+
+/// Rows of so many cases each.
+pub fn rows(cases: u32) -> Vec<Row> {
+    let mut random = ChaCha8Rng::seed_from_u64(31);
+    let mut rows = speeds(&mut random, cases).rows();
+    for (from, name) in DIRECTIONS {
+        rows.extend(aberration(&mut random, cases, from, name).rows());
+    }
+    for (metres, name) in DISTANCES {
+        rows.extend(at_rest(&mut random, cases, metres, 0.0, name).rows());
+        if metres > 0.0 {
+            let name = format!("{name}, the world's origin 1e9 m away");
+            rows.extend(at_rest(&mut random, cases, metres, FAR_ORIGIN, &name).rows());
+        }
+    }
+    rows.extend(moving(&mut random, cases).rows());
+    rows
+}
+
+fn speeds(random: &mut ChaCha8Rng, cases: u32) -> Worst {
+    let mut worst = Worst::new("speed: γ from 1 + 1e-12 to 1e12");
+    for case in 0..cases {
+        let celerity = celerity(random, case);
+        let u = RealVec::new(celerity.vector());
+        let exact = gamma(&u);
+        let rapidity = (&exact + u.length()).ln();
+        let beta = RealVec::new(celerity.vector()).length() / &exact;
+        worst.meet([
+            ("γ, share", relative(celerity.gamma(), &exact)),
+            ("rapidity, share", relative(celerity.rapidity(), &rapidity)),
+            ("β, share", relative(celerity.beta().vector().length(), &beta)),
+        ]);
+    }
+    worst
+}
+
+fn aberration(random: &mut ChaCha8Rng, cases: u32, from: From, name: &str) -> Worst {
+    let mut worst = Worst::new(format!("aberration of light {name}, there and back"));
+    for case in 0..cases {
+        let celerity = celerity(random, case);
+        let n = displacement(random, celerity, from);
+        let aberration = Aberration::new(celerity);
+        let seen = [(1.0, aberration.observer_from_world(n)), (-1.0, aberration.world_from_observer(n))];
+        for (sign, (direction, doppler)) in seen {
+            let (image, stretch) = boosted_light(&RealVec::new(sign * celerity.vector()), &RealVec::new(n));
+            let exact = if sign > 0.0 { stretch } else { real(1.0) / stretch };
+            worst.meet([(DIRECTION, angle(direction, &image)), (DOPPLER, relative(doppler, &exact))]);
+        }
+    }
+    worst
+}
+
+/// Points `metres` from the eye, which is `origin` metres from the world's origin: as far as f64 can name a place there.
+fn at_rest(random: &mut ChaCha8Rng, cases: u32, metres: f64, origin: f64, name: &str) -> Worst {
+    let mut worst = Worst::new(format!("point at rest, {name}"));
+    for case in 0..cases {
+        let celerity = celerity(random, case);
+        let eye = origin * unit(random);
+        let from = DIRECTIONS[case as usize % DIRECTIONS.len()].0;
+        let point = eye + metres * displacement(random, celerity, from);
+        let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
+        let seen = apparent::at_rest(&observer, point);
+
+        let d = &RealVec::new(point) - &RealVec::new(eye);
+        let r = d.length();
+        let u = RealVec::new(celerity.vector());
+        // At the eye itself there is no direction; the frequency is raised by γ, the mean over all.
+        let (image, doppler) =
+            if r == real(0.0) { (RealVec::new(DVec3::ZERO), gamma(&u)) } else { boosted_light(&u, &d) };
+        worst.meet([
+            (DIRECTION, angle(seen.position, &image)),
+            (DISTANCE, relative(seen.position.length(), &image.length())),
+            (DOPPLER, relative(seen.doppler, &doppler)),
+            (EMISSION, relative(-seen.emitted_at, &r)),
+        ]);
+    }
+    worst
+}
+
+/// Sources in motion at any speed, companions of the observer among them.
+fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
+    let mut worst = Worst::new("moving source, 1e-9 to 1e15 m away, companions included");
+    for case in 0..cases {
+        let celerity_of_observer = celerity(random, case);
+        let from = DIRECTIONS[case as usize % DIRECTIONS.len()].0;
+        let place = 1e3 * unit(random);
+        let ct = random.random_range(-1e3..1e3);
+        let observer = Observer { event: Event { ct, position: place }, celerity: celerity_of_observer };
+        let companion = celerity_of_observer.vector() * (1.0 + 10.0_f64.powf(random.random_range(-12.0..0.0)));
+        let source_celerity = match Celerity::new(companion) {
+            Ok(companion) if case % 2 == 0 => companion,
+            _ => celerity(random, case / 2),
+        };
+        let metres = 10.0_f64.powf(random.random_range(-9.0..15.0));
+        let position = place + metres * displacement(random, celerity_of_observer, from);
+        let seen = apparent::moving(&observer, &Source { position, celerity: source_celerity });
+
+        let (u, v) = (RealVec::new(celerity_of_observer.vector()), RealVec::new(source_celerity.vector()));
+        let time = real(ct);
+        let now = &(&RealVec::new(position) - &RealVec::new(place)) + &(&v * &(&time / gamma(&v)));
+        let (d, age) = retarded(&now, &v);
+        let (image, observed) = boosted_light(&u, &d);
+        let (_, sent) = boosted_light(&v, &d);
+        let scale = to_f64(&age) + ct.abs();
+        worst.meet([
+            (DIRECTION, angle(seen.position, &image)),
+            (DISTANCE, relative(seen.position.length(), &image.length())),
+            (DOPPLER, relative(seen.doppler, &(observed / sent))),
+            (EMISSION, to_f64(&(real(seen.emitted_at) - (time - age))).abs() / scale),
+        ]);
+    }
+    worst
+}
+
+/// Textbook: the event (−|d|, d) boosted (W 4.1), and D = |x'| / |d|.
+fn boosted_light(u: &RealVec, d: &RealVec) -> (RealVec, Real) {
+    let r = d.length();
+    let along = u.dot(d);
+    let image = d + &(u * &(&r + along / (real(1.0) + gamma(u))));
+    let doppler = image.length() / r;
+    (image, doppler)
+}
+
+/// Textbook: the retarded displacement of a source (B eq. 2.22), and the light's travel time.
+fn retarded(d: &RealVec, u: &RealVec) -> (RealVec, Real) {
+    let gamma = gamma(u);
+    let beta = u * &(real(1.0) / &gamma);
+    let along = beta.dot(d);
+    let gamma_squared = &gamma * &gamma;
+    let age = &gamma_squared * (&along * real(-1.0) + (&along * &along + d.dot(d) / &gamma_squared).sqrt());
+    (d - &(&beta * &age), age)
+}
+
+/// The first two cases lie at the ends of the range, the rest anywhere between, every decade as likely.
+fn celerity(random: &mut ChaCha8Rng, case: u32) -> Celerity {
+    let power = match case {
+        0 => *CELERITY_DECADES.start(),
+        1 => *CELERITY_DECADES.end(),
+        _ => random.random_range(CELERITY_DECADES),
+    };
+    Celerity::new(10.0_f64.powf(power) * unit(random)).expect("1e12 is within the limit")
+}
+
+/// A vector of length 1 to rounding.
+fn displacement(random: &mut ChaCha8Rng, celerity: Celerity, from: From) -> DVec3 {
+    let ahead = celerity.direction().unwrap_or(DVec3::X);
+    let mut close = |axis: DVec3| {
+        let across = axis.cross(unit(random)).normalize_or_zero();
+        axis + across * random.random_range(0.0..=CLOSE_RAD)
+    };
+    match from {
+        From::Ahead => ahead,
+        From::Astern => -ahead,
+        From::CloseToAhead => close(ahead),
+        From::CloseToAstern => close(-ahead),
+        From::Anywhere => unit(random),
+    }
+}
+
+/// A direction, every one as likely.
+pub fn unit(random: &mut ChaCha8Rng) -> DVec3 {
+    let z = random.random_range(-1.0..=1.0_f64);
+    let (sine, cosine) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * cosine, radius * sine, z).normalize_or(DVec3::Z)
+}

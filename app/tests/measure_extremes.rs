@@ -1,0 +1,30 @@
+//! Law: nothing in the physics is off by more than 1e-10, however extreme the speed, the angle, the distance or the step. A program that takes
+//! the textbook's formulas as they stand is off by radians straight behind, and one that adds up its clock plainly drifts.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use rapidity::measure::extremes::row::{LIMIT, Row};
+use rapidity::measure::extremes::{Extent, ExtremesError, check, document, rows};
+
+#[test]
+fn nothing_is_worse_than_the_limit() {
+    let rows = rows(Extent::QUICK).unwrap();
+    for row in &rows {
+        println!("{:e} {} {}", row.error, row.what, row.quantity);
+    }
+    check(&rows).unwrap();
+    for part in ["straight behind", "at the eye", "1e15 m", "1e9 m", "resting", "coasting", "reversals", "circle"] {
+        assert!(rows.iter().any(|row| row.what.contains(part)), "{part}");
+    }
+    let table = document(&rows);
+    assert_eq!(table.lines().filter(|line| line.starts_with("| ")).count(), rows.len() + 1, "{table}");
+}
+
+#[test]
+fn an_error_beyond_the_limit_is_told() {
+    let row = |error| Row { what: "it".into(), cases: 1, quantity: "way", error };
+    assert!(check(&[row(0.0), row(LIMIT)]).is_ok());
+    for bad in [2.0 * LIMIT, f64::INFINITY, f64::NAN] {
+        let told = check(&[row(0.0), row(bad)]).unwrap_err();
+        assert!(matches!(&told, ExtremesError::Exceeded { count: 1, .. }), "{told}");
+    }
+}
