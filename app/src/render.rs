@@ -3,7 +3,7 @@
 //! A film without a recording shows what an inertial observer sees: his eye moves on a straight worldline, and the
 //! frames are taken at equal steps of his own time. A recorded ride is seen with the rider's eyes.
 
-use crate::command::{Output, PictureOptions, RenderOptions, Viewpoint};
+use crate::command::{Output, PictureOptions, RenderOptions, Renderer, Viewpoint};
 use crate::error::Error;
 use crate::exr;
 use crate::film::{Film, Written};
@@ -13,6 +13,7 @@ use crate::progress;
 use crate::renderers::choice::{Bending, Choice};
 use crate::renderers::picture::{Studio, largest_side};
 use crate::renderers::polygon::{CutStats, Pace};
+use crate::renderers::raytrace::{RayTracer, Traced};
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, Start, source};
 use crate::views::{Camera, Gaze};
@@ -91,10 +92,16 @@ pub struct Moment {
     pub own_s: f64,
 }
 
+/// Who makes the pictures.
+enum Way {
+    Drawn(Box<SceneRenderer>),
+    Traced(Box<RayTracer>),
+}
+
 /// A scene, a device and targets, ready to take pictures.
 pub struct Cameraman<'gpu> {
     gpu: &'gpu Gpu,
-    renderer: SceneRenderer,
+    way: Way,
     studio: Studio,
     options: PictureOptions,
 }
@@ -109,6 +116,14 @@ impl<'gpu> Cameraman<'gpu> {
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
         }
+        if options.renderer == Renderer::Raytrace {
+            eprintln!("{}: traced ray by ray, on the CPU", scene.name);
+            let spinner = progress::spinner("sorting triangles");
+            let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
+            spinner.finish_and_clear();
+            let studio = Studio::new(gpu, options.size, 1);
+            return Ok(Self { gpu, way: Way::Traced(Box::new(tracer)), studio, options: options.clone() });
+        }
         let Choice { scene, method, because } =
             Choice::of(scene, options.renderer, bending, options.map_of_pictures())?;
         eprintln!("{because}, on {}", gpu.description());
@@ -117,7 +132,7 @@ impl<'gpu> Cameraman<'gpu> {
         let studio = Studio::new(gpu, options.size, options.samples);
         gpu.wait()?;
         spinner.finish_and_clear();
-        Ok(Self { gpu, renderer, studio, options: options.clone() })
+        Ok(Self { gpu, way: Way::Drawn(Box::new(renderer)), studio, options: options.clone() })
     }
 
     /// Takes one picture and writes it as PNG.
@@ -125,8 +140,10 @@ impl<'gpu> Cameraman<'gpu> {
     /// # Errors
     /// A lost device, or a place that cannot be written.
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
+        // What is drawn ends by itself before long: only rays are worth interrupting.
+        let stop = if matches!(self.way, Way::Traced(_)) { interrupted() } else { Arc::default() };
         self.submit(&gaze)?;
-        let picture = self.take(&gaze, None)?;
+        let picture = self.take(&gaze, None, &stop)?;
         self.tell_of_quality(&gaze);
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
@@ -140,7 +157,10 @@ impl<'gpu> Cameraman<'gpu> {
     pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         self.submit(&gaze)?;
         let shot = shot(&gaze, self.options.fov, self.options.effects);
-        let light = self.studio.expose(self.gpu, &mut self.renderer, &shot)?;
+        let light = match &mut self.way {
+            Way::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot)?,
+            Way::Traced(tracer) => traced(tracer, &shot, &self.options, &interrupted()).image(),
+        };
         self.tell_of_quality(&gaze);
         exr::save(&light, path)?;
         eprintln!("wrote {}", path.display());
@@ -175,7 +195,12 @@ impl<'gpu> Cameraman<'gpu> {
                 self.submit(&moment.gaze)?;
             }
             let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
-            if !film.add(self.take(&moment.gaze, elapsed_s)?) {
+            let picture = self.take(&moment.gaze, elapsed_s, &stop)?;
+            // A picture that was interrupted may be half black.
+            if stop.load(Ordering::Relaxed) && matches!(self.way, Way::Traced(_)) {
+                break;
+            }
+            if !film.add(picture) {
                 break;
             }
             done += 1;
@@ -197,12 +222,13 @@ impl<'gpu> Cameraman<'gpu> {
 
     /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel off.
     fn tell_of_quality(&self, gaze: &Gaze) {
+        let Way::Drawn(renderer) = &self.way else { return };
         let shot = shot(gaze, self.options.fov, self.options.effects);
-        let certainty = self.renderer.certainty(&shot, self.options.size);
+        let certainty = renderer.certainty(&shot, self.options.size);
         if certainty.error_px() > 1.0 {
             eprintln!("{}", certainty.sentence());
         }
-        if let Some(CutStats { tolerance_px, triangles, duration }) = self.renderer.cut_stats()
+        if let Some(CutStats { tolerance_px, triangles, duration }) = renderer.cut_stats()
             && triangles > 0
         {
             eprintln!(
@@ -211,7 +237,7 @@ impl<'gpu> Cameraman<'gpu> {
             );
         }
         let wanted = self.options.map_of_pictures().texels_per_pixel;
-        if let Some(stats) = self.renderer.map_stats()
+        if let Some(stats) = renderer.map_stats()
             && stats.panes > 0
             && stats.texels_per_pixel < 0.99 * wanted
         {
@@ -223,17 +249,36 @@ impl<'gpu> Cameraman<'gpu> {
     }
 
     fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {
-        if self.renderer.transforms(self.options.effects) {
-            self.renderer.submit(self.gpu, gaze.eye)?;
+        if let Way::Drawn(renderer) = &mut self.way
+            && renderer.transforms(self.options.effects)
+        {
+            renderer.submit(self.gpu, gaze.eye)?;
         }
         Ok(())
     }
 
-    fn take(&mut self, gaze: &Gaze, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
+    fn take(&mut self, gaze: &Gaze, elapsed_s: Option<f64>, stop: &AtomicBool) -> Result<RgbaImage, Error> {
         let shot = shot(gaze, self.options.fov, self.options.effects);
         let development = self.options.development();
-        Ok(self.studio.photograph(self.gpu, &mut self.renderer, &shot, &development, elapsed_s)?)
+        Ok(match &mut self.way {
+            Way::Drawn(renderer) => self.studio.photograph(self.gpu, renderer, &shot, &development, elapsed_s)?,
+            Way::Traced(tracer) => {
+                let traced = traced(tracer, &shot, &self.options, stop);
+                self.studio.develop(self.gpu, &traced.texels(), traced.stored, &development, elapsed_s)?
+            }
+        })
     }
+}
+
+/// Traces a picture, and says how much of it there is if it was interrupted.
+fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions, stop: &AtomicBool) -> Traced {
+    let bar = progress::bar("tracing rays", RayTracer::tile_count(options.size));
+    let traced = tracer.trace(shot, options.size, options.samples, stop, || bar.inc(1));
+    bar.finish_and_clear();
+    if traced.done < traced.tiles {
+        eprintln!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles);
+    }
+    traced
 }
 
 /// A gaze through a camera of `fov` degrees.

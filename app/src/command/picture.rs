@@ -17,6 +17,8 @@ pub enum Renderer {
     Polygon,
     /// A map of the world around the eye, bent pixel by pixel (B 5).
     Image,
+    /// Every ray of light followed back by itself, on the CPU (W 5.2): the reference. Not in windows.
+    Raytrace,
 }
 
 /// Size, field of view, quality.
@@ -46,13 +48,16 @@ pub struct PictureOptions {
     /// Where colours go that the screen does not have.
     #[arg(long, value_enum, default_value = "desaturate")]
     pub gamut: Gamut,
-    /// How the picture is computed: auto, polygon or image.
+    /// How the picture is computed: auto, polygon, image or, not in a window, raytrace.
     #[arg(long, value_name = "RENDERER", default_value = "auto", value_parser = renderer)]
     pub renderer: Renderer,
     /// Texels of the image renderer's map for each pixel, along each axis [default: 8 for a picture of one sample a pixel, 3 for one of
     /// several, 1.5 in a window, 0.9 in one that the CPU draws].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 16.0))]
     pub map_scale: Option<f64>,
+    /// Integrate the spectrum of every ray of the raytrace renderer, instead of looking its colour up in a table.
+    #[arg(long)]
+    pub exact_light: bool,
     /// Colour where no surface is: linear red, green, blue, each 0 to 1 [default: the scene's sky].
     #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::colour)]
     pub background: Option<[f32; 3]>,
@@ -62,6 +67,14 @@ pub struct PictureOptions {
 }
 
 impl PictureOptions {
+    /// Checks what the options say together.
+    pub(super) fn check(&self) -> Result<(), String> {
+        if self.exact_light && self.renderer != Renderer::Raytrace {
+            return Err("--exact-light is for --renderer raytrace; leave one out or add the other".to_owned());
+        }
+        Ok(())
+    }
+
     /// How radiance becomes the picture.
     pub fn development(&self) -> Development {
         Development { exposure: self.exposure, tone: self.tone, gamut: self.gamut }
@@ -87,7 +100,7 @@ fn renderer(text: &str) -> Result<Renderer, ValueError> {
         "auto" => Ok(Renderer::Auto),
         "polygon" => Ok(Renderer::Polygon),
         "image" => Ok(Renderer::Image),
-        "raytrace" => Err(ValueError::NotYet { name: text.to_owned() }),
+        "raytrace" => Ok(Renderer::Raytrace),
         _ => Err(ValueError::Renderer),
     }
 }

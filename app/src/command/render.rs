@@ -100,6 +100,6 @@ impl RenderOptions {
         if look.is_some_and(|look| look.cross(up).length() < PARALLEL) {
             return Err("--up must not be parallel to --look; give another --up (its default is 0,1,0)".to_owned());
         }
-        Ok(())
+        self.picture.check()
     }
 }

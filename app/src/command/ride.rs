@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{PictureOptions, WorldOptions, values};
+use super::{PictureOptions, Renderer, WorldOptions, values};
 use crate::vehicle::{IntegratorKind, Nose};
 
 /// What drives the observer.
@@ -79,7 +79,12 @@ impl RideOptions {
         if self.verify && self.replay.is_none() {
             return Err("--verify compares a recorded ride: name the recording with --replay".to_owned());
         }
-        Ok(())
+        if self.picture.renderer == Renderer::Raytrace {
+            return Err("a ride cannot wait for the rays of --renderer raytrace: use auto, polygon or image, and render its recording \
+                 with raytrace"
+                .to_owned());
+        }
+        self.picture.check()
     }
 }
 

@@ -49,14 +49,8 @@ pub enum ValueError {
         /// The endings that will do.
         allowed: &'static str,
     },
-    /// A renderer of the design that is not part of the program yet.
-    #[error("the {name} renderer is not there yet; use auto, polygon or image")]
-    NotYet {
-        /// Its name.
-        name: String,
-    },
     /// No renderer's name.
-    #[error("expected auto, polygon or image")]
+    #[error("expected auto, polygon, image or raytrace")]
     Renderer,
     /// No vehicle's name.
     #[error("expected bicycle, drive or fly")]

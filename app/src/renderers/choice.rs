@@ -55,7 +55,8 @@ impl Choice {
         };
         let (image, why): (bool, Cow<'_, str>) = match wanted {
             Renderer::Image => (true, "as asked".into()),
-            Renderer::Polygon => (false, "as asked".into()),
+            // The ray tracer takes scenes as they are; whoever asks this for it gets the one that comes closest.
+            Renderer::Polygon | Renderer::Raytrace => (false, "as asked".into()),
             Renderer::Auto if triangles == 0 => (false, "there is only sky, which needs no map".into()),
             // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too. In a window they
             // share the time with drawing, and the map of a coarse scene is faster.

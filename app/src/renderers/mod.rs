@@ -2,7 +2,7 @@
 //!
 //! [`polygon`] draws the photo-surface with ordinary rasterisation, [`image`] bends a map of the world pixel by pixel; both draw the same
 //! [`world`], and [`SceneRenderer`] is whichever a scene is drawn by. All draw into a [`target::Radiance`] target of linear
-//! values, which [`display`] turns into pixels.
+//! values, which [`display`] turns into pixels. [`raytrace`] follows single rays on the CPU, for reference.
 
 pub mod certainty;
 pub mod choice;
@@ -10,6 +10,7 @@ pub mod display;
 pub mod image;
 pub mod picture;
 pub mod polygon;
+pub mod raytrace;
 mod scene_renderer;
 pub mod target;
 pub mod world;

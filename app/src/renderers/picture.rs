@@ -6,7 +6,9 @@ use super::{SceneRenderer, Shot, Subject};
 use crate::gpu::{Gpu, GpuError};
 use crate::views::sample_offset;
 use glam::{DVec3, Vec3};
+use half::f16;
 use image::{Rgb32FImage, RgbaImage};
+use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// What a picture is stored as.
 const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -169,6 +171,26 @@ impl Studio {
         light(gpu, radiance, &stored)
     }
 
+    /// Develops light that was worked out elsewhere: texels as renderers draw them, row by row, of this studio's size.
+    ///
+    /// # Errors
+    /// As [`Studio::photograph`].
+    pub fn develop(
+        &mut self,
+        gpu: &Gpu,
+        texels: &[[f32; 4]],
+        stored: Stored,
+        development: &Development,
+        elapsed_s: Option<f64>,
+    ) -> Result<RgbaImage, GpuError> {
+        let radiance = upload(gpu, self.size, texels, self.radiance.format.colour);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let seen = Seen { radiance: &radiance, stored, elapsed_s };
+        self.darkroom.display.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        gpu.queue.submit([encoder.finish()]);
+        self.darkroom.develop(gpu, &radiance, &self.adaptation, development)
+    }
+
     /// Where in the scene is what each pixel's centre shows: metres relative to the scene's origin, row by row; `None` where it shows no
     /// surface. Only where the device draws 32-bit floats are these true.
     ///
@@ -216,6 +238,31 @@ impl Studio {
         }
         Ok(renderer.stored(shot))
     }
+}
+
+/// Puts texels into a texture of one of the formats that renderers draw in.
+fn upload(gpu: &Gpu, size: [u32; 2], texels: &[[f32; 4]], format: wgpu::TextureFormat) -> wgpu::TextureView {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("radiance"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let half = |value: f32| f16::from_f32(value.clamp(-shaders::HALF_LIMIT, shaders::HALF_LIMIT));
+    let halves: Vec<[f16; 4]>;
+    let bytes: &[u8] = if format == wgpu::TextureFormat::Rgba32Float {
+        bytemuck::cast_slice(texels)
+    } else {
+        halves = texels.iter().map(|texel| texel.map(half)).collect();
+        bytemuck::cast_slice(&halves)
+    };
+    gpu.device
+        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
+        .create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Fetches radiance from the device: linear sRGB in cd/m².

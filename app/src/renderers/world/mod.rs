@@ -12,7 +12,7 @@ mod sun;
 
 pub use geometry::{Prepared, stream_stride};
 pub use pipelines::{Mode, effect_constants, layout};
-pub use spectra::Spectra;
+pub use spectra::{Spectra, WHITE};
 
 use super::target::Format;
 use crate::gpu::Gpu;

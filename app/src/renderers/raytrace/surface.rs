@@ -1,0 +1,185 @@
+//! The light that leaves a point towards the observer, in the frame in which the point rests: the f64 twin of `surface.wgsl` and `sky.wgsl`.
+//!
+//! Textures are taken at their full size, each look the mix of the four nearest texels; the mean over a pixel is left to its samples.
+
+use super::hits::{Bodies, Hit};
+use super::light::Sent;
+use crate::renderers::world::{Spectra, WHITE};
+use crate::scene::falling::Falling;
+use crate::scene::mipmap::linear_from_srgb;
+use crate::scene::motion::Motion;
+use crate::scene::{Alpha, Lighting, Panorama, Scene, Texture, Wrap};
+use glam::{DVec3, DVec4, Vec3, Vec4};
+use physics::colour::luminance;
+use std::f64::consts::TAU;
+
+/// What a scene's surfaces and its sky send out.
+pub struct Surfaces {
+    /// As it was given.
+    pub scene: Scene,
+    spectra: Spectra,
+    /// On what rests; and on each of what moves.
+    falling: (Falling, Vec<Falling>),
+    /// Linear values of the codes of sRGB.
+    linear: [f64; 256],
+}
+
+impl Surfaces {
+    /// Works out the light that falls on what rests and on what moves.
+    pub fn new(scene: Scene, spectra: Spectra) -> Self {
+        let sky = &spectra.carriers[spectra.sky];
+        let on_moving = |motion: &Motion| {
+            let Motion::Uniform(uniform) = motion;
+            Falling::on_moving(&scene.light, uniform.celerity, sky)
+        };
+        let falling = (Falling::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
+        let linear = std::array::from_fn(|code| f64::from(linear_from_srgb(code as f32 / 255.0)));
+        Self { scene, spectra, falling, linear }
+    }
+
+    /// Whether a mask lets the surface be there.
+    pub fn is_there(&self, hit: &Hit) -> bool {
+        match self.scene.materials[self.scene.meshes[hit.mesh].material].alpha {
+            Alpha::Opaque | Alpha::Blend => true,
+            Alpha::Mask(threshold) => self.base(hit).w >= f64::from(threshold),
+        }
+    }
+
+    /// Opacity, and the weights that a point sends out.
+    pub fn light(&self, hit: &Hit, bodies: &Bodies) -> (f64, Sent) {
+        let mesh = &self.scene.meshes[hit.mesh];
+        let material = &self.scene.materials[mesh.material];
+        let base = self.base(hit);
+        let mut weights = base.truncate();
+        if material.spectrum.is_some() {
+            weights = DVec3::splat(luminance(weights));
+        }
+        if !material.unlit {
+            weights *= self.falling_on(hit, bodies);
+        }
+        let mut emitted = rgb(material.emissive);
+        if emitted != DVec3::ZERO {
+            emitted *= self.look_up(material.emissive_texture, hit).truncate();
+        }
+        let opacity = if material.alpha == Alpha::Blend { base.w.clamp(0.0, 1.0) } else { 1.0 };
+        (opacity, [(weights, self.spectra.materials[mesh.material]), (emitted, WHITE)])
+    }
+
+    /// What comes from where no surface is, from a direction of the world.
+    pub fn sky(&self, direction: DVec3, background: Option<[f32; 3]>) -> Sent {
+        // Backgrounds and panoramas are given relative to white.
+        let white = self.spectra.white_luminance;
+        let sent = match (background, &self.scene.panorama) {
+            (Some(colour), _) => (rgb(colour) * white, WHITE),
+            (None, Some(panorama)) => (surrounding(panorama, direction) * white, WHITE),
+            (None, None) => (sky(&self.scene.light, direction), self.spectra.sky),
+        };
+        [sent, (DVec3::ZERO, WHITE)]
+    }
+
+    /// Base colour and opacity.
+    fn base(&self, hit: &Hit) -> DVec4 {
+        let mesh = &self.scene.meshes[hit.mesh];
+        let material = &self.scene.materials[mesh.material];
+        let [a, b, c] = hit.corners.map(|corner| Vec4::from_array(mesh.colours[corner]).as_dvec4());
+        let colour = a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2];
+        Vec4::from_array(material.base_colour).as_dvec4() * colour * self.look_up(material.base_colour_texture, hit)
+    }
+
+    /// Light on a point, by its interpolated normal, turned to the side that is seen.
+    fn falling_on(&self, hit: &Hit, bodies: &Bodies) -> DVec3 {
+        let mesh = &self.scene.meshes[hit.mesh];
+        let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
+        let normal = (a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]).normalize_or_zero();
+        let normal = if hit.front { normal } else { -normal };
+        if let Some(falling) = mesh.motion.and_then(|motion| self.falling.1.get(motion)) {
+            return falling.on(normal, 1.0);
+        }
+        let falling = &self.falling.0;
+        let asks = self.scene.light.shadows && normal.dot(falling.sun_direction) > 0.0;
+        let lit = !asks || bodies.sunlit(hit.position, normal, falling.sun_direction);
+        falling.on(normal, if lit { 1.0 } else { 0.0 })
+    }
+
+    fn look_up(&self, texture: Option<usize>, hit: &Hit) -> DVec4 {
+        let Some(texture) = texture.map(|index| &self.scene.textures[index]).filter(|texture| !texture.rgba.is_empty())
+        else {
+            return DVec4::ONE;
+        };
+        let mesh = &self.scene.meshes[hit.mesh];
+        let [a, b, c] = hit.corners.map(|corner| mesh.uvs[corner].as_dvec2());
+        let uv = a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2];
+        let (x, y) = (uv.x * f64::from(texture.width), uv.y * f64::from(texture.height));
+        if texture.nearest {
+            return self.texel(texture, x.floor(), y.floor());
+        }
+        mixed(x, y, |x, y| self.texel(texture, x, y))
+    }
+
+    fn texel(&self, texture: &Texture, x: f64, y: f64) -> DVec4 {
+        let column = wrapped(x, texture.width, texture.wrap[0]);
+        let row = wrapped(y, texture.height, texture.wrap[1]);
+        let start = 4 * (row * texture.width as usize + column);
+        let [red, green, blue, alpha] = [0, 1, 2, 3].map(|channel| texture.rgba[start + channel]);
+        let linear = |code: u8| self.linear[usize::from(code)];
+        DVec4::new(linear(red), linear(green), linear(blue), f64::from(alpha) / 255.0)
+    }
+}
+
+/// The mix of the four texels whose middles are around a place.
+fn mixed<T>(x: f64, y: f64, texel: impl Fn(f64, f64) -> T) -> T
+where
+    T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+{
+    let (x, y) = (x - 0.5, y - 0.5);
+    let (left, top) = (x.floor(), y.floor());
+    let (right_share, bottom_share) = (x - left, y - top);
+    let row = |y: f64| texel(left, y) * (1.0 - right_share) + texel(left + 1.0, y) * right_share;
+    row(top) * (1.0 - bottom_share) + row(top + 1.0) * bottom_share
+}
+
+/// Which texel of a row of `side` is at a whole-numbered place on or beyond it.
+fn wrapped(place: f64, side: u32, wrap: Wrap) -> usize {
+    let side = f64::from(side);
+    let inside = match wrap {
+        Wrap::Repeat => place.rem_euclid(side),
+        Wrap::Mirror => {
+            let place = place.rem_euclid(2.0 * side);
+            if place < side { place } else { 2.0 * side - 1.0 - place }
+        }
+        Wrap::Clamp => place,
+    };
+    // A place that is no number is the first texel.
+    inside.clamp(0.0, side - 1.0) as usize
+}
+
+fn surrounding(panorama: &Panorama, direction: DVec3) -> DVec3 {
+    let longitude = direction.x.atan2(-direction.z);
+    let latitude = direction.y.atan2(direction.x.hypot(direction.z));
+    let x = (0.5 + longitude / TAU) * f64::from(panorama.width);
+    let y = (0.5 - 2.0 * latitude / TAU) * f64::from(panorama.height);
+    mixed(x, y, |x, y| {
+        let column = wrapped(x, panorama.width, Wrap::Repeat);
+        let row = wrapped(y, panorama.height, Wrap::Clamp);
+        rgb(panorama.rgb[row * panorama.width as usize + column])
+    })
+}
+
+/// A gradient from the horizon up, haze below, and the glow around the sun.
+fn sky(light: &Lighting, direction: DVec3) -> DVec3 {
+    let (horizon, zenith, ground) = (rgb(light.horizon), rgb(light.zenith), rgb(light.ground));
+    let clear = horizon.lerp(zenith, smoothstep(0.0, 0.9, direction.y.max(0.0).sqrt()));
+    let haze = (ground * 2.0).lerp(clear, smoothstep(-0.25, 0.0, direction.y));
+    let towards_sun = direction.dot(light.sun_direction.as_dvec3()).max(0.0);
+    let glow = 0.25 * towards_sun.powi(24) + 4.0 * smoothstep(0.99985, 0.99995, towards_sun);
+    haze + glow * rgb(light.sun)
+}
+
+fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
+    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+fn rgb(colour: [f32; 3]) -> DVec3 {
+    Vec3::from_array(colour).as_dvec3()
+}
