@@ -168,7 +168,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --out a.png --background -0.1,0,0", ["--background", "from 0 to 1"]),
         ("ride --renderer raytrace", ["raytrace", "polygon or image"]),
         ("render --out a.png --exact-light", ["--exact-light", "raytrace"]),
-        ("render --out a.png --renderer vulkan", ["--renderer", "auto, polygon or image"]),
+        ("render --out a.png --renderer vulkan", ["--renderer", "auto, polygon, image or raytrace"]),
         ("render --out a.png --effects colour", ["--effects", "geometry"]),
         ("render --out a.png --exposure bright", ["--exposure", "auto, white, or a number of stops"]),
         ("render --out a.png --exposure 1e9", ["--exposure", "from -60 to 60"]),

@@ -54,10 +54,12 @@ impl Surfaces {
         if material.spectrum.is_some() {
             weights = DVec3::splat(luminance(weights));
         }
-        if !material.unlit {
+        // A spectrum on an emissive material is all that it sends out.
+        let source = material.unlit || (material.spectrum.is_some() && material.is_source());
+        if !source {
             weights *= self.falling_on(hit, bodies);
         }
-        let mut emitted = rgb(material.emissive);
+        let mut emitted = if source { DVec3::ZERO } else { rgb(material.emissive) };
         if emitted != DVec3::ZERO {
             emitted *= self.look_up(material.emissive_texture, hit).truncate();
         }

@@ -1,0 +1,249 @@
+//! Law: the light of a pixel is that of one ray, bent by aberration, shifted and brightened by D. The ray tracer follows it in f64; here it is held
+//! against closed forms first, and then the other renderers against it.
+//!
+//! A wrong program shows: with a boost the wrong way, spheres that are ovals; with the wrong power of D, walls too dark ahead; with a renderer that
+//! bends or lights differently, more than outlines that differ.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use glam::{DVec3, Vec2, Vec3};
+use image::Rgb32FImage;
+use physics::photo_surface::Eye;
+use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, Source, apparent};
+use rapidity::renderers::polygon::{Pace, Tolerance};
+use rapidity::renderers::raytrace::{RayTracer, Traced};
+use rapidity::renderers::{Effects, Method, Shot};
+use rapidity::scene::lattice::Lattice;
+use rapidity::scene::mipmap::mipmap;
+use rapidity::scene::motion::{Motion, Uniform};
+use rapidity::scene::refine::refine;
+use rapidity::scene::{Material, Mesh, Scene, town};
+use std::sync::atomic::AtomicBool;
+use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::view::{View, middle};
+
+const SIZE: [u32; 2] = [96, 64];
+
+/// Of a colour that is integrated and multiplied: f32 base colours, and the integral that makes white white.
+const LIGHT_TOLERANCE: f64 = 1e-4;
+
+/// Of f64 coordinates of a few metres through two boosts.
+const PLACE_TOLERANCE: f64 = 1e-9;
+
+/// Pixels: an outline runs between the middles of two pixels, and the sphere is made of triangles.
+const OUTLINE_TOLERANCE: f64 = 0.6;
+
+/// Polygons cut for a twentieth of a pixel, which is less than shows.
+const POLYGON: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
+
+fn shot(view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
+    Shot { camera: view.camera(), eye: Eye::new(eye, celerity.vector()).unwrap(), ct: 0.0, effects }
+}
+
+fn trace(tracer: &RayTracer, shot: &Shot) -> Traced {
+    tracer.trace(shot, SIZE, 1, &AtomicBool::new(false), || {})
+}
+
+fn at(beta: DVec3) -> Celerity {
+    Beta::new(beta).unwrap().celerity()
+}
+
+/// The walls of a room around the eye, all of one colour that they send out themselves.
+fn room(colour: [f32; 3]) -> Scene {
+    let mut room = Lattice { count: [1; 3], spacing: 1.0, side: 8.0 }.build();
+    for mesh in &mut room.meshes {
+        mesh.material = 0;
+        // Seen from within.
+        mesh.indices.chunks_exact_mut(3).for_each(|corners| corners.swap(0, 1));
+        mesh.colours.fill([1.0; 4]);
+    }
+    let [red, green, blue] = colour;
+    room.materials = vec![Material { unlit: true, base_colour: [red, green, blue, 1.0], ..Material::default() }];
+    room
+}
+
+#[test]
+fn a_wall_is_brighter_by_the_fourth_power_of_d() {
+    let colour = Vec3::new(0.5, 0.25, 0.125);
+    let tracer = RayTracer::new(room(colour.to_array()), None, true).unwrap();
+    let view = View { look: DVec3::new(0.3, 0.1, -1.0), up: DVec3::Y, fov_degrees: 90.0, size: SIZE };
+    let effects = Effects { searchlight: true, ..Effects::GEOMETRY };
+    for beta in [0.0, 0.6, 0.9] {
+        let motion = at(DVec3::NEG_Z * beta);
+        let traced = trace(&tracer, &shot(&view, DVec3::new(0.4, 0.2, 0.1), motion, effects));
+        assert_eq!(traced.done, traced.tiles);
+        let mut pixels = traced.light.iter();
+        for pixel in (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row])) {
+            let (_, doppler) = Aberration::new(motion).world_from_observer(view.direction(middle(pixel)));
+            let expected = colour.as_dvec3() * doppler.powi(4);
+            let error = (*pixels.next().unwrap() / expected - 1.0).abs().max_element();
+            assert!(error < LIGHT_TOLERANCE, "{error} at {pixel:?}, {beta} c");
+        }
+    }
+}
+
+#[test]
+fn looked_up_light_is_integrated_light() {
+    let colour = [0.5, 0.25, 0.125];
+    let [looked_up, integrated] = [false, true].map(|exact| RayTracer::new(room(colour), None, exact).unwrap());
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 90.0, size: SIZE };
+    let shot = shot(&view, DVec3::ZERO, at(DVec3::NEG_Z * 0.8), Effects::ALL);
+    let (one, other) = (trace(&looked_up, &shot), trace(&integrated, &shot));
+    // The table's own promise, of which this is a tenth in luminance.
+    for (one, other) in one.light.iter().zip(&other.light) {
+        assert!((*one - *other).length() < 1e-3 * other.length(), "{one} {other}");
+    }
+}
+
+/// Closed, white and unlit, of radius one about `centre`.
+fn sphere(centre: DVec3) -> Scene {
+    let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
+    let octahedron = Mesh {
+        positions: positions.to_vec(),
+        normals: positions.to_vec(),
+        uvs: vec![Vec2::ZERO; 6],
+        colours: vec![[1.0; 4]; 6],
+        indices: vec![0, 1, 2, 1, 3, 2, 3, 4, 2, 4, 0, 2, 1, 0, 5, 3, 1, 5, 4, 3, 5, 0, 4, 5],
+        ..Default::default()
+    };
+    let materials = vec![Material { unlit: true, ..Default::default() }];
+    let coarse = Scene { origin: centre, materials, meshes: vec![octahedron], ..Default::default() };
+    let mut fine = refine(&coarse, 0.03).unwrap();
+    fine.meshes[0].positions.iter_mut().for_each(|position| *position = position.normalize());
+    fine
+}
+
+/// A sphere that flies past at nine tenths of the speed of light, and what is seen of it by an observer with this celerity.
+fn hold_flying_sphere(observer_celerity: Celerity) {
+    let centre = DVec3::new(0.3, 0.8, -2.2);
+    let mut scene = sphere(centre);
+    let uniform = Uniform { celerity: at(DVec3::X * 0.9), anchor: Event { ct: -2.4, position: centre } };
+    scene.motions = vec![Motion::Uniform(uniform)];
+    scene.meshes[0].motion = Some(0);
+    let observer = Observer { event: Event::default(), celerity: observer_celerity };
+
+    // The circle where it must be: tangents in the sphere's own frame, boosted.
+    let seen_by = uniform.seen_by(&observer);
+    let away = centre - seen_by.position;
+    let cosine = (1.0 - away.length_squared().recip()).sqrt();
+    let boosted = Boost::observer_from_world(seen_by.celerity).apply(FourVector { t: -cosine, r: away.normalize() });
+    let axis = (seen_by.observer_from_group * boosted.r).normalize();
+    let half_angle = (-boosted.t / boosted.r.length()).acos();
+
+    let size = [320, 240];
+    let fov_degrees = (3.0 * half_angle).to_degrees().min(120.0);
+    let view = View { look: axis, up: DVec3::new(0.3, 0.9, 0.2), fov_degrees, size };
+    let tracer = RayTracer::new(scene, None, false).unwrap();
+    let places = tracer.places(&shot(&view, DVec3::ZERO, observer_celerity, Effects::ALL), size);
+    let there = |column: u32, row: u32| places[(row * size[0] + column) as usize].is_some();
+
+    let mut outline = Vec::new();
+    for (column, row) in (0..size[1] - 1).flat_map(|row| (0..size[0] - 1).map(move |column| (column, row))) {
+        let [x, y] = middle([column, row]);
+        if there(column, row) != there(column + 1, row) {
+            outline.push(view.direction([x + 0.5, y]));
+        }
+        if there(column, row) != there(column, row + 1) {
+            outline.push(view.direction([x, y + 0.5]));
+        }
+    }
+    assert!(outline.len() > 200, "{} pixels of outline", outline.len());
+    let off = outline.iter().map(|direction| (direction.angle_between(axis) - half_angle).abs()).fold(0.0, f64::max);
+    let pixels = off * view.focal_length();
+    assert!(pixels < OUTLINE_TOLERANCE, "{pixels} pixels off the exact circle");
+
+    // Each point is where a moving point appears.
+    let world_from_object = Boost::observer_from_world(uniform.celerity).inverse();
+    let mut compared = 0;
+    for place in places.iter().flatten() {
+        let event =
+            world_from_object.apply(FourVector { t: 0.0, r: place.position + centre - uniform.anchor.position });
+        let beta = uniform.celerity.beta().vector();
+        let at_zero = uniform.anchor.position + event.r - beta * (uniform.anchor.ct + event.t);
+        let direct = apparent::moving(&observer, &Source { position: at_zero, celerity: uniform.celerity });
+        let off = place.apparent.distance(direct.position) / direct.position.length();
+        assert!(off < PLACE_TOLERANCE, "{} {}", place.apparent, direct.position);
+        assert!((place.doppler / direct.doppler - 1.0).abs() < PLACE_TOLERANCE);
+        compared += 1;
+    }
+    assert!(compared > 1000, "{compared} points");
+}
+
+#[test]
+fn a_sphere_that_flies_past_is_round_and_where_it_appears() {
+    hold_flying_sphere(Celerity::ZERO);
+    hold_flying_sphere(at(DVec3::new(0.1, 0.3, -0.5)));
+}
+
+/// Share of pixels whose channels differ by no more than a part of the brighter one's largest channel.
+fn alike(light: &Rgb32FImage, traced: &Traced, part: f64) -> f64 {
+    let pairs = light.pixels().zip(&traced.light);
+    let alike = pairs.filter(|(drawn, traced)| {
+        let drawn = Vec3::from_array(drawn.0).as_dvec3();
+        let largest = drawn.abs().max_element().max(traced.abs().max_element());
+        (drawn - **traced).abs().max_element() <= part * largest
+    });
+    alike.count() as f64 / traced.light.len() as f64
+}
+
+/// Holds both renderers against rays at several speeds: this share of pixels must be alike to this part.
+fn hold(scene: &Scene, eye: DVec3, look: DVec3, part: f64, shares: [f64; 2]) {
+    let tracer = RayTracer::new(scene.clone(), None, false).unwrap();
+    let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    for (method, share) in [POLYGON, DEFAULT_MAP].into_iter().zip(shares) {
+        let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
+        for beta in [0.0, 0.5, 0.9] {
+            let motion = at(look.normalize() * beta);
+            let light = photographer.light(&view, eye, motion, Effects::ALL);
+            let traced = trace(&tracer, &shot(&view, eye, motion, Effects::ALL));
+            let of = |part| alike(&light, &traced, part);
+            println!("{method:?} at {beta} c: {:.4} to 1 %, {:.4} to 5 %, {:.4} to 20 %", of(0.01), of(0.05), of(0.2));
+            assert!(of(part) >= share, "{method:?} at {beta} c: only {} of the pixels are alike to {part}", of(part));
+        }
+    }
+}
+
+#[test]
+fn renderers_draw_the_lattice_as_rays_see_it() {
+    let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
+    // Faces of one colour: only outlines may differ, and of a map with eight texels to the pixel a few more.
+    hold(&scene, DVec3::new(0.3, 0.4, 2.0), DVec3::NEG_Z, 0.01, [0.99, 0.98]);
+}
+
+#[test]
+fn renderers_draw_the_town_as_rays_see_it() {
+    // Where a texture is finer than pixels, a ray sees one texel and the other renderers the mean of many: so each texture is its mean.
+    let mut scene = town::build(1);
+    for texture in &mut scene.textures {
+        let mean = mipmap(texture).pop().unwrap();
+        (texture.width, texture.height, texture.rgba) = (mean.width, mean.height, mean.rgba);
+    }
+    let eye = scene.start.position + DVec3::Y * 1.6;
+    // The sun's shadows are a map there, with soft edges, and rays here: a fifth covers what is not quite at an edge.
+    hold(&scene, eye, scene.start.look, 0.2, [0.98, 0.97]);
+    // Without them only the outlines remain, in a town of many corners.
+    scene.light.shadows = false;
+    hold(&scene, eye, scene.start.look, 0.01, [0.99, 0.97]);
+}
+
+#[test]
+fn any_number_of_threads_traces_the_same_bits() {
+    let scene = Lattice::default().build();
+    let tracer = RayTracer::new(scene, None, false).unwrap();
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let shot = shot(&view, DVec3::new(0.3, 0.4, 2.0), at(DVec3::NEG_Z * 0.5), Effects::ALL);
+    let traced = [1, 2, 8].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| trace(&tracer, &shot))
+    });
+    assert!(traced.iter().all(|other| *other == traced[0]));
+}
+
+#[test]
+fn what_is_stopped_says_how_much_is_done() {
+    let tracer = RayTracer::new(room([1.0; 3]), None, false).unwrap();
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let shot = shot(&view, DVec3::ZERO, Celerity::ZERO, Effects::ALL);
+    let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(true), || {});
+    assert_eq!((traced.done, traced.tiles), (0, 24));
+    assert!(traced.light.iter().all(|light| *light == DVec3::ZERO));
+}
