@@ -224,7 +224,7 @@ impl<'gpu> Cameraman<'gpu> {
 
     fn submit(&mut self, gaze: &Gaze) -> Result<(), Error> {
         if self.renderer.transforms(self.options.effects) {
-            self.renderer.submit(self.gpu, gaze.eye)?;
+            self.renderer.submit(self.gpu, gaze.eye, gaze.ct)?;
         }
         Ok(())
     }
