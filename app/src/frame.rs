@@ -93,7 +93,7 @@ impl Ride {
 
         // The photo-surface of the newest eye, on its own thread; shown is the oldest one that is ready by now.
         if self.renderer.transforms(pictured.effects) {
-            self.renderer.submit(gpu, newest.eye)?;
+            self.renderer.submit(gpu, newest.eye, newest.ct)?;
             self.under_way.push_back(newest);
             let ahead = usize::from(pictured.latency == Latency::Overlap);
             while self.under_way.len() > ahead || self.shown.is_none() {

@@ -252,7 +252,7 @@ impl<'gpu> Cameraman<'gpu> {
         if let Way::Drawn(renderer) = &mut self.way
             && renderer.transforms(self.options.effects)
         {
-            renderer.submit(self.gpu, gaze.eye)?;
+            renderer.submit(self.gpu, gaze.eye, gaze.ct)?;
         }
         Ok(())
     }

@@ -86,6 +86,7 @@ impl Camera {
             motion: along.as_vec3().extend(kappa as f32),
             shift: DVec4::new(kappa_of_light, scale, 2.0 / width, 2.0 / height).as_vec4(),
             layer: Vec4::ZERO,
+            source: Vec4::new(0.0, 0.0, -1.0, 1.0),
         }
     }
 

@@ -10,7 +10,10 @@ mod scene_file;
 use std::sync::Mutex;
 
 use glam::{DVec3, Vec2, Vec3};
+use physics::{Celerity, Event};
+use rapidity::scene::export::write_glb;
 use rapidity::scene::gltf::{Progress, Stage, load};
+use rapidity::scene::motion::{Motion, Uniform};
 use rapidity::scene::{Alpha, Scene, Wrap};
 use scene_file::{File, png, write};
 use serde_json::json;
@@ -36,6 +39,38 @@ fn a_triangle_comes_in_as_it_is() {
     assert_eq!(scene.materials[mesh.material].base_colour, [1.0; 4]);
     assert_eq!(scene.origin, DVec3::ZERO);
     assert!(scene.notices.is_empty(), "{:?}", scene.notices);
+}
+
+#[test]
+fn what_moves_hangs_together_and_is_not_solid() {
+    let mut file = File::triangle();
+    file.json["scenes"][0]["nodes"] = json!([0, 3]);
+    file.json["nodes"] = json!([
+        { "mesh": 0, "translation": [1, 2, 3], "children": [1, 2], "extras": { "celerity": [0, 0, -0.75], "at": 5 } },
+        { "mesh": 0, "translation": [0, 1, 0] },
+        { "mesh": 0, "translation": [0, 0, 1], "extras": { "celerity": [2, 0, 0], "rapidity": { "solid": true } } },
+        { "mesh": 0, "extras": { "at": "home" } },
+    ]);
+    let scene = file.scene();
+    let uniform = |celerity: DVec3, position: DVec3, ct: f64| {
+        Motion::Uniform(Uniform { celerity: Celerity::new(celerity).unwrap(), anchor: Event { ct, position } })
+    };
+    let parent = uniform(DVec3::Z * -0.75, DVec3::new(1.0, 2.0, 3.0), 5.0);
+    assert_eq!(scene.motions, [parent, uniform(DVec3::X * 2.0, DVec3::new(1.0, 2.0, 4.0), 0.0)]);
+    let motions: Vec<_> = scene.meshes.iter().map(|mesh| mesh.motion).collect();
+    assert_eq!(motions, [Some(0), Some(0), Some(1), None]);
+    assert_eq!(scene.meshes.iter().map(|mesh| mesh.solid).collect::<Vec<_>>(), [false, false, false, true]);
+
+    // Written and read again it moves as before.
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("again.glb");
+    write_glb(&scene, &path).unwrap();
+    let again = load(&path, |_| {}).unwrap();
+    assert_eq!(again.motions, scene.motions);
+    assert_eq!(again.meshes.iter().map(|mesh| mesh.motion).collect::<Vec<_>>(), motions);
+    for (again, mesh) in again.meshes.iter().zip(&scene.meshes) {
+        assert_eq!(again.positions, mesh.positions);
+    }
 }
 
 #[test]

@@ -51,6 +51,16 @@ fn contradictions_are_named_with_their_place() {
     };
     refused(|file| file.json["nodes"][0]["mesh"] = json!(5), &["nodes[0].mesh", "no number 5 among 1"]);
     refused(|file| file.json["scene"] = json!(3), &["at scene", "no number 3"]);
+    let moving = |extras: Value, key: &str, fault: &str| {
+        let mut file = File::triangle();
+        file.json["nodes"][0]["extras"] = extras;
+        let error = file.error();
+        assert!(error.contains(key) && error.contains(fault), "{error}");
+    };
+    for celerity in [json!(0.9), json!([1, 2]), json!([0, 0, "fast"]), json!([0, 0, null])] {
+        moving(json!({ "celerity": celerity }), "nodes[0].extras.celerity", "expected three finite numbers");
+    }
+    moving(json!({ "celerity": [0, 0, 1], "at": "noon" }), "nodes[0].extras.at", "metres of light travel");
     refused(|file| file.json["scenes"][0]["nodes"] = json!([9]), &["nodes[9]"]);
     refused(|file| file.json["nodes"][0]["children"] = json!([0]), &["nodes[0]", "its own ancestor"]);
     refused(|file| file.json["scenes"][0]["nodes"] = json!([0, 0]), &["nodes[0]", "two parents"]);

@@ -23,21 +23,28 @@ pub struct View {
     pub shift: Vec4,
     /// Carrier whose weights are kept, when the map is drawn; yzw unused.
     pub layer: Vec4,
+    /// When geometry is off, of what moves in the world: unit vector along its motion, and its κ; w = 1 of what rests, and when geometry
+    /// is on.
+    pub source: Vec4,
 }
 
-/// Daylight, in the world frame.
+/// Daylight, in the frame of what it falls on: the world's, or that of something that moves.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Lighting {
     /// From the scene's own coordinates to the shadow map's texture coordinates and depth.
     pub shadow_from_world: Mat4,
-    /// Unit vector towards the sun; w unused.
+    /// Unit vector towards the sun; w = 1 if what lies between counts, 0 if nothing can cast a shadow here.
     pub sun_direction: Vec4,
     /// Linear light on a surface that faces the sun; w = depth that it may lie behind the shadow map and still be lit.
     pub sun: Vec4,
-    /// On a surface that faces up.
-    pub sky: Vec4,
-    /// On a surface that faces down.
+    /// Red light of all else, on a surface of a normal: xyz · normal + w.
+    pub ambient_red: Vec4,
+    /// The same in green.
+    pub ambient_green: Vec4,
+    /// The same in blue.
+    pub ambient_blue: Vec4,
+    /// Half the radiance of the ground, where no surface is; w unused.
     pub ground: Vec4,
     /// Radiance of the sky overhead; w = its carrier, and that of all sky.
     pub zenith: Vec4,

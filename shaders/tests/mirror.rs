@@ -42,10 +42,21 @@ fn every_module_validates() {
 #[test]
 fn structs_have_the_same_layout_on_both_sides() {
     let surface = parse(&shaders::SURFACE);
-    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion, shift, layer });
+    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion, shift, layer, source });
     assert_mirrors!(
         surface,
-        Lighting { shadow_from_world, sun_direction, sun, sky, ground, zenith, horizon, background }
+        Lighting {
+            shadow_from_world,
+            sun_direction,
+            sun,
+            ambient_red,
+            ambient_green,
+            ambient_blue,
+            ground,
+            zenith,
+            horizon,
+            background
+        }
     );
     assert_mirrors!(surface, Material { base_colour, emissive, carriers });
     let warp = parse(&shaders::WARP);

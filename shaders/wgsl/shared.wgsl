@@ -8,13 +8,16 @@ struct View {
     motion: vec4<f32>,
     shift: vec4<f32>,
     layer: vec4<f32>,
+    source: vec4<f32>,
 }
 
 struct Lighting {
     shadow_from_world: mat4x4<f32>,
     sun_direction: vec4<f32>,
     sun: vec4<f32>,
-    sky: vec4<f32>,
+    ambient_red: vec4<f32>,
+    ambient_green: vec4<f32>,
+    ambient_blue: vec4<f32>,
     ground: vec4<f32>,
     zenith: vec4<f32>,
     horizon: vec4<f32>,

@@ -63,5 +63,10 @@ fn pixel_doppler(at: vec2<f32>) -> f32 {
     if (GEOMETRY) {
         return world_from_observer(direction, motion).doppler;
     }
-    return doppler_of_world(direction, motion);
+    let seen = doppler_of_world(direction, motion);
+    // Light of what moves had another frequency in the world to begin with.
+    if (view.source.w > 1.0) {
+        return seen / doppler_of_world(direction, view.source);
+    }
+    return seen;
 }

@@ -1,5 +1,5 @@
 // Triangles: apparent positions come in three streams, everything else as the world has it.
-// The radiance that leaves a surface is worked out in the world frame, where sun, sky and scene are at rest.
+// The radiance that leaves a surface is worked out in its own frame: the world's, or that of what moves, with the light that falls on it there.
 
 struct Material {
     base_colour: vec4<f32>,
@@ -70,11 +70,16 @@ fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
 
 // Light on a surface, as weights: the hemisphere, and the sun where it is seen.
 fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    var light = mix(lighting.ground.rgb, lighting.sky.rgb, 0.5 + 0.5 * normal.y);
+    let facing_all = vec4(normal, 1.0);
+    var light = max(vec3(0.0), vec3(
+        dot(lighting.ambient_red, facing_all),
+        dot(lighting.ambient_green, facing_all),
+        dot(lighting.ambient_blue, facing_all),
+    ));
     let facing = dot(normal, lighting.sun_direction.xyz);
     if (facing > 0.0) {
         var visible = 1.0;
-        if (SHADOWED) {
+        if (SHADOWED && lighting.sun_direction.w > 0.0) {
             visible = sunlit(world, normal);
         }
         light += lighting.sun.rgb * facing * visible;

@@ -89,7 +89,7 @@ impl Photographer {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
         let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
         if self.renderer.transforms(effects) {
-            self.renderer.submit(gpu(), eye).expect("the device is there");
+            self.renderer.submit(gpu(), eye, 0.0).expect("the device is there");
         }
         Shot { camera: view.camera(), eye, ct: 0.0, effects }
     }

@@ -198,7 +198,7 @@ fn shots(scene: &Scene, poses: u32) -> Result<Vec<Shot>, Error> {
 
 fn submit(gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<(), Error> {
     if renderer.transforms(shot.effects) {
-        renderer.submit(gpu, shot.eye)?;
+        renderer.submit(gpu, shot.eye, shot.ct)?;
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ pub mod certainty;
 pub mod choice;
 pub mod display;
 pub mod image;
+mod moving;
 pub mod picture;
 pub mod polygon;
 pub mod raytrace;

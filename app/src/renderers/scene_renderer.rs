@@ -3,6 +3,7 @@
 use super::certainty::{Certainty, Drawn, Edges};
 use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
+use super::moving::{self, Axes};
 use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed};
 use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World};
@@ -62,7 +63,7 @@ pub enum Subject {
     /// Their light.
     #[default]
     Light,
-    /// Their places: x, y and z in metres, relative to the scene's origin, and 1; zeros where no surface is.
+    /// Their places: x, y and z in metres, relative to the scene's origin, and 1; zeros where no surface is. Of what moves, in its own frame.
     Places,
 }
 
@@ -143,7 +144,7 @@ impl SceneRenderer {
         Stored {
             white: self.white_luminance(),
             scale: shot.scale(),
-            shifted: shot.effects.shift_light() && shot.celerity() != Celerity::ZERO,
+            shifted: shot.effects.shift_light() && (shot.celerity() != Celerity::ZERO || !self.motions.is_empty()),
         }
     }
 
@@ -180,12 +181,16 @@ impl SceneRenderer {
         effects.geometry && matches!(self.way, Way::Polygon(_))
     }
 
-    /// Begins the photo-surface for an eye, beside whatever is drawn meanwhile.
+    /// Begins the photo-surface for an eye at world time `ct`, beside whatever is drawn meanwhile.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn submit(&mut self, gpu: &Gpu, eye: Eye) -> Result<(), GpuError> {
-        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eye))
+    pub fn submit(&mut self, gpu: &Gpu, eye: Eye, ct: f64) -> Result<(), GpuError> {
+        let event = Event { ct, position: eye.position() };
+        let observer = Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() };
+        let moving = self.motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
+        let eyes = std::iter::once(eye).chain(moving).collect();
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eyes))
     }
 
     /// Photo-surfaces begun and not yet received.
@@ -249,15 +254,27 @@ impl SceneRenderer {
     ) {
         let (celerity, geometry) = (shot.celerity(), shot.effects.geometry);
         let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale());
+        let observer = shot.observer();
+        let mut moving = Vec::with_capacity(self.motions.len());
         let streams = match &mut self.way {
             Way::Image(image) if geometry => {
                 self.world.write_views(gpu, &[view]);
                 return image.draw(gpu, &self.world, encoder, target, shot.effects, self.subject);
             }
-            Way::Polygon(surface) if geometry => Some(&surface.streams),
-            Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => adaptive.streams(),
+            Way::Polygon(surface) if geometry => {
+                let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Group);
+                moving.extend(self.motions.iter().map(of_motion));
+                Some(&surface.streams)
+            }
+            Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => {
+                let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Observer);
+                moving.extend(self.motions.iter().map(of_motion));
+                adaptive.streams()
+            }
             _ => {
                 // The plain world: positions are relative to its origin, not to the eye.
+                let of_motion = |motion| moving::plain_view(&view, motion, &observer, self.world.origin);
+                moving.extend(self.motions.iter().map(of_motion));
                 let eye_from_origin = DMat4::from_translation(self.world.origin - shot.eye.position());
                 view.clip_from_observer *= matrix(&eye_from_origin);
                 None
@@ -268,8 +285,11 @@ impl SceneRenderer {
             Subject::Places => Mode::Places,
         };
         self.world.prepare(gpu, mode, self.format);
-        self.world.write_views(gpu, &[view]);
-        let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position() };
+        let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, Some(motion));
+        let sights: Vec<Sight> = (0..self.motions.len()).map(sight).collect();
+        let views: Vec<shaders::View> = std::iter::once(view).chain(moving).collect();
+        self.world.write_views(gpu, &views);
+        let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position(), moving: &sights };
         self.world.draw(gpu, &mut target.begin(encoder), &draws, &[Part::WHOLE]);
     }
 }

@@ -17,6 +17,7 @@ use serde_json::{Map, Value, json};
 
 use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
 use super::gltf::spectrum;
+use super::motion::{Motion, Uniform};
 use super::panorama::is_equirectangular;
 use super::{Alpha, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
@@ -85,14 +86,26 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     if drawn.is_empty() {
         return Err(ExportError::Nothing { scene: scene.name.clone() });
     }
-    let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
+    let (mut roots, mut nodes, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
     for mesh in drawn {
-        nodes.push(json!({
+        let mut node = json!({
             "name": mesh.name,
             "mesh": meshes.len(),
             "translation": scene.origin.to_array(),
             "extras": NodeExtras { solid: Some(mesh.solid) }.to_json(),
-        }));
+        });
+        // What moves hangs on a node that stands where its motion is anchored.
+        roots.push(nodes.len());
+        if let Some(motion) = mesh.motion {
+            let Motion::Uniform(Uniform { celerity, anchor }) = scene.motions[motion];
+            nodes.push(json!({
+                "children": [nodes.len() + 1],
+                "translation": anchor.position.to_array(),
+                "extras": { "celerity": celerity.vector().to_array(), "at": anchor.ct },
+            }));
+            node["translation"] = json!((scene.origin - anchor.position).to_array());
+        }
+        nodes.push(node);
         meshes.push(file.mesh(mesh));
     }
     let extras = SceneExtras {
@@ -106,7 +119,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     let mut root = json!({
         "asset": { "version": "2.0", "generator": concat!("Rapidity ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
-        "scenes": [{ "name": scene.name, "nodes": (0..nodes.len()).collect::<Vec<_>>(), "extras": extras.into_json() }],
+        "scenes": [{ "name": scene.name, "nodes": roots, "extras": extras.into_json() }],
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,

@@ -363,6 +363,12 @@ impl Scene {
             let beyond = mesh.indices.iter().find(|&&index| index as usize >= count)?;
             Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
         };
+        let motion = |(number, motion): (usize, &motion::Motion)| {
+            let motion::Motion::Uniform(motion::Uniform { anchor, .. }) = motion;
+            let finite = anchor.position.is_finite() && anchor.ct.is_finite();
+            (!finite)
+                .then(|| format!("motion {number} passes {} at {} m, which is not finite", anchor.position, anchor.ct))
+        };
         let spectra = || {
             let mut different: Vec<(&Spectrum, bool)> = Vec::new();
             for material in &self.materials {
@@ -382,6 +388,7 @@ impl Scene {
         textures
             .or_else(|| self.materials.iter().find_map(material))
             .or_else(|| self.meshes.iter().find_map(mesh))
+            .or_else(|| self.motions.iter().enumerate().find_map(motion))
             .or_else(|| spectrum(&self.illuminant, "the light"))
             .or_else(white)
             .or_else(panorama)

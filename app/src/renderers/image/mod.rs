@@ -5,6 +5,8 @@
 //! an atlas of `panes`, as fine as the picture needs it and only where the picture sees it. Then each pixel's direction is taken to the world by
 //! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut. The texels do
 //! not grow with the speed, but the panes do, slowly.
+//!
+//! What moves in the world is not in the map, and not drawn.
 
 mod atlas;
 mod panes;
@@ -158,7 +160,7 @@ impl ImageRenderer {
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws = Draws { streams: None, mode, format, eye: shot.eye.position() };
+        let draws = Draws { streams: None, mode, format, eye: shot.eye.position(), moving: &[] };
         for layer in 0..layers {
             let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
@@ -230,7 +232,7 @@ impl ImageRenderer {
         let Some(group) = &self.group else { return };
         let mut pass = target.begin(encoder);
         pass.set_pipeline(&pipeline);
-        world.bind_view(gpu, &mut pass, 0);
+        world.bind_view(gpu, &mut pass, 0, None);
         pass.set_bind_group(1, group, &[]);
         pass.draw(0..3, 0..1);
     }

@@ -237,6 +237,7 @@ impl Placed {
             motion: forward.as_vec3().extend(1.0),
             shift: Vec4::new(1.0, 1.0, pixel.x, pixel.y),
             layer: Vec4::ZERO,
+            source: Vec4::new(0.0, 0.0, -1.0, 1.0),
         };
         let planes = [forward, row_x + forward, forward - row_x, row_y + forward, forward - row_y];
         (view, planes.map(DVec3::normalize))

@@ -35,7 +35,15 @@ pub struct PhotoSurface {
 
 struct Job {
     staging: wgpu::Buffer,
-    eye: Eye,
+    /// As what rests has it, then as each motion has it.
+    eyes: Vec<Eye>,
+}
+
+/// Vertices that have the eye in common.
+struct Run {
+    /// Which of a job's eyes.
+    eye: usize,
+    vertices: Vertices,
 }
 
 /// A photo-surface ready to draw.
@@ -54,8 +62,13 @@ impl PhotoSurface {
     /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, PhotoSurfaceError> {
         let stride = stream_stride(scene.vertex_count());
-        let positions = scene.meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
-        let vertices = Vertices::from_offsets(scene.origin, positions)?;
+        // Meshes that follow each other and move alike go together: all of them, where nothing moves.
+        let runs = scene.meshes.chunk_by(|a, b| a.motion == b.motion).map(|meshes| {
+            let positions = meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
+            let eye = meshes[0].motion.map_or(0, |motion| 1 + motion);
+            Ok(Run { eye, vertices: Vertices::from_offsets(scene.origin, positions)? })
+        });
+        let runs: Vec<Run> = runs.collect::<Result<_, PhotoSurfaceError>>()?;
         let (freed, free) = bounded(STAGING_BUFFERS);
         for _ in 0..STAGING_BUFFERS {
             let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -72,7 +85,7 @@ impl PhotoSurface {
             .name("photo-surface".to_owned())
             .spawn(move || {
                 for job in job_queue {
-                    if finish.send(transform(&vertices, stride, job)).is_err() {
+                    if finish.send(transform(&runs, stride, job)).is_err() {
                         return;
                     }
                 }
@@ -87,11 +100,11 @@ impl PhotoSurface {
         Ok(Self { jobs, finished, free, freed, pending: 0, streams })
     }
 
-    /// Begins the transform for an eye. Waits if all buffers are under way.
+    /// Begins the transform for an eye: as what rests has it, then as each of the scene's motions has it. Waits if all buffers are under way.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn submit(&mut self, gpu: &Gpu, eye: Eye) -> Result<(), GpuError> {
+    pub fn submit(&mut self, gpu: &Gpu, eyes: Vec<Eye>) -> Result<(), GpuError> {
         // Buffers come back by callbacks, which run when the device is polled.
         let _ = gpu.device.poll(wgpu::PollType::Poll);
         let staging = match self.free.try_recv() {
@@ -102,7 +115,7 @@ impl PhotoSurface {
             }
         };
         self.jobs
-            .send(Job { staging, eye })
+            .send(Job { staging, eyes })
             .map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))?;
         self.pending += 1;
         Ok(())
@@ -150,7 +163,7 @@ impl PhotoSurface {
 }
 
 /// Runs the kernel on the mapped memory of one buffer.
-fn transform(vertices: &Vertices, stride: u64, job: Job) -> Transformed {
+fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
     let started = Instant::now();
     let mut mapped = job.staging.get_mapped_range_mut(..).expect("a free staging buffer is mapped");
     let length = mapped.slice(..).len() / 4;
@@ -158,11 +171,18 @@ fn transform(vertices: &Vertices, stride: u64, job: Job) -> Transformed {
     // SAFETY: the mapping holds `length` floats, is aligned to at least 8 bytes (WebGPU's MAP_ALIGNMENT), and is
     // exclusively ours until `mapped` is dropped. As MaybeUninit it need not be readable, and the kernel only writes.
     let floats = unsafe { std::slice::from_raw_parts_mut(start.as_ptr(), length) };
-    let (x, rest) = floats.split_at_mut(stride as usize / 4);
-    let (y, z) = rest.split_at_mut(stride as usize / 4);
-    let streams = [x, y, z].map(|stream| &mut stream[..vertices.len()]);
-    let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
-    let stats = Kernel::default().transform(&job.eye, vec![surface]);
+    let (mut x, rest) = floats.split_at_mut(stride as usize / 4);
+    let (mut y, mut z) = rest.split_at_mut(stride as usize / 4);
+    let mut stats = Stats::default();
+    for Run { eye, vertices } in runs {
+        let streams = [&mut x, &mut y, &mut z]
+            .map(|stream| stream.split_off_mut(..vertices.len()).expect("streams have room for all vertices"));
+        let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
+        let of_run = Kernel::default().transform(&job.eyes[*eye], vec![surface]);
+        stats.vertices += of_run.vertices;
+        stats.not_finite_inputs += of_run.not_finite_inputs;
+        stats.not_finite_results += of_run.not_finite_results;
+    }
     drop(mapped);
     Transformed { staging: job.staging, stats, duration: started.elapsed() }
 }

@@ -30,9 +30,11 @@ pub struct Attributes {
 pub struct Draw {
     /// Index into the scene's materials.
     pub material: usize,
+    /// Index into the scene's motions; `None`: it rests in the world.
+    pub motion: Option<usize>,
     /// Range of the index buffer.
     pub indices: Range<u32>,
-    /// World position to sort blended surfaces by.
+    /// World position to sort blended surfaces by; of what moves, in its own frame.
     pub centre: DVec3,
     /// The same triangles in groups that lie close together, for views that see little of the world.
     pub groups: Vec<Group>,
@@ -55,7 +57,7 @@ pub struct Geometry {
     pub attributes: wgpu::Buffer,
     /// Three u32 per triangle.
     pub indices: wgpu::Buffer,
-    /// Drawn in any order, before the sky: one draw per material.
+    /// Drawn in any order, before the sky: one draw per material and motion.
     pub opaque: Vec<Draw>,
     /// Drawn from far to near, after the sky: one draw per mesh.
     pub blended: Vec<Draw>,
@@ -117,6 +119,7 @@ impl Prepared {
             prepared.indices.extend(triangles.flatten().map(|index| base + index));
             let draw = Draw {
                 material: scene.meshes[mesh].material,
+                motion: scene.meshes[mesh].motion,
                 indices: start..prepared.indices.len() as u32,
                 centre: scene.origin + centre(&scene.meshes[mesh].positions),
                 groups: Vec::new(),
@@ -164,18 +167,20 @@ fn blends(scene: &Scene, mesh: usize) -> bool {
     scene.materials[scene.meshes[mesh].material].alpha == Alpha::Blend
 }
 
-/// The meshes in the order in which they are drawn: opaque ones first, by material.
+/// The meshes in the order in which they are drawn: opaque ones first, by material and by motion.
 fn order(scene: &Scene) -> Vec<usize> {
     let mut order: Vec<usize> = (0..scene.meshes.len()).collect();
-    order.sort_by_key(|&mesh| (blends(scene, mesh), scene.meshes[mesh].material));
+    order.sort_by_key(|&mesh| (blends(scene, mesh), scene.meshes[mesh].material, scene.meshes[mesh].motion));
     order
 }
 
-/// Adds a draw, to the one before it if that is opaque and of the same material.
+/// Adds a draw, to the one before it if that is opaque, of the same material and of the same motion.
 fn push_draw(opaque: &mut Vec<Draw>, blended: &mut Vec<Draw>, draw: Draw, blends: bool) {
     match opaque.last_mut() {
         _ if blends => blended.push(draw),
-        Some(last) if last.material == draw.material => last.indices.end = draw.indices.end,
+        Some(last) if (last.material, last.motion) == (draw.material, draw.motion) => {
+            last.indices.end = draw.indices.end
+        }
         _ => opaque.push(draw),
     }
 }
@@ -202,6 +207,7 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
         indices.extend(triangles.flatten().map(|index| index + bases[mesh]));
         let draw = Draw {
             material: source.material,
+            motion: source.motion,
             indices: start..indices.len() as u32,
             centre: scene.origin + centre(&source.positions),
             groups: Vec::new(),

@@ -17,6 +17,7 @@ pub use spectra::{Spectra, WHITE};
 use super::target::Format;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
+use crate::scene::cut::Sight;
 use bytemuck::bytes_of;
 use geometry::{Draw, Geometry, Group};
 use glam::DVec3;
@@ -37,10 +38,11 @@ pub struct World {
     pub spectra: Spectra,
     /// World position, in metres, that plain positions are relative to.
     pub origin: DVec3,
-    lighting: wgpu::Buffer,
+    /// Of what rests, then of each motion; so are the groups of views.
+    lightings: Vec<wgpu::Buffer>,
     bindings: Bindings,
     views: wgpu::Buffer,
-    view_group: wgpu::BindGroup,
+    view_groups: Vec<wgpu::BindGroup>,
 }
 
 /// What of group 0 stays.
@@ -61,6 +63,8 @@ pub struct Draws<'a> {
     pub format: Format,
     /// World position of the eye, to draw blended surfaces from far to near.
     pub eye: DVec3,
+    /// How each of the scene's motions is seen, by the views that follow each part's own; empty: what moves is not drawn.
+    pub moving: &'a [Sight],
 }
 
 /// A part of a target, with a view of its own.
@@ -85,7 +89,7 @@ impl World {
         let geometry = Geometry::new(gpu, scene);
         let materials = Materials::new(gpu, scene, &spectra);
         let pipelines = Pipelines::new(gpu, scene, &spectra);
-        let Light { uniform: lighting, map, sampler } =
+        let Light { uniforms: lightings, map, sampler } =
             Light::new(gpu, scene, &geometry, &pipelines, &spectra, background);
         let bindings = Bindings {
             shadow_map: map,
@@ -94,8 +98,8 @@ impl World {
             panorama: panorama::upload(gpu, scene.panorama.as_ref()),
         };
         let views = views(gpu, VIEWS);
-        let view_group = bindings.group(gpu, &pipelines.view_layout, &views, &lighting);
-        Self { geometry, materials, pipelines, spectra, origin: scene.origin, lighting, bindings, views, view_group }
+        let view_groups = bindings.groups(gpu, &pipelines.view_layout, &views, &lightings);
+        Self { geometry, materials, pipelines, spectra, origin: scene.origin, lightings, bindings, views, view_groups }
     }
 
     /// Triangles that a draw of everything takes.
@@ -124,7 +128,7 @@ impl World {
         let stride = view_stride(gpu);
         if written.len() as u64 * stride > self.views.size() {
             self.views = views(gpu, (written.len() as u64).next_power_of_two());
-            self.view_group = self.bindings.group(gpu, &self.pipelines.view_layout, &self.views, &self.lighting);
+            self.view_groups = self.bindings.groups(gpu, &self.pipelines.view_layout, &self.views, &self.lightings);
         }
         let mut bytes = vec![0; written.len() * stride as usize];
         for (place, view) in bytes.chunks_exact_mut(stride as usize).zip(written) {
@@ -133,16 +137,24 @@ impl World {
         gpu.queue.write_buffer(&self.views, 0, &bytes);
     }
 
-    /// Binds group 0 for one of the views written.
-    pub fn bind_view(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, view: u32) {
-        pass.set_bind_group(shaders::VIEW_GROUP, &self.view_group, &[view * view_stride(gpu) as u32]);
+    /// Binds group 0 for one of the views written, of what rests or moves as said: a motion's view comes so many after that of what rests.
+    pub fn bind_view(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, view: u32, motion: Option<usize>) {
+        let further = motion.map_or(0, |motion| 1 + motion);
+        let offset = (view + further as u32) * view_stride(gpu) as u32;
+        pass.set_bind_group(shaders::VIEW_GROUP, &self.view_groups[further], &[offset]);
     }
 
     /// Draws surfaces and sky into each part of a target.
     pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[Part]) {
         let Some(pipelines) = self.pipelines.get(draws.mode, draws.format) else { return };
-        let mut blended: Vec<&Draw> = self.geometry.blended.iter().collect();
-        blended.sort_by(|a, b| b.centre.distance(draws.eye).total_cmp(&a.centre.distance(draws.eye)));
+        let drawn = |draw: &&Draw| draw.motion.is_none_or(|motion| motion < draws.moving.len());
+        let mut blended: Vec<&Draw> = self.geometry.blended.iter().filter(drawn).collect();
+        // What moves is as far as it appears; what rests beside it goes by its place, as everything does in a scene at rest.
+        let distance = |draw: &Draw| match draw.motion.map(|motion| &draws.moving[motion]) {
+            Some(sight) => sight.bend.apparent(draw.centre - self.origin - sight.place).length(),
+            None => draw.centre.distance(draws.eye),
+        };
+        blended.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
 
         pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let streams = draws.streams.unwrap_or(&self.geometry.plain);
@@ -165,21 +177,21 @@ impl World {
                     pass.set_pipeline(&pipelines.surface[draw.material]);
                     pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
                 }
-                self.go_to(gpu, pass, part);
+                self.go_to(gpu, pass, part, draw.motion);
                 ranges.into_iter().for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
             }
         };
-        self.geometry.opaque.iter().for_each(|draw| draw_all(pass, draw));
+        self.geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
         pass.set_pipeline(&pipelines.sky);
         for part in parts {
-            self.go_to(gpu, pass, part);
+            self.go_to(gpu, pass, part, None);
             pass.draw(0..3, 0..1);
         }
         blended.into_iter().for_each(|draw| draw_all(pass, draw));
     }
 
-    fn go_to(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, part: &Part) {
-        self.bind_view(gpu, pass, part.view);
+    fn go_to(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, part: &Part, motion: Option<usize>) {
+        self.bind_view(gpu, pass, part.view, motion);
         if let Some([x, y, width, height]) = part.place {
             pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
             pass.set_scissor_rect(x, y, width, height);
@@ -220,6 +232,16 @@ fn views(gpu: &Gpu, count: u64) -> wgpu::Buffer {
 }
 
 impl Bindings {
+    fn groups(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        views: &wgpu::Buffer,
+        lightings: &[wgpu::Buffer],
+    ) -> Vec<wgpu::BindGroup> {
+        lightings.iter().map(|lighting| self.group(gpu, layout, views, lighting)).collect()
+    }
+
     fn group(
         &self,
         gpu: &Gpu,

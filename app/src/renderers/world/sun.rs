@@ -2,13 +2,17 @@
 //!
 //! Sun and scene are at rest relative to each other, so in the world frame the pattern of light and shadow does not
 //! change, and one map drawn when the scene is loaded serves every observer at every speed (W 5.1.3).
+//!
+//! What moves has its own light, as its own frame has it, and is left out of the map: it neither casts shadows nor is in any.
 
-use super::geometry::Geometry;
+use super::geometry::{Draw, Geometry};
 use super::pipelines::Pipelines;
 use super::spectra::Spectra;
 use crate::gpu::Gpu;
 use crate::renderers::target::{DEPTH_FORMAT, texture};
 use crate::scene::Scene;
+use crate::scene::falling::Falling;
+use crate::scene::motion::Motion;
 use crate::views::matrix;
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, Vec4};
@@ -19,8 +23,8 @@ const MAP_SIZE: u32 = 4096;
 
 /// What the shaders need to know of light.
 pub struct Light {
-    /// The uniform [`shaders::Lighting`].
-    pub uniform: wgpu::Buffer,
+    /// A uniform [`shaders::Lighting`] for what rests, then one for each of the scene's motions.
+    pub uniforms: Vec<wgpu::Buffer>,
     /// Reversed depth as the sun sees it.
     pub map: wgpu::TextureView,
     /// Compares and filters.
@@ -39,12 +43,20 @@ impl Light {
         spectra: &Spectra,
         background: Option<[f32; 3]>,
     ) -> Self {
-        let lighting = lighting(scene, spectra, background);
-        let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("lighting"),
-            contents: bytes_of(&lighting),
-            usage: wgpu::BufferUsages::UNIFORM,
+        let moving = scene.motions.iter().map(|motion| {
+            let Motion::Uniform(uniform) = motion;
+            Falling::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
         });
+        let at_rest = lighting(scene, &Falling::at_rest(&scene.light), true, spectra, background);
+        let moving = moving.map(|falling| lighting(scene, &falling, false, spectra, background));
+        let upload = |lighting| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("lighting"),
+                contents: bytes_of(&lighting),
+                usage: wgpu::BufferUsages::UNIFORM,
+            })
+        };
+        let uniforms: Vec<_> = std::iter::once(at_rest).chain(moving).map(upload).collect();
         let side = if scene.light.shadows { MAP_SIZE.min(gpu.device.limits().max_texture_dimension_2d) } else { 1 };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let map = texture(gpu, "sun's depth map", [side, side], DEPTH_FORMAT, 1, usage);
@@ -55,7 +67,7 @@ impl Light {
             compare: Some(wgpu::CompareFunction::GreaterEqual),
             ..Default::default()
         });
-        let light = Self { uniform, map, sampler };
+        let light = Self { uniforms, map, sampler };
         light.draw_map(gpu, scene, geometry, pipelines);
         light
     }
@@ -73,7 +85,7 @@ impl Light {
             layout: &pipelines.light_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: self.uniforms[0].as_entire_binding() },
             ],
         });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -92,7 +104,8 @@ impl Light {
                 pass.set_bind_group(0, &bind, &[]);
                 pass.set_vertex_buffer(0, geometry.attributes.slice(..));
                 pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                for draw in geometry.opaque.iter().filter(|draw| !scene.materials[draw.material].unlit) {
+                let casts = |draw: &&Draw| draw.motion.is_none() && !scene.materials[draw.material].unlit;
+                for draw in geometry.opaque.iter().filter(casts) {
                     pass.draw_indexed(draw.indices.clone(), 0, 0..1);
                 }
             }
@@ -101,16 +114,25 @@ impl Light {
     }
 }
 
-/// The light of a scene as the shaders take it.
-fn lighting(scene: &Scene, spectra: &Spectra, background: Option<[f32; 3]>) -> shaders::Lighting {
+/// The light of a scene as the shaders take it, where it falls as said. `shadowed`: whether what lies between counts.
+fn lighting(
+    scene: &Scene,
+    falling: &Falling,
+    shadowed: bool,
+    spectra: &Spectra,
+    background: Option<[f32; 3]>,
+) -> shaders::Lighting {
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
     let (shadow_from_world, depth_m) = shadow_from_world(scene);
+    let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
     shaders::Lighting {
         shadow_from_world: matrix(&shadow_from_world),
-        sun_direction: light.sun_direction.extend(0.0),
-        sun: colour(light.sun).with_w(shaders::SHADOW_BIAS_M / depth_m as f32),
-        sky: colour(light.sky),
+        sun_direction: falling.sun_direction.as_vec3().extend(f32::from(u8::from(shadowed))),
+        sun: falling.sun.as_vec3().extend(shaders::SHADOW_BIAS_M / depth_m as f32),
+        ambient_red,
+        ambient_green,
+        ambient_blue,
         ground: colour(light.ground),
         zenith: colour(light.zenith).with_w(spectra.sky as f32),
         horizon: colour(light.horizon).with_w(spectra.factor(spectra.sky)),
@@ -127,7 +149,7 @@ fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
     let sun_from_world =
         DMat4::from_cols(side.extend(0.0), up.extend(0.0), towards_sun.extend(0.0), glam::DVec4::W).transpose();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let lit = scene.meshes.iter().filter(|mesh| !scene.materials[mesh.material].unlit);
+    let lit = scene.meshes.iter().filter(|mesh| mesh.motion.is_none() && !scene.materials[mesh.material].unlit);
     for position in lit.flat_map(|mesh| &mesh.positions).filter(|position| position.is_finite()) {
         let place = sun_from_world.transform_point3(position.as_dvec3());
         (low, high) = (low.min(place), high.max(place));

@@ -1,7 +1,8 @@
-//! What a scene says beyond glTF: `extras.rapidity` of the scene and of its nodes, as `export` writes it.
+//! What a scene says beyond glTF: `extras.rapidity` of the scene and of its nodes, and how a node moves, as `export` writes it.
 
 use ::gltf::json::Extras;
 use glam::{DVec3, Vec3};
+use physics::Celerity;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
@@ -126,6 +127,28 @@ fn read<T: for<'a> Deserialize<'a> + Default>(extras: &Extras) -> Result<T, Stri
         }
         _ => Ok(T::default()),
     }
+}
+
+/// How a node moves: `extras.celerity`, γβ along the world's axes, and `extras.at`, the world time (metres of light travel, 0 unless said) at
+/// which it is where the file has it. `None`: nothing is said. `at` alone is somebody else's.
+///
+/// # Errors
+/// Which key, and what is wrong with it.
+pub(super) fn celerity(extras: &Extras) -> Result<Option<(Celerity, f64)>, (&'static str, String)> {
+    let value = extras.as_deref().and_then(|text| serde_json::from_str::<Value>(text.get()).ok()).unwrap_or_default();
+    let Some(celerity) = value.get("celerity") else { return Ok(None) };
+    let numbers: Option<Vec<f64>> = celerity.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
+    let celerity = numbers
+        .and_then(|numbers| <[f64; 3]>::try_from(numbers).ok())
+        .and_then(|numbers| Celerity::new(DVec3::from_array(numbers)).ok())
+        .ok_or_else(|| {
+            ("celerity", format!("expected three finite numbers, γβ along the world's x, y and z, not {celerity}"))
+        })?;
+    let at = value.get("at").map_or(Some(0.0), |at| at.as_f64().filter(|at| at.is_finite()));
+    let at = at.ok_or_else(|| {
+        ("at", format!("expected a time in metres of light travel, a finite number, not {}", value["at"]))
+    })?;
+    Ok(Some((celerity, at)))
 }
 
 impl NodeExtras {

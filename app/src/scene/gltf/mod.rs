@@ -33,6 +33,7 @@ use self::primitive::Primitive;
 use self::spectrum::Spectra;
 pub use self::spectrum::SpectrumFault;
 use super::collision::Collision;
+use super::motion::Motion;
 use super::panorama::{self, PanoramaError};
 use super::{MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
 use crate::vehicle::Surroundings;
@@ -210,13 +211,21 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
             placed
         })
         .collect();
-    let mut meshes = Vec::with_capacity(placed.len());
+    let (mut meshes, mut motions) = (Vec::with_capacity(placed.len()), Vec::new());
     for ((mut mesh, not_finite), instance) in placed.into_iter().zip(&instances) {
         if not_finite > 0 {
             notices.add(format!("mesh \"{}\" has vertices that are nowhere (not finite): {not_finite}", mesh.name));
         }
         let opaque = materials[mesh.material].alpha == super::Alpha::Opaque;
-        mesh.solid = instance.placement.solid.unwrap_or(opaque);
+        mesh.motion = instance.placement.motion.map(|uniform| {
+            let motion = Motion::Uniform(uniform);
+            motions.iter().position(|known| *known == motion).unwrap_or_else(|| {
+                motions.push(motion);
+                motions.len() - 1
+            })
+        });
+        // Nobody rides on what passes by.
+        mesh.solid = mesh.motion.is_none() && instance.placement.solid.unwrap_or(opaque);
         meshes.push(mesh);
     }
     meshes.retain(|mesh| !mesh.indices.is_empty());
@@ -227,7 +236,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         textures,
         materials,
         meshes,
-        motions: Vec::new(),
+        motions,
         light,
         illuminant,
         white: extras.white,

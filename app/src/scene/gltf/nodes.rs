@@ -5,10 +5,12 @@
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
 use super::container::{Document, Transform};
-use super::extras::NodeExtras;
+use super::extras::{NodeExtras, celerity};
 use super::primitive::Primitive;
 use super::{GltfError, NEAR, Notices};
 use crate::scene::Start;
+use crate::scene::motion::Uniform;
+use physics::Event;
 
 /// A node that bears something.
 pub(super) struct Placement {
@@ -24,6 +26,8 @@ pub(super) struct Placement {
     pub(super) transform: DAffine3,
     /// What `extras.rapidity.solid` says.
     pub(super) solid: Option<bool>,
+    /// Its own motion, or that of the nearest ancestor that has one, with that one's anchor: what hangs together moves together.
+    pub(super) motion: Option<Uniform>,
 }
 
 /// All nodes of a scene that bear a mesh, a light or a camera, parents before children, in the file's order.
@@ -39,14 +43,19 @@ pub(super) fn placements(
     };
     let mut reached = vec![false; nodes.len()];
     let mut placements = Vec::new();
-    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY)).collect();
-    while let Some((index, parent)) = stack.pop() {
+    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None)).collect();
+    while let Some((index, parent, inherited)) = stack.pop() {
         let place = format!("nodes[{index}]");
         let node = document.item(nodes, index, &place)?;
         if std::mem::replace(&mut reached[index], true) {
             return Err(document.damaged(&place, "it has two parents or is its own ancestor"));
         }
         let transform = parent * local(&document.transforms[index], &place, notices);
+        let own =
+            celerity(&node.extras).map_err(|(key, fault)| document.damaged(&format!("{place}.extras.{key}"), fault))?;
+        let motion = own
+            .map(|(celerity, ct)| Uniform { celerity, anchor: Event { ct, position: transform.translation } })
+            .or(inherited);
         let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
         if node.mesh.is_some() || node.camera.is_some() || light.is_some() {
             let extras = NodeExtras::read(&node.extras);
@@ -59,10 +68,11 @@ pub(super) fn placements(
                 camera: node.camera.is_some(),
                 transform,
                 solid: extras.solid,
+                motion,
             });
         }
         let children = node.children.iter().flatten().rev();
-        stack.extend(children.map(|child| (child.value(), transform)));
+        stack.extend(children.map(|child| (child.value(), transform, motion)));
     }
     Ok(placements)
 }

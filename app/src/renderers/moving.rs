@@ -1,0 +1,90 @@
+//! What moves uniformly, drawn as a world of its own.
+//!
+//! An observer is to a moving body what he is to the world, with another place and another celerity, in axes that Wigner's rotation turns into
+//! his own. So each motion has a view of its own of the same picture: light is shifted by the relative motion, and a pixel's direction is
+//! taken in the body's axes (W 5.1.2). Depth is common to all: along one line of sight the nearer apparent position is the later emission.
+
+use crate::scene::motion::{Motion, SeenBy};
+use crate::views::matrix;
+use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
+use physics::photo_surface::Eye;
+use physics::{Celerity, Observer};
+
+/// Which axes the apparent positions of what moves are in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// The observer's: they are turned already.
+    Observer,
+    /// Those of the pure boost out of the body's frame.
+    Group,
+}
+
+/// The observer as a body of this motion has him. `None` if he is nowhere.
+pub fn eye(motion: &Motion, observer: &Observer) -> Option<Eye> {
+    let seen = seen_by(motion, observer);
+    Eye::new(seen.position, seen.celerity.vector()).ok()
+}
+
+/// Of a picture of the photo-surface, the view of what moves.
+pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes: Axes) -> shaders::View {
+    let seen = seen_by(motion, observer);
+    let group_from_observer = seen.observer_from_group.conjugate();
+    let turned = |vector: Vec4| turn(group_from_observer, vector);
+    let clip_from_observer = match axes {
+        Axes::Observer => at_rest.clip_from_observer,
+        Axes::Group => at_rest.clip_from_observer * matrix(&DMat4::from_quat(seen.observer_from_group)),
+    };
+    let along = along(seen.celerity);
+    shaders::View {
+        clip_from_observer,
+        forward: turned(at_rest.forward),
+        right: turned(at_rest.right),
+        up: turned(at_rest.up),
+        motion: along,
+        shift: at_rest.shift.with_x(along.w),
+        ..*at_rest
+    }
+}
+
+/// Of a picture of the plain world about the eye, the view of what moves, for its own positions relative to `origin`: at its place at the
+/// observer's time, shorter along its motion.
+///
+/// *Equation:* r = a + q − (1 − 1/γ)(q·n) n + β (ct − ct_a), q from the anchor in the body's frame.
+pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::View {
+    let Motion::Uniform(uniform) = motion;
+    let celerity = uniform.celerity;
+    let n = celerity.direction().unwrap_or(DVec3::ZERO);
+    let gamma = celerity.gamma();
+    // 1 − 1/γ without a difference.
+    let shorter = celerity.magnitude() / gamma * (celerity.magnitude() / (gamma + 1.0));
+    let contraction = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z) * shorter;
+    let anchor = uniform.anchor;
+    let moved = celerity.beta().vector() * (observer.event.ct - anchor.ct);
+    let place = anchor.position - observer.event.position + moved + contraction * (origin - anchor.position);
+    let eye_from_group = DMat4::from_cols(
+        contraction.x_axis.extend(0.0),
+        contraction.y_axis.extend(0.0),
+        contraction.z_axis.extend(0.0),
+        DVec4::from((place, 1.0)),
+    );
+    shaders::View {
+        clip_from_observer: at_eye.clip_from_observer * matrix(&eye_from_group),
+        source: along(celerity),
+        ..*at_eye
+    }
+}
+
+fn seen_by(motion: &Motion, observer: &Observer) -> SeenBy {
+    let Motion::Uniform(uniform) = motion;
+    uniform.seen_by(observer)
+}
+
+/// Unit vector along a motion, and κ = γ + |u|.
+fn along(celerity: Celerity) -> Vec4 {
+    let direction = celerity.vector().normalize_or(DVec3::NEG_Z);
+    direction.as_vec3().extend((celerity.gamma() + celerity.magnitude()) as f32)
+}
+
+fn turn(rotation: DQuat, vector: Vec4) -> Vec4 {
+    (rotation * vector.xyz().as_dvec3()).as_vec3().extend(vector.w)
+}
