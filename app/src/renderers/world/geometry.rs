@@ -179,7 +179,7 @@ fn push_draw(opaque: &mut Vec<Draw>, blended: &mut Vec<Draw>, draw: Draw, blends
     match opaque.last_mut() {
         _ if blends => blended.push(draw),
         Some(last) if (last.material, last.motion) == (draw.material, draw.motion) => {
-            last.indices.end = draw.indices.end
+            last.indices.end = draw.indices.end;
         }
         _ => opaque.push(draw),
     }
