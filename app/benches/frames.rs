@@ -101,10 +101,10 @@ impl<'gpu> Bench<'gpu> {
             let plain = self.turn(|bench| bench.draw(Effects::NONE))?;
 
             // The transform of the next frame begins before this one is drawn.
-            self.renderer.submit(self.gpu, eye)?;
+            self.renderer.submit(self.gpu, eye, 0.0)?;
             let overlap = self.turn(|bench| {
                 let transformed = bench.renderer.receive()?;
-                bench.renderer.submit(bench.gpu, eye)?;
+                bench.renderer.submit(bench.gpu, eye, 0.0)?;
                 bench.show(transformed)
             })?;
             let rest = self.renderer.receive()?;
@@ -112,7 +112,7 @@ impl<'gpu> Bench<'gpu> {
 
             let mut transforms = Vec::new();
             let low = self.turn(|bench| {
-                bench.renderer.submit(bench.gpu, eye)?;
+                bench.renderer.submit(bench.gpu, eye, 0.0)?;
                 let transformed = bench.renderer.receive()?;
                 transforms.push(milliseconds(transformed.duration));
                 bench.show(transformed)

@@ -132,7 +132,7 @@ impl<'gpu> Stage<'gpu> {
         let mut renderer = SceneRenderer::new(gpu, scene, format, None, method)?;
         // The photo-surface stands still: what it costs, `frames` measures.
         if renderer.transforms(Effects::ALL) {
-            renderer.submit(gpu, Eye::new(eye, scene.start.look * 0.8 / 0.6)?)?;
+            renderer.submit(gpu, Eye::new(eye, scene.start.look * 0.8 / 0.6)?, 0.0)?;
             let transformed = renderer.receive()?;
             renderer.show(gpu, transformed);
         }
