@@ -1,6 +1,6 @@
 //! Journeys of extreme speed, step and length, against one matrix exponential.
 //!
-//! A step is a time on the vehicle's clock in a world whose light travels [`LIGHT_M_PER_S`] in a second: slow enough for ordinary thrust to be
+//! A step is a time on the vehicle's clock in a world whose light travels `LIGHT_M_PER_S` in a second: slow enough for ordinary thrust to be
 //! relativistic. Where not said otherwise the integrator is the exact one, so that what is measured is rounding and not the order of a method.
 
 use std::f64::consts::TAU;

@@ -72,7 +72,7 @@ pub fn stream_stride(count: usize) -> u64 {
     (count as u64 * 4).next_multiple_of(256).max(256)
 }
 
-/// What a [`Geometry`] is made of, in memory.
+/// What a `Geometry` is made of, in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Prepared {
     attributes: Vec<Attributes>,
