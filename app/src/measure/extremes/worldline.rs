@@ -30,7 +30,7 @@ const PLACE: &str = "place, share of the way of light";
 const CLOCK: &str = "the world's clock, share";
 const OWN_CLOCK: &str = "its own clock, share";
 const ORIENTATION: &str = "orientation, rad";
-const MASS_SHELL: &str = "|u|², share";
+const MASS_SHELL: &str = "u², share";
 
 /// How far each journey goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
