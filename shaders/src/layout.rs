@@ -50,7 +50,7 @@ pub struct Lighting {
     pub zenith: Vec4,
     /// Radiance of the sky at the horizon; w = what the sky's weights are multiplied by to be relative to white.
     pub horizon: Vec4,
-    /// Radiance behind everything, if w = 1; w = 0 shows the sky.
+    /// Radiance behind everything, where pipelines show that instead of the sky; w unused.
     pub background: Vec4,
 }
 

@@ -63,10 +63,6 @@ fn pixel_doppler(at: vec2<f32>) -> f32 {
     if (GEOMETRY) {
         return world_from_observer(direction, motion).doppler;
     }
-    let seen = doppler_of_world(direction, motion);
-    // Light of what moves had another frequency in the world to begin with.
-    if (view.source.w > 1.0) {
-        return seen / doppler_of_world(direction, view.source);
-    }
-    return seen;
+    // Light of what moves had another frequency in the world to begin with; what rests divides by one.
+    return doppler_of_world(direction, motion) / doppler_of_world(direction, view.source);
 }

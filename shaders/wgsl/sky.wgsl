@@ -4,8 +4,9 @@
 override MAP: bool = false;
 // Places of surfaces are drawn, and here is none.
 override PLACES: bool = false;
-// What is shown instead of sky, haze and sun.
+// What is shown instead of sky, haze and sun: a picture, or one colour.
 override PANORAMA: bool = false;
+override BACKGROUND: bool = false;
 
 @group(0) @binding(5) var panorama: texture_2d<f32>;
 @group(0) @binding(6) var panorama_sampler: sampler;
@@ -69,7 +70,7 @@ fn fragment(in: Pixel) -> @location(0) vec4<f32> {
     let seen = world_from_observer(observed, view.motion);
     var weights = lighting.background.rgb;
     var carrier = 0.0;
-    if (lighting.background.w != 1.0) {
+    if (!BACKGROUND) {
         if (PANORAMA) {
             // The neighbouring pixels' directions, at unit distance along the view's middle.
             let step_right = view.shift.z * view.right.xyz;

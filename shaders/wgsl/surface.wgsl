@@ -79,7 +79,8 @@ fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let facing = dot(normal, lighting.sun_direction.xyz);
     if (facing > 0.0) {
         var visible = 1.0;
-        if (SHADOWED && lighting.sun_direction.w > 0.0) {
+        // Not a condition that all pixels share: for each value of one lavapipe compiles a shader, and keeps it.
+        if (SHADOWED && lighting.sun_direction.w * facing > 0.0) {
             visible = sunlit(world, normal);
         }
         light += lighting.sun.rgb * facing * visible;

@@ -88,7 +88,7 @@ impl World {
         let spectra = Spectra::of(scene);
         let geometry = Geometry::new(gpu, scene);
         let materials = Materials::new(gpu, scene, &spectra);
-        let pipelines = Pipelines::new(gpu, scene, &spectra);
+        let pipelines = Pipelines::new(gpu, scene, &spectra, background.is_some());
         let Light { uniforms: lightings, map, sampler } =
             Light::new(gpu, scene, &geometry, &pipelines, &spectra, background);
         let bindings = Bindings {

@@ -40,6 +40,7 @@ pub struct Pipelines {
     looks: Vec<Look>,
     sky_identity: bool,
     panorama: bool,
+    background: bool,
     shadows: bool,
     made: Vec<ModePipelines>,
     /// The sun's depth map.
@@ -51,8 +52,8 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// Loads the shaders for what the scene's materials need.
-    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra) -> Self {
+    /// Loads the shaders for what the scene's materials need. `background`: one radiance is shown instead of the sky.
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra, background: bool) -> Self {
         let light_layout = light_layout(gpu);
         let module = |module: shaders::Module| {
             gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -80,6 +81,7 @@ impl Pipelines {
             looks: looks.map(|(material, carrier)| Look::of(material, *carrier)).collect(),
             sky_identity: spectra.sky == WHITE,
             panorama: scene.panorama.is_some(),
+            background,
             shadows: scene.light.shadows,
             made: Vec::new(),
             shadow,
@@ -127,8 +129,11 @@ impl Pipelines {
             depth_write: false,
             depth_compare: wgpu::CompareFunction::GreaterEqual,
             target: Some((format, None)),
-            constants: &[[("PANORAMA", flag(self.panorama))].as_slice(), &mode.constants(self.sky_identity, format)]
-                .concat(),
+            constants: &[
+                [("PANORAMA", flag(self.panorama)), ("BACKGROUND", flag(self.background))].as_slice(),
+                &mode.constants(self.sky_identity, format),
+            ]
+            .concat(),
         }
         .build(gpu);
         self.made.push(ModePipelines { mode, format, surface, sky });

@@ -136,7 +136,7 @@ fn lighting(
         ground: colour(light.ground),
         zenith: colour(light.zenith).with_w(spectra.sky as f32),
         horizon: colour(light.horizon).with_w(spectra.factor(spectra.sky)),
-        background: background.map_or(Vec4::ZERO, |b| colour(b).with_w(1.0)),
+        background: background.map_or(Vec4::ZERO, colour),
     }
 }
 

@@ -1,0 +1,52 @@
+//! Law: the memory that pictures need does not grow with their number, so a ride or a film may last.
+//!
+//! A wrong program shows: a condition in a shader that all pixels share, for whose every value lavapipe compiles and keeps a shader (256 KiB a draw, it was);
+//! buffers of old cuts that something holds.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use glam::DVec3;
+use physics::Beta;
+use rapidity::renderers::polygon::{Pace, Tolerance};
+use rapidity::renderers::{Effects, Method};
+use rapidity::scene::town;
+use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::view::View;
+
+const SIZE: [u32; 2] = [64, 36];
+
+/// Pictures until everything is compiled and every pool is filled, and pictures after that.
+const FIRST: usize = 12;
+const MORE: usize = 36;
+
+/// What pools may still grow by, MiB: a leak of one cut, map or shader a picture is some hundreds.
+const SPREAD_MIB: f64 = 60.0;
+
+/// Memory that the process has, MiB.
+fn resident() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse::<f64>().unwrap() / 1024.0
+}
+
+#[test]
+fn a_film_needs_no_more_memory_the_longer_it_is() {
+    let scene = town::build(1);
+    let (start, look) = (scene.start.position + DVec3::Y * 1.6, scene.start.look);
+    let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let cut = Method::Adaptive(Tolerance { pixels: 2.0, pace: Pace::Still });
+    for (method, background) in [(cut, None), (Method::Polygon, Some([0.1, 0.2, 0.3])), (DEFAULT_MAP, None)] {
+        let mut photographer = Photographer::with(&scene, SIZE, 1, background, method);
+        let mut film = |pictures: std::ops::Range<usize>| {
+            for picture in pictures {
+                let share = picture as f64 / (FIRST + MORE) as f64;
+                let celerity = Beta::new(look.normalize() * 0.9 * share).unwrap().celerity();
+                let _ = photographer.seen(&view, start + look.normalize() * share, celerity, Effects::ALL);
+            }
+            resident()
+        };
+        let before = film(0..FIRST);
+        let after = film(FIRST..FIRST + MORE);
+        println!("{method:?}: {before:.0} MiB after {FIRST} pictures, {after:.0} MiB after {MORE} more");
+        assert!(after - before < SPREAD_MIB, "{method:?}: from {before:.0} to {after:.0} MiB");
+    }
+}
