@@ -20,6 +20,8 @@ override SPLIT: bool = false;
 override BLENDED: bool = false;
 // Weights for the map instead of the light that an observer sees.
 override MAP: bool = false;
+// Vertices are bent here, but for those that the CPU has bent.
+override BENDS: bool = false;
 // Where the surface is, instead of any light.
 override PLACES: bool = false;
 
@@ -51,7 +53,11 @@ struct Fragment {
 
 @vertex
 fn vertex(in: Vertex) -> Fragment {
-    let clip = view.clip_from_observer * vec4(in.x, in.y, in.z, 1.0);
+    var seen = vec3(in.x, in.y, in.z);
+    if (BENDS) {
+        seen = select(apparent_position(in.world), seen, in.x < NOT_BENT);
+    }
+    let clip = view.clip_from_observer * vec4(seen, 1.0);
     return Fragment(clip, in.world, in.normal, in.uv, in.colour);
 }
 

@@ -75,7 +75,7 @@ impl Setting {
     fn choose(self, scene: Scene) -> Result<Choice, Error> {
         let tolerance = |pixels| Tolerance { pixels, pace: Pace::Still };
         let (renderer, bending, texels_per_pixel) = match self {
-            Self::Edge(metres) => (Renderer::Polygon, Bending::Fixed { edge_m: metres }, 1.0),
+            Self::Edge(metres) => (Renderer::Polygon, Bending::Fixed { edge_m: metres, vertex_stage: false }, 1.0),
             Self::Tolerance(pixels) => (Renderer::Polygon, Bending::Adaptive(tolerance(pixels)), 1.0),
             Self::Map(texels) => (Renderer::Image, Bending::Adaptive(tolerance(1.0)), texels),
         };

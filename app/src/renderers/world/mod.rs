@@ -57,6 +57,8 @@ struct Bindings {
 pub struct Draws<'a> {
     /// x, y and z streams, [`stream_stride`] bytes apart; `None`: the world's own positions, relative to its origin.
     pub streams: Option<&'a wgpu::Buffer>,
+    /// Whether the vertex stage bends what the streams do not hold.
+    pub bends: bool,
     /// Light or weights.
     pub mode: Mode,
     /// Of the target.
@@ -119,8 +121,8 @@ impl World {
     }
 
     /// Compiles what a mode needs. A draw in a mode that was not prepared shows nothing.
-    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, format: Format) {
-        self.pipelines.prepare(gpu, &self.materials, mode, format);
+    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, bends: bool, format: Format) {
+        self.pipelines.prepare(gpu, &self.materials, mode, bends, format);
     }
 
     /// Writes what the views of the next submission show, numbered as they come. One submission sees one writing.
@@ -146,7 +148,7 @@ impl World {
 
     /// Draws surfaces and sky into each part of a target.
     pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[Part]) {
-        let Some(pipelines) = self.pipelines.get(draws.mode, draws.format) else { return };
+        let Some(pipelines) = self.pipelines.get(draws.mode, draws.bends, draws.format) else { return };
         let drawn = |draw: &&Draw| draw.motion.is_none_or(|motion| motion < draws.moving.len());
         let mut blended: Vec<&Draw> = self.geometry.blended.iter().filter(drawn).collect();
         // What moves is as far as it appears; what rests beside it goes by its place, as everything does in a scene at rest.

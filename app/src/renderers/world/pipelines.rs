@@ -26,6 +26,7 @@ pub enum Mode {
 /// Pipelines for every material and the sky, in one mode, for targets of one format.
 pub struct ModePipelines {
     mode: Mode,
+    bends: bool,
     format: Format,
     /// One for each material, in the scene's order; those that look alike share one.
     pub surface: Vec<wgpu::RenderPipeline>,
@@ -71,6 +72,7 @@ impl Pipelines {
             depth_write: true,
             depth_compare: wgpu::CompareFunction::Greater,
             target: None,
+            vertex_constants: &[],
             constants: &[],
         }
         .build(gpu);
@@ -90,9 +92,9 @@ impl Pipelines {
         }
     }
 
-    /// Compiles what a mode needs, if it was never needed before.
-    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, format: Format) {
-        if self.get(mode, format).is_some() {
+    /// Compiles what a mode needs, if it was never needed before. `bends`: whether the vertex stage bends.
+    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, bends: bool, format: Format) {
+        if self.get(mode, bends, format).is_some() {
             return;
         }
         let mut made: Vec<(Look, wgpu::RenderPipeline)> = Vec::new();
@@ -110,6 +112,7 @@ impl Pipelines {
                         depth_write: !look.blended,
                         depth_compare: wgpu::CompareFunction::Greater,
                         target: Some((format, look.blended.then(|| blending(mode)))),
+                        vertex_constants: &[("BENDS", flag(bends))],
                         constants: &[look.constants(self.shadows).as_slice(), &mode.constants(look.identity, format)]
                             .concat(),
                     };
@@ -129,6 +132,7 @@ impl Pipelines {
             depth_write: false,
             depth_compare: wgpu::CompareFunction::GreaterEqual,
             target: Some((format, None)),
+            vertex_constants: &[],
             constants: &[
                 [("PANORAMA", flag(self.panorama)), ("BACKGROUND", flag(self.background))].as_slice(),
                 &mode.constants(self.sky_identity, format),
@@ -136,12 +140,12 @@ impl Pipelines {
             .concat(),
         }
         .build(gpu);
-        self.made.push(ModePipelines { mode, format, surface, sky });
+        self.made.push(ModePipelines { mode, bends, format, surface, sky });
     }
 
     /// The pipelines of a mode that was prepared.
-    pub fn get(&self, mode: Mode, format: Format) -> Option<&ModePipelines> {
-        self.made.iter().find(|made| made.mode == mode && made.format == format)
+    pub fn get(&self, mode: Mode, bends: bool, format: Format) -> Option<&ModePipelines> {
+        self.made.iter().find(|made| (made.mode, made.bends, made.format) == (mode, bends, format))
     }
 }
 
@@ -200,6 +204,8 @@ struct Description<'a> {
     depth_compare: wgpu::CompareFunction,
     /// None: depth alone is drawn. How it mixes with what is there.
     target: Option<(Format, Option<wgpu::BlendState>)>,
+    /// The vertex shader's overrides.
+    vertex_constants: &'a [Constant],
     /// The fragment shader's overrides.
     constants: &'a [Constant],
 }
@@ -266,7 +272,10 @@ impl Description<'_> {
             vertex: wgpu::VertexState {
                 module: self.module,
                 entry_point: Some("vertex"),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.vertex_constants,
+                    ..Default::default()
+                },
                 buffers: self.buffers,
             },
             primitive: wgpu::PrimitiveState { cull_mode: self.cull.then_some(wgpu::Face::Back), ..Default::default() },
