@@ -173,16 +173,13 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
     let floats = unsafe { std::slice::from_raw_parts_mut(start.as_ptr(), length) };
     let (mut x, rest) = floats.split_at_mut(stride as usize / 4);
     let (mut y, mut z) = rest.split_at_mut(stride as usize / 4);
-    let mut stats = Stats::default();
-    for Run { eye, vertices } in runs {
+    let seen = runs.iter().map(|Run { eye, vertices }| {
         let streams = [&mut x, &mut y, &mut z]
             .map(|stream| stream.split_off_mut(..vertices.len()).expect("streams have room for all vertices"));
         let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
-        let of_run = Kernel::default().transform(&job.eyes[*eye], vec![surface]);
-        stats.vertices += of_run.vertices;
-        stats.not_finite_inputs += of_run.not_finite_inputs;
-        stats.not_finite_results += of_run.not_finite_results;
-    }
+        (job.eyes[*eye], surface)
+    });
+    let stats = Kernel::default().transform_each(seen.collect());
     drop(mapped);
     Transformed { staging: job.staging, stats, duration: started.elapsed() }
 }
