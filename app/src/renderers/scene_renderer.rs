@@ -190,7 +190,7 @@ impl SceneRenderer {
         let observer = Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() };
         let moving = self.motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
         let eyes = std::iter::once(eye).chain(moving).collect();
-        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eyes))
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, observer, eyes))
     }
 
     /// Photo-surfaces begun and not yet received.
@@ -234,6 +234,7 @@ impl SceneRenderer {
 
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         match &mut self.way {
             Way::Image(image) if shot.effects.geometry => {
                 image.draw_map(gpu, &mut self.world, shot, size, self.subject);
