@@ -16,7 +16,7 @@ use rapidity::renderers::raytrace::RayTracer;
 use rapidity::renderers::{Effects, Method, Shot};
 use rapidity::scene::motion::{Animated, Course, Keyed, Keys, Link, Motion, Track, Uniform};
 use rapidity::scene::refine::refine;
-use rapidity::scene::{Material, Mesh, Scene};
+use rapidity::scene::{Lighting, Material, Mesh, Scene};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -80,8 +80,7 @@ fn accelerated() -> Known {
     let values = cts.iter().map(|&ct| TURN + DVec3::X * (root(ct) - LENGTH_M)).collect();
     let velocity = |ct: &f64| DVec3::X * (ct / root(*ct) * SPEED_OF_LIGHT);
     let keys = Keys::<DVec3>::cubic(times, values, cts.iter().map(|ct| [velocity(ct); 2]).collect()).unwrap();
-    let node =
-        Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
     let motion = Motion::Animated(Arc::new(Animated::new("rocket", vec![Link::Keyed(node)])));
     let at = |place: DVec3, ct: f64| {
         let root = ct.hypot(LENGTH_M);
@@ -147,7 +146,8 @@ fn sphere(middle: DVec3, radius: f64, fineness: f32) -> Mesh {
 }
 
 fn unlit() -> Scene {
-    Scene { materials: vec![Material { unlit: true, ..Material::default() }], ..Scene::default() }
+    let light = Lighting { shadows: false, ..Lighting::default() };
+    Scene { materials: vec![Material { unlit: true, ..Material::default() }], light, ..Scene::default() }
 }
 
 fn scene(motion: &Motion, mesh: Mesh) -> Scene {
@@ -299,48 +299,46 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
     let (from, to) = (-200.0, 200.0);
     let place = |ct: f64| anchor.position + celerity.beta().vector() * (ct - anchor.ct);
     let keys = Keys::linear(vec![from / SPEED_OF_LIGHT, to / SPEED_OF_LIGHT], vec![place(from), place(to)]).unwrap();
-    let node =
-        Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
     let by_keys = Motion::Animated(Arc::new(Animated::new("train", vec![Link::Keyed(node)])));
     let has_celerity = Motion::Uniform(Uniform { celerity, anchor });
     // Keys say where every point is in the world: there it is shorter.
     let half = DVec3::new(1.0, 0.8, 1.2);
-    for lit in [false, true] {
+    let across = DVec3::new(0.2, 0.3, 0.4);
+    for (lit, beta) in [(false, across), (true, across), (true, DVec3::ZERO)] {
         let material = Material { unlit: !lit, ..Material::default() };
         let shorter = scene(&by_keys, cuboid(half / DVec3::new(celerity.gamma(), 1.0, 1.0)));
         let shorter = Scene { materials: vec![material.clone()], ..shorter };
         let own = Scene { materials: vec![material], origin: anchor.position, ..scene(&has_celerity, cuboid(half)) };
-        for beta in [DVec3::ZERO, DVec3::new(0.2, 0.3, 0.4)] {
-            let who = Observer { event: Event { ct: 0.0, position: DVec3::ZERO }, celerity: at(beta) };
-            let look = Course::new(animated(&shorter), &who).seen(DVec3::ZERO).unwrap().apparent;
-            let view = View { look, up: DVec3::Y, fov_degrees: 35.0, size: SIZE };
-            let mut pictures: Vec<Vec<DVec3>> = Vec::new();
-            for scene in [&shorter, &own] {
-                for method in [ADAPTIVE, Method::Polygon] {
-                    let fine = if method == Method::Polygon { refine(scene, 0.05).unwrap() } else { scene.clone() };
-                    let mut photographer = Photographer::with(&fine, SIZE, 1, Some([0.0; 3]), method);
-                    let light = photographer.light(&view, who.event.position, who.celerity, Effects::ALL);
-                    pictures.push(light.pixels().map(|pixel| Vec3::from_array(pixel.0).as_dvec3()).collect());
-                }
-                let tracer = RayTracer::new(scene.clone(), Some([0.0; 3]), false).unwrap();
-                let shot = shot(&view, &who, Effects::ALL);
-                pictures.push(tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {}).light);
+        let who = Observer { event: Event { ct: 0.0, position: DVec3::ZERO }, celerity: at(beta) };
+        let look = Course::new(animated(&shorter), &who).seen(DVec3::ZERO).unwrap().apparent;
+        let view = View { look, up: DVec3::Y, fov_degrees: 35.0, size: SIZE };
+        let mut pictures: Vec<Vec<DVec3>> = Vec::new();
+        for scene in [&shorter, &own] {
+            for method in [ADAPTIVE, Method::Polygon] {
+                let fine = if method == Method::Polygon { refine(scene, 0.05).unwrap() } else { scene.clone() };
+                let mut photographer = Photographer::with(&fine, SIZE, 1, Some([0.0; 3]), method);
+                let light = photographer.light(&view, who.event.position, who.celerity, Effects::ALL);
+                pictures.push(light.pixels().map(|pixel| Vec3::from_array(pixel.0).as_dvec3()).collect());
             }
-            let reference = pictures.pop().unwrap();
-            let shown = reference.iter().filter(|light| **light != DVec3::ZERO).count();
-            assert!(shown > 2000, "{shown} pixels");
-            for (number, picture) in pictures.iter().enumerate() {
-                let mut outline = 0;
-                let mut worst = 0.0_f64;
-                for (&found, &expected) in picture.iter().zip(&reference) {
-                    let off = (found - expected).length() / expected.length().max(1e-9);
-                    // One of two faces at an edge.
-                    if off > 0.05 { outline += 1 } else { worst = worst.max(off) }
-                }
-                println!("lit {lit}, {beta}, picture {number}: {worst:.1e} off, {outline} of {shown} at edges");
-                assert!(worst < LIGHT_TOLERANCE, "picture {number}, lit {lit}, {beta}: light off by {worst}");
-                assert!(outline < shown / 50, "picture {number}, lit {lit}, {beta}: {outline} pixels differ");
+            let tracer = RayTracer::new(scene.clone(), Some([0.0; 3]), false).unwrap();
+            let shot = shot(&view, &who, Effects::ALL);
+            pictures.push(tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {}).light);
+        }
+        let reference = pictures.pop().unwrap();
+        let shown = reference.iter().filter(|light| **light != DVec3::ZERO).count();
+        assert!(shown > 2000, "{shown} pixels");
+        for (number, picture) in pictures.iter().enumerate() {
+            let mut outline = 0;
+            let mut worst = 0.0_f64;
+            for (&found, &expected) in picture.iter().zip(&reference) {
+                let off = (found - expected).length() / expected.length().max(1e-9);
+                // One of two faces at an edge.
+                if off > 0.05 { outline += 1 } else { worst = worst.max(off) }
             }
+            println!("lit {lit}, {beta}, picture {number}: {worst:.1e} off, {outline} of {shown} at edges");
+            assert!(worst < LIGHT_TOLERANCE, "picture {number}, lit {lit}, {beta}: light off by {worst}");
+            assert!(outline < shown / 50, "picture {number}, lit {lit}, {beta}: {outline} pixels differ");
         }
     }
 }

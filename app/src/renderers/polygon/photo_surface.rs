@@ -210,8 +210,7 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
             Run::Still { eye, vertices } => (eye, vertices),
             Run::Animated { animated, places } => {
                 stats.vertices += count;
-                stats.not_finite_results +=
-                    solve(&Course::new(animated, &job.observer), places, streams, log2_doppler);
+                stats.not_finite_results += solve(&Course::new(animated, &job.observer), places, streams, log2_doppler);
                 continue;
             }
         };

@@ -204,7 +204,9 @@ impl Bodies {
             let line = seer.line(seen);
             let found = match (&body.swept, &seer.bend) {
                 (Some(swept), Bend::Light(_)) => body.surfaces.first_on_curve(swept, sight, &line, after, &is_there),
-                _ => body.surfaces.first(seer.position, line.direction, after, &is_there).map(|hit| (hit, line.doppler)),
+                _ => {
+                    body.surfaces.first(seer.position, line.direction, after, &is_there).map(|hit| (hit, line.doppler))
+                }
             };
             let Some((hit, doppler)) = found else { continue };
             let apparent = hit.distance * line.apparent;
@@ -349,9 +351,8 @@ impl Hierarchy {
                 (hit.distance > after && (hit.front || triangle.double_sided) && is_there(&hit)).then_some(hit)
             };
             let direction = (to - from).try_normalize()?;
-            let (index, _) = self.cast(from, direction, |index| {
-                meet(index).map(|hit| ((hit.distance - first) * share).max(0.0))
-            })?;
+            let (index, _) =
+                self.cast(from, direction, |index| meet(index).map(|hit| ((hit.distance - first) * share).max(0.0)))?;
             meet(index)
         })?;
         let pose = animated.at(sight.observer.event.ct - hit.distance);

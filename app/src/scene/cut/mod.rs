@@ -232,7 +232,8 @@ impl<'a> Rule<'a> {
         let Some(chord) = Chord::of(seen, ends, self.frame.least_allowed(&self.fineness)) else { return false };
         let allowed = self.frame.allowed(chord.direction, chord.radius_rad, &self.fineness);
         let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;
-        let error = if chord.length_rad > DOPPLER_LENGTH * allowed { chord.error_rad.max(doppler) } else { chord.error_rad };
+        let error =
+            if chord.length_rad > DOPPLER_LENGTH * allowed { chord.error_rad.max(doppler) } else { chord.error_rad };
         let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(ends[0], ends[1])));
         error > allowed || error > 0.5 * allowed && stays()
     }

@@ -188,7 +188,11 @@ fn changed(rate: &DAffine3, second: &DAffine3) -> DAffine3 {
 /// By how much a matrix may lengthen a vector at most: ‖A‖² is at most the largest sum of a column of |Aᵀ A|. 1 for a rotation.
 fn stretch(matrix: DMat3) -> f64 {
     let square = matrix.transpose() * matrix;
-    [square.x_axis, square.y_axis, square.z_axis].map(|column| column.abs().element_sum()).into_iter().fold(0.0, f64::max).sqrt()
+    [square.x_axis, square.y_axis, square.z_axis]
+        .map(|column| column.abs().element_sum())
+        .into_iter()
+        .fold(0.0, f64::max)
+        .sqrt()
 }
 
 struct Point<'a> {
@@ -220,7 +224,8 @@ mod tests {
             DQuat::from_rotation_y(0.4),
             DVec3::new(3.0, 0.0, 1.0),
         );
-        let keyed = |translation, rotation| Link::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
+        let keyed =
+            |translation, rotation| Link::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
         let mut body = Animated::new(
             "body",
             vec![

@@ -54,7 +54,8 @@ impl Course {
         let towards = found.position - self.observer.event.position;
         let apparent = self.bend.apparent(towards);
         let sent = Beta::new(found.beta).ok()?.celerity();
-        let doppler = self.aberration.observer_from_world(towards).1 / Aberration::new(sent).observer_from_world(towards).1;
+        let doppler =
+            self.aberration.observer_from_world(towards).1 / Aberration::new(sent).observer_from_world(towards).1;
         let event = Event { ct: found.ct, position: found.position };
         (apparent.is_finite() && doppler > 0.0).then_some(Seen { event, apparent, doppler })
     }

@@ -192,11 +192,7 @@ impl Keys<DQuat> {
     ///
     /// # Errors
     /// [`KeyFault`].
-    pub fn cubic_rotation(
-        times_s: Vec<f64>,
-        values: Vec<DQuat>,
-        tangents: Vec<[DQuat; 2]>,
-    ) -> Result<Self, KeyFault> {
+    pub fn cubic_rotation(times_s: Vec<f64>, values: Vec<DQuat>, tangents: Vec<[DQuat; 2]>) -> Result<Self, KeyFault> {
         let keys = Self::checked(times_s, values, Some(tangents), |value| value.is_finite())?;
         match keys.values.iter().position(|value| !value.length().is_normal()) {
             Some(key) => Err(KeyFault::NoRotation { key }),
