@@ -14,9 +14,11 @@ use rand_chacha::ChaCha8Rng;
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::renderers::raytrace::RayTracer;
 use rapidity::renderers::{Effects, Method, Shot};
+use rapidity::scene::cut::{Cut, Fineness, Viewpoint};
 use rapidity::scene::motion::{Animated, Course, Keyed, Keys, Link, Motion, Track, Uniform};
 use rapidity::scene::refine::refine;
 use rapidity::scene::{Lighting, Material, Mesh, Scene};
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -211,6 +213,68 @@ fn a_ray_meets_the_event_where_the_body_was() {
     println!("rays: {:.1e} m, D {:.1e}, {hits} hits", worst[0], worst[1]);
     assert!(hits > 4000, "{hits} hits");
     assert!(worst[0] < EXACT && worst[1] < EXACT, "{worst:?}");
+}
+
+#[test]
+fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
+    // Two halves of a square plate about the axis, of one triangle pair each; its corners move at 0.85 c.
+    let known = circling();
+    let half = 0.85 * PERIOD_S * SPEED_OF_LIGHT / TAU / 2.0_f64.sqrt();
+    let plate = |from: f64, to: f64| Mesh {
+        positions: [(from, -half), (from, half), (to, half), (to, -half)]
+            .map(|(x, z)| DVec3::new(x, 0.0, z).as_vec3())
+            .to_vec(),
+        normals: vec![Vec3::Y; 4],
+        uvs: vec![Vec2::ZERO; 4],
+        colours: vec![[1.0; 4]; 4],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        motion: Some(0),
+        ..Mesh::default()
+    };
+    let mut scene = scene(&known.motion, plate(-half, 0.0));
+    scene.meshes.push(plate(0.0, half));
+    let mut random = seeded(33);
+    for beta in [DVec3::ZERO, DVec3::new(0.1, 0.3, -0.6)] {
+        let who = Observer { event: Event { ct: 1.0, position: DVec3::new(0.0, 5.0, 0.0) }, celerity: at(beta) };
+        let (look, _) = expected(&who, &known, DVec3::ZERO);
+        let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+        let viewpoint = Viewpoint { observer: who, camera: view.camera(), size: SIZE };
+        let fineness = Fineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 1_000_000 };
+        let cut = Cut::new(&scene, &viewpoint, fineness, None);
+        assert!(cut.tolerance_px == 0.5 && cut.triangle_count() > 100, "{} triangles", cut.triangle_count());
+        let mut edges = HashMap::<[[u64; 3]; 2], u32>::new();
+        let mut worst = 0.0_f64;
+        for mesh in &cut.meshes {
+            for corners in mesh.indices.chunks_exact(3) {
+                let corners = [0, 1, 2].map(|corner: usize| mesh.vertices[corners[corner] as usize].place);
+                // An edge is inside, and two triangles have it, or on the rim, where one has it.
+                for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                    let mut ends = [corners[a], corners[b]].map(|end| end.to_array().map(f64::to_bits));
+                    ends.sort_unstable();
+                    *edges.entry(ends).or_default() += 1;
+                }
+                let (a, b): (f64, f64) = (random.random_range(0.0..1.0), random.random_range(0.0..1.0));
+                let shares = [a.min(b), (a - b).abs(), 1.0 - a.max(b)];
+                let mean = |of: [DVec3; 3]| of[0] * shares[0] + of[1] * shares[1] + of[2] * shares[2];
+                let drawn = mean(corners.map(|corner| expected(&who, &known, corner).0));
+                let seen = expected(&who, &known, mean(corners)).0;
+                let inside = |at: DVec2| at.cmpgt(DVec2::ZERO).all() && at.x < 320.0 && at.y < 240.0;
+                if view.look.dot(seen) > 0.0 && inside(pixel(&view, seen)) {
+                    worst = worst.max(pixel(&view, seen).distance(pixel(&view, drawn)));
+                }
+            }
+        }
+        let on_rim = |end: [u64; 3]| {
+            let place = DVec3::from_array(end.map(f64::from_bits)).as_vec3().abs();
+            place.x.max(place.z) >= half as f32
+        };
+        for (ends, count) in edges {
+            let cracked = count != 2 && !ends.into_iter().all(on_rim);
+            assert!(!cracked, "{count} triangles have the edge {:?}", ends.map(|end| end.map(f64::from_bits)));
+        }
+        println!("wheel seen at {beta}: {} triangles, {worst:.2} pixels off", cut.triangle_count());
+        assert!(worst < 0.5, "{worst} pixels off");
+    }
 }
 
 /// The mean place of what is bright, pixels from the upper left corner.
