@@ -37,7 +37,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let (scene, moments) = match &options.replay {
         Some(recording) => reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?,
         None => {
-            let scene = source::load(&options.world.scene)?;
+            let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
             let (simulation, mut log) = prepared(options, &scene)?;
             if let Some(path) = &options.record {
                 log.record(path)?;

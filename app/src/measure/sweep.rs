@@ -28,6 +28,7 @@ use crate::renderers::polygon::{Pace, Tolerance};
 use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, source};
+use crate::vehicle::World;
 use crate::views::Camera;
 
 /// Metres from the ground to the eye.
@@ -108,7 +109,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         writable(path)?;
     }
     let gpu = Gpu::new()?;
-    let scene = source::load(&options.scene)?;
+    let scene = source::load(&options.scene, World::OLD_TOWN.speed_of_light_m_s())?;
     let shots = shots(&scene, options.poses)?;
     let radiance = Radiance::new(&gpu, options.size, Studio::format(&gpu));
     let mut studio = Studio::new(&gpu, options.size, 1);

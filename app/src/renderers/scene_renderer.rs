@@ -117,6 +117,10 @@ impl SceneRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let way = match method {
             Method::Polygon => Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?)),
+            // What is animated is solved on the CPU, and the rest goes with it.
+            Method::VertexStage if scene.motions.iter().any(|motion| motion.animated().is_some()) => {
+                Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?))
+            }
             Method::VertexStage => Way::VertexStage(Box::new(VertexStage::new(gpu, scene)?)),
             Method::Adaptive(tolerance) => Way::Adaptive(Box::new(Adaptive::new(scene, tolerance))),
             Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
@@ -190,8 +194,8 @@ impl SceneRenderer {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, eye: Eye, ct: f64) -> Result<(), GpuError> {
-        let eyes = eyes(&self.motions, eye, ct);
-        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eyes))
+        let (observer, eyes) = (observer(eye, ct), eyes(&self.motions, eye, ct));
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, observer, eyes))
     }
 
     /// Photo-surfaces begun and not yet received.
@@ -235,6 +239,7 @@ impl SceneRenderer {
 
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         match &mut self.way {
             Way::Image(image) if shot.effects.geometry => {
                 image.draw_map(gpu, &mut self.world, shot, size, self.subject);
@@ -311,8 +316,13 @@ impl SceneRenderer {
 
 /// An eye as what rests has it, then as each motion has it.
 fn eyes(motions: &[Motion], eye: Eye, ct: f64) -> Vec<Eye> {
-    let event = Event { ct, position: eye.position() };
-    let observer = Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() };
+    let observer = observer(eye, ct);
     let moving = motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
     std::iter::once(eye).chain(moving).collect()
+}
+
+/// Who looks through an eye at world time `ct`.
+fn observer(eye: Eye, ct: f64) -> Observer {
+    let event = Event { ct, position: eye.position() };
+    Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() }
 }
