@@ -20,7 +20,7 @@ override SPLIT: bool = false;
 override BLENDED: bool = false;
 // Weights for the map instead of the light that an observer sees.
 override MAP: bool = false;
-// Where the surface is, instead of any light.
+// Where the surface is, instead of any light, and what it belongs to: 1 for what rests, and so many more for what moves.
 override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
@@ -101,7 +101,7 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     }
 
     if (PLACES) {
-        return vec4(in.world, 1.0);
+        return vec4(in.world, 1.0 + view.layer.x);
     }
 
     // Weights that leave the surface: on its own carrier, and what it emits besides.

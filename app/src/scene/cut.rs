@@ -155,6 +155,13 @@ impl Sight {
     }
 }
 
+impl Sight {
+    /// Where a place, relative to the scene's origin, appears: relative to the observer, in his own axes.
+    pub fn apparent(&self, place: DVec3) -> DVec3 {
+        self.observer_from_group * self.bend.apparent(place - self.place)
+    }
+}
+
 /// Which edges are cut.
 struct Rule<'a> {
     sights: Vec<Sight>,
