@@ -24,7 +24,7 @@ override MAP: bool = false;
 override BENDS: bool = false;
 // Every vertex brings its own Doppler factor, that of its own motion.
 override ANIMATED: bool = false;
-// Where the surface is, instead of any light.
+// Where the surface is, instead of any light, and what it belongs to: 1 for what rests, and so many more for what moves.
 override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
@@ -135,7 +135,7 @@ fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
     }
 
     if (PLACES) {
-        return vec4(in.world, 1.0);
+        return vec4(in.world, 1.0 + view.layer.x);
     }
 
     // Weights that leave the surface: on its own carrier, and what it emits besides.

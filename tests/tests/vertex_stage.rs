@@ -50,8 +50,8 @@ fn the_vertex_stage_draws_what_the_kernel_draws() {
         let [by_kernel, by_stage] = pictures.each_mut().map(|photographer| photographer.places(&view, eye, celerity));
         let pairs = by_kernel.iter().zip(&by_stage);
         let apart = pairs.filter(|(kernel, stage)| match (kernel, stage) {
-            (Some(kernel), Some(stage)) => kernel.distance(*stage) > PLACE_TOLERANCE * EDGE_M,
-            (kernel, stage) => kernel != stage,
+            (Some(kernel), Some(stage)) => kernel.position.distance(stage.position) > PLACE_TOLERANCE * EDGE_M,
+            (kernel, stage) => kernel.is_some() != stage.is_some(),
         });
         let (apart, shown) = (apart.count() as f64, by_kernel.iter().flatten().count());
         println!("u = {u}, towards {look}: {shown} pixels show a surface, {apart} differ");
@@ -106,8 +106,8 @@ fn what_lies_astern_keeps_its_digits() {
         let [by_kernel, by_stage] = pictures.each_mut().map(|photographer| photographer.places(&view, eye, celerity));
         let shown = by_kernel.iter().flatten().count();
         let apart = by_kernel.iter().zip(&by_stage).filter(|(kernel, stage)| match (kernel, stage) {
-            (Some(kernel), Some(stage)) => kernel.distance(*stage) > 0.001 * half,
-            (kernel, stage) => kernel != stage,
+            (Some(kernel), Some(stage)) => kernel.position.distance(stage.position) > 0.001 * half,
+            (kernel, stage) => kernel.is_some() != stage.is_some(),
         });
         let apart = apart.count();
         println!("at {eye}: {shown} pixels show the square, {apart} differ");

@@ -21,12 +21,17 @@ impl DirectionErrors {
     ///
     /// *Frames:* `shown` pairs the unit direction of each pixel, observer's axes, with the world place it shows, metres.
     pub fn of(observer: &Observer, shown: impl IntoIterator<Item = (DVec3, DVec3)>) -> Self {
-        let error = |(direction, place): (DVec3, DVec3)| {
-            let true_direction = apparent::at_rest(observer, place).position.normalize_or_zero();
+        let seen = |(direction, place): (DVec3, DVec3)| (direction, apparent::at_rest(observer, place).position);
+        Self::between(shown.into_iter().map(seen))
+    }
+
+    /// Of pixels' unit directions and the apparent positions of what they show, observer's axes.
+    pub fn between(pairs: impl IntoIterator<Item = (DVec3, DVec3)>) -> Self {
+        let error = |(direction, apparent): (DVec3, DVec3)| {
             // By the chord: the arc cosine of a product next to 1 would lose half the digits.
-            2.0 * (0.5 * direction.distance(true_direction)).min(1.0).asin() * ARCMIN_PER_RAD
+            2.0 * (0.5 * direction.distance(apparent.normalize_or_zero())).min(1.0).asin() * ARCMIN_PER_RAD
         };
-        let mut arcmin: Vec<f64> = shown.into_iter().map(error).collect();
+        let mut arcmin: Vec<f64> = pairs.into_iter().map(error).collect();
         arcmin.sort_by(f64::total_cmp);
         Self { arcmin }
     }

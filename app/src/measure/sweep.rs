@@ -23,7 +23,7 @@ use crate::progress;
 use crate::render::{interrupted, writable};
 use crate::renderers::choice::{Bending, Choice};
 use crate::renderers::image::MapQuality;
-use crate::renderers::picture::Studio;
+use crate::renderers::picture::{Shown, Studio};
 use crate::renderers::polygon::{Pace, Tolerance};
 use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer, Shot};
@@ -143,7 +143,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
             }
             submit(&gpu, renderer, shot)?;
             let places = studio.places(&gpu, renderer, shot)?;
-            errors.push(of_picture(shot, options.size, &places, scene.origin));
+            errors.push(of_picture(shot, options.size, &places));
             time(&gpu, renderer, &radiance, shot)?;
             bar.inc(1);
         }
@@ -221,7 +221,7 @@ fn time(gpu: &Gpu, renderer: &mut SceneRenderer, radiance: &Radiance, shot: &Sho
 }
 
 /// Errors of all pixels that show a surface.
-fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<DVec3>], origin: DVec3) -> DirectionErrors {
+fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> DirectionErrors {
     let [width, height] = size.map(f64::from);
     let tangent = (0.5 * shot.camera.fov_y_rad).tan();
     let shown = places.iter().enumerate().filter_map(|(number, place)| {
@@ -229,9 +229,9 @@ fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<DVec3>], origin: DVe
         let x = (2.0 * (column as f64 + 0.5) - width) / height * tangent;
         let y = (1.0 - 2.0 * (row as f64 + 0.5) / height) * tangent;
         let direction = shot.camera.observer_from_eye * DVec3::new(x, y, -1.0).normalize();
-        Some((direction, (*place)? + origin))
+        Some((direction, place.as_ref()?.apparent))
     });
-    DirectionErrors::of(&shot.observer(), shown)
+    DirectionErrors::between(shown)
 }
 
 fn row(setting: Setting, mut times: Vec<f64>, errors: Vec<DirectionErrors>) -> Row {

@@ -85,6 +85,13 @@ impl Edges {
         Self::sampled(meshes, |mesh, corner: u32| scene.meshes[mesh].positions[corner as usize].as_dvec3())
     }
 
+    /// Of what rests in a scene.
+    pub fn of_resting(scene: &Scene) -> Self {
+        let resting: Vec<_> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
+        let meshes = resting.iter().map(|mesh| (mesh.indices.as_slice(), None));
+        Self::sampled(meshes, |mesh, corner: u32| resting[mesh].positions[corner as usize].as_dvec3())
+    }
+
     /// Of a scene that was cut.
     pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
         let motions = scene.meshes.iter().map(|mesh| mesh.motion);
@@ -186,6 +193,15 @@ impl Certainty {
             }
         }
         certainty
+    }
+
+    /// The larger of each error of two parts of a picture.
+    pub fn or_worse(self, other: Self) -> Self {
+        Self {
+            drawn_rad: self.drawn_rad.max(other.drawn_rad),
+            rounded_rad: self.rounded_rad.max(other.rounded_rad),
+            pixel_rad: self.pixel_rad,
+        }
     }
 
     /// Both together, radians.

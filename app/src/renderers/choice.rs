@@ -57,7 +57,6 @@ impl Choice {
             Bending::Adaptive(_) => USUAL_EDGE_M,
         };
         let (image, why): (bool, Cow<'_, str>) = match wanted {
-            Renderer::Image if moves => (true, "as asked, which leaves out what moves".into()),
             Renderer::Image => (true, "as asked".into()),
             // The ray tracer takes scenes as they are; whoever asks this for it gets the one that comes closest.
             Renderer::Polygon | Renderer::Raytrace => (false, "as asked".into()),

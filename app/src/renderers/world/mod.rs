@@ -76,6 +76,8 @@ pub struct Draws<'a> {
     pub eye: DVec3,
     /// How each of the scene's motions is seen, by the views that follow each part's own; empty: what moves is not drawn.
     pub moving: &'a [Sight],
+    /// Whether the sky is drawn where no opaque surface is, and not what is there already.
+    pub sky: bool,
 }
 
 /// A part of a target, with a view of its own.
@@ -225,10 +227,12 @@ impl World {
             }
         };
         self.geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
-        pass.set_pipeline(&pipelines.sky);
-        for part in parts {
-            self.go_to(gpu, pass, part, None);
-            pass.draw(0..3, 0..1);
+        if draws.sky {
+            pass.set_pipeline(&pipelines.sky);
+            for part in parts {
+                self.go_to(gpu, pass, part, None);
+                pass.draw(0..3, 0..1);
+            }
         }
         blended.into_iter().for_each(|draw| draw_all(pass, draw));
     }
@@ -311,13 +315,13 @@ impl Bindings {
 }
 
 /// A bind group of bindings 0, 1, 2….
-pub fn bind_group<const COUNT: usize>(
+pub fn bind_group<'a>(
     gpu: &Gpu,
     label: &str,
     layout: &wgpu::BindGroupLayout,
-    resources: [wgpu::BindingResource<'_>; COUNT],
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
 ) -> wgpu::BindGroup {
-    let mut binding = 0..;
-    let entries = resources.map(|resource| wgpu::BindGroupEntry { binding: binding.next().unwrap_or(0), resource });
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }

@@ -19,7 +19,8 @@ pub enum Mode {
     Light(Effects),
     /// The weights of one carrier after another, for the image renderer's map.
     Weights,
-    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1; zeros where there is none.
+    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1 for what rests, 2 + i for what has
+    /// motion i; zeros where there is none.
     Places,
 }
 
@@ -215,7 +216,9 @@ fn flag(value: bool) -> f64 {
 /// Over what is there by opacity. The light that an observer sees has its luminance at rest where opacity would be: it stays.
 fn blending(mode: Mode) -> wgpu::BlendState {
     match mode {
-        Mode::Weights | Mode::Places => wgpu::BlendState::ALPHA_BLENDING,
+        Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
+        // Places do not mix.
+        Mode::Places => wgpu::BlendState::REPLACE,
         Mode::Light(_) => wgpu::BlendState {
             alpha: wgpu::BlendComponent {
                 src_factor: wgpu::BlendFactor::Zero,
