@@ -51,7 +51,6 @@ impl Choice {
     pub fn of(scene: Scene, wanted: Renderer, bending: Bending, quality: MapQuality) -> Result<Self, RefineError> {
         scene.validate()?;
         let triangles = scene.triangle_count();
-        let moves = scene.meshes.iter().any(|mesh| mesh.motion.is_some());
         let edge = match bending {
             Bending::Fixed { edge_m, .. } => edge_m,
             Bending::Adaptive(_) => USUAL_EDGE_M,
@@ -61,7 +60,6 @@ impl Choice {
             // The ray tracer takes scenes as they are; whoever asks this for it gets the one that comes closest.
             Renderer::Polygon | Renderer::Raytrace => (false, "as asked".into()),
             Renderer::Auto if triangles == 0 => (false, "there is only sky, which needs no map".into()),
-            Renderer::Auto if moves => (false, "some of it moves".into()),
             // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too. In a window they
             // share the time with drawing, and the map of a coarse scene is faster.
             Renderer::Auto if matches!(bending, Bending::Adaptive(Tolerance { pace: Pace::Still, .. })) => {
