@@ -266,7 +266,7 @@ impl SceneRenderer {
                 }
             }
             Way::VertexStage(stage) if shot.effects.geometry => {
-                stage.bend(gpu, &eyes(&self.motions, shot.eye, shot.ct))
+                stage.bend(gpu, &eyes(&self.motions, shot.eye, shot.ct));
             }
             Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
             _ => {}
