@@ -101,6 +101,8 @@ mod tests {
 
     use super::*;
     use crate::scene::lattice::Lattice;
+    use crate::scene::motion::{Motion, Uniform};
+    use physics::{Celerity, Event};
 
     #[test]
     fn a_fixed_edge_cuts_once_and_a_tolerance_for_every_picture() {
@@ -119,5 +121,16 @@ mod tests {
         let ride = Tolerance { pixels: 1.5, pace: Pace::Ride };
         assert_eq!(choose(Renderer::Polygon, Bending::Adaptive(ride)), (Method::Adaptive(ride), whole));
         assert_eq!(choose(Renderer::Auto, Bending::Adaptive(ride)), (Method::Image(quality), whole));
+    }
+
+    #[test]
+    fn motion_changes_nothing_of_the_choice() {
+        let mut scene = Lattice::default().build();
+        scene.meshes[0].motion = Some(0);
+        scene.motions = vec![Motion::Uniform(Uniform { celerity: Celerity::ZERO, anchor: Event::default() })];
+        let quality = MapQuality { texels_per_pixel: 1.0, smooth: true };
+        let ride = Bending::Adaptive(Tolerance { pixels: 1.5, pace: Pace::Ride });
+        let choice = Choice::of(scene, Renderer::Auto, ride, quality).unwrap();
+        assert_eq!(choice.method, Method::Image(quality));
     }
 }
