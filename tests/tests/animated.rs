@@ -22,7 +22,8 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use system_tests::photographer::Photographer;
+use system_tests::bodies::sphere;
+use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::random::{direction, seeded};
 use system_tests::view::{View, middle};
 
@@ -129,22 +130,11 @@ fn somebody(random: &mut ChaCha8Rng) -> Observer {
 }
 
 /// A sphere of triangles.
-fn sphere(middle: DVec3, radius: f64, fineness: f32) -> Mesh {
-    let corners = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
-    let octahedron = Mesh {
-        positions: corners.to_vec(),
-        normals: corners.to_vec(),
-        uvs: vec![Vec2::ZERO; 6],
-        colours: vec![[1.0; 4]; 6],
-        indices: vec![0, 1, 2, 1, 3, 2, 3, 4, 2, 4, 0, 2, 1, 0, 5, 3, 1, 5, 4, 3, 5, 0, 4, 5],
-        motion: Some(0),
-        ..Mesh::default()
-    };
-    let still = Scene { meshes: vec![Mesh { motion: None, ..octahedron }], ..unlit() };
-    let mut mesh = refine(&still, fineness).unwrap().meshes.remove(0);
-    mesh.normals = mesh.positions.iter().map(|place| place.normalize()).collect();
-    mesh.positions = mesh.normals.iter().map(|normal| (middle + radius * normal.as_dvec3()).as_vec3()).collect();
-    Mesh { motion: Some(0), ..mesh }
+fn ball(middle: DVec3, radius: f64, fineness: f32) -> Mesh {
+    let mut mesh = sphere(DVec3::ZERO, fineness).meshes.remove(0);
+    mesh.positions.iter_mut().for_each(|place| *place = (middle + radius * place.as_dvec3()).as_vec3());
+    mesh.motion = Some(0);
+    mesh
 }
 
 fn unlit() -> Scene {
@@ -172,7 +162,7 @@ fn each_vertex_is_seen_at_its_own_retarded_event() {
     let mut random = seeded(31);
     let mut worst = [0.0_f64; 2];
     for (known, middle) in [(circling(), DVec3::X * 3.0), (accelerated(), DVec3::ZERO)] {
-        let scene = scene(&known.motion, sphere(middle, 0.5, 0.9));
+        let scene = scene(&known.motion, ball(middle, 0.5, 0.9));
         for _ in 0..200 {
             let who = somebody(&mut random);
             let course = Course::new(animated(&scene), &who);
@@ -194,7 +184,7 @@ fn a_ray_meets_the_event_where_the_body_was() {
     let mut worst = [0.0_f64; 2];
     let mut hits = 0;
     for (known, middle_of_body) in [(circling(), DVec3::X * 3.0), (accelerated(), DVec3::ZERO)] {
-        let scene = scene(&known.motion, sphere(middle_of_body, 1.0, 0.7));
+        let scene = scene(&known.motion, ball(middle_of_body, 1.0, 0.7));
         let tracer = RayTracer::new(scene, None, true).unwrap();
         for _ in 0..12 {
             let who = somebody(&mut random);
@@ -299,7 +289,7 @@ fn pixel(view: &View, seen: DVec3) -> DVec2 {
 fn a_small_body_that_circles_is_drawn_where_it_was() {
     let known = circling();
     let place = DVec3::X * 3.0;
-    let scene = scene(&known.motion, sphere(place, 0.12, 0.2));
+    let scene = scene(&known.motion, ball(place, 0.12, 0.2));
     let tracer = RayTracer::new(scene.clone(), Some([0.0; 3]), false).unwrap();
     for beta in [DVec3::ZERO, DVec3::new(0.3, 0.2, -0.4)] {
         let who = Observer { event: Event { ct: 0.0, position: DVec3::new(1.0, 2.0, 0.0) }, celerity: at(beta) };
@@ -312,7 +302,7 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
         assert!(exact.distance(present) > 50.0, "the test tells nothing: {exact} {present}");
         let bright = |rgb: [f32; 3]| f64::from(rgb[1]);
         let mut found = Vec::new();
-        for method in [ADAPTIVE, Method::Polygon] {
+        for method in [ADAPTIVE, Method::Polygon, DEFAULT_MAP] {
             let mut photographer = Photographer::with(&scene, SIZE, 16, Some([0.0; 3]), method);
             let light = photographer.light(&view, who.event.position, who.celerity, Effects::GEOMETRY);
             found.push(centre_of_gravity(light.pixels().map(|pixel| bright(pixel.0))));
@@ -379,7 +369,7 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
         let view = View { look, up: DVec3::Y, fov_degrees: 35.0, size: SIZE };
         let mut pictures: Vec<Vec<DVec3>> = Vec::new();
         for scene in [&shorter, &own] {
-            for method in [ADAPTIVE, Method::Polygon] {
+            for method in [ADAPTIVE, Method::Polygon, DEFAULT_MAP] {
                 let fine = if method == Method::Polygon { refine(scene, 0.05).unwrap() } else { scene.clone() };
                 let mut photographer = Photographer::with(&fine, SIZE, 1, Some([0.0; 3]), method);
                 let light = photographer.light(&view, who.event.position, who.celerity, Effects::ALL);

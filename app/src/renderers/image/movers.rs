@@ -29,8 +29,9 @@ impl Movers {
         Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance) })
     }
 
-    /// Cuts it for a picture.
+    /// Cuts it for a picture, in the light that falls on it then.
     pub fn cut(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         self.adaptive.cut(gpu, &mut self.world, shot, size);
     }
 
