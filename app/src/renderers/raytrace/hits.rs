@@ -4,6 +4,8 @@
 //! taken there once for a picture, a pixel's direction once for a ray. Along one sight line the apparent distance |x'| = r D (r in the body's frame, D from it to
 //! the observer) is how long ago by the observer's clock the light left, in every body's case: the smallest is seen.
 
+mod onward;
+
 use crate::renderers::Shot;
 use crate::scene::motion::{Motion, SeenBy};
 use crate::scene::{Alpha, Scene};
@@ -12,7 +14,9 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
-use physics::{Aberration, Boost, Celerity, FourVector};
+use physics::{Aberration, Boost, Celerity, FourVector, Observer};
+
+pub use onward::{Emission, Turn};
 
 /// By how much boxes are larger than what is in them, relative to its coordinates, so that rounding misses nothing.
 const MARGIN: f64 = 1e-9;
@@ -30,6 +34,8 @@ pub struct Hit {
     pub position: DVec3,
     /// From where the ray begins, metres in the body's frame.
     pub distance: f64,
+    /// Along the normal of the triangle's front, of any length.
+    pub plane: DVec3,
     /// Whether the ray meets its front.
     pub front: bool,
 }
@@ -62,6 +68,7 @@ struct Triangle {
     corners: [usize; 3],
     points: [DVec3; 3],
     double_sided: bool,
+    glass: bool,
 }
 
 struct Body {
@@ -79,6 +86,8 @@ pub struct Bodies {
     bodies: Vec<Body>,
     /// What keeps the sun from others.
     casters: Hierarchy,
+    /// Whether light goes through glass: then it has no shadow, and its inner side is met too.
+    pub clear_glass: bool,
 }
 
 /// An observer as all bodies have him.
@@ -90,6 +99,8 @@ pub struct Sight {
 /// An observer as one body has him.
 struct Seer {
     position: DVec3,
+    /// His time in the body's frame.
+    ct: f64,
     group_from_observer: DQuat,
     bend: Bend,
 }
@@ -150,12 +161,17 @@ impl Bodies {
             scene.meshes[mesh].motion.is_none() && !material.unlit && material.alpha != Alpha::Blend
         };
         let casters = Hierarchy::of(scene, |mesh| scene.light.shadows && casts(mesh));
-        Self { bodies, casters }
+        Self { bodies, casters, clear_glass: false }
     }
 
     /// The observer of a shot.
     pub fn sight(&self, scene: &Scene, shot: &Shot) -> Sight {
-        let seer = |motion| seer(scene, shot, motion);
+        self.sight_of(scene, &shot.observer(), shot.effects.geometry)
+    }
+
+    /// The same of any observer. `geometry`: whether light takes its time.
+    pub fn sight_of(&self, scene: &Scene, observer: &Observer, geometry: bool) -> Sight {
+        let seer = |motion| seer(scene, observer, geometry, motion);
         Sight { bodies: self.bodies.iter().map(|body| seer(body.motion)).collect(), world: seer(None) }
     }
 
@@ -164,7 +180,10 @@ impl Bodies {
         let mut first: Option<Found> = None;
         for (index, ((body, seer), &after)) in self.bodies.iter().zip(&sight.bodies).zip(beyond).enumerate() {
             let line = seer.line(seen);
-            let Some(hit) = body.surfaces.first(seer.position, line.direction, after, &is_there) else { continue };
+            let Some(hit) = body.surfaces.first(seer.position, line.direction, after, self.clear_glass, &is_there)
+            else {
+                continue;
+            };
             let apparent = hit.distance * line.apparent;
             if first.as_ref().is_none_or(|first| apparent < first.apparent) {
                 first = Some(Found { hit, doppler: line.doppler, body: index, apparent });
@@ -182,8 +201,7 @@ impl Bodies {
     }
 
     /// What was found, for those who ask where it is.
-    pub fn place(&self, sight: &Sight, seen: DVec3, found: &Found) -> Place {
-        debug_assert_eq!(sight.bodies.len(), self.bodies.len());
+    pub fn place(&self, seen: DVec3, found: &Found) -> Place {
         Place {
             position: found.hit.position,
             motion: self.bodies[found.body].motion,
@@ -197,20 +215,37 @@ impl Bodies {
     /// The ray begins off the surface by what the other renderers leave between a surface and its own shadow.
     pub fn sunlit(&self, position: DVec3, normal: DVec3, towards_sun: DVec3) -> bool {
         let from = position + f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
-        self.casters.any(from, towards_sun, f64::from(shaders::SHADOW_BIAS_M)).is_none()
+        self.is_free(from, towards_sun, f64::INFINITY)
+    }
+
+    /// Whether nothing is between a point of what rests in the world and one of its lamps, `away` from it. `normal`: as for
+    /// [`Bodies::sunlit`]; zero where the point is of something that moves, in whose frame the normal is another.
+    pub fn lamplit(&self, position: DVec3, normal: DVec3, away: DVec3) -> bool {
+        let offset = f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
+        let distance = (away - offset).length();
+        self.is_free(position + offset, (away - offset) / distance, distance)
+    }
+
+    fn is_free(&self, from: DVec3, direction: DVec3, until: f64) -> bool {
+        let after = f64::from(shaders::SHADOW_BIAS_M);
+        let meet = |index: u32| {
+            let triangle = &self.casters.triangles[index as usize];
+            let distance = triangle.meet(from, direction)?.distance;
+            (distance > after && distance < until && !(self.clear_glass && triangle.glass)).then_some(distance)
+        };
+        self.casters.cast(from, direction, meet).is_none()
     }
 }
 
-fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
-    let observer = shot.observer();
+fn seer(scene: &Scene, observer: &Observer, geometry: bool, motion: Option<usize>) -> Seer {
     let rest =
         SeenBy { position: observer.event.position, celerity: observer.celerity, observer_from_group: DQuat::IDENTITY };
     let uniform = motion.map(|motion| {
         let Motion::Uniform(uniform) = &scene.motions[motion];
         *uniform
     });
-    let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(&observer));
-    let bend = if shot.effects.geometry {
+    let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(observer));
+    let bend = if geometry {
         Bend::Light(Aberration::new(seen_by.celerity))
     } else {
         let celerity = uniform.map_or(Celerity::ZERO, |uniform| uniform.celerity);
@@ -221,19 +256,24 @@ fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
         }
     };
     let group_from_observer = seen_by.observer_from_group.conjugate();
-    Seer { position: seen_by.position - scene.origin, group_from_observer, bend }
+    let ct = uniform.map_or(observer.event.ct, |uniform| {
+        let apart = observer.event - uniform.anchor;
+        uniform.anchor.ct + Boost::observer_from_world(uniform.celerity).apply(apart).t
+    });
+    Seer { position: seen_by.position - scene.origin, ct, group_from_observer, bend }
 }
 
 impl Hierarchy {
     fn of(scene: &Scene, wanted: impl Fn(usize) -> bool) -> Self {
         let mut triangles = Vec::new();
         for (number, mesh) in scene.meshes.iter().enumerate().filter(|(number, _)| wanted(*number)) {
-            let double_sided = scene.materials[mesh.material].double_sided;
+            let material = &scene.materials[mesh.material];
+            let (double_sided, glass) = (material.double_sided, material.transmission > 0.0);
             for corners in mesh.indices.as_chunks::<3>().0 {
                 let corners = corners.map(|corner| corner as usize);
                 let points = corners.map(|corner| mesh.positions[corner].as_dvec3());
                 if points.iter().all(|point| point.is_finite()) {
-                    triangles.push(Triangle { mesh: number, corners, points, double_sided });
+                    triangles.push(Triangle { mesh: number, corners, points, double_sided, glass });
                 }
             }
         }
@@ -241,24 +281,23 @@ impl Hierarchy {
         Self { triangles, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
-    /// The nearest hit further than `after`.
-    fn first(&self, from: DVec3, direction: DVec3, after: f64, is_there: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    /// The nearest hit further than `after`. `clear_glass`: of glass the inner side too.
+    fn first(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        after: f64,
+        clear_glass: bool,
+        is_there: impl Fn(&Hit) -> bool,
+    ) -> Option<Hit> {
         let meet = |index: u32| {
             let triangle = &self.triangles[index as usize];
             let hit = triangle.meet(from, direction)?;
-            (hit.distance > after && (hit.front || triangle.double_sided) && is_there(&hit)).then_some(hit)
+            let shown = hit.front || triangle.double_sided || (clear_glass && triangle.glass);
+            (hit.distance > after && shown && is_there(&hit)).then_some(hit)
         };
         let (index, _) = self.cast(from, direction, |index| meet(index).map(|hit| hit.distance))?;
         meet(index)
-    }
-
-    /// Whether there is anything further than `after`, seen from whichever side.
-    fn any(&self, from: DVec3, direction: DVec3, after: f64) -> Option<u32> {
-        let meet = |index: u32| {
-            let hit = self.triangles[index as usize].meet(from, direction)?;
-            (hit.distance > after).then_some(hit.distance)
-        };
-        self.cast(from, direction, meet).map(|(index, _)| index)
     }
 
     fn cast(&self, from: DVec3, direction: DVec3, meet: impl Fn(u32) -> Option<f64>) -> Option<(u32, f64)> {
@@ -286,8 +325,16 @@ impl Triangle {
         let weights = volumes.map(|volume| volume / sum);
         let away = a * weights[0] + b * weights[1] + c * weights[2];
         let distance = away.dot(direction);
-        let hit =
-            Hit { mesh: self.mesh, corners: self.corners, weights, position: from + away, distance, front: sum < 0.0 };
+        let plane = (b - a).cross(c - a);
+        let hit = Hit {
+            mesh: self.mesh,
+            corners: self.corners,
+            weights,
+            position: from + away,
+            distance,
+            plane,
+            front: sum < 0.0,
+        };
         (distance > 0.0).then_some(hit)
     }
 }
