@@ -110,7 +110,8 @@ mod tests {
             let count = 256;
             let draws: Vec<_> = (0..count).map(|sample| Draw::of(pixel, sample)).collect();
             assert!(draws.iter().all(|draw| draw.lens.length() <= 1.0 && draw.moment.abs() <= 0.5));
-            // Each of eight rings and sectors of one area, and each eighth of the time, has about an eighth of the samples.
+            // Each of eight rings and sectors of one area, and each eighth of the time, has an eighth of the samples to a quarter of that;
+            // independent random numbers would be further off in one part of eight.
             let parts = |part: &dyn Fn(&Draw) -> f64| {
                 let mut counts = [0; 8];
                 draws.iter().for_each(|draw| counts[(part(draw) * 8.0).min(7.0) as usize] += 1);
@@ -119,7 +120,7 @@ mod tests {
             let sector = |draw: &Draw| draw.lens.y.atan2(draw.lens.x).rem_euclid(TAU) / TAU;
             for counts in [parts(&|draw| draw.lens.length_squared()), parts(&sector), parts(&|draw| draw.moment + 0.5)]
             {
-                assert!(counts.iter().all(|count| (26..=38).contains(count)), "{counts:?} at {pixel:?}");
+                assert!(counts.iter().all(|count| (24..=40).contains(count)), "{counts:?} at {pixel:?}");
             }
         }
         assert_ne!(Draw::of([3, 4], 0), Draw::of([4, 3], 0));
