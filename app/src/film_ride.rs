@@ -41,7 +41,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             (scene, moments)
         }
         None => {
-            let scene = source::load(&options.world.scene)?;
+            let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
             let (simulation, mut log) = prepared(options, &scene)?;
             if let Some(path) = &options.record {
                 log.record(path)?;

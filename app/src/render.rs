@@ -43,7 +43,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
-    let scene = source::load(&options.world.scene)?;
+    let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
     let start = scene.start;
     let speed_of_light = options.world.speed_of_light;
     let camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;

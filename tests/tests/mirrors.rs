@@ -5,13 +5,14 @@
 //! wrong brightness; with the mirror where it is now and not where the light met it, both.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DQuat, DVec3, Vec2, Vec3};
 use physics::photo_surface::Eye;
 use physics::{Beta, Event};
 use rapidity::renderers::raytrace::{RayTracer, Traced};
 use rapidity::renderers::{Effects, Shot};
-use rapidity::scene::motion::{Motion, Uniform};
+use rapidity::scene::motion::{Animated, Keyed, Keys, Link, Motion, Track, Uniform};
 use rapidity::scene::{Material, Mesh, Scene};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
 
@@ -183,6 +184,53 @@ fn glass_that_flies_through_the_picture_shifts_nothing() {
         (height, through(angle, f64::from(index)).powi(2))
     };
     hold(&trace(scene, &view, 1), &view, f64::from(edge), expected);
+}
+
+/// Moves by keys along a direction as fast as β of light, and is where it was modelled when the world's clock shows 0.
+fn by_keys(beta: DVec3) -> Motion {
+    const SPEED_OF_LIGHT: f64 = 10.0;
+    let end_s = 40.0;
+    let end = beta * (end_s * SPEED_OF_LIGHT);
+    let keys = Keys::linear(vec![-end_s, end_s], vec![-end, end]).unwrap();
+    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    Motion::Animated(Arc::new(Animated::new("slide", vec![Link::Keyed(node)])))
+}
+
+/// A scene with a mirror 5 m ahead; a wall 3 m behind the eye moves.
+fn mirrored(motion: Motion) -> Scene {
+    let mirror = Material { metallic: 1.0, roughness: 0.0, ..Material::default() };
+    let [mut below, mut above] = wall(3.0, 0.0, true);
+    (below.motion, above.motion) = (Some(0), Some(0));
+    let meshes = vec![below, above, rectangle(-5.0, [-90.0; 2], [90.0; 2], false, 2)];
+    let mut scene = Scene { materials: materials(mirror), meshes, motions: vec![motion], ..Scene::default() };
+    scene.set_speed_of_light(10.0).unwrap();
+    scene
+}
+
+#[test]
+fn a_mirror_shows_what_moves_by_keys_like_what_has_that_celerity() {
+    // Upwards: its edge is seen where it was when the light left it for the mirror, metres below its place now.
+    let beta = DVec3::Y * 0.5;
+    let view = View { look: DVec3::new(0.0, -0.5, -1.0), up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let uniform = Uniform { celerity: Beta::new(beta).unwrap().celerity(), anchor: Event::default() };
+    let known = trace(mirrored(Motion::Uniform(uniform)), &view, 1);
+    let traced = trace(mirrored(by_keys(beta)), &view, 1);
+    for (light, known) in traced.light.iter().zip(&known.light) {
+        assert!((*light / *known - 1.0).abs().max_element() < LIGHT_TOLERANCE, "{light} instead of {known}");
+    }
+    let blue = traced.light.iter().filter(|light| light.z > light.x).count();
+    assert!((300..SIZE[0] as usize * SIZE[1] as usize - 300).contains(&blue), "{blue} pixels above the edge");
+}
+
+#[test]
+fn what_is_animated_turns_no_rays() {
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
+    let scene = || {
+        let mut scene = mirrored(by_keys(DVec3::X * 0.1));
+        scene.meshes.iter_mut().for_each(|mesh| mesh.motion = (mesh.material == 2).then_some(0));
+        scene
+    };
+    assert_eq!(trace(scene(), &view, 1), trace(scene(), &view, 0));
 }
 
 #[test]

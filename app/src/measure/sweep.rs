@@ -28,6 +28,7 @@ use crate::renderers::polygon::{Pace, Tolerance};
 use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, source};
+use crate::vehicle::World;
 use crate::views::Camera;
 
 /// Metres from the ground to the eye.
@@ -75,7 +76,7 @@ impl Setting {
     fn choose(self, scene: Scene) -> Result<Choice, Error> {
         let tolerance = |pixels| Tolerance { pixels, pace: Pace::Still };
         let (renderer, bending, texels_per_pixel) = match self {
-            Self::Edge(metres) => (Renderer::Polygon, Bending::Fixed { edge_m: metres }, 1.0),
+            Self::Edge(metres) => (Renderer::Polygon, Bending::Fixed { edge_m: metres, vertex_stage: false }, 1.0),
             Self::Tolerance(pixels) => (Renderer::Polygon, Bending::Adaptive(tolerance(pixels)), 1.0),
             Self::Map(texels) => (Renderer::Image, Bending::Adaptive(tolerance(1.0)), texels),
         };
@@ -108,7 +109,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         writable(path)?;
     }
     let gpu = Gpu::new()?;
-    let scene = source::load(&options.scene)?;
+    let scene = source::load(&options.scene, World::OLD_TOWN.speed_of_light_m_s())?;
     let shots = shots(&scene, options.poses)?;
     let radiance = Radiance::new(&gpu, options.size, Studio::format(&gpu));
     let mut studio = Studio::new(&gpu, options.size, 1);

@@ -9,7 +9,7 @@ use physics::bend::Bend;
 
 use super::Shot;
 use crate::scene::Scene;
-use crate::scene::cut::{Cut, Sight};
+use crate::scene::cut::{Chord, Cut, Sight};
 
 /// Edges that are looked at.
 const SAMPLES: usize = 512;
@@ -144,8 +144,11 @@ impl Certainty {
                 sights.len() - 1
             });
             let sight: &Sight = &sights[index].1;
-            let [from, to] = [a, b].map(|end| *end - sight.place);
+            let [from, to] = [a, b].map(|end| sight.towards(*end));
             let (middle, seen) = (0.5 * (from + to), sight.bend.apparent(0.5 * (from + to)));
+            if !seen.is_finite() {
+                continue;
+            }
             // Positions about the scene's origin are turned and shifted in f32.
             let about = (0.5 * (*a + *b)).abs().max_element().max(sight.place.abs().max_element());
             usual.add(from.distance(to) / middle.length(), about / middle.length());
@@ -157,7 +160,12 @@ impl Certainty {
                 let rounded = 2.0 * STEP * about / seen.length();
                 certainty.rounded_rad = certainty.rounded_rad.max(rounded);
             } else {
-                let error = sight.bend.error(middle, 0.5 * (from.length() + to.length()));
+                let error = match &sight.course {
+                    None => sight.bend.error(middle, 0.5 * (from.length() + to.length())),
+                    Some(course) => {
+                        Chord::of(|place| course.seen(place), [*a, *b], 0.0).map_or(0.0, |chord| chord.error_rad)
+                    }
+                };
                 certainty.drawn_rad = certainty.drawn_rad.max(error);
             }
         }

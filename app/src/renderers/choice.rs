@@ -25,6 +25,8 @@ pub enum Bending {
     Fixed {
         /// Metres.
         edge_m: f64,
+        /// Whether vertices are bent by the GPU's vertex stage.
+        vertex_stage: bool,
     },
     /// They are cut for every picture.
     Adaptive(Tolerance),
@@ -51,7 +53,7 @@ impl Choice {
         let triangles = scene.triangle_count();
         let moves = scene.meshes.iter().any(|mesh| mesh.motion.is_some());
         let edge = match bending {
-            Bending::Fixed { edge_m } => edge_m,
+            Bending::Fixed { edge_m, .. } => edge_m,
             Bending::Adaptive(_) => USUAL_EDGE_M,
         };
         let (image, why): (bool, Cow<'_, str>) = match wanted {
@@ -88,7 +90,11 @@ impl Choice {
         let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
         let scene = refine(&scene, edge as f32)?;
         spinner.finish_and_clear();
-        Ok(Self { scene, method: Method::Polygon, because })
+        let method = match bending {
+            Bending::Fixed { vertex_stage: true, .. } => Method::VertexStage,
+            _ => Method::Polygon,
+        };
+        Ok(Self { scene, method, because })
     }
 }
 
@@ -107,8 +113,10 @@ mod tests {
             (choice.method, choice.scene.triangle_count())
         };
         let whole = Lattice::default().build().triangle_count();
-        let fixed = Bending::Fixed { edge_m: 0.3 };
+        let fixed = Bending::Fixed { edge_m: 0.3, vertex_stage: false };
         assert!(matches!(choose(Renderer::Polygon, fixed), (Method::Polygon, cut) if cut > 10 * whole));
+        let staged = Bending::Fixed { edge_m: 0.3, vertex_stage: true };
+        assert!(matches!(choose(Renderer::Polygon, staged), (Method::VertexStage, cut) if cut > 10 * whole));
         let still = Tolerance { pixels: 0.5, pace: Pace::Still };
         assert_eq!(choose(Renderer::Auto, Bending::Adaptive(still)), (Method::Adaptive(still), whole));
         let ride = Tolerance { pixels: 1.5, pace: Pace::Ride };

@@ -4,7 +4,7 @@ use super::certainty::{Certainty, Drawn, Edges};
 use super::display::Stored;
 use super::image::{ImageRenderer, MapQuality, MapStats};
 use super::moving::{self, Axes};
-use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed};
+use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed, VertexStage};
 use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
@@ -70,8 +70,10 @@ pub enum Subject {
 /// How a scene is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// The photo-surface of every vertex.
+    /// The photo-surface of every vertex, worked out beside the drawing.
     Polygon,
+    /// The same, worked out by the GPU's vertex stage but for what lies astern.
+    VertexStage,
     /// The same, of a scene that is cut for every picture.
     Adaptive(Tolerance),
     /// A map of the world around the eye, of this quality.
@@ -96,6 +98,7 @@ pub struct SceneRenderer {
 
 enum Way {
     Polygon(Box<PhotoSurface>),
+    VertexStage(Box<VertexStage>),
     Adaptive(Box<Adaptive>),
     Image(Box<ImageRenderer>),
 }
@@ -114,6 +117,11 @@ impl SceneRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let way = match method {
             Method::Polygon => Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?)),
+            // What is animated is solved on the CPU, and the rest goes with it.
+            Method::VertexStage if scene.motions.iter().any(|motion| motion.animated().is_some()) => {
+                Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?))
+            }
+            Method::VertexStage => Way::VertexStage(Box::new(VertexStage::new(gpu, scene)?)),
             Method::Adaptive(tolerance) => Way::Adaptive(Box::new(Adaptive::new(scene, tolerance))),
             Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
         };
@@ -129,7 +137,7 @@ impl SceneRenderer {
     /// Name of the method.
     pub fn name(&self) -> &'static str {
         match self.way {
-            Way::Polygon(_) | Way::Adaptive(_) => "polygon",
+            Way::Polygon(_) | Way::VertexStage(_) | Way::Adaptive(_) => "polygon",
             Way::Image(_) => "image",
         }
     }
@@ -152,7 +160,7 @@ impl SceneRenderer {
     pub fn map_stats(&self) -> Option<MapStats> {
         match &self.way {
             Way::Image(image) => Some(image.stats()),
-            Way::Polygon(_) | Way::Adaptive(_) => None,
+            Way::Polygon(_) | Way::VertexStage(_) | Way::Adaptive(_) => None,
         }
     }
 
@@ -167,7 +175,7 @@ impl SceneRenderer {
             return Certainty::default();
         }
         let (edges, drawn) = match &self.way {
-            Way::Polygon(_) => (&self.edges, Drawn::ByKernel),
+            Way::Polygon(_) | Way::VertexStage(_) => (&self.edges, Drawn::ByKernel),
             Way::Adaptive(adaptive) => (adaptive.edges().unwrap_or(&self.edges), Drawn::InFull),
             Way::Image(image) => (&self.edges, Drawn::FromMap { texels_per_pixel: image.stats().texels_per_pixel }),
         };
@@ -186,11 +194,8 @@ impl SceneRenderer {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, eye: Eye, ct: f64) -> Result<(), GpuError> {
-        let event = Event { ct, position: eye.position() };
-        let observer = Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() };
-        let moving = self.motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
-        let eyes = std::iter::once(eye).chain(moving).collect();
-        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eyes))
+        let (observer, eyes) = (observer(eye, ct), eyes(&self.motions, eye, ct));
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, observer, eyes))
     }
 
     /// Photo-surfaces begun and not yet received.
@@ -234,9 +239,13 @@ impl SceneRenderer {
 
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         match &mut self.way {
             Way::Image(image) if shot.effects.geometry => {
                 image.draw_map(gpu, &mut self.world, shot, size, self.subject);
+            }
+            Way::VertexStage(stage) if shot.effects.geometry => {
+                stage.bend(gpu, &eyes(&self.motions, shot.eye, shot.ct))
             }
             Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
             _ => {}
@@ -256,6 +265,7 @@ impl SceneRenderer {
         let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale());
         let observer = shot.observer();
         let mut moving = Vec::with_capacity(self.motions.len());
+        let mut bends = false;
         let streams = match &mut self.way {
             Way::Image(image) if geometry => {
                 self.world.write_views(gpu, &[view]);
@@ -265,6 +275,16 @@ impl SceneRenderer {
                 let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Group);
                 moving.extend(self.motions.iter().map(of_motion));
                 Some(&surface.streams)
+            }
+            Way::VertexStage(stage) if geometry => {
+                let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Group);
+                moving.extend(self.motions.iter().map(of_motion));
+                let eyes = eyes(&self.motions, shot.eye, shot.ct);
+                for (view, eye) in std::iter::once(&mut view).chain(&mut moving).zip(&eyes) {
+                    *view = stage.view(*view, eye);
+                }
+                bends = true;
+                Some(&stage.streams)
             }
             Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => {
                 let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Observer);
@@ -284,12 +304,25 @@ impl SceneRenderer {
             Subject::Light => Mode::Light(shot.effects),
             Subject::Places => Mode::Places,
         };
-        self.world.prepare(gpu, mode, self.format);
+        self.world.prepare(gpu, mode, bends, self.format);
         let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, Some(motion));
         let sights: Vec<Sight> = (0..self.motions.len()).map(sight).collect();
         let views: Vec<shaders::View> = std::iter::once(view).chain(moving).collect();
         self.world.write_views(gpu, &views);
-        let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position(), moving: &sights };
+        let draws = Draws { streams, bends, mode, format: self.format, eye: shot.eye.position(), moving: &sights };
         self.world.draw(gpu, &mut target.begin(encoder), &draws, &[Part::WHOLE]);
     }
+}
+
+/// An eye as what rests has it, then as each motion has it.
+fn eyes(motions: &[Motion], eye: Eye, ct: f64) -> Vec<Eye> {
+    let observer = observer(eye, ct);
+    let moving = motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
+    std::iter::once(eye).chain(moving).collect()
+}
+
+/// Who looks through an eye at world time `ct`.
+fn observer(eye: Eye, ct: f64) -> Observer {
+    let event = Event { ct, position: eye.position() };
+    Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() }
 }

@@ -148,7 +148,7 @@ impl ImageRenderer {
             views.iter().map(move |(view, _)| shaders::View { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
-        world.prepare(gpu, mode, format);
+        world.prepare(gpu, mode, false, format);
 
         let atlas = match self.atlas.take() {
             Some(atlas) if atlas.holds(plan.size, layers) => atlas,
@@ -160,7 +160,7 @@ impl ImageRenderer {
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws = Draws { streams: None, mode, format, eye: shot.eye.position(), moving: &[] };
+        let draws = Draws { streams: None, bends: false, mode, format, eye: shot.eye.position(), moving: &[] };
         for layer in 0..layers {
             let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());

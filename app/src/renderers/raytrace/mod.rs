@@ -10,8 +10,11 @@
 //! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`); a lens and a shutter spread a pixel's rays over places and
 //! moments (`lens`).
 //!
+//! What is animated rests in no frame: in its own a ray is a curve, which is followed where the body is (`curve`).
+//!
 //! Edges bend by themselves, and no triangle is cut. It is slow, and right: what the other renderers draw is held against it.
 
+mod curve;
 mod finish;
 mod hits;
 mod lens;
@@ -128,7 +131,7 @@ impl RayTracer {
         finished: impl Fn() + Sync,
     ) -> Traced {
         let tiles = tiles(size);
-        let sight = self.bodies.sight(&self.surfaces.scene, shot);
+        let sight = self.bodies.sight(&self.surfaces, shot);
         // Whoever is free takes the next tile, so that the order holds for any number of threads.
         let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
@@ -166,7 +169,7 @@ impl RayTracer {
 
     /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
-        let sight = self.bodies.sight(&self.surfaces.scene, shot);
+        let sight = self.bodies.sight(&self.surfaces, shot);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
             let seen = (shot.camera.observer_from_eye * ahead(shot, size, *pixel, DVec2::ZERO)).normalize();
@@ -188,7 +191,7 @@ impl RayTracer {
                 sum += self.along(Leg::first(sight, seen, effects, bounces));
             } else {
                 let (observer, seen) = self.optics.look(shot, ahead, pixel, sample);
-                let sight = self.bodies.sight_of(&self.surfaces.scene, &observer, effects.geometry);
+                let sight = self.bodies.sight_of(&self.surfaces, &observer, effects.geometry);
                 sum += self.along(Leg::first(&sight, seen, effects, bounces));
             }
         }

@@ -81,7 +81,7 @@ impl RayTracer {
         let scene = &self.surfaces.scene;
         let rest = Rest { doppler: leg.rest.doppler * found.doppler, ..leg.rest };
         let emission = self.bodies.emission(scene, leg.sight, found);
-        let (opacity, sent) = self.surfaces.light(&found.hit, emission, &self.bodies, &self.light);
+        let (opacity, sent) = self.surfaces.light(&found.hit, emission, &leg.sight.falling, &self.bodies, &self.light);
         let finish = if rest.bounces > 0 { self.surfaces.finish(&found.hit) } else { None };
         let Some(finish) = finish else {
             let sent = sent.dimmed(1.0, rest.filter);
@@ -116,7 +116,7 @@ impl RayTracer {
         if rest.filter.max_element() <= HIDDEN {
             return Seen::default();
         }
-        let (sight, seen, start) = self.bodies.onward(&self.surfaces.scene, &turn, rest.effects.geometry);
+        let (sight, seen, start) = self.bodies.onward(&self.surfaces, &turn, rest.effects.geometry);
         self.along(Leg { sight: &sight, seen, start, rest })
     }
 
@@ -133,7 +133,9 @@ impl RayTracer {
                 turn.emission.ct -= index * hit.distance;
             }
             if self.surfaces.finish(&hit).is_none_or(|finish| !finish.solid) {
-                let (_, sent) = self.surfaces.light(&hit, turn.emission, &self.bodies, &self.light);
+                let observer = self.bodies.in_world(&self.surfaces.scene, turn.emission, turn.position);
+                let falling = self.surfaces.falling(&observer, rest.effects.geometry);
+                let (_, sent) = self.surfaces.light(&hit, turn.emission, &falling, &self.bodies, &self.light);
                 let sent = sent.dimmed(1.0, rest.filter);
                 return sum + self.light.observed(&sent, rest.effects, rest.doppler);
             }

@@ -11,6 +11,7 @@ use crate::scene::mipmap::linear_from_srgb;
 use crate::scene::motion::Motion;
 use crate::scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
 use glam::{DVec3, DVec4, Vec3, Vec4};
+use physics::Observer;
 use physics::colour::luminance;
 use std::f64::consts::TAU;
 
@@ -29,9 +30,10 @@ impl Surfaces {
     /// Works out the light that falls on what rests and on what moves.
     pub fn new(scene: Scene, spectra: Spectra) -> Self {
         let sky = &spectra.carriers[spectra.sky];
-        let on_moving = |motion: &Motion| {
-            let Motion::Uniform(uniform) = motion;
-            Falling::on_moving(&scene.light, uniform.celerity, sky)
+        let on_moving = |motion: &Motion| match motion {
+            Motion::Uniform(uniform) => Falling::on_moving(&scene.light, uniform.celerity, sky),
+            // Worked out for every picture.
+            Motion::Animated(_) => Falling::at_rest(&scene.light),
         };
         let falling = (Falling::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
         let linear = std::array::from_fn(|code| f64::from(linear_from_srgb(code as f32 / 255.0)));
@@ -46,8 +48,25 @@ impl Surfaces {
         }
     }
 
-    /// Opacity, and the weights that a point sends out.
-    pub fn light(&self, hit: &Hit, emission: Emission, bodies: &Bodies, light: &Light) -> (f64, Sent) {
+    /// The light that falls on each of what moves, as an observer sees it. `geometry`: whether light takes its time.
+    pub fn falling(&self, observer: &Observer, geometry: bool) -> Vec<Falling> {
+        let sky = &self.spectra.carriers[self.spectra.sky];
+        let falling = |(motion, falling): (&Motion, &Falling)| match motion {
+            Motion::Uniform(_) => *falling,
+            Motion::Animated(animated) => Falling::on_animated(&self.scene.light, animated, observer, geometry, sky),
+        };
+        self.scene.motions.iter().zip(&self.falling.1).map(falling).collect()
+    }
+
+    /// Opacity, and the weights that a point sends out. `moving`: light on each of what moves.
+    pub fn light(
+        &self,
+        hit: &Hit,
+        emission: Emission,
+        moving: &[Falling],
+        bodies: &Bodies,
+        light: &Light,
+    ) -> (f64, Sent) {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
         let base = self.base(hit);
@@ -59,7 +78,7 @@ impl Surfaces {
         let source = material.unlit || (material.spectrum.is_some() && material.is_source());
         let mut of_lamps = Vec::new();
         if !source {
-            let mut falling = self.falling_on(hit, bodies);
+            let mut falling = self.falling_on(hit, bodies, moving);
             for (lamp, light_of_it) in self.of_lamps(hit, emission, bodies, light) {
                 match light.carrier_of_lamp(lamp, mesh.material) {
                     None => falling += light_of_it,
@@ -89,9 +108,12 @@ impl Surfaces {
         Sent { returned: sent, ..Sent::default() }
     }
 
-    /// How smooth a point is, and what it does to a ray that it turns; `None` if it is rough.
+    /// How smooth a point is, and what it does to a ray that it turns; `None` if it is rough, or animated.
     pub fn finish(&self, hit: &Hit) -> Option<Finish> {
         let mesh = &self.scene.meshes[hit.mesh];
+        if mesh.motion.is_some_and(|motion| self.scene.motions[motion].animated().is_some()) {
+            return None;
+        }
         let material = &self.scene.materials[mesh.material];
         Finish::of(material, || self.base(hit).truncate())
     }
@@ -114,10 +136,10 @@ impl Surfaces {
     }
 
     /// Light on a point, by its interpolated normal, turned to the side that is seen.
-    fn falling_on(&self, hit: &Hit, bodies: &Bodies) -> DVec3 {
+    fn falling_on(&self, hit: &Hit, bodies: &Bodies, moving: &[Falling]) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let normal = self.normal(hit);
-        if let Some(falling) = mesh.motion.and_then(|motion| self.falling.1.get(motion)) {
+        if let Some(falling) = mesh.motion.and_then(|motion| moving.get(motion)) {
             return falling.on(normal, 1.0);
         }
         let falling = &self.falling.0;
@@ -132,7 +154,8 @@ impl Surfaces {
         if scene.lamps.is_empty() {
             return Vec::new();
         }
-        let normal = self.normal(hit);
+        // The body's own axes, turned to the world's.
+        let normal = bodies.axes(emission) * self.normal(hit);
         let moves = scene.meshes[hit.mesh].motion.is_some();
         let surface = bodies.in_world(scene, emission, hit.position);
         let place = surface.event.position;

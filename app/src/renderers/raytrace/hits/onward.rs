@@ -5,10 +5,11 @@
 //! comes with one more Doppler factor. In his own body's frame he is put where the ray met the surface, to the last bit.
 
 use super::{Bend, Bodies, Found, Hit, Seer, Sight};
+use crate::renderers::raytrace::surface::Surfaces;
 use crate::scene::Scene;
 use crate::scene::motion::{Motion, Uniform};
-use glam::{DQuat, DVec3};
-use physics::{Aberration, Boost, Celerity, Event, Observer};
+use glam::{DMat3, DQuat, DVec3};
+use physics::{Aberration, Beta, Boost, Celerity, Event, Observer};
 
 /// How far from a surface a ray begins that it has turned, relative to its coordinates: beyond what rounding makes of a place on it.
 const SKIN: f64 = 1e-10;
@@ -18,7 +19,7 @@ const SKIN: f64 = 1e-10;
 pub struct Emission {
     /// Index into the bodies.
     pub body: usize,
-    /// In the body's frame, metres of light travel.
+    /// In the body's frame, metres of light travel; of what is animated, in the world's.
     pub ct: f64,
 }
 
@@ -42,7 +43,7 @@ impl Bodies {
         let seer = &sight.bodies[found.body];
         let ct = match (&seer.bend, self.uniform(scene, found.body)) {
             (Bend::Light(_), _) => seer.ct - found.hit.distance,
-            (Bend::Moment { .. }, None) => sight.world.ct,
+            (Bend::Pose { .. }, _) | (Bend::Moment { .. }, None) => sight.world.ct,
             (Bend::Moment { .. }, Some(Uniform { celerity, anchor })) => {
                 let away = found.hit.position + scene.origin - anchor.position;
                 anchor.ct + (sight.world.ct - anchor.ct) / celerity.gamma() - celerity.beta().vector().dot(away)
@@ -53,6 +54,11 @@ impl Bodies {
 
     /// An event of a body in the world, and how the body moves there.
     pub fn in_world(&self, scene: &Scene, emission: Emission, position: DVec3) -> Observer {
+        if let Some(swept) = &self.bodies[emission.body].swept {
+            let pose = swept.animated.at(emission.ct);
+            let celerity = Beta::new(pose.beta(position)).map(Beta::celerity).unwrap_or_default();
+            return Observer { event: Event { ct: emission.ct, position: pose.position(position) }, celerity };
+        }
         let own = Event { ct: emission.ct, position: position + scene.origin };
         match self.uniform(scene, emission.body) {
             None => Observer { event: own, celerity: Celerity::ZERO },
@@ -63,17 +69,23 @@ impl Bodies {
         }
     }
 
-    /// A ray at the surface that it meets.
+    /// How the axes of a body are turned against the world's.
+    pub fn axes(&self, emission: Emission) -> DMat3 {
+        let swept = self.bodies[emission.body].swept.as_ref();
+        swept.map_or(DMat3::IDENTITY, |swept| swept.animated.at(emission.ct).axes())
+    }
+
+    /// A ray at the surface that it meets. Of what is animated none is turned.
     pub fn turn(&self, scene: &Scene, sight: &Sight, seen: DVec3, found: &Found) -> Turn {
         let direction = sight.bodies[found.body].line(seen).direction;
         Turn { emission: self.emission(scene, sight, found), position: found.hit.position, direction }
     }
 
     /// What is seen from a surface, in the direction that `turn` has now; and where each body's ray begins.
-    pub fn onward(&self, scene: &Scene, turn: &Turn, geometry: bool) -> (Sight, DVec3, Vec<f64>) {
+    pub fn onward(&self, surfaces: &Surfaces, turn: &Turn, geometry: bool) -> (Sight, DVec3, Vec<f64>) {
         let body = turn.emission.body;
-        let observer = self.in_world(scene, turn.emission, turn.position);
-        let mut sight = self.sight_of(scene, &observer, geometry);
+        let observer = self.in_world(&surfaces.scene, turn.emission, turn.position);
+        let mut sight = self.sight_of(surfaces, &observer, geometry);
         let mut start = sight.start();
         start[body] = skin(turn.position);
         let mut seen = turn.direction;
@@ -100,10 +112,10 @@ impl Bodies {
     }
 
     fn uniform(&self, scene: &Scene, body: usize) -> Option<Uniform> {
-        self.bodies[body].motion.map(|motion| {
-            let Motion::Uniform(uniform) = &scene.motions[motion];
-            *uniform
-        })
+        match &scene.motions[self.bodies[body].motion?] {
+            Motion::Uniform(uniform) => Some(*uniform),
+            Motion::Animated(_) => None,
+        }
     }
 }
 
