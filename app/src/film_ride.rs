@@ -35,7 +35,11 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
     let (scene, moments) = match &options.replay {
-        Some(recording) => reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?,
+        Some(recording) => {
+            let rate = f64::from(FRAMES_PER_SECOND);
+            let (scene, _, moments) = reel(recording, &options.world.scene, rate, options.seconds)?;
+            (scene, moments)
+        }
         None => {
             let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
             let (simulation, mut log) = prepared(options, &scene)?;
@@ -56,7 +60,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }
 
-/// A recorded ride once more: its scene, and the observer at each picture's time.
+/// A recorded ride once more: its scene, its speed of light in metres per second, and the observer at each picture's time.
 ///
 /// A recording that is damaged or differs is followed as far as it goes, and the user told.
 ///
@@ -67,8 +71,9 @@ pub fn reel(
     choice: &SceneChoice,
     frames_per_second: f64,
     seconds: Option<f64>,
-) -> Result<(Scene, Vec<Moment>), Error> {
+) -> Result<(Scene, f64, Vec<Moment>), Error> {
     let (scene, mut replay) = recorded(recording, choice)?;
+    let speed_of_light = replay.simulation().setup().world.speed_of_light_m_s();
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
     let mut differed = false;
@@ -92,7 +97,7 @@ pub fn reel(
         }
     }
     spinner.finish_and_clear();
-    Ok((scene, reel.moments))
+    Ok((scene, speed_of_light, reel.moments))
 }
 
 /// What the film will show: the observer at each picture's time.

@@ -21,6 +21,7 @@ use thiserror::Error;
 
 mod measure;
 mod picture;
+mod rays;
 mod render;
 mod ride;
 mod values;
@@ -28,6 +29,7 @@ mod world;
 
 pub use measure::MeasureOptions;
 pub use picture::{PictureOptions, Renderer};
+pub use rays::RayOptions;
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
 pub use values::{Output, ValueError};
