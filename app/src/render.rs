@@ -16,7 +16,7 @@ use crate::renderers::polygon::{CutStats, Pace};
 use crate::renderers::raytrace::{Lens, Optics, RayTracer, Traced};
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, Start, source};
-use crate::views::{Camera, Gaze};
+use crate::views::{Camera, Field, Gaze};
 use glam::DVec3;
 use image::RgbaImage;
 use physics::photo_surface::Eye;
@@ -315,7 +315,8 @@ fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<T
 
 /// A gaze through a camera of `fov` degrees.
 pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
-    let camera = Camera { observer_from_eye: gaze.observer_from_eye, fov_y_rad: fov.to_radians() };
+    let field = Field::Ahead { fov_y_rad: fov.to_radians() };
+    let camera = Camera { observer_from_eye: gaze.observer_from_eye, field };
     Shot { camera, eye: gaze.eye, ct: gaze.ct, effects }
 }
 

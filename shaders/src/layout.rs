@@ -119,6 +119,10 @@ pub struct Metering {
     pub gains: u32,
     /// 1 counts the luminance itself.
     pub luminances: u32,
+    /// Pixels that are looked at, across.
+    pub columns: u32,
+    /// And down.
+    pub rows: u32,
 }
 
 /// What the eye is adapted to; stays on the device from frame to frame.
@@ -135,4 +139,32 @@ pub struct Adaptation {
     pub gain: f32,
     /// Base-2 logarithm of the gain of the brightest pixels.
     pub bright: f32,
+}
+
+/// Where on a screen a picture is shown.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Placement {
+    /// The screen's pixel that its upper left one is.
+    pub origin: Vec2,
+    /// What its values are multiplied by before all else.
+    pub exposure: f32,
+    /// Fills the struct.
+    pub ignored: f32,
+}
+
+/// A flat picture of what an eye sees, taken to be shown on a surface that is not flat. Axes of the room.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Facet {
+    /// Where the eye is, metres; w = the largest tangent, right or up, that this facet shows.
+    pub eye: Vec4,
+    /// To the right in the picture; w unused.
+    pub right: Vec4,
+    /// Upward in it; w unused.
+    pub up: Vec4,
+    /// Straight ahead; w unused.
+    pub forward: Vec4,
+    /// Texel that lies straight ahead, then texels per tangent right and up (which is negative).
+    pub texel: Vec4,
 }

@@ -8,7 +8,7 @@
 
 mod layout;
 
-pub use layout::{Accumulate, Adaptation, Lighting, Map, Material, Metering, Pane, View};
+pub use layout::{Accumulate, Adaptation, Facet, Lighting, Map, Material, Metering, Pane, Placement, View};
 
 use glam::DVec3;
 use physics::colour::{ShiftTable, luminance};
@@ -31,7 +31,8 @@ pub const DARKEST: f32 = 1e-30;
 /// Base-2 logarithm of the largest factor that exposure multiplies with, and of its inverse.
 pub const LARGEST_LOG2: f32 = 120.0;
 
-/// Columns and rows of the pixels that the light meter looks at; a smaller picture is looked at whole.
+/// Columns and rows of the pixels that the light meter looks at, shared by all pictures that one eye sees; a smaller picture is looked at
+/// whole.
 ///
 /// Fewer than 2¹⁶ in all, so that a sum of 16-bit fractions over them fits 32 bits.
 pub const METER_GRID: [u32; 2] = [256, 144];
@@ -153,11 +154,14 @@ pub const DISPLAY: Module = Module {
         include_str!("../wgsl/display.wgsl"),
     ],
 };
+/// From flat pictures to a surface that is not flat.
+pub const RESAMPLE: Module =
+    Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 9] = [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, PROBE];
+pub const MODULES: [Module; 10] = [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, RESAMPLE, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
@@ -208,8 +212,6 @@ fn constants() -> String {
         source.push_str(&format!("const {name}: u32 = {value}u;\n"));
     }
     let [red, green, blue] = DVec3::AXES.map(|primary| luminance(primary) as f32);
-    let [columns, rows] = METER_GRID;
     source.push_str(&format!("const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n"));
-    source.push_str(&format!("const METER_GRID: vec2<u32> = vec2({columns}u, {rows}u);\n"));
     source
 }

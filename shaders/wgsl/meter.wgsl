@@ -9,6 +9,8 @@ struct Metering {
     automatic: u32,
     gains: u32,
     luminances: u32,
+    columns: u32,
+    rows: u32,
 }
 
 // A bin of a histogram of base-2 logarithms. `rest` sums how far its samples lie above its lower edge, in 65536ths of its width.
@@ -41,7 +43,7 @@ fn count(first: u32, log2_value: f32) {
 @compute @workgroup_size(METER_WORKGROUP, METER_WORKGROUP)
 fn survey(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(radiance);
-    let grid = min(size, METER_GRID);
+    let grid = min(size, vec2(metering.columns, metering.rows));
     if (any(id.xy >= grid)) {
         return;
     }

@@ -68,7 +68,7 @@ fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
 /// Where in the picture a place of the observer's space is, pixels from its middle.
 fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
     let eye = viewpoint.camera.observer_from_eye.conjugate() * seen.normalize();
-    let focal_length = 0.5 * f64::from(SIZE[1]) / (0.5 * viewpoint.camera.fov_y_rad).tan();
+    let focal_length = viewpoint.camera.tangents(SIZE).focal_length(SIZE).y;
     let at = eye.truncate() / -eye.z * focal_length;
     (eye.z < 0.0 && at.x.abs() < 0.5 * f64::from(SIZE[0]) && at.y.abs() < 0.5 * f64::from(SIZE[1])).then_some(at)
 }
@@ -99,7 +99,7 @@ fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64>
                     _ => {
                         let (seen, drawn) = (seen.normalize(), drawn.normalize());
                         let angle = seen.cross(drawn).length().atan2(seen.dot(drawn));
-                        errors.push(angle * 0.5 * f64::from(SIZE[1]) / (0.5 * viewpoint.camera.fov_y_rad).tan());
+                        errors.push(angle * viewpoint.camera.tangents(SIZE).focal_length(SIZE).y);
                     }
                 }
             }

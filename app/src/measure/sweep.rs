@@ -222,13 +222,10 @@ fn time(gpu: &Gpu, renderer: &mut SceneRenderer, radiance: &Radiance, shot: &Sho
 
 /// Errors of all pixels that show a surface.
 fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> DirectionErrors {
-    let [width, height] = size.map(f64::from);
-    let tangent = (0.5 * shot.camera.fov_y_rad).tan();
     let shown = places.iter().enumerate().filter_map(|(number, place)| {
         let (column, row) = (number % size[0] as usize, number / size[0] as usize);
-        let x = (2.0 * (column as f64 + 0.5) - width) / height * tangent;
-        let y = (1.0 - 2.0 * (row as f64 + 0.5) / height) * tangent;
-        let direction = shot.camera.observer_from_eye * DVec3::new(x, y, -1.0).normalize();
+        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let direction = shot.camera.observer_from_eye * shot.camera.ahead(size, place).normalize();
         Some((direction, place.as_ref()?.apparent))
     });
     DirectionErrors::between(shown)

@@ -125,12 +125,12 @@ impl Certainty {
         size: [u32; 2],
         drawn: Drawn,
     ) -> Self {
-        let [width, height] = size.map(f64::from);
-        let tan_y = (0.5 * shot.camera.fov_y_rad).tan();
-        let pixel_rad = 2.0 * tan_y / height;
+        let tangents = shot.camera.tangents(size);
+        let pixel_rad = 1.0 / tangents.focal_length(size).max_element();
         let in_picture = |seen: DVec3| {
             let eye = shot.camera.observer_from_eye.conjugate() * seen;
-            eye.z < 0.0 && (eye.x / eye.z).abs() < tan_y * width / height && (eye.y / eye.z).abs() < tan_y
+            let at = eye.truncate() / -eye.z;
+            eye.z < 0.0 && at.cmpgt(tangents.low).all() && at.cmplt(tangents.high).all()
         };
         let kernel = if shot.celerity().gamma() <= KERNEL.1 { KERNEL.0 } else { KERNEL.2 };
         let mut certainty = Self { pixel_rad, ..Self::default() };
@@ -182,7 +182,7 @@ impl Certainty {
             let bend = Bend::new(shot.celerity());
             let (length, about) = usual.median();
             for place in (0..81).map(|place| DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 4.0 - 1.0) {
-                let eye = DVec3::new(place.x * tan_y * width / height, place.y * tan_y, -1.0);
+                let eye = (tangents.middle() + place * tangents.half()).extend(-1.0);
                 let (world, doppler) = aberration.world_from_observer(shot.camera.observer_from_eye * eye);
                 if let Drawn::FromMap { .. } = drawn {
                     certainty.rounded_rad = certainty.rounded_rad.max((2.0 * STEP * about / doppler).min(1.0));

@@ -45,12 +45,11 @@ impl Shot {
     /// What radiance is multiplied by so that short floats can hold it: the searchlight effect undone, as it is in the mean of a picture of
     /// usual shape.
     pub fn scale(&self) -> f64 {
-        const ASPECT: f64 = 1.6;
         if !self.effects.searchlight {
             return 1.0;
         }
         let steps = [-0.8, -0.4, 0.0, 0.4, 0.8];
-        let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x * ASPECT, y)));
+        let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x, y)));
         let logs = places.map(|place| self.camera.doppler_at(place, self.celerity(), self.effects.geometry).ln());
         let mean = logs.sum::<f64>() / (steps.len() * steps.len()) as f64;
         (-4.0 * mean).exp().clamp(1e-30, 1e30)

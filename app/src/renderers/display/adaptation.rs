@@ -109,15 +109,16 @@ impl Meter {
         Self { survey: pipeline("survey"), expose: pipeline("expose"), equalise: pipeline("equalise"), layout }
     }
 
-    /// Adapts an eye to what it sees.
+    /// Adapts an eye to all that it sees at once; exposure is that of the first.
     pub fn adapt(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         adaptation: &mut Adaptation,
-        seen: &Seen<'_>,
+        pictures: &[Seen<'_>],
         development: &Development,
     ) {
+        let [seen, ..] = pictures else { return };
         let stored = &seen.stored;
         let before = adaptation.metered;
         let now = Metered { gains: stored.shifted, luminances: development.tone == Tone::Histogram };
@@ -143,31 +144,41 @@ impl Meter {
 
         // Light that has only just been shifted finds the eye rested: nothing to adapt from.
         let fresh = (now.gains && !before.gains) || (now.luminances && !before.luminances);
-        let metering = shaders::Metering {
-            exposure,
-            log2_exposure: stops,
-            log2_scale: stored.scale.log2() as f32,
-            share: seen.elapsed_s.filter(|_| !fresh).map_or(1.0, share),
-            automatic: u32::from(matches!(development.exposure, Exposure::Auto(_))),
-            gains: u32::from(now.gains),
-            luminances: u32::from(now.luminances),
-        };
-        let metering = contents(gpu, "metering", bytes_of(&metering), wgpu::BufferUsages::UNIFORM);
-        let resources = [
-            wgpu::BindingResource::TextureView(seen.radiance),
-            metering.as_entire_binding(),
-            adaptation.bins.as_entire_binding(),
-            adaptation.state.as_entire_binding(),
-            adaptation.curve.as_entire_binding(),
-        ];
-        let group = group(gpu, shaders::METER.name, &self.layout, &resources);
+        let side = (pictures.len() as f64).sqrt();
+        let [columns, rows] = shaders::METER_GRID.map(|pixels| ((f64::from(pixels) / side) as u32).max(1));
+        let groups = pictures.iter().map(|picture| {
+            let metering = shaders::Metering {
+                exposure,
+                log2_exposure: stops,
+                log2_scale: picture.stored.scale.log2() as f32,
+                share: seen.elapsed_s.filter(|_| !fresh).map_or(1.0, share),
+                automatic: u32::from(matches!(development.exposure, Exposure::Auto(_))),
+                gains: u32::from(now.gains),
+                luminances: u32::from(now.luminances),
+                columns,
+                rows,
+            };
+            let metering = contents(gpu, "metering", bytes_of(&metering), wgpu::BufferUsages::UNIFORM);
+            let resources = [
+                wgpu::BindingResource::TextureView(picture.radiance),
+                metering.as_entire_binding(),
+                adaptation.bins.as_entire_binding(),
+                adaptation.state.as_entire_binding(),
+                adaptation.curve.as_entire_binding(),
+            ];
+            group(gpu, shaders::METER.name, &self.layout, &resources)
+        });
+        let groups: Vec<_> = groups.collect();
 
         // Look, then conclude. The curve stands on the exposure.
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_bind_group(0, &group, &[]);
         pass.set_pipeline(&self.survey);
-        let [columns, rows] = shaders::METER_GRID.map(|side| side.div_ceil(shaders::METER_WORKGROUP));
-        pass.dispatch_workgroups(columns, rows, 1);
+        let [across, down] = [columns, rows].map(|side| side.div_ceil(shaders::METER_WORKGROUP));
+        for group in &groups {
+            pass.set_bind_group(0, group, &[]);
+            pass.dispatch_workgroups(across, down, 1);
+        }
+        pass.set_bind_group(0, &groups[0], &[]);
         for (pipeline, wanted) in [(&self.expose, now.gains), (&self.equalise, now.luminances)] {
             if wanted {
                 pass.set_pipeline(pipeline);

@@ -19,13 +19,14 @@ use super::target::texture;
 use crate::gpu::Gpu;
 use adaptation::Meter;
 use bytemuck::bytes_of;
+use glam::Vec2;
 use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};
 
 /// Passes that read one radiance texture and write one target.
 pub struct Display {
     accumulate: Pass,
-    /// One for each way of developing that was asked for.
-    show: Vec<(Tone, Gamut, Pass)>,
+    /// One for each way of developing that was asked for, with gains or without.
+    show: Vec<((Tone, Gamut, bool), Pass)>,
     meter: Meter,
     sum_format: wgpu::TextureFormat,
     screen_format: wgpu::TextureFormat,
@@ -96,6 +97,18 @@ impl Display {
         seen: &Seen<'_>,
         development: &Development,
     ) {
+        self.adapt_to_all(gpu, encoder, adaptation, std::slice::from_ref(seen), development);
+    }
+
+    /// Adapts an eye to several pictures that surround it; its exposure is meant for the first one's scale.
+    pub fn adapt_to_all(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        adaptation: &mut Adaptation,
+        seen: &[Seen<'_>],
+        development: &Development,
+    ) {
         self.meter.adapt(gpu, encoder, adaptation, seen, development);
     }
 
@@ -109,30 +122,69 @@ impl Display {
         development: &Development,
         screen: &wgpu::TextureView,
     ) {
+        let size = screen.texture().size();
+        let whole =
+            Part { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None };
+        self.show_part(gpu, encoder, radiance, adaptation, development, screen, &whole);
+    }
+
+    /// Writes `radiance` to a part of the screen.
+    #[expect(clippy::too_many_arguments, reason = "light, eye and screen are three things")]
+    pub fn show_part(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        radiance: &wgpu::TextureView,
+        adaptation: &Adaptation,
+        development: &Development,
+        screen: &wgpu::TextureView,
+        part: &Part<'_>,
+    ) {
+        let [x, y, ..] = part.viewport.map(|pixels| pixels as f32);
+        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: part.exposure, ignored: 0.0 };
+        let placement = contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM);
         let resources = [
             wgpu::BindingResource::TextureView(radiance),
             adaptation.state.as_entire_binding(),
             adaptation.curve.as_entire_binding(),
+            placement.as_entire_binding(),
+            wgpu::BindingResource::TextureView(part.gains.unwrap_or(radiance)),
         ];
-        self.shown_by(gpu, development).draw(gpu, encoder, screen, &resources);
+        let pass = self.shown_by(gpu, development, part.gains.is_some());
+        pass.draw_part(gpu, encoder, screen, &resources, part.viewport, part.over);
     }
 
     /// The pass for a way of developing, compiled when it is first asked for.
-    fn shown_by(&mut self, gpu: &Gpu, development: &Development) -> &Pass {
+    fn shown_by(&mut self, gpu: &Gpu, development: &Development, gains: bool) -> &Pass {
         let Development { tone, gamut, .. } = *development;
-        let known = self.show.iter().position(|pass| (pass.0, pass.1) == (tone, gamut));
+        let known = self.show.iter().position(|pass| pass.0 == (tone, gamut, gains));
         let index = known.unwrap_or_else(|| {
             let overrides = [
                 ("ENCODE", f64::from(u8::from(!self.screen_format.is_srgb()))),
                 ("TONE", f64::from(tone as u32)),
                 ("GAMUT", f64::from(gamut as u32)),
+                ("GAINS", f64::from(u8::from(gains))),
             ];
-            let bindings = [UNFILTERED, UNIFORM, READ];
-            self.show.push((tone, gamut, Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format)));
+            let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED];
+            let pass = Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format);
+            self.show.push(((tone, gamut, gains), pass));
             self.show.len() - 1
         });
-        &self.show[index].2
+        &self.show[index].1
     }
+}
+
+/// Where on a screen a picture goes, and what is done to it there.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    /// x, y, width and height in pixels from the screen's upper left corner.
+    pub viewport: [u32; 4],
+    /// The rest of the screen stays as it is, instead of becoming black.
+    pub over: bool,
+    /// What radiance is multiplied by besides the eye's exposure.
+    pub exposure: f32,
+    /// A factor for each pixel, of what the screen shows in linear light.
+    pub gains: Option<&'a wgpu::TextureView>,
 }
 
 impl Accumulator {

@@ -75,8 +75,25 @@ impl Pass {
         target: &wgpu::TextureView,
         resources: &[wgpu::BindingResource<'_>],
     ) {
+        let size = target.texture().size();
+        self.draw_part(gpu, encoder, target, resources, [0, 0, size.width, size.height], false);
+    }
+
+    /// Fills a part of `target`: x, y, width and height in pixels. `over`: what is elsewhere, and where nothing is written, stays.
+    pub fn draw_part(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        resources: &[wgpu::BindingResource<'_>],
+        part: [u32; 4],
+        over: bool,
+    ) {
         let group = group(gpu, self.name, &self.layout, resources);
-        let mut pass = clear(encoder, target);
+        let transparent = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let mut pass = begin(encoder, target, if over { wgpu::LoadOp::Load } else { transparent });
+        let [x, y, width, height] = part.map(|pixels| pixels as f32);
+        pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
@@ -88,13 +105,21 @@ pub fn clear<'encoder>(
     encoder: &'encoder mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
 ) -> wgpu::RenderPass<'encoder> {
+    begin(encoder, target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))
+}
+
+fn begin<'encoder>(
+    encoder: &'encoder mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPass<'encoder> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("display"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view: target,
             depth_slice: None,
             resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
         })],
         ..Default::default()
     })

@@ -381,13 +381,11 @@ mod tests {
     }
 
     fn each_pixel(camera: &Camera, mut check: impl FnMut(DVec3, DVec3)) {
-        let tan = (0.5 * camera.fov_y_rad).tan() * 2.0 / f64::from(SIZE[1]);
         for row in (0..SIZE[1]).step_by(3) {
             for column in (0..SIZE[0]).step_by(3) {
-                let x = (f64::from(column) + 0.5 - 0.5 * f64::from(SIZE[0])) * tan;
-                let y = (0.5 * f64::from(SIZE[1]) - f64::from(row) - 0.5) * tan;
-                let direction = |x: f64| (camera.observer_from_eye * DVec3::new(x, y, -1.0)).normalize();
-                check(direction(x), direction(x + tan));
+                let place = DVec2::new(f64::from(column), f64::from(row)) + 0.5;
+                let direction = |place| (camera.observer_from_eye * camera.ahead(SIZE, place)).normalize();
+                check(direction(place), direction(place + DVec2::X));
             }
         }
     }

@@ -23,8 +23,10 @@ pub struct Sight {
     edges: [DVec3; 4],
     /// Pixels from the picture's middle to its right and upper edge.
     half_size: DVec2,
+    /// Tangents of the picture's middle.
+    middle: DVec2,
     /// Pixels per tangent of the picture.
-    focal_length: f64,
+    focal_length: DVec2,
     kappa: f64,
 }
 
@@ -75,8 +77,9 @@ impl Sight {
         let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));
         let [width, height] = size.map(f64::from);
         // Samples lie anywhere in a pixel, so the picture is taken to be one pixel wider all round.
-        let focal_length = 0.5 * height / (0.5 * camera.fov_y_rad).tan();
-        let (across, along) = ((0.5 * width + 1.0) / focal_length, (0.5 * height + 1.0) / focal_length);
+        let tangents = camera.tangents(size);
+        let focal_length = tangents.focal_length(size);
+        let (low, high) = (tangents.low - 1.0 / focal_length, tangents.high + 1.0 / focal_length);
 
         // The cube: z along the motion; x towards the middle of the picture, if that is another direction.
         let motion = celerity.vector().normalize_or(forward);
@@ -89,7 +92,8 @@ impl Sight {
         Self {
             cube_from_world,
             picture: [right, up, forward].map(|axis| cube_from_world * axis),
-            edges: [edge(right, across), edge(-right, across), edge(up, along), edge(-up, along)],
+            edges: [edge(right, -low.x), edge(-right, high.x), edge(up, -low.y), edge(-up, high.y)],
+            middle: tangents.middle(),
             half_size: 0.5 * DVec2::new(width, height),
             focal_length,
             kappa: celerity.gamma() + celerity.magnitude(),
@@ -128,7 +132,7 @@ impl Sight {
         let (ahead, behind) = if world.z >= 0.0 { (big, small) } else { (small, big) };
         let observed = world.truncate().extend(0.5 * (ahead * self.kappa - behind / self.kappa));
         let [right, up, forward] = self.picture.map(|axis| axis.dot(observed));
-        (forward > 0.0).then(|| DVec2::new(right, up) * (self.focal_length / forward))
+        (forward > 0.0).then(|| (DVec2::new(right, up) / forward - self.middle) * self.focal_length)
     }
 
     /// How large a part is in the picture. `None` if a grid on it cannot tell.

@@ -201,12 +201,7 @@ impl RayTracer {
 
 /// Where a place of a pixel looks, in eye axes: (x, y, −1).
 fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
-    let [width, height] = size.map(f64::from);
-    let tan = (0.5 * shot.camera.fov_y_rad).tan();
-    let x = f64::from(column) + 0.5 + offset.x - 0.5 * width;
-    let y = 0.5 * height - f64::from(row) - 0.5 - offset.y;
-    let pixel = 2.0 * tan / height;
-    DVec3::new(x * pixel, y * pixel, -1.0)
+    shot.camera.ahead(size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
 }
 
 #[derive(Clone, Copy)]

@@ -149,22 +149,28 @@ struct Frame {
     forward: DVec3,
     /// Through the eye and the picture's sides, inward unit normals.
     planes: [DVec3; 4],
-    /// Pixels a radian in the picture's middle.
+    /// Pixels a radian straight ahead.
     focal_length: f64,
     /// Of the angle from its middle to its corners.
     corner_cosine: f64,
 }
 
 impl Frame {
-    fn new(camera: &Camera, [width, height]: [u32; 2]) -> Self {
-        let tan_y = (0.5 * camera.fov_y_rad).tan();
-        let tan_x = tan_y * f64::from(width) / f64::from(height.max(1));
-        let side = |x: f64, y: f64, tan: f64| camera.observer_from_eye * DVec3::new(x, y, -tan).normalize();
+    fn new(camera: &Camera, size: [u32; 2]) -> Self {
+        let tangents = camera.tangents(size);
+        let (low, high, farthest) = (tangents.low, tangents.high, tangents.farthest());
+        // Inward, of the side where x or y is that tangent.
+        let side = |x: f64, y: f64, tan: f64| camera.observer_from_eye * DVec3::new(x, y, tan).normalize();
         Self {
             forward: camera.observer_from_eye * DVec3::NEG_Z,
-            planes: [side(1.0, 0.0, tan_x), side(-1.0, 0.0, tan_x), side(0.0, 1.0, tan_y), side(0.0, -1.0, tan_y)],
-            focal_length: 0.5 * f64::from(height) / tan_y,
-            corner_cosine: 1.0 / (1.0 + tan_x * tan_x + tan_y * tan_y).sqrt(),
+            planes: [
+                side(1.0, 0.0, low.x),
+                side(-1.0, 0.0, -high.x),
+                side(0.0, 1.0, low.y),
+                side(0.0, -1.0, -high.y),
+            ],
+            focal_length: tangents.focal_length(size).max_element(),
+            corner_cosine: 1.0 / (1.0 + farthest.length_squared()).sqrt(),
         }
     }
 
@@ -176,7 +182,7 @@ impl Frame {
 
     /// The angle by which what lies in a cone may be drawn wrongly.
     fn allowed(&self, direction: DVec3, radius: f64, fineness: &Fineness) -> f64 {
-        // A flat picture is a tangent of the angle from its middle: an angle there is 1/cos² as long.
+        // A flat picture is a tangent of the angle from straight ahead: an angle there is 1/cos² as long.
         let aside = self.forward.dot(direction).clamp(-1.0, 1.0).acos() + radius;
         let cosine = aside.min(0.5 * std::f64::consts::PI).cos().max(self.corner_cosine);
         let allowed = fineness.tolerance_px * cosine * cosine / self.focal_length;
