@@ -21,6 +21,7 @@ pub mod progress;
 pub mod render;
 pub mod renderers;
 pub mod ride;
+pub mod room;
 pub mod scene;
 pub mod simulation;
 pub mod vehicle;

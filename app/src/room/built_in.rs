@@ -1,0 +1,22 @@
+//! The displays that come with the program: `app/displays/*.toml`, which are also the examples of the documentation.
+
+use super::{Display, file};
+use std::path::Path;
+
+/// Their names.
+pub const NAMES: [&str; 2] = ["window", "stereo-wall"];
+
+/// Their files.
+const TEXTS: [&str; 2] = [include_str!("../../displays/window.toml"), include_str!("../../displays/stereo-wall.toml")];
+
+/// A built-in display's file, by one of [`NAMES`].
+pub fn text(name: &str) -> Option<&'static str> {
+    NAMES.iter().position(|known| *known == name).map(|index| TEXTS[index])
+}
+
+/// A built-in display, by one of [`NAMES`].
+pub fn display(name: &str) -> Option<Display> {
+    let mut display = file::parse(text(name)?, name, Path::new("")).ok()?;
+    display.name = name.to_owned();
+    Some(display)
+}

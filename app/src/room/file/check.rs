@@ -1,0 +1,53 @@
+//! What only the whole display can show: pixels that two channels want, eyes behind their screens.
+
+use super::schema::File;
+use super::text::Text;
+use crate::room::frustum::EyeBehind;
+use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
+use glam::{DMat3, DVec2};
+
+/// Compares everything with everything.
+pub(super) fn check(text: &Text<'_>, file: &File, display: &Display) -> Result<(), DisplayError> {
+    let at = |index: usize, key: &str| {
+        text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
+    };
+    if display.channels.is_empty() {
+        let at = At { file: text.name.into(), line: None, key: String::new() };
+        return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
+    }
+    for (index, channel) in display.channels.iter().enumerate() {
+        for other in &display.channels[..index] {
+            let combined = display.windows[channel.window].combine != Combine::None;
+            if channel.window == other.window && overlap(channel, other) && !(combined && pair(channel, other)) {
+                return Err(DisplayError::Overlap { at: at(index, "viewport"), other: other.name.clone() });
+            }
+        }
+        if let Some(reason) = behind(display, channel) {
+            let screen = display.screens[channel.screen].name.clone();
+            return Err(DisplayError::Behind { at: at(index, ""), screen, eye: channel.eye.name(), reason });
+        }
+    }
+    Ok(())
+}
+
+fn overlap(a: &Channel, b: &Channel) -> bool {
+    let apart = |i: usize| {
+        let (a_to, b_to) = (a.viewport[i] + a.viewport[i + 2], b.viewport[i] + b.viewport[i + 2]);
+        a_to <= b.viewport[i] || b_to <= a.viewport[i]
+    };
+    !(apart(0) || apart(1))
+}
+
+/// A left and a right channel on the same pixels.
+fn pair(a: &Channel, b: &Channel) -> bool {
+    a.viewport == b.viewport && matches!((a.eye, b.eye), (Eye::Left, Eye::Right) | (Eye::Right, Eye::Left))
+}
+
+/// The untracked head's eye, if it sees the middle of what the channel shows from behind.
+fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
+    let surface = &display.screens[channel.screen].surface;
+    let eye_m = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
+    let uv = channel.part.uv(DVec2::splat(0.5));
+    let distance_m = (eye_m - surface.point(uv)).dot(surface.normal(uv));
+    (distance_m <= 0.0).then_some(EyeBehind { eye_m, distance_m })
+}

@@ -1,0 +1,46 @@
+//! The file's text: what line something is on, and how the parser's words become ours.
+
+use crate::room::error::{At, DisplayError, nearest};
+
+/// A file's name and text.
+pub(super) struct Text<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
+}
+
+impl Text<'_> {
+    /// Where a key of the table is that begins at byte `start`; an empty key is the table itself.
+    pub fn at(&self, start: usize, table: &str, key: &str) -> At {
+        let from = start.min(self.text.len());
+        let tail = self.text.get(from..).unwrap_or_default();
+        // The table ends where the next one begins; its own head is the first line.
+        let lines = tail.lines().enumerate();
+        let own = lines.take_while(|(index, line)| *index == 0 || !line.trim_start().starts_with('['));
+        let offset = own
+            .filter(|(_, line)| !key.is_empty() && line.split_once('=').is_some_and(|(left, _)| left.trim() == key))
+            .map(|(index, _)| index)
+            .next();
+        let what = if key.is_empty() { table.to_owned() } else { format!("{table}, key {key}") };
+        At { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what }
+    }
+
+    /// Line of a byte, from 1.
+    fn line(&self, byte: usize) -> usize {
+        1 + self.text.bytes().take(byte).filter(|byte| *byte == b'\n').count()
+    }
+
+    /// What the parser found wrong, with the key that was probably meant.
+    pub fn syntax(&self, error: &toml::de::Error) -> DisplayError {
+        let message = error.message();
+        let mut reason = message.replace('\n', " ");
+        if message.starts_with("unknown field") {
+            let mut words = message.split('`').skip(1).step_by(2);
+            let wrong = words.next().unwrap_or_default();
+            if let Some(meant) = nearest(wrong, words) {
+                reason = format!("{reason}; did you mean `{meant}`?");
+            }
+        }
+        let line = error.span().map(|span| self.line(span.start));
+        DisplayError::Syntax { at: At { file: self.name.to_owned(), line, key: String::new() }, reason }
+    }
+}

@@ -1,0 +1,65 @@
+//! The short way for flat screens: an off-axis frustum whose picture plane is the screen itself.
+
+use super::Flat;
+use glam::{DMat3, DVec2, DVec3};
+use thiserror::Error;
+
+/// An eye behind its screen, or on it.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("the eye at {eye_m} m is {:.3} m behind the screen's plane; turn the screen round or move the head before it", -distance_m)]
+pub struct EyeBehind {
+    /// Room axes, metres.
+    pub eye_m: DVec3,
+    /// Metres before the screen: zero or less.
+    pub distance_m: f64,
+}
+
+/// What an eye sees through a flat screen as through a pane of glass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frustum {
+    /// From the eye's axes (x along the screen's rows, y along its columns, −z straight at it) to the room's.
+    pub room_from_eye: DMat3,
+    /// Tangent of the angle from −z to the screen's left edge, to the right positive.
+    pub left: f64,
+    /// To its right edge.
+    pub right: f64,
+    /// To its lower edge, up positive.
+    pub bottom: f64,
+    /// To its upper edge.
+    pub top: f64,
+}
+
+impl Frustum {
+    /// Direction in which the eye sees a place of the picture (0 to 1, x right, y down from the upper left); room axes, of length
+    /// such that its part along the screen's normal is 1.
+    pub fn ray(&self, place: DVec2) -> DVec3 {
+        let x = self.left + place.x * (self.right - self.left);
+        let y = self.top + place.y * (self.bottom - self.top);
+        self.room_from_eye * DVec3::new(x, y, -1.0)
+    }
+}
+
+/// The frustum of an eye before a flat screen.
+///
+/// *Equation.* Kooima, Generalized Perspective Projection (2008); B eq. A.7–A.10, whose vanishing points are at infinity for a rectangle
+/// and whose shear s is then 0.
+///
+/// # Errors
+/// [`EyeBehind`].
+pub fn frustum(flat: &Flat, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
+    let (x, y) = (flat.right.normalize(), flat.up.normalize());
+    let z = x.cross(y);
+    let distance_m = (eye_m - flat.lower_left).dot(z);
+    if distance_m.is_nan() || distance_m <= 0.0 {
+        return Err(EyeBehind { eye_m, distance_m });
+    }
+    let corner = flat.lower_left - eye_m;
+    let (left, bottom) = (corner.dot(x) / distance_m, corner.dot(y) / distance_m);
+    Ok(Frustum {
+        room_from_eye: DMat3::from_cols(x, y, z),
+        left,
+        right: left + flat.right.length() / distance_m,
+        bottom,
+        top: bottom + flat.up.length() / distance_m,
+    })
+}

@@ -1,0 +1,127 @@
+//! A rectangle.
+
+use super::{EDGE, Hit, NEAREST};
+use crate::room::room_from_turned;
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+/// How far from a right angle, as its cosine, and from closing, in shares of its sides, a rectangle's corners may be: measured
+/// ones are never exact. They are made rectangular.
+const TOLERANCE: f64 = 2e-3;
+
+/// Corners that make no rectangle.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum NotRectangle {
+    /// A side without length, or a corner that is not finite.
+    #[error("the sides of the rectangle are {width_m} m and {height_m} m long; each must have a length")]
+    NoArea {
+        /// Metres.
+        width_m: f64,
+        /// Metres.
+        height_m: f64,
+    },
+    /// Sides that are not at right angles.
+    #[error("the sides meet at {angle_deg:.2}°, not at a right angle: the corners are those of no rectangle")]
+    Oblique {
+        /// Degrees.
+        angle_deg: f64,
+    },
+    /// A fourth corner that is somewhere else.
+    #[error("upper_right is {off_m:.4} m from where the other three corners put it; leave it out, or correct it")]
+    Open {
+        /// Metres.
+        off_m: f64,
+    },
+}
+
+/// A flat screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flat {
+    /// Corner, room axes, metres.
+    pub lower_left: DVec3,
+    /// From there to the lower right corner.
+    pub right: DVec3,
+    /// From the lower left to the upper left corner; at right angles to `right`.
+    pub up: DVec3,
+}
+
+impl Flat {
+    /// From its lower left, lower right and upper left corners, as seen by the viewer.
+    ///
+    /// # Errors
+    /// [`NotRectangle`] beyond 2 parts in 1000; within, `up` is made perpendicular.
+    pub fn from_corners(lower_left: DVec3, lower_right: DVec3, upper_left: DVec3) -> Result<Self, NotRectangle> {
+        let (right, up) = (lower_right - lower_left, upper_left - lower_left);
+        let (width_m, height_m) = (right.length(), up.length());
+        if !(width_m > 0.0 && height_m > 0.0 && width_m.is_finite() && height_m.is_finite()) {
+            return Err(NotRectangle::NoArea { width_m, height_m });
+        }
+        let cosine = right.dot(up) / (width_m * height_m);
+        if cosine.abs() > TOLERANCE {
+            return Err(NotRectangle::Oblique { angle_deg: cosine.clamp(-1.0, 1.0).acos().to_degrees() });
+        }
+        Ok(Self { lower_left, right, up: up - right * (right.dot(up) / (width_m * width_m)) })
+    }
+
+    /// Whether a fourth corner, the upper right, closes the rectangle.
+    ///
+    /// # Errors
+    /// [`NotRectangle::Open`].
+    pub fn closes(&self, upper_right: DVec3) -> Result<(), NotRectangle> {
+        let off_m = (self.point(DVec2::ONE) - upper_right).length();
+        let allowed = TOLERANCE * (self.right.length() + self.up.length());
+        if off_m <= allowed { Ok(()) } else { Err(NotRectangle::Open { off_m }) }
+    }
+
+    /// From its centre, its width and height in metres, and how it is turned from facing +z (degrees, see [`room_from_turned`]).
+    ///
+    /// # Errors
+    /// [`NotRectangle::NoArea`].
+    pub fn from_centre(centre: DVec3, size_m: DVec2, yaw_pitch_roll_deg: DVec3) -> Result<Self, NotRectangle> {
+        let [yaw, pitch, roll] = yaw_pitch_roll_deg.to_array();
+        let turned = room_from_turned(yaw, pitch, roll);
+        let (right, up) = (turned.x_axis * size_m.x, turned.y_axis * size_m.y);
+        let corner = centre - 0.5 * (right + up);
+        if size_m.min_element() <= 0.0 {
+            return Err(NotRectangle::NoArea { width_m: size_m.x, height_m: size_m.y });
+        }
+        Self::from_corners(corner, corner + right, corner + up)
+    }
+
+    /// A part of it: `from` its lower left `to` its upper right, in uv.
+    pub fn part(&self, from: DVec2, to: DVec2) -> Self {
+        let size = to - from;
+        Self { lower_left: self.point(from), right: self.right * size.x, up: self.up * size.y }
+    }
+
+    /// Point at a place, 0 to 1 from the lower left.
+    pub fn point(&self, uv: DVec2) -> DVec3 {
+        self.lower_left + self.right * uv.x + self.up * uv.y
+    }
+
+    /// Unit vector to the viewer's side.
+    pub fn normal(&self) -> DVec3 {
+        self.right.cross(self.up).normalize()
+    }
+
+    /// Width and height, metres.
+    pub fn size_m(&self) -> DVec2 {
+        DVec2::new(self.right.length(), self.up.length())
+    }
+
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let normal = self.normal();
+        let distance = (self.lower_left - origin).dot(normal) / direction.dot(normal);
+        let nearest = NEAREST * self.size_m().max_element() / direction.length();
+        if !(distance.is_finite() && distance > nearest) {
+            return None;
+        }
+        let offset = origin + direction * distance - self.lower_left;
+        let uv = DVec2::new(
+            offset.dot(self.right) / self.right.length_squared(),
+            offset.dot(self.up) / self.up.length_squared(),
+        );
+        let inside = uv.cmpge(DVec2::splat(-EDGE)).all() && uv.cmple(DVec2::splat(1.0 + EDGE)).all();
+        inside.then(|| Hit { distance, point: self.lower_left + offset, normal, uv: uv.clamp(DVec2::ZERO, DVec2::ONE) })
+    }
+}
