@@ -145,7 +145,7 @@ impl<'gpu> Bench<'gpu> {
     }
 
     fn draw(&mut self, effects: Effects) -> Result<(), GpuError> {
-        let shot = Shot { camera: self.camera, eye: self.eye, ct: 0.0, effects };
+        let shot = Shot { camera: self.camera, eye: self.eye, ct: 0.0, effects, stored_scale: None };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, glam::DVec2::ZERO);
         self.gpu.queue.submit([encoder.finish()]);

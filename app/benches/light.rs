@@ -153,7 +153,7 @@ impl<'gpu> Stage<'gpu> {
         let celerity = Beta::new(self.look * beta).expect("a speed below light's").celerity();
         let eye = Eye::new(self.eye, celerity.vector()).expect("an eye that is somewhere");
         let camera = Camera::looking(self.look, DVec3::Y, 60.0_f64.to_radians());
-        let shot = Shot { camera, eye, ct: 0.0, effects };
+        let shot = Shot { camera, eye, ct: 0.0, effects, stored_scale: None };
         self.renderer.prepare(self.gpu, &shot, SIZE);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);

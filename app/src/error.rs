@@ -24,6 +24,23 @@ pub enum Error {
     /// No film.
     #[error(transparent)]
     Film(#[from] FilmError),
+    /// No display.
+    #[error(transparent)]
+    Display(#[from] crate::room::DisplayError),
+    /// A display that cannot be drawn.
+    #[error(transparent)]
+    Walls(#[from] crate::walls::WallsError),
+    /// An eye that sees the back of a screen.
+    #[error("channel {channel}: {behind}")]
+    EyeBehind {
+        /// Its name.
+        channel: String,
+        /// Where the eye is.
+        behind: crate::room::EyeBehind,
+    },
+    /// Rays for a room.
+    #[error("--renderer raytrace does not draw for --display; leave one out, or choose auto, polygon or image")]
+    WallsByRays,
     /// No scene.
     #[error(transparent)]
     Scene(#[from] LoadError),

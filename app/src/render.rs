@@ -10,6 +10,7 @@ use crate::film::{Film, Written};
 use crate::film_ride;
 use crate::gpu::Gpu;
 use crate::progress;
+use crate::render_walls;
 use crate::renderers::choice::{Bending, Choice};
 use crate::renderers::picture::{Studio, largest_side};
 use crate::renderers::polygon::{CutStats, Pace};
@@ -39,6 +40,9 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
         interrupted();
     }
     let gpu = Gpu::new()?;
+    if let (Some(display), Output::Folder(folder)) = (&options.room.display, &options.out) {
+        return render_walls::render(options, &gpu, display, folder);
+    }
     writable(options.out.path())?;
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
@@ -51,6 +55,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0)?, path),
         Output::Light(path) => camera.light(inertial(&options.viewpoint, start, 0.0)?, path),
+        Output::Folder(path) => writable(path),
         Output::Film(path) => {
             let rate = options.frames_per_second();
             let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
@@ -72,6 +77,7 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result
     match &options.out {
         Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Folder(path) => writable(path),
         Output::Film(path) => {
             let count = moments.len() as u64;
             camera.film(moments.into_iter().map(Ok), count, rate, path)
@@ -317,7 +323,7 @@ fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<T
 pub fn shot(gaze: &Gaze, fov: f64, effects: Effects) -> Shot {
     let field = Field::Ahead { fov_y_rad: fov.to_radians() };
     let camera = Camera { observer_from_eye: gaze.observer_from_eye, field };
-    Shot { camera, eye: gaze.eye, ct: gaze.ct, effects }
+    Shot { camera, eye: gaze.eye, ct: gaze.ct, effects, stored_scale: None }
 }
 
 /// Looks before long work whether its result can be put there.

@@ -149,8 +149,8 @@ pub struct Placement {
     pub origin: Vec2,
     /// What its values are multiplied by before all else.
     pub exposure: f32,
-    /// Fills the struct.
-    pub ignored: f32,
+    /// 1 if the window's first row lies on an odd one of the monitor, plus 2 for its first column: for pictures that eyes take turns in.
+    pub odd: f32,
 }
 
 /// A flat picture of what an eye sees, taken to be shown on a surface that is not flat. Axes of the room.

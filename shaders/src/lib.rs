@@ -78,6 +78,26 @@ pub const GAMUT_WHITE: u32 = 1;
 /// Each channel by itself.
 pub const GAMUT_CLAMP: u32 = 2;
 
+/// Even rows of the monitor are the left eye's.
+pub const COMBINE_ROWS: u32 = 0;
+/// Even columns are.
+pub const COMBINE_COLUMNS: u32 = 1;
+/// Pixels whose row and column are both even or both odd are.
+pub const COMBINE_CHECKER: u32 = 2;
+/// Red–cyan by least squares.
+pub const COMBINE_DUBOIS: u32 = 3;
+/// Red–cyan of the luminances.
+pub const COMBINE_GREY: u32 = 4;
+/// Red of the left eye's luminance, green and blue of the right eye.
+pub const COMBINE_HALF_COLOUR: u32 = 5;
+/// What a red–cyan anaglyph's red, green and blue take of the left eye's red, green and blue, linear: E. Dubois, "A projection method to
+/// generate anaglyph stereo images", ICASSP 2001, for the phosphors and filters given there.
+pub const DUBOIS_LEFT: [[f32; 3]; 3] =
+    [[0.456_100, 0.500_484, 0.176_381], [-0.040_082, -0.037_825, -0.015_759], [-0.015_216, -0.020_597, -0.005_469]];
+/// And of the right eye's.
+pub const DUBOIS_RIGHT: [[f32; 3]; 3] =
+    [[-0.043_471, -0.087_939, -0.001_555], [0.378_476, 0.733_640, -0.018_450], [-0.072_153, -0.112_961, 1.226_395]];
+
 /// Nodes of the shift table over ln D; odd, so that D = 1 is one.
 pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
 /// Cells along each side of a quarter of a face of the image renderer's map, and of a cell that is cut further; a power of two.
@@ -109,6 +129,7 @@ impl Module {
 }
 
 const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
+const ENCODE: &str = include_str!("../wgsl/encode.wgsl");
 const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
 const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
@@ -151,17 +172,21 @@ pub const DISPLAY: Module = Module {
         RADIANCE,
         include_str!("../wgsl/tone.wgsl"),
         include_str!("../wgsl/gamut.wgsl"),
+        ENCODE,
         include_str!("../wgsl/display.wgsl"),
     ],
 };
+/// Both eyes' pictures on the same pixels.
+pub const COMBINE: Module =
+    Module { name: "combine", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/combine.wgsl")] };
 /// From flat pictures to a surface that is not flat.
-pub const RESAMPLE: Module =
-    Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
+pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 10] = [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, RESAMPLE, PROBE];
+pub const MODULES: [Module; 11] =
+    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, RESAMPLE, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {
@@ -208,8 +233,19 @@ fn constants() -> String {
         ("GAMUT_DESATURATE", GAMUT_DESATURATE),
         ("GAMUT_WHITE", GAMUT_WHITE),
         ("GAMUT_CLAMP", GAMUT_CLAMP),
+        ("COMBINE_ROWS", COMBINE_ROWS),
+        ("COMBINE_COLUMNS", COMBINE_COLUMNS),
+        ("COMBINE_CHECKER", COMBINE_CHECKER),
+        ("COMBINE_DUBOIS", COMBINE_DUBOIS),
+        ("COMBINE_GREY", COMBINE_GREY),
+        ("COMBINE_HALF_COLOUR", COMBINE_HALF_COLOUR),
     ] {
         source.push_str(&format!("const {name}: u32 = {value}u;\n"));
+    }
+    for (eye, matrix) in [("LEFT", DUBOIS_LEFT), ("RIGHT", DUBOIS_RIGHT)] {
+        for (row, [red, green, blue]) in ["RED", "GREEN", "BLUE"].into_iter().zip(matrix) {
+            source.push_str(&format!("const DUBOIS_{eye}_{row}: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n"));
+        }
     }
     let [red, green, blue] = DVec3::AXES.map(|primary| luminance(primary) as f32);
     source.push_str(&format!("const LUMINANCE: vec3<f32> = vec3({red:?}, {green:?}, {blue:?});\n"));

@@ -67,8 +67,11 @@ fn structs_have_the_same_layout_on_both_sides() {
     assert_mirrors!(warp, Map { cube_from_observer });
     assert_mirrors!(parse(&shaders::ACCUMULATE), Accumulate { weight });
     let meter = parse(&shaders::METER);
-    assert_mirrors!(meter, Metering { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances, columns, rows });
-    assert_mirrors!(parse(&shaders::DISPLAY), Placement { origin, exposure, ignored });
+    assert_mirrors!(
+        meter,
+        Metering { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances, columns, rows }
+    );
+    assert_mirrors!(parse(&shaders::DISPLAY), Placement { origin, exposure, odd });
     assert_mirrors!(parse(&shaders::RESAMPLE), Facet { eye, right, up, forward, texel });
     assert_mirrors!(meter, Adaptation { exposure, white, log2_exposure, gain, bright });
 }

@@ -59,7 +59,7 @@ impl Boxes {
     }
 
     /// The encoded colour that a ray from `eye` along `direction` (world axes) meets first.
-    fn first(&self, eye: DVec3, direction: DVec3) -> [u8; 4] {
+    pub fn first(&self, eye: DVec3, direction: DVec3) -> [u8; 4] {
         let hits = self.boxes.iter().filter_map(|target| target.meet(eye, direction));
         let nearest = hits.min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(self.background, |(_, axis)| self.faces[axis][usize::from(direction[axis] > 0.0)])

@@ -9,6 +9,7 @@ pub mod bodies;
 pub mod colour;
 pub mod display;
 pub mod exact;
+pub mod lorentz;
 pub mod photographer;
 pub mod random;
 pub mod view;

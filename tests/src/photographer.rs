@@ -141,7 +141,7 @@ impl Photographer {
         {
             renderer.submit(gpu(), eye, 0.0).expect("the device is there");
         }
-        Shot { camera: view.camera(), eye, ct: 0.0, effects }
+        Shot { camera: view.camera(), eye, ct: 0.0, effects, stored_scale: None }
     }
 }
 

@@ -154,7 +154,7 @@ fn animated(scene: &Scene) -> &Arc<Animated> {
 
 fn shot(view: &View, observer: &Observer, effects: Effects) -> Shot {
     let eye = Eye::new(observer.event.position, observer.celerity.vector()).unwrap();
-    Shot { camera: view.camera(), eye, ct: observer.event.ct, effects }
+    Shot { camera: view.camera(), eye, ct: observer.event.ct, effects, stored_scale: None }
 }
 
 #[test]

@@ -54,6 +54,7 @@ fn shot(view: &View, celerity: Celerity) -> Shot {
         eye: Eye::new(DVec3::ZERO, celerity.vector()).unwrap(),
         ct: 0.0,
         effects: Effects::GEOMETRY,
+        stored_scale: None,
     }
 }
 

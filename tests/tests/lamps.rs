@@ -54,7 +54,7 @@ fn hold(scene: Scene, expected: impl Fn(DVec3) -> Option<DVec3>) -> [usize; 2] {
     let view = View { look: DVec3::new(0.0, -0.3, -1.0), up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
     let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap();
     let eye = Eye::new(DVec3::ZERO, DVec3::ZERO).unwrap();
-    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: Effects::GEOMETRY };
+    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: Effects::GEOMETRY, stored_scale: None };
     let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {});
     let mut compared = [0; 2];
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));

@@ -57,7 +57,7 @@ fn wall(z: f32, edge: f32, back: bool) -> [Mesh; 2] {
 fn trace(scene: Scene, view: &View, bounces: u32) -> Traced {
     let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap().with_bounces(bounces);
     let eye = Eye::new(DVec3::ZERO, DVec3::ZERO).unwrap();
-    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: SEARCHLIGHT };
+    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: SEARCHLIGHT, stored_scale: None };
     tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {})
 }
 

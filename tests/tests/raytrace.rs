@@ -38,7 +38,7 @@ const OUTLINE_TOLERANCE: f64 = 0.6;
 const POLYGON: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
 
 fn shot(view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
-    Shot { camera: view.camera(), eye: Eye::new(eye, celerity.vector()).unwrap(), ct: 0.0, effects }
+    Shot { camera: view.camera(), eye: Eye::new(eye, celerity.vector()).unwrap(), ct: 0.0, effects, stored_scale: None }
 }
 
 fn trace(tracer: &RayTracer, shot: &Shot) -> Traced {

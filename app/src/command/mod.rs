@@ -24,6 +24,7 @@ mod picture;
 mod rays;
 mod render;
 mod ride;
+mod room;
 mod values;
 mod world;
 
@@ -32,6 +33,7 @@ pub use picture::{PictureOptions, Renderer};
 pub use rays::RayOptions;
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
+pub use room::RoomOptions;
 pub use values::{Output, ValueError};
 pub use world::{SceneChoice, WorldOptions};
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use physics::Celerity;
 
 use super::values::{self, Output};
-use super::{PictureOptions, RayOptions, Renderer, WorldOptions};
+use super::{PictureOptions, RayOptions, Renderer, RoomOptions, WorldOptions};
 
 /// Pictures a second of a film for which `--fps` says nothing.
 const FRAMES_PER_SECOND: f64 = 30.0;
@@ -18,7 +18,7 @@ const PARALLEL: f64 = 1e-9;
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RenderOptions {
-    /// The file to write: .png for a picture, .exr for its light, .mp4 for a film.
+    /// The file to write: .png for a picture, .exr for its light, .mp4 for a film; with --display, a folder.
     ///
     /// Light is linear sRGB in cd/m², before exposure, tone and gamut, as 32-bit floats.
     #[arg(long, value_name = "FILE", value_parser = values::output())]
@@ -43,6 +43,9 @@ pub struct RenderOptions {
     /// Pictures a second of a film [default: 30].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 1000.0), help_heading = "Film")]
     fps: Option<f64>,
+    /// The room that it is drawn for.
+    #[command(flatten)]
+    pub room: RoomOptions,
     /// How the picture is drawn.
     #[command(flatten)]
     pub picture: PictureOptions,
@@ -89,6 +92,17 @@ impl RenderOptions {
 
     /// Checks what the options say together.
     pub(super) fn check(&self) -> Result<(), String> {
+        match (&self.out, &self.room.display) {
+            (Output::Folder(_), None) => return Err(format!("--out: the file's name must end in {}", values::ENDINGS)),
+            (Output::Folder(_), Some(_)) | (_, None) => {}
+            (_, Some(_)) => {
+                return Err("--display makes a picture for every channel: name a folder with --out, as in --out walls"
+                    .to_owned());
+            }
+        }
+        if self.room.display.is_some() && self.replay.is_some() {
+            return Err("--replay is not drawn for --display yet; leave one out".to_owned());
+        }
         if !matches!(self.out, Output::Film(_)) {
             if self.fps.is_some() {
                 return Err("--fps is for films: name an .mp4 file with --out, or leave --fps out".to_owned());

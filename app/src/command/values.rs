@@ -66,6 +66,9 @@ pub enum ValueError {
 /// The largest picture, in pixels along a side: what a graphics device's texture holds.
 const MAXIMAL_SIZE: u32 = 16_384;
 
+/// What `--out` takes.
+pub(super) const ENDINGS: &str = ".png (a picture), .exr (a picture as light) or .mp4 (a film)";
+
 /// Metres per second of the units that a speed may be given in.
 const SPEED_UNITS: [(&str, f64); 5] =
     [("km/h", 1.0 / 3.6), ("km/s", 1000.0), ("m/s", 1.0), ("mph", 0.447_04), ("c", 299_792_458.0)];
@@ -79,13 +82,15 @@ pub enum Output {
     Light(PathBuf),
     /// An MP4 film.
     Film(PathBuf),
+    /// A picture for every channel of a display.
+    Folder(PathBuf),
 }
 
 impl Output {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Self::Picture(path) | Self::Light(path) | Self::Film(path) => path,
+            Self::Picture(path) | Self::Light(path) | Self::Film(path) | Self::Folder(path) => path,
         }
     }
 }
@@ -99,8 +104,10 @@ impl TryFrom<PathBuf> for Output {
             Ok(Self::Light(path))
         } else if has_extension(&path, &["mp4"]) {
             Ok(Self::Film(path))
+        } else if path.extension().is_none() || path.is_dir() {
+            Ok(Self::Folder(path))
         } else {
-            Err(ValueError::Extension { allowed: ".png (a picture), .exr (a picture as light) or .mp4 (a film)" })
+            Err(ValueError::Extension { allowed: ENDINGS })
         }
     }
 }

@@ -192,7 +192,7 @@ fn shots(scene: &Scene, poses: u32) -> Result<Vec<Shot>, Error> {
         let look = if number.is_multiple_of(2) { ahead } else { ahead + 0.7 * ahead.cross(DVec3::Y) };
         let eye = Eye::new(place + DVec3::Y * EYE_HEIGHT_M, celerity.vector())?;
         let camera = Camera::looking(look, DVec3::Y, FOV_DEGREES.to_radians());
-        Ok(Shot { camera, eye, ct: 0.0, effects: Effects::ALL })
+        Ok(Shot { camera, eye, ct: 0.0, effects: Effects::ALL, stored_scale: None })
     };
     (0..poses).map(pose).collect()
 }
@@ -224,8 +224,8 @@ fn time(gpu: &Gpu, renderer: &mut SceneRenderer, radiance: &Radiance, shot: &Sho
 fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> DirectionErrors {
     let shown = places.iter().enumerate().filter_map(|(number, place)| {
         let (column, row) = (number % size[0] as usize, number / size[0] as usize);
-        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-        let direction = shot.camera.observer_from_eye * shot.camera.ahead(size, place).normalize();
+        let middle = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let direction = shot.camera.observer_from_eye * shot.camera.ahead(size, middle).normalize();
         Some((direction, place.as_ref()?.apparent))
     });
     DirectionErrors::between(shown)

@@ -264,6 +264,7 @@ mod tests {
             eye: Eye::new(DVec3::new(0.3, 0.1, 0.2), DVec3::NEG_Z * speed).unwrap(),
             ct: 0.0,
             effects: Effects::ALL,
+            stored_scale: None,
         };
         let sight = |motion| Sight::new(scene, &shot.observer(), motion);
         Certainty::of(&Edges::of(scene), sight, &shot, [1280, 720], drawn)

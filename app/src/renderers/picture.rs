@@ -11,7 +11,7 @@ use image::{Rgb32FImage, RgbaImage};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// What a picture is stored as.
-const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(crate) const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// What light is fetched as.
 const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
@@ -58,7 +58,7 @@ impl Darkroom {
 }
 
 /// A texture that can be fetched from the device.
-struct Sheet {
+pub(crate) struct Sheet {
     texture: wgpu::Texture,
     readback: wgpu::Buffer,
     row_bytes: u32,
@@ -66,7 +66,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
+    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
@@ -88,12 +88,12 @@ impl Sheet {
         Self { texture, readback, row_bytes, padded_row_bytes }
     }
 
-    fn view(&self) -> wgpu::TextureView {
+    pub(crate) fn view(&self) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
     /// Submits what draws on the sheet, and fetches its bytes, row by row.
-    fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
+    pub(crate) fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
         encoder.copy_texture_to_buffer(

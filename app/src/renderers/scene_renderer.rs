@@ -28,6 +28,8 @@ pub struct Shot {
     pub ct: f64,
     /// What relativity does to the picture.
     pub effects: Effects,
+    /// What radiance is multiplied by, instead of [`Shot::scale`]'s own choice: for pictures that are put together.
+    pub stored_scale: Option<f64>,
 }
 
 impl Shot {
@@ -45,6 +47,9 @@ impl Shot {
     /// What radiance is multiplied by so that short floats can hold it: the searchlight effect undone, as it is in the mean of a picture of
     /// usual shape.
     pub fn scale(&self) -> f64 {
+        if let Some(scale) = self.stored_scale {
+            return scale;
+        }
         if !self.effects.searchlight {
             return 1.0;
         }

@@ -9,18 +9,26 @@
 //! Colours that the screen has pass unchanged through the last three at rest: an unlit colour comes out as its nearest byte.
 
 pub mod adaptation;
+mod combine;
 pub mod development;
 mod passes;
 
 pub use adaptation::{Adaptation, Seen, Stored};
+pub use combine::Combiner;
 pub use development::{Development, Exposure, Gamut, Tone};
 
 use super::target::texture;
 use crate::gpu::Gpu;
+use crate::room::Gains;
 use adaptation::Meter;
 use bytemuck::bytes_of;
 use glam::Vec2;
-use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};
+pub use passes::{Pass, clear};
+use passes::{READ, UNFILTERED, UNIFORM, contents};
+use wgpu::util::{DeviceExt, TextureDataOrder};
+
+/// What holds developed pictures that are not encoded yet.
+pub const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Passes that read one radiance texture and write one target.
 pub struct Display {
@@ -123,8 +131,7 @@ impl Display {
         screen: &wgpu::TextureView,
     ) {
         let size = screen.texture().size();
-        let whole =
-            Part { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None };
+        let whole = Part { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None };
         self.show_part(gpu, encoder, radiance, adaptation, development, screen, &whole);
     }
 
@@ -141,7 +148,7 @@ impl Display {
         part: &Part<'_>,
     ) {
         let [x, y, ..] = part.viewport.map(|pixels| pixels as f32);
-        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: part.exposure, ignored: 0.0 };
+        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: part.exposure, odd: 0.0 };
         let placement = contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM);
         let resources = [
             wgpu::BindingResource::TextureView(radiance),
@@ -160,7 +167,7 @@ impl Display {
         let known = self.show.iter().position(|pass| pass.0 == (tone, gamut, gains));
         let index = known.unwrap_or_else(|| {
             let overrides = [
-                ("ENCODE", f64::from(u8::from(!self.screen_format.is_srgb()))),
+                ("ENCODE", f64::from(u8::from(encodes(self.screen_format)))),
                 ("TONE", f64::from(tone as u32)),
                 ("GAMUT", f64::from(gamut as u32)),
                 ("GAINS", f64::from(u8::from(gains))),
@@ -193,10 +200,47 @@ impl Accumulator {
         &self.sums[self.current]
     }
 
+    /// Makes the sum black.
+    pub fn blacken(&self, encoder: &mut wgpu::CommandEncoder) {
+        drop(clear(encoder, self.result()));
+    }
+
     /// Forgets the samples, for the next picture.
     pub fn restart(&mut self) {
         self.filled = false;
     }
+}
+
+/// Whether what is written to a screen must be encoded: it does not do so by itself, and is no float that holds linear light.
+fn encodes(screen: wgpu::TextureFormat) -> bool {
+    !screen.is_srgb() && screen != LINEAR_FORMAT
+}
+
+/// The pass that brings flat pictures together on a surface that is not flat; see `resample.wgsl`. `smooth`: texels are mixed.
+pub fn resample(gpu: &Gpu, format: wgpu::TextureFormat, smooth: bool) -> Pass {
+    let overrides = [("SMOOTH", f64::from(u8::from(smooth)))];
+    Pass::new(gpu, &shaders::RESAMPLE, &overrides, &[UNFILTERED, UNIFORM, UNFILTERED], format)
+}
+
+/// Factors of pixels, where the device reads them: red multiplies, and green is what is then added.
+pub fn gains(gpu: &Gpu, gains: &Gains) -> wgpu::TextureView {
+    let lift = |pixel: usize| gains.lifts.as_ref().map_or(0.0, |lifts| lifts[pixel]);
+    let texels: Vec<[f32; 2]> =
+        gains.factors.iter().enumerate().map(|(pixel, factor)| [*factor, lift(pixel)]).collect();
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("gains"),
+        size: wgpu::Extent3d { width: gains.size[0], height: gains.size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rg32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let bytes = bytemuck::cast_slice(&texels);
+    gpu.device
+        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
+        .create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Copies radiance into a target of another format.

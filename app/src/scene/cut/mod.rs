@@ -163,12 +163,7 @@ impl Frame {
         let side = |x: f64, y: f64, tan: f64| camera.observer_from_eye * DVec3::new(x, y, tan).normalize();
         Self {
             forward: camera.observer_from_eye * DVec3::NEG_Z,
-            planes: [
-                side(1.0, 0.0, low.x),
-                side(-1.0, 0.0, -high.x),
-                side(0.0, 1.0, low.y),
-                side(0.0, -1.0, -high.y),
-            ],
+            planes: [side(1.0, 0.0, low.x), side(-1.0, 0.0, -high.x), side(0.0, 1.0, low.y), side(0.0, -1.0, -high.y)],
             focal_length: tangents.focal_length(size).max_element(),
             corner_cosine: 1.0 / (1.0 + farthest.length_squared()).sqrt(),
         }

@@ -1,0 +1,55 @@
+//! Both eyes' pictures on the same pixels: rows, columns or a chequered pattern by turns, or red–cyan anaglyphs.
+
+use super::passes::{Pass, UNFILTERED, UNIFORM, contents};
+use crate::gpu::Gpu;
+use crate::room::Combine;
+use bytemuck::bytes_of;
+use glam::Vec2;
+
+/// The pass that brings a left and a right picture together on a screen.
+pub struct Combiner(Pass);
+
+impl Combiner {
+    /// For a window that is combined in this way; `None` where each channel has its own pixels. The pictures must be linear.
+    pub fn new(gpu: &Gpu, combine: Combine, swap_eyes: bool, screen: wgpu::TextureFormat) -> Option<Self> {
+        let way = match combine {
+            Combine::None => return None,
+            Combine::Rows => shaders::COMBINE_ROWS,
+            Combine::Columns => shaders::COMBINE_COLUMNS,
+            Combine::Checker => shaders::COMBINE_CHECKER,
+            Combine::AnaglyphDubois => shaders::COMBINE_DUBOIS,
+            Combine::AnaglyphGrey => shaders::COMBINE_GREY,
+            Combine::AnaglyphHalfColour => shaders::COMBINE_HALF_COLOUR,
+        };
+        let overrides = [
+            ("COMBINE", f64::from(way)),
+            ("SWAP_EYES", f64::from(u8::from(swap_eyes))),
+            ("ENCODE", f64::from(u8::from(super::encodes(screen)))),
+        ];
+        Some(Self(Pass::new(gpu, &shaders::COMBINE, &overrides, &[UNFILTERED, UNFILTERED, UNIFORM], screen)))
+    }
+
+    /// Writes both eyes' linear pictures to a part of the screen: x, y, width and height in pixels. `first_pixel`: where the screen's upper
+    /// left pixel is on its monitor. `over`: the rest of the screen stays as it is.
+    pub fn show(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        [left, right]: [&wgpu::TextureView; 2],
+        screen: &wgpu::TextureView,
+        viewport: [u32; 4],
+        first_pixel: [i32; 2],
+        over: bool,
+    ) {
+        let [x, y, ..] = viewport.map(|pixels| pixels as f32);
+        let [column, row] = first_pixel.map(|pixel| pixel.rem_euclid(2) as f32);
+        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: 1.0, odd: row + 2.0 * column };
+        let placement = contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM);
+        let resources = [
+            wgpu::BindingResource::TextureView(left),
+            wgpu::BindingResource::TextureView(right),
+            placement.as_entire_binding(),
+        ];
+        self.0.draw_part(gpu, encoder, screen, &resources, viewport, over);
+    }
+}

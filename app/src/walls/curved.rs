@@ -1,0 +1,118 @@
+//! A channel whose screen is not flat, or whose projector bends: flat pictures, looked up pixel by pixel.
+
+use super::facet::{Facet, Grid, facets};
+use crate::gpu::Gpu;
+use crate::renderers::display::Pass;
+use crate::renderers::target::{Format, Radiance, texture};
+use crate::room::{Channel, Display};
+use bytemuck::bytes_of;
+use glam::{DVec2, DVec3, Vec4};
+use rayon::prelude::*;
+use wgpu::util::{DeviceExt, TextureDataOrder};
+
+/// Columns and rows of the grid by which facets are chosen.
+const GRID: usize = 48;
+
+/// The map from a viewport's pixels to points of the room, and flat pictures of what is seen there.
+pub struct Curved {
+    points: wgpu::TextureView,
+    grid: Grid,
+    /// Their targets.
+    pub facets: Vec<(Facet, Radiance)>,
+    /// What the channel shows.
+    pub shown: wgpu::TextureView,
+    size: [u32; 2],
+}
+
+impl Curved {
+    /// Of a channel. Its pixels' points do not depend on the eye, so that they are worked out once.
+    pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
+        let size @ [width, height] = channel.size();
+        let point = |x: f64, y: f64| channel.point(display, DVec2::new(x, y));
+        let texels: Vec<[f32; 4]> = (0..height)
+            .into_par_iter()
+            .flat_map_iter(|row| {
+                (0..width).map(move |column| {
+                    let place =
+                        [(column, width), (row, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side));
+                    point(place[0], place[1]).map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array())
+                })
+            })
+            .collect();
+        let descriptor = wgpu::TextureDescriptor {
+            label: Some("points"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        };
+        let bytes = bytemuck::cast_slice(&texels);
+        let points = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
+
+        let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
+        let place = |index: usize| point(at(index % (GRID + 1)), at(index / (GRID + 1)));
+        let grid = Grid {
+            size: [GRID + 1; 2],
+            points: (0..(GRID + 1) * (GRID + 1)).into_par_iter().map(place).collect(),
+            pixels: DVec2::new(f64::from(width), f64::from(height)) / GRID as f64,
+        };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        Self {
+            points: points.create_view(&wgpu::TextureViewDescriptor::default()),
+            grid,
+            facets: Vec::new(),
+            shown: texture(gpu, "shown on a surface", size, format.colour, 1, usage),
+            size,
+        }
+    }
+
+    /// Chooses facets for an eye in the room. Textures of the last ones are kept where they fit.
+    pub fn look_from(&mut self, gpu: &Gpu, eye: DVec3, density: f64, format: Format) {
+        let largest = gpu.device.limits().max_texture_dimension_2d.min(8192);
+        let mut before: Vec<_> = self.facets.drain(..).map(|(_, target)| target).collect();
+        for facet in facets(&self.grid, eye, density, largest) {
+            let fits = before.iter().position(|target| target.size == facet.size);
+            let target = fits.map_or_else(|| Radiance::new(gpu, facet.size, format), |index| before.swap_remove(index));
+            self.facets.push((facet, target));
+        }
+    }
+
+    /// Brings the facets together.
+    pub fn resample(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, pass: &Pass, eye: DVec3) {
+        let [width, height] = self.size;
+        for (number, (facet, target)) in self.facets.iter().enumerate() {
+            let axes = facet.room_from_facet;
+            let axis = |axis: DVec3| axis.as_vec3().extend(0.0);
+            let focal_length = facet.tangents.focal_length(facet.size);
+            let straight = DVec2::new(-facet.tangents.low.x, facet.tangents.high.y) * focal_length;
+            let uniform = shaders::Facet {
+                eye: eye.as_vec3().extend(facet.limit as f32),
+                right: axis(axes.x_axis),
+                up: axis(axes.y_axis),
+                forward: axis(-axes.z_axis),
+                texel: Vec4::new(straight.x as f32, straight.y as f32, focal_length.x as f32, -focal_length.y as f32),
+            };
+            let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("facet"),
+                contents: bytes_of(&uniform),
+                usage: wgpu::BufferUsages::UNIFORM,
+            });
+            let resources = [
+                wgpu::BindingResource::TextureView(&self.points),
+                uniform.as_entire_binding(),
+                wgpu::BindingResource::TextureView(target.result()),
+            ];
+            pass.draw_part(gpu, encoder, &self.shown, &resources, [0, 0, width, height], number > 0);
+        }
+    }
+
+    /// Texels of a facet for each pixel of the viewport, about.
+    pub fn texels_per_pixel(&self) -> f64 {
+        let texels: f64 =
+            self.facets.iter().map(|(facet, _)| f64::from(facet.size[0]) * f64::from(facet.size[1])).sum();
+        (texels / (f64::from(self.size[0]) * f64::from(self.size[1]))).sqrt()
+    }
+}

@@ -1,0 +1,193 @@
+//! Flat pictures that together show all of a surface that is not flat.
+//!
+//! What an eye sees on a bent screen is drawn into as few flat pictures as hold it: one, if all of it lies within a pyramid about its middle,
+//! else the faces of a cube around the eye that it is seen on. Each is as fine as the finest pixel of the screen needs.
+
+use crate::views::Tangents;
+use glam::{DMat3, DVec2, DVec3};
+
+/// The largest tangent that a single flat picture shows: beyond it, six faces of a cube show the same with fewer texels.
+const WIDEST: f64 = 1.75;
+/// Room that faces of a cube have beyond their edges, so that texels beside an edge may be mixed.
+const SEAM: f64 = 1.0 + 1e-3;
+/// Sizes are multiples of this, so that a head that moves does not make new textures for every frame.
+const STEP: u32 = 32;
+
+/// Where a viewport's places lie on its surface: rows from above, columns from the left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Number of columns and rows.
+    pub size: [usize; 2],
+    /// Room axes, metres; `None` where nothing is lit.
+    pub points: Vec<Option<DVec3>>,
+    /// Pixels of the viewport from one column, or row, to the next.
+    pub pixels: DVec2,
+}
+
+/// A flat picture of what an eye sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// Rotation from its axes (x right, y up, −z ahead) to the room's.
+    pub room_from_facet: DMat3,
+    /// What of the plane ahead it shows.
+    pub tangents: Tangents,
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Largest tangent to either side for which it is this one that shows a direction.
+    pub limit: f64,
+}
+
+impl Facet {
+    /// Tangents of a direction of the room, if it is this facet that shows it.
+    fn place(&self, direction: DVec3) -> Option<DVec2> {
+        let seen = self.room_from_facet.transpose() * direction;
+        let place = seen.truncate() / -seen.z;
+        (seen.z < 0.0 && place.abs().max_element() <= self.limit).then_some(place)
+    }
+}
+
+/// The facets for an eye.
+///
+/// # Arguments
+/// * `density` — texels for each pixel of the viewport, along each axis, where these are finest.
+/// * `largest` — texels that a side may have; more are needed only where a surface is seen at a grazing angle, and are left out.
+pub fn facets(grid: &Grid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet> {
+    let directions: Vec<_> =
+        grid.points.iter().map(|point| Some((point.as_ref()? - eye).normalize_or_zero())).collect();
+    let middle = directions.iter().flatten().sum::<DVec3>();
+    let room_from_facet = towards(middle.try_normalize().unwrap_or(DVec3::NEG_Z));
+    let unbound = Tangents { low: DVec2::ZERO, high: DVec2::ZERO };
+    let facet =
+        |turn: DMat3, limit| Facet { room_from_facet: room_from_facet * turn, tangents: unbound, size: [0, 0], limit };
+
+    // One, if that is enough.
+    let single = facet(DMat3::IDENTITY, WIDEST);
+    let all = directions.iter().flatten().all(|direction| single.place(*direction).is_some());
+    let candidates = if all { vec![single] } else { cube().map(|turn| facet(turn, SEAM)).to_vec() };
+    candidates.into_iter().filter_map(|facet| sized(facet, grid, &directions, density, largest)).collect()
+}
+
+/// Bounds a facet by what it shows; `None` if that is nothing.
+fn sized(facet: Facet, grid: &Grid, directions: &[Option<DVec3>], density: f64, largest: u32) -> Option<Facet> {
+    let [columns, rows] = grid.size;
+    let at = |column: usize, row: usize| facet.place(directions[row * columns + column]?);
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (mut finest, mut widest) = (f64::INFINITY, 0.0_f64);
+    for row in 0..rows {
+        for column in 0..columns {
+            let Some(here) = at(column, row) else { continue };
+            (low, high) = (low.min(here), high.max(here));
+            let neighbours = [(column + 1, row, grid.pixels.x), (column, row + 1, grid.pixels.y)];
+            for (column, row, pixels) in neighbours {
+                if column < columns
+                    && row < rows
+                    && let Some(there) = at(column, row)
+                {
+                    let step = here.distance(there);
+                    widest = widest.max(step);
+                    if step > 0.0 {
+                        finest = finest.min(step / pixels);
+                    }
+                }
+            }
+        }
+    }
+    if low.x > high.x {
+        return None;
+    }
+    // The surface goes on for up to a step of the grid beyond the last point that this facet shows, and its pixels are a little finer
+    // between the grid's points than at them.
+    let margin = if widest > 0.0 { widest } else { facet.limit };
+    let bound = DVec2::splat(facet.limit * SEAM);
+    let (low, high) = ((low - margin).max(-bound), (high + margin).min(bound));
+    let wanted = if finest.is_finite() { 1.05 * density / finest } else { f64::from(STEP) };
+    let most = f64::from(largest / STEP * STEP) / (high - low).max_element();
+    let focal_length = wanted.min(most);
+    let size = ((high - low) * focal_length).ceil();
+    let size = [size.x, size.y].map(|side| (side as u32).max(1).next_multiple_of(STEP));
+    let half = 0.5 * DVec2::new(f64::from(size[0]), f64::from(size[1])) / focal_length;
+    let middle = 0.5 * (low + high);
+    Some(Facet { tangents: Tangents { low: middle - half, high: middle + half }, size, ..facet })
+}
+
+/// The rotation from the axes of a picture that looks along `forward`, its columns as upright as can be.
+fn towards(forward: DVec3) -> DMat3 {
+    let right = [DVec3::Y, DVec3::NEG_Z].into_iter().map(|up| forward.cross(up)).find(|right| right.length() > 1e-3);
+    let right = right.map_or(DVec3::X, DVec3::normalize);
+    DMat3::from_cols(right, right.cross(forward), -forward)
+}
+
+/// Turns to the six faces of a cube: ahead, right, behind, left, above, below.
+fn cube() -> [DMat3; 6] {
+    let of = |x, y| DMat3::from_cols(x, y, x.cross(y));
+    [
+        of(DVec3::X, DVec3::Y),
+        of(DVec3::Z, DVec3::Y),
+        of(DVec3::NEG_X, DVec3::Y),
+        of(DVec3::NEG_Z, DVec3::Y),
+        of(DVec3::X, DVec3::Z),
+        of(DVec3::X, DVec3::NEG_Z),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    //! Every point of a surface is shown by a facet, within its bounds and finely enough. A wrong program leaves black gaps between facets, or
+    //! blurs.
+
+    use super::*;
+
+    /// A part of a sphere of radius 2 about the origin, seen as a picture of 640 × 480.
+    fn sphere(width_rad: f64, height_rad: f64) -> Grid {
+        let size = [41, 31];
+        let mut points = Vec::new();
+        for row in 0..size[1] {
+            for column in 0..size[0] {
+                let longitude = width_rad * (column as f64 / 40.0 - 0.5);
+                let latitude = height_rad * (0.5 - row as f64 / 30.0);
+                let level = DVec3::new(longitude.sin(), 0.0, -longitude.cos()) * latitude.cos();
+                points.push(Some(2.0 * (level + DVec3::Y * latitude.sin())));
+            }
+        }
+        Grid { size, points, pixels: DVec2::new(16.0, 16.0) }
+    }
+
+    #[test]
+    fn every_point_is_shown_finely_enough() {
+        for (width, height, count) in [(1.0, 0.8, 1), (2.0, 1.0, 1), (4.0, 2.0, 5), (6.28, 3.1, 6)] {
+            let grid = sphere(width, height);
+            for eye in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.4)] {
+                let facets = facets(&grid, eye, 1.0, 8192);
+                assert!(facets.len() <= count, "{} facets for {width} × {height}", facets.len());
+                for row in 0..30 {
+                    for column in 0..40 {
+                        let at = |column: usize, row: usize| {
+                            (grid.points[row * 41 + column].unwrap_or_default() - eye).normalize()
+                        };
+                        let seen = at(column, row).lerp(at(column + 1, row + 1), 0.37);
+                        let shown: Vec<_> =
+                            facets.iter().filter_map(|facet| Some((facet, facet.place(seen)?))).collect();
+                        assert!(!shown.is_empty(), "nothing shows {seen}");
+                        for (facet, place) in shown {
+                            assert!(place.cmpge(facet.tangents.low).all() && place.cmple(facet.tangents.high).all());
+                            let next = facet.room_from_facet.transpose() * at(column + 1, row);
+                            let here = facet.room_from_facet.transpose() * at(column, row);
+                            let step = (next.truncate() / -next.z - here.truncate() / -here.z).length() / 16.0;
+                            let texels = step * facet.tangents.focal_length(facet.size).x;
+                            if next.z < 0.0 && here.z < 0.0 {
+                                assert!(texels >= 0.95, "{texels} texels a pixel");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_keep_to_their_limit() {
+        for facet in facets(&sphere(6.0, 3.0), DVec3::new(1.9, 0.0, 0.0), 4.0, 512) {
+            assert!(facet.size.iter().all(|side| *side <= 512), "{:?}", facet.size);
+        }
+    }
+}

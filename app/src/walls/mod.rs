@@ -1,0 +1,157 @@
+//! What the surfaces around a viewer show: every channel of a display, drawn for a head in the vehicle.
+//!
+//! # How it works
+//! 1. An [`Occupant`] says where each eye is, in the world and in the room ([`head`]).
+//! 2. The photo-surface of an eye does not depend on where it looks, so it is worked out once for all its channels (W 6.4.1).
+//! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other is drawn into flat pictures around the eye
+//!    ([`facet`]), in which every pixel of the channel then looks its place up ([`curved`]).
+//! 4. Both eyes adapt to all channels together, so that no edge between two screens shows; then each is developed, multiplied by
+//!    its projector's gains, and put into its window ([`show`]).
+
+pub mod curved;
+pub mod facet;
+pub mod head;
+mod picture;
+mod show;
+
+pub use head::{Head, Occupant, OccupantEye};
+
+use crate::gpu::{Gpu, GpuError};
+use crate::renderers::certainty::Certainty;
+use crate::renderers::display::{self, Adaptation, Combiner, Development, Pass, Seen};
+use crate::renderers::target::Format;
+use crate::renderers::{Effects, SceneRenderer};
+use crate::room::{Channel, Display, Eye, EyeBehind, WindowPlace};
+use physics::photo_surface::{Eye as Vantage, PhotoSurfaceError};
+use picture::{Picture, Sitting};
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why a display cannot show anything.
+#[derive(Debug, Error)]
+pub enum WallsError {
+    /// An eye that is nowhere.
+    #[error(transparent)]
+    Nowhere(#[from] PhotoSurfaceError),
+    /// No device.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// What drawing the channels came to.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    /// Channels that stay black because their eye is behind their screen, by name.
+    pub behind: Vec<(String, EyeBehind)>,
+    /// Vertices that have no place in the photo-surfaces.
+    pub not_finite: usize,
+    /// How long the photo-surfaces took, all eyes together.
+    pub transform: Duration,
+    /// How far from their places things are drawn, in the channel where that is most.
+    pub certainty: Certainty,
+}
+
+/// How finely channels are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// What is drawn into.
+    pub format: Format,
+    /// Samples a pixel, one draw each.
+    pub samples: u32,
+    /// Texels of flat pictures for each pixel of a screen that is not flat, along each axis.
+    pub density: f64,
+    /// Whether these texels are mixed; else the nearest one is taken.
+    pub smooth: bool,
+}
+
+/// The channels of a display, ready to be drawn.
+pub struct Walls {
+    /// What they are.
+    pub display: Display,
+    quality: Quality,
+    pictures: Vec<Picture>,
+    passes: display::Display,
+    /// The same for pictures in linear light.
+    linear_passes: display::Display,
+    /// One for each window that combines both eyes.
+    combiners: Vec<Option<Combiner>>,
+    resample: Pass,
+    adaptation: Adaptation,
+}
+
+impl Walls {
+    /// Makes targets, tables and passes. `screen`: the format that channels are shown in.
+    pub fn new(gpu: &Gpu, display: Display, quality: Quality, screen: wgpu::TextureFormat) -> Self {
+        let colour = quality.format.colour;
+        let passes = display::Display::new(gpu, colour, screen);
+        let picture = |channel: &Channel| Picture::new(gpu, &display, channel, &quality, &passes);
+        let combiner = |window: &WindowPlace| Combiner::new(gpu, window.combine, window.swap_eyes, screen);
+        Self {
+            pictures: display.channels.iter().map(picture).collect(),
+            combiners: display.windows.iter().map(combiner).collect(),
+            linear_passes: display::Display::new(gpu, colour, display::LINEAR_FORMAT),
+            resample: display::resample(gpu, colour, quality.smooth),
+            adaptation: Adaptation::new(gpu),
+            passes,
+            quality,
+            display,
+        }
+    }
+
+    /// Draws the light of every channel, as an occupant sees it.
+    ///
+    /// # Errors
+    /// [`WallsError`]: an eye that is nowhere, or a lost device.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        occupant: &Occupant,
+        effects: Effects,
+    ) -> Result<Drawn, WallsError> {
+        // Each eye's photo-surface, the later ones beside the drawing of the first.
+        let mut eyes = Vec::new();
+        for side in [Eye::Left, Eye::Right, Eye::Centre] {
+            if self.display.channels.iter().any(|channel| channel.eye == side) {
+                let eye = occupant.eye(&self.display.viewer, side);
+                let vantage = Vantage::new(eye.observer.event.position, eye.observer.celerity.vector())?;
+                if renderer.transforms(effects) {
+                    renderer.submit(gpu, vantage, eye.observer.event.ct)?;
+                }
+                eyes.push((side, eye, vantage));
+            }
+        }
+
+        let mut drawn = Drawn::default();
+        let Self { display, quality, passes, resample, .. } = self;
+        for (side, eye, vantage) in eyes {
+            if renderer.transforms(effects) {
+                let transformed = renderer.receive()?;
+                drawn.transform += transformed.duration;
+                drawn.not_finite += transformed.stats.not_finite();
+                renderer.show(gpu, transformed);
+            }
+            let sitting = Sitting { gpu, display, quality, passes, resample, eye, vantage, effects };
+            for (channel, picture) in sitting.display.channels.iter().zip(&mut self.pictures) {
+                if channel.eye == side {
+                    match picture.draw(renderer, channel, &sitting) {
+                        Ok(certainty) => drawn.certainty = drawn.certainty.or_worse(certainty),
+                        Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
+                    }
+                }
+            }
+        }
+        Ok(drawn)
+    }
+
+    /// Adapts the viewer to what the channels show now.
+    pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
+        let seen = |picture: &Picture| (picture.light().clone(), picture.stored);
+        let lights: Vec<_> = self.pictures.iter().map(seen).collect();
+        let seen: Vec<_> =
+            lights.iter().map(|(radiance, stored)| Seen { radiance, stored: *stored, elapsed_s }).collect();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.passes.adapt_to_all(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        gpu.queue.submit([encoder.finish()]);
+    }
+}

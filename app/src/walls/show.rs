@@ -1,0 +1,122 @@
+//! From the channels' light to windows and pictures.
+
+use super::Walls;
+use crate::gpu::{Gpu, GpuError};
+use crate::renderers::display::{self, Development, Part};
+use crate::renderers::picture::{SCREEN_FORMAT, Sheet};
+use crate::renderers::target::texture;
+use crate::room::{Combine, Eye};
+use image::RgbaImage;
+
+impl Walls {
+    /// Shows all channels of a window in it. `first_pixel`: where its upper left pixel is on its monitor.
+    pub fn show_window(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        window: usize,
+        development: &Development,
+        screen: &wgpu::TextureView,
+        first_pixel: [i32; 2],
+    ) {
+        // A window that is smaller than it should be shows those channels that it has room for.
+        let size = screen.texture().size();
+        let fits = |[x, y, width, height]: [u32; 4]| x + width <= size.width && y + height <= size.height;
+        let of_window = |channel: &usize| {
+            let channel = &self.display.channels[*channel];
+            channel.window == window && fits(channel.viewport)
+        };
+        let channels: Vec<usize> = (0..self.display.channels.len()).filter(of_window).collect();
+        let mut over = false;
+        for &channel in &channels {
+            let (eye, viewport) = (self.display.channels[channel].eye, self.display.channels[channel].viewport);
+            // The other eye's, where they share their pixels: both are shown with the left one.
+            let partner = channels.iter().copied().find(|&other| {
+                let other = &self.display.channels[other];
+                other.eye != eye && other.viewport == viewport
+            });
+            match partner.filter(|_| self.display.windows[window].combine != Combine::None) {
+                None => self.show(gpu, encoder, channel, development, screen, viewport, over),
+                Some(_) if eye == Eye::Right => continue,
+                Some(right) => {
+                    let pair = [channel, right].map(|channel| self.developed(gpu, encoder, channel, development));
+                    let combiner = self.combiners[window].as_ref().expect("its window combines");
+                    combiner.show(gpu, encoder, [&pair[0], &pair[1]], screen, viewport, first_pixel, over);
+                }
+            }
+            over = true;
+        }
+        if !over {
+            drop(display::clear(encoder, screen));
+        }
+    }
+
+    /// Develops a channel's picture.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn develop(&mut self, gpu: &Gpu, channel: usize, development: &Development) -> Result<RgbaImage, GpuError> {
+        let [width, height] = self.display.channels[channel].size();
+        let sheet = Sheet::new(gpu, [width, height], SCREEN_FORMAT);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.show(gpu, &mut encoder, channel, development, &sheet.view(), [0, 0, width, height], false);
+        let pixels = sheet.fetch(gpu, encoder)?;
+        Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
+    }
+
+    /// Develops a window as it is shown.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn develop_window(
+        &mut self,
+        gpu: &Gpu,
+        window: usize,
+        development: &Development,
+    ) -> Result<RgbaImage, GpuError> {
+        let [width, height] = self.display.windows[window].size;
+        let sheet = Sheet::new(gpu, [width, height], SCREEN_FORMAT);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.show_window(gpu, &mut encoder, window, development, &sheet.view(), [0, 0]);
+        let pixels = sheet.fetch(gpu, encoder)?;
+        Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
+    }
+
+    /// A channel's picture in linear light, for what comes after.
+    pub fn developed(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        channel: usize,
+        development: &Development,
+    ) -> wgpu::TextureView {
+        let [width, height] = self.display.channels[channel].size();
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let made = || texture(gpu, "developed", [width, height], display::LINEAR_FORMAT, 1, usage);
+        let linear = self.pictures[channel].developed.get_or_insert_with(made).clone();
+        std::mem::swap(&mut self.passes, &mut self.linear_passes);
+        self.show(gpu, encoder, channel, development, &linear, [0, 0, width, height], false);
+        std::mem::swap(&mut self.passes, &mut self.linear_passes);
+        linear
+    }
+
+    /// Shows a channel in a part of `screen`.
+    #[expect(clippy::too_many_arguments, reason = "what is shown, how, and where")]
+    fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        channel: usize,
+        development: &Development,
+        screen: &wgpu::TextureView,
+        viewport: [u32; 4],
+        over: bool,
+    ) {
+        // The eye's exposure is meant for how the first channel holds its light.
+        let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
+        let picture = &self.pictures[channel];
+        let exposure = (first / picture.stored.scale) as f32;
+        let part = Part { viewport, over, exposure, gains: picture.gains.as_ref() };
+        self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
+    }
+}

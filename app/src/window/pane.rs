@@ -1,0 +1,119 @@
+//! A window and the surface that is drawn on in it.
+
+use crate::gpu::{Gpu, GpuError};
+use crate::room::{Monitor, WindowPlace};
+use std::sync::Arc;
+use winit::dpi::{PhysicalPosition, PhysicalSize};
+use winit::event_loop::ActiveEventLoop;
+use winit::monitor::MonitorHandle;
+use winit::window::{Fullscreen, Window, WindowAttributes};
+
+/// A window that is drawn in.
+pub struct Pane {
+    /// The window.
+    pub window: Arc<Window>,
+    surface: wgpu::Surface<'static>,
+    /// How its surface is used.
+    pub configuration: wgpu::SurfaceConfiguration,
+}
+
+impl Pane {
+    /// Makes `surface` of `window` fit to be drawn on. `waits`: for the monitor to show one frame before it takes the next.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if the device cannot draw on it.
+    pub fn new(gpu: &Gpu, window: Arc<Window>, surface: wgpu::Surface<'static>, waits: bool) -> Result<Self, GpuError> {
+        let size = window.inner_size();
+        let mut configuration = surface
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+            .ok_or_else(|| GpuError::NoAdapter("the window's surface has no format".to_owned()))?;
+        configuration.present_mode = if waits { wgpu::PresentMode::AutoVsync } else { wgpu::PresentMode::AutoNoVsync };
+        // The interface mixes colours as they are encoded, so the surface must not encode once more.
+        configuration.format = configuration.format.remove_srgb_suffix();
+        surface.configure(&gpu.device, &configuration);
+        Ok(Self { window, surface, configuration })
+    }
+
+    /// Pixels inside.
+    pub fn size(&self) -> [u32; 2] {
+        [self.configuration.width, self.configuration.height]
+    }
+
+    /// Takes on the window's size. Returns whether there is anything to be drawn in.
+    pub fn resize(&mut self, gpu: &Gpu, size: PhysicalSize<u32>) -> bool {
+        if size.width == 0 || size.height == 0 {
+            return false;
+        }
+        (self.configuration.width, self.configuration.height) = (size.width, size.height);
+        self.surface.configure(&gpu.device, &self.configuration);
+        true
+    }
+
+    /// What the next frame is drawn on; `None` if it cannot be drawn in for the moment, and whether its size may have changed.
+    ///
+    /// # Errors
+    /// A surface that is lost and cannot be made again.
+    pub fn acquire(&mut self, gpu: &Gpu) -> Result<Acquired, GpuError> {
+        use wgpu::CurrentSurfaceTexture as Current;
+        Ok(match self.surface.get_current_texture() {
+            Current::Success(texture) | Current::Suboptimal(texture) => Acquired::Texture(texture),
+            Current::Lost => {
+                self.surface = gpu
+                    .instance
+                    .create_surface(Arc::clone(&self.window))
+                    .map_err(|error| GpuError::Lost(error.to_string()))?;
+                Acquired::Resize(self.window.inner_size())
+            }
+            Current::Outdated => Acquired::Resize(self.window.inner_size()),
+            Current::Timeout | Current::Occluded | Current::Validation => Acquired::Nothing,
+        })
+    }
+}
+
+/// What a window offers to be drawn on.
+pub enum Acquired {
+    /// The next frame.
+    Texture(wgpu::SurfaceTexture),
+    /// Nothing before it has taken on this size.
+    Resize(PhysicalSize<u32>),
+    /// Nothing for the moment.
+    Nothing,
+}
+
+/// How a display's window is to be opened.
+pub fn attributes(events: &ActiveEventLoop, place: &WindowPlace, title: &str) -> WindowAttributes {
+    let monitor = place.monitor.as_ref().and_then(|wanted| find(events, wanted));
+    let [width, height] = place.size;
+    let mut attributes = Window::default_attributes()
+        .with_title(format!("{title}: {}", place.name))
+        .with_inner_size(PhysicalSize::new(width, height))
+        .with_decorations(!place.fullscreen);
+    let from = monitor.as_ref().map_or(PhysicalPosition::new(0, 0), MonitorHandle::position);
+    if let Some([x, y]) = place.position {
+        attributes = attributes.with_position(PhysicalPosition::new(from.x + x, from.y + y));
+    } else if monitor.is_some() {
+        attributes = attributes.with_position(from);
+    }
+    if place.fullscreen {
+        attributes = attributes.with_fullscreen(Some(Fullscreen::Borderless(monitor)));
+    }
+    attributes
+}
+
+/// The monitor that a display names, if it is there.
+fn find(events: &ActiveEventLoop, wanted: &Monitor) -> Option<MonitorHandle> {
+    let mut monitors = events.available_monitors();
+    let found = match wanted {
+        Monitor::Index(index) => monitors.nth(*index),
+        Monitor::Name(name) => monitors.find(|monitor| monitor.name().as_deref() == Some(name)),
+    };
+    if found.is_none() {
+        let names: Vec<_> = events.available_monitors().filter_map(|monitor| monitor.name()).collect();
+        let wanted = match wanted {
+            Monitor::Index(index) => format!("number {index}"),
+            Monitor::Name(name) => name.clone(),
+        };
+        eprintln!("there is no monitor {wanted}; there are {}", names.join(", "));
+    }
+    found
+}

@@ -1,0 +1,15 @@
+// The curve of an sRGB screen (IEC 61966-2-1), and where on it a picture is.
+
+struct Placement {
+    origin: vec2<f32>,
+    exposure: f32,
+    odd: f32,
+}
+
+// Whether the target does not encode by itself.
+override ENCODE: bool = true;
+
+fn srgb(linear: vec3<f32>) -> vec3<f32> {
+    let curve = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
+    return select(curve, 12.92 * linear, linear <= vec3(0.0031308));
+}

@@ -1,0 +1,209 @@
+//! Law: a pixel of a wall shows what the viewer's eye sees in the direction from the eye to that pixel, in the axes of his own frame, which
+//! is a pure boost of the vehicle's as his head moves in it (W 6.3, 6.4.1, B 4.1). Both eyes are at one moment of his own time.
+//!
+//! Held against boxes met by rays one by one: wall pixels are re-projected to directions by plain geometry here, and taken to the world by
+//! Lorentz matrices multiplied out, which share nothing with the program's own composition of boosts.
+//!
+//! A wrong program shows: walls that do not meet in their corners; both eyes alike, or changed over; a head that is taken to rest while it
+//! walks, or is added to the vehicle without the rotation that two boosts make.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use glam::{DMat4, DQuat, DVec2, DVec3};
+use image::RgbaImage;
+use physics::worldline::State;
+use physics::{Celerity, Event};
+use rapidity::renderers::display::{Development, Gamut};
+use rapidity::renderers::image::MapQuality;
+use rapidity::renderers::picture::{SCREEN_FORMAT, Studio};
+use rapidity::renderers::{Effects, Method, SceneRenderer};
+use rapidity::room::{Channel, Display, Viewer, room_from_turned};
+use rapidity::scene::Scene;
+use rapidity::scene::lattice::Lattice;
+use rapidity::scene::refine::refine;
+use rapidity::walls::{Head, Occupant, Quality, Walls};
+use rayon::prelude::*;
+use std::sync::LazyLock;
+use system_tests::exact::Boxes;
+use system_tests::lorentz::{boost, four, parts, rotation, space};
+use system_tests::photographer::gpu;
+
+const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
+const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
+/// Metres, as in `lattice_pixels`.
+const EDGE_M: f32 = 0.09;
+/// What may differ: what the project promises for pixels of walls.
+const SHARE_AT_MOST: f64 = 0.01;
+/// Pixels that an outline may be away from its place.
+const REACH: f64 = 0.75;
+
+static REFINED: LazyLock<Scene> = LazyLock::new(|| refine(&LATTICE.build(), EDGE_M).unwrap());
+
+/// A built-in display with pixels that are so many times larger.
+fn display(name: &str, coarser: u32) -> Display {
+    let mut display = Display::built_in(name).unwrap();
+    for window in &mut display.windows {
+        window.size = window.size.map(|side| side / coarser);
+    }
+    for channel in &mut display.channels {
+        channel.viewport = channel.viewport.map(|side| side / coarser);
+    }
+    display
+}
+
+/// A vehicle between the boxes, turned somehow, with this celerity.
+fn vehicle(celerity: DVec3) -> State {
+    let orientation = DQuat::from_rotation_y(0.4) * DQuat::from_rotation_x(-0.3);
+    let event = Event { ct: 0.7, position: DVec3::new(0.375, -1.81875, 0.53125) };
+    State::new(event, Celerity::new(celerity).unwrap(), orientation)
+}
+
+fn head(viewer: &Viewer, celerity: DVec3) -> Head {
+    Head {
+        place_m: viewer.head_m + DVec3::new(0.2, 0.1, -0.15),
+        room_from_head: room_from_turned(20.0, -10.0, 5.0),
+        celerity: Celerity::new(celerity).unwrap(),
+    }
+}
+
+/// What each channel shows.
+fn drawn(display: &Display, method: Method, scene: &Scene, occupants: &[Occupant]) -> Vec<Vec<RgbaImage>> {
+    let format = Studio::format(gpu());
+    let quality = Quality { format, samples: 1, density: 2.0, smooth: false };
+    let mut renderer = SceneRenderer::new(gpu(), scene, format, Some(BACKGROUND), method).unwrap();
+    let mut walls = Walls::new(gpu(), display.clone(), quality, SCREEN_FORMAT);
+    let development = Development { gamut: Gamut::Clamp, ..Default::default() };
+    let mut pictures = Vec::new();
+    for occupant in occupants {
+        walls.draw(gpu(), &mut renderer, occupant, Effects::GEOMETRY).unwrap();
+        walls.adapt(gpu(), &development, None);
+        let channels = 0..display.channels.len();
+        pictures.push(channels.map(|channel| walls.develop(gpu(), channel, &development).unwrap()).collect());
+    }
+    pictures
+}
+
+/// What a channel must show, by textbook formulas.
+struct Exact<'a> {
+    boxes: &'a Boxes,
+    display: &'a Display,
+    channel: &'a Channel,
+    /// From the head's axes, named as the room's, to the world's.
+    world_from_head: DMat4,
+    eye_m: DVec3,
+    eye_in_world: DVec3,
+}
+
+impl<'a> Exact<'a> {
+    fn new(boxes: &'a Boxes, display: &'a Display, channel: &'a Channel, occupant: &Occupant) -> Self {
+        let Occupant { vehicle, head } = occupant;
+        let world_from_room = boost(-vehicle.celerity.vector()) * rotation(vehicle.orientation);
+        let world_from_head = world_from_room * boost(-head.celerity.vector());
+        let aside = head.room_from_head.x_axis * (0.5 * channel.eye.side() * display.viewer.eye_separation_m);
+        let event = four(vehicle.ct, vehicle.position)
+            + world_from_room * four(0.0, head.place_m)
+            + world_from_head * four(0.0, aside * display.viewer.eye_scale);
+        let (eye_m, eye_in_world) = (head.place_m + aside, space(event));
+        Self { boxes, display, channel, world_from_head, eye_m, eye_in_world }
+    }
+
+    /// At a place of the viewport, in pixels; black where no surface is lit.
+    fn colour(&self, at: DVec2) -> [u8; 4] {
+        let [width, height] = self.channel.size().map(f64::from);
+        let Some(point) = self.channel.point(self.display, at / DVec2::new(width, height)) else {
+            return [0, 0, 0, 255];
+        };
+        // The light came from there, a while ago.
+        let from = self.world_from_head * four(-1.0, (point - self.eye_m).normalize());
+        self.boxes.first(self.eye_in_world, space(from).normalize())
+    }
+
+    fn shows_near(&self, middle: DVec2, colour: [u8; 4]) -> bool {
+        let steps = || (-16..=16).map(|step| f64::from(step) / 16.0 * REACH);
+        steps().any(|down| steps().any(|right| self.colour(middle + DVec2::new(right, down)) == colour))
+    }
+}
+
+/// Shares of pixels of a channel that differ, and that show what is nowhere near.
+fn compare(picture: &RgbaImage, exact: &Exact<'_>) -> (f64, f64) {
+    let pixels: Vec<_> = picture.enumerate_pixels().collect();
+    let middle = |column: u32, row: u32| DVec2::new(f64::from(column), f64::from(row)) + 0.5;
+    let wrong: Vec<_> = pixels.par_iter().filter(|(x, y, pixel)| exact.colour(middle(*x, *y)) != pixel.0).collect();
+    let stray = wrong.par_iter().filter(|(x, y, pixel)| !exact.shows_near(middle(*x, *y), pixel.0)).count();
+    let share = |count: usize| count as f64 / pixels.len() as f64;
+    (share(wrong.len()), share(stray))
+}
+
+fn assert_walls(name: &str, coarser: u32, method: Method, scene: &Scene) {
+    let boxes = Boxes::of(&LATTICE, BACKGROUND);
+    let display = display(name, coarser);
+    let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
+    let occupants = [
+        Occupant { vehicle: vehicle(DVec3::ZERO), head: head(&display.viewer, DVec3::ZERO) },
+        Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::ZERO) },
+        Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::new(0.5, -0.1, 0.3)) },
+    ];
+    let pictures = drawn(&display, method, scene, &occupants);
+    for (occupant, pictures) in occupants.iter().zip(&pictures) {
+        let mut colours = std::collections::HashSet::new();
+        for (channel, picture) in display.channels.iter().zip(pictures) {
+            let exact = Exact::new(&boxes, &display, channel, occupant);
+            let (share, stray) = compare(picture, &exact);
+            let what = format!("{name} {} by {method:?}, head {}", channel.name, occupant.head.celerity.vector());
+            println!("{what}: {share:.5} differ, {stray:.6} stray");
+            assert!(share < SHARE_AT_MOST, "{what}: {share} of the pixels differ");
+            assert!(stray < 1e-4, "{what}: {stray} of the pixels show what is nowhere near");
+            colours.extend(picture.pixels().map(|pixel| pixel.0));
+        }
+        assert!(colours.len() >= 4, "{name}: {} colours are too few to compare", colours.len());
+    }
+}
+
+const MAP: Method = Method::Image(MapQuality { texels_per_pixel: 4.0, smooth: false });
+
+#[test]
+fn every_wall_of_a_cave_shows_what_each_eye_sees() {
+    assert_walls("cave4", 4, Method::Polygon, &REFINED);
+}
+
+#[test]
+fn every_wall_of_a_cave_shows_what_each_eye_sees_by_maps() {
+    assert_walls("cave4", 4, MAP, &LATTICE.build());
+}
+
+#[test]
+fn a_curved_screen_shows_what_the_eye_sees() {
+    assert_walls("curved", 3, Method::Polygon, &REFINED);
+}
+
+#[test]
+fn a_curved_screen_shows_what_the_eye_sees_by_maps() {
+    assert_walls("curved", 3, MAP, &LATTICE.build());
+}
+
+#[test]
+fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
+    let display = display("cave4", 4);
+    let fast = DVec3::new(-0.9, 0.4, -1.5);
+    let walking = Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::new(0.7, -0.2, 0.5)) };
+
+    // The same by one boost, at the same event.
+    let Occupant { vehicle, head } = walking;
+    let room_from_world = rotation(vehicle.orientation).inverse() * boost(fast);
+    let head_from_world = boost(head.celerity.vector()) * room_from_world;
+    let (celerity, room_from_boosted) = parts(head_from_world);
+    let orientation = room_from_boosted.inverse();
+    let event = four(vehicle.ct, vehicle.position) + room_from_world.inverse() * four(0.0, head.place_m);
+    let reference = event - boost(-celerity) * rotation(orientation) * four(0.0, head.place_m);
+    let reference = Event { ct: reference.x, position: space(reference) };
+    let at_rest = Head { celerity: Celerity::ZERO, ..head };
+    let one = Occupant { vehicle: State::new(reference, Celerity::new(celerity).unwrap(), orientation), head: at_rest };
+
+    let pictures = drawn(&display, Method::Polygon, &REFINED, &[walking, one]);
+    for (channel, (walking, one)) in display.channels.iter().zip(pictures[0].iter().zip(&pictures[1])) {
+        let differing = walking.pixels().zip(one.pixels()).filter(|(a, b)| a != b).count();
+        let share = differing as f64 / f64::from(walking.width() * walking.height());
+        println!("{}: {share:.6}", channel.name);
+        // A sixteenth-bit of rounding may take an outline across a pixel's middle, here and there.
+        assert!(share < 2e-4, "{}: {share} of the pixels differ", channel.name);
+    }
+}
