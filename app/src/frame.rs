@@ -4,7 +4,7 @@
 //! devices ─► samples ─► controls ─► vehicle: RK4 in proper time ─► worldline ─► observer ─► eye
 //!     ─► polygon: photo-surface of the scene (rayon, beside the render thread, into mapped buffers) ─► draw
 //!        image: map of the world around the eye ─► bend, pixel by pixel
-//!         ─► exposure, tone, gamut, curve of the screen ─► window
+//!         ─► exposure, tone, gamut, curve of the screen ─► window, or the windows of a room
 //! ```
 
 use crate::command::Latency;
@@ -19,17 +19,29 @@ use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer};
 use crate::simulation::Frame;
 use crate::views::Gaze;
+use crate::walls::{Head, Occupant, Walls};
 use crate::window::{Readings, RidePanel};
 use glam::DVec2;
 use input::{Action, SECOND};
 use std::collections::VecDeque;
 
+/// What a frame is drawn on.
+pub enum Canvas<'a> {
+    /// One flat picture, as the vehicle's driver sees it.
+    Picture {
+        /// What is drawn into.
+        target: &'a Radiance,
+        /// Vertical field of view, degrees.
+        fov: f64,
+    },
+    /// The surfaces of a room in the vehicle.
+    Room(&'a mut Walls),
+}
+
 /// Where a frame goes, and how it is drawn.
 pub struct Pictured<'a> {
-    /// What is drawn into.
-    pub target: &'a Radiance,
-    /// Vertical field of view, degrees.
-    pub fov: f64,
+    /// What is drawn on.
+    pub canvas: Canvas<'a>,
     /// What relativity does to the picture.
     pub effects: Effects,
     /// Whether the next photo-surface is worked out while this one is drawn.
@@ -47,6 +59,8 @@ pub struct Ride {
     shown: Option<Gaze>,
     /// Vertices that have no place in it.
     not_finite: usize,
+    /// That an eye is behind a screen.
+    behind: Option<String>,
     /// The newest frame.
     pub frame: Option<Frame>,
     /// How far from their places things are drawn in it.
@@ -68,6 +82,7 @@ impl Ride {
             under_way: VecDeque::new(),
             shown: None,
             not_finite: 0,
+            behind: None,
             frame: None,
             certainty: Certainty::default(),
             stored: Stored::UNSHIFTED,
@@ -80,7 +95,7 @@ impl Ride {
     ///
     /// # Errors
     /// A lost device, or a recording that cannot be replayed.
-    pub fn frame(&mut self, gpu: &Gpu, pictured: &Pictured<'_>) -> Result<Option<Vec<Action>>, Error> {
+    pub fn frame(&mut self, gpu: &Gpu, pictured: Pictured<'_>) -> Result<Option<Vec<Action>>, Error> {
         self.pace.begin();
 
         // Devices to observer: samples, controls, vehicle, worldline.
@@ -88,8 +103,17 @@ impl Ride {
         let newest = gaze(&frame)?;
         let actions = frame.controls.actions.clone();
         self.elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
+        let vehicle = *frame.vehicle.state();
         self.frame = Some(frame);
         self.pace.stage("ride");
+        let (target, fov) = match pictured.canvas {
+            Canvas::Picture { target, fov } => (target, fov),
+            Canvas::Room(walls) => {
+                let head = Head::at_rest(walls.display.viewer.head_m);
+                self.surround(gpu, walls, &Occupant { vehicle, head }, pictured.effects)?;
+                return Ok(Some(actions));
+            }
+        };
 
         // The photo-surface of the newest eye, on its own thread; shown is the oldest one that is ready by now.
         if self.renderer.transforms(pictured.effects) {
@@ -114,15 +138,32 @@ impl Ride {
         self.pace.stage("wait");
 
         // Draw it.
-        let shot = shot(&shown, pictured.fov, pictured.effects);
-        self.renderer.prepare(gpu, &shot, pictured.target.size);
+        let shot = shot(&shown, fov, pictured.effects);
+        self.renderer.prepare(gpu, &shot, target.size);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(gpu, &mut encoder, pictured.target, &shot, DVec2::ZERO);
+        self.renderer.draw(gpu, &mut encoder, target, &shot, DVec2::ZERO);
         gpu.queue.submit([encoder.finish()]);
         self.stored = self.renderer.stored(&shot);
-        self.certainty = self.renderer.certainty(&shot, pictured.target.size);
+        self.certainty = self.renderer.certainty(&shot, target.size);
         self.pace.stage("draw");
         Ok(Some(actions))
+    }
+
+    /// Draws every channel of a room, each eye's photo-surface beside the drawing of the one before.
+    fn surround(
+        &mut self,
+        gpu: &Gpu,
+        walls: &mut Walls,
+        occupant: &Occupant,
+        effects: Effects,
+    ) -> Result<(), Error> {
+        let drawn = walls.draw(gpu, &mut self.renderer, occupant, effects)?;
+        self.pace.transformed(drawn.transform);
+        self.not_finite = drawn.not_finite;
+        self.certainty = drawn.certainty;
+        self.behind = drawn.behind.first().map(|(channel, behind)| format!("{channel} is black: {behind}"));
+        self.pace.stage("draw");
+        Ok(())
     }
 
     /// What the display at the edges shows.
@@ -134,6 +175,7 @@ impl Ride {
         if self.not_finite > 0 {
             notices.push(format!("{} vertices are nowhere and not drawn", self.not_finite));
         }
+        notices.extend(self.behind.clone());
         notices.extend(self.certainty.notice());
         if frame.time_scale != 1.0 {
             notices.push(format!("own time × {:.2}", frame.time_scale));

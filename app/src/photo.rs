@@ -7,6 +7,7 @@ use crate::render::save;
 use crate::renderers::display::{Adaptation, Development};
 use crate::renderers::picture::Darkroom;
 use crate::renderers::target::Radiance;
+use crate::walls::Walls;
 
 /// Writes what an eye sees that is adapted to it into `photo-001.png`, or the next number, and says so.
 ///
@@ -23,4 +24,19 @@ pub fn take(
     let path = unused("photo", "png");
     save(&picture, &path)?;
     Ok(format!("photo: {}", path.display()))
+}
+
+/// The same of a room: a file for each of its windows.
+///
+/// # Errors
+/// As [`take`].
+pub fn take_room(gpu: &Gpu, walls: &mut Walls, development: &Development) -> Result<String, Error> {
+    let mut told = Vec::new();
+    for window in 0..walls.display.windows.len() {
+        let picture = walls.develop_window(gpu, window, development)?;
+        let path = unused("photo", "png");
+        save(&picture, &path)?;
+        told.push(path.display().to_string());
+    }
+    Ok(format!("photo: {}", told.join(", ")))
 }

@@ -68,6 +68,10 @@ pub struct RideOptions {
     /// How transforming and drawing share the time of a frame.
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
+    /// Show it on the surfaces of a room, in as many windows as that names: window, stereo-wall, cave4, cave6, curved, dome6, or a display
+    /// file (.toml, .mpcdi, .pvx).
+    #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
+    pub display: Option<String>,
     /// How the picture is drawn.
     #[command(flatten)]
     pub picture: PictureOptions,

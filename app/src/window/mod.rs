@@ -3,16 +3,18 @@
 //! winit calls us for each event; a redraw advances the ride by one frame ([`Ride::frame`]) and asks for the next. Keys
 //! go to the ride as samples, so that they are recorded like any device's; what only changes the picture (field of
 //! view, effects, panels) stays here. A window that cannot be drawn in for the moment (occluded, being resized) is
-//! skipped; a surface that was lost is made again.
+//! skipped; a surface that was lost is made again. A room with screens has a window, or several, for its channels; they are drawn together,
+//! and the first has the interface.
 
 mod hud;
 mod interface;
 mod keys;
+mod pane;
 mod panel;
 
 use crate::command::RideOptions;
 use crate::error::Error;
-use crate::frame::{Pictured, Ride};
+use crate::frame::{Canvas, Pictured, Ride};
 use crate::gpu::{Gpu, GpuError, descriptor};
 use crate::live::Live;
 use crate::photo;
@@ -23,10 +25,13 @@ use crate::renderers::choice::Choice;
 use crate::renderers::display::{Adaptation, Display, Seen, development};
 use crate::renderers::polygon::Pace;
 use crate::renderers::target::{Format, Radiance};
+use crate::room;
 use crate::scene::Scene;
+use crate::walls::{Quality, Walls};
 pub use hud::Readings;
 use input::{Action, Sample, Source};
 use interface::Interface;
+use pane::{Acquired, Pane};
 pub use panel::Ride as RidePanel;
 use panel::Settings;
 use std::sync::Arc;
@@ -81,16 +86,21 @@ struct Application {
     failed: Option<Error>,
 }
 
-/// An open window and all that draws in it.
+/// What the windows show.
+enum Scenery {
+    /// One picture, in the only window.
+    Picture { radiance: Radiance, display: Box<Display>, adaptation: Adaptation },
+    /// A room's channels, in as many windows as it names.
+    Room(Box<Walls>),
+}
+
+/// Open windows and all that draws in them.
 struct Open {
     gpu: Gpu,
-    window: Arc<Window>,
-    surface: wgpu::Surface<'static>,
-    configuration: wgpu::SurfaceConfiguration,
-    radiance: Radiance,
+    /// The first one has the interface.
+    panes: Vec<Pane>,
+    scenery: Scenery,
     format: Format,
-    display: Display,
-    adaptation: Adaptation,
     interface: Interface,
     settings: Settings,
     ride: Ride,
@@ -103,7 +113,7 @@ impl ApplicationHandler for Application {
         if let Some((scene, live)) = self.waiting.take() {
             match Open::new(events, &self.options, scene, live) {
                 Ok(open) => {
-                    open.window.request_redraw();
+                    open.panes[0].window.request_redraw();
                     self.open = Some(open);
                 }
                 Err(error) => self.fail(events, error),
@@ -111,9 +121,9 @@ impl ApplicationHandler for Application {
         }
     }
 
-    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+    fn window_event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) {
         let Some(open) = &mut self.open else { return };
-        match open.event(events, event) {
+        match open.event(events, window, event) {
             Ok(()) => {}
             Err(error) => self.fail(events, error),
         }
@@ -129,25 +139,38 @@ impl Application {
 
 impl Open {
     fn new(events: &ActiveEventLoop, options: &RideOptions, scene: Scene, live: Begin) -> Result<Self, Error> {
-        let [width, height] = options.picture.size;
-        let attributes = Window::default_attributes()
-            .with_title(format!("Rapidity: {}", scene.name))
-            .with_inner_size(PhysicalSize::new(width, height));
-        let window = Arc::new(events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?);
+        let display = options.display.as_deref().map(room::Display::named_or_file).transpose()?;
+        let title = format!("Rapidity: {}", scene.name);
+        let attributes = match &display {
+            Some(display) => {
+                display.notices.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
+                display.windows.iter().map(|place| pane::attributes(events, place, &title)).collect()
+            }
+            None => {
+                let [width, height] = options.picture.size;
+                let size = PhysicalSize::new(width, height);
+                vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
+            }
+        };
+        let mut windows = Vec::new();
+        for attributes in attributes {
+            let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
+            windows.push(Arc::new(window));
+        }
 
-        // The surface decides which device can draw in it.
+        // The first surface decides which device can draw in it.
         let instance = wgpu::Instance::new(descriptor());
-        let surface =
-            instance.create_surface(Arc::clone(&window)).map_err(|error| GpuError::NoAdapter(error.to_string()))?;
-        let gpu = Gpu::with_instance(instance, Some(&surface))?;
-        let size = window.inner_size();
-        let mut configuration = surface
-            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
-            .ok_or_else(|| GpuError::NoAdapter("the window's surface has no format".to_owned()))?;
-        configuration.present_mode = wgpu::PresentMode::AutoVsync;
-        // The interface mixes colours as they are encoded, so the surface must not encode once more.
-        configuration.format = configuration.format.remove_srgb_suffix();
-        surface.configure(&gpu.device, &configuration);
+        let surface_of = |instance: &wgpu::Instance, window: &Arc<Window>| {
+            instance.create_surface(Arc::clone(window)).map_err(|error| GpuError::NoAdapter(error.to_string()))
+        };
+        let first = surface_of(&instance, &windows[0])?;
+        let gpu = Gpu::with_instance(instance, Some(&first))?;
+        let mut panes = vec![Pane::new(&gpu, Arc::clone(&windows[0]), first, true)?];
+        for window in &windows[1..] {
+            // One wait a frame is enough.
+            panes.push(Pane::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?, false)?);
+        }
+        let screen_format = panes[0].configuration.format;
 
         let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
         let format = Format::fast(samples);
@@ -160,11 +183,20 @@ impl Open {
         let renderer = SceneRenderer::new(&gpu, &scene, format, options.picture.background, method)?;
         gpu.wait()?;
         spinner.finish_and_clear();
-        let interface = Interface::new(&gpu, &window, configuration.format);
+        let interface = Interface::new(&gpu, &panes[0].window, screen_format);
+        let scenery = match display {
+            Some(display) => {
+                let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
+                Scenery::Room(Box::new(Walls::new(&gpu, display, quality, screen_format)))
+            }
+            None => Scenery::Picture {
+                radiance: Radiance::new(&gpu, panes[0].size(), format),
+                display: Box::new(Display::new(&gpu, format.colour, screen_format)),
+                adaptation: Adaptation::new(&gpu),
+            },
+        };
         Ok(Self {
-            radiance: Radiance::new(&gpu, [configuration.width, configuration.height], format),
-            display: Display::new(&gpu, format.colour, configuration.format),
-            adaptation: Adaptation::new(&gpu),
+            scenery,
             settings: Settings {
                 open: false,
                 help: false,
@@ -177,19 +209,18 @@ impl Open {
             ride: Ride::new(renderer, live()?),
             stop: interrupted(),
             gpu,
-            window,
-            surface,
-            configuration,
+            panes,
             format,
             interface,
         })
     }
 
-    fn event(&mut self, events: &ActiveEventLoop, event: WindowEvent) -> Result<(), Error> {
-        let taken = self.interface.event(&self.window, &event);
+    fn event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) -> Result<(), Error> {
+        let Some(pane) = self.panes.iter().position(|pane| pane.window.id() == window) else { return Ok(()) };
+        let taken = pane == 0 && self.interface.event(&self.panes[0].window, &event);
         match event {
             WindowEvent::CloseRequested => events.exit(),
-            WindowEvent::Resized(size) => self.resize(size),
+            WindowEvent::Resized(size) => self.resize(pane, size),
             WindowEvent::Focused(false) => self.ride.live.say(|at| Sample::closed(at, Source::Keyboard)),
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => {
                 if let PhysicalKey::Code(code) = event.physical_key {
@@ -203,9 +234,10 @@ impl Open {
                     }
                 }
             }
-            WindowEvent::RedrawRequested => {
+            // All windows are drawn together.
+            WindowEvent::RedrawRequested if pane == 0 => {
                 if self.frame()? {
-                    self.window.request_redraw();
+                    self.panes[0].window.request_redraw();
                 } else {
                     events.exit();
                 }
@@ -239,8 +271,9 @@ impl Open {
             KeyCode::BracketLeft => self.expose(-STOPS_PER_PRESS),
             KeyCode::BracketRight => self.expose(STOPS_PER_PRESS),
             KeyCode::F11 => {
-                let full = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
-                self.window.set_fullscreen(full);
+                for Pane { window, .. } in &self.panes {
+                    window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
+                }
             }
             _ => {}
         }
@@ -253,13 +286,12 @@ impl Open {
         self.ride.live.tell(format!("exposure: {exposure}"));
     }
 
-    fn resize(&mut self, size: PhysicalSize<u32>) {
-        if size.width == 0 || size.height == 0 {
-            return;
+    fn resize(&mut self, pane: usize, size: PhysicalSize<u32>) {
+        if self.panes[pane].resize(&self.gpu, size)
+            && let Scenery::Picture { radiance, .. } = &mut self.scenery
+        {
+            *radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
         }
-        (self.configuration.width, self.configuration.height) = (size.width, size.height);
-        self.surface.configure(&self.gpu.device, &self.configuration);
-        self.radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
     }
 
     /// One frame that nobody sees: the ride goes on all the same.
@@ -274,74 +306,92 @@ impl Open {
         if self.stop.load(Ordering::Relaxed) {
             return Ok(false);
         }
-        use wgpu::CurrentSurfaceTexture as Current;
-        let texture = match self.surface.get_current_texture() {
-            Current::Success(texture) | Current::Suboptimal(texture) => texture,
-            Current::Lost => {
-                self.surface = self
-                    .gpu
-                    .instance
-                    .create_surface(Arc::clone(&self.window))
-                    .map_err(|error| GpuError::Lost(error.to_string()))?;
-                self.resize(self.window.inner_size());
-                return self.unseen();
+        // A window that cannot be drawn in for the moment is left out.
+        let mut screens = Vec::new();
+        for pane in 0..self.panes.len() {
+            match self.panes[pane].acquire(&self.gpu)? {
+                Acquired::Texture(texture) => screens.push((pane, texture)),
+                Acquired::Resize(size) => self.resize(pane, size),
+                Acquired::Nothing => {}
             }
-            Current::Outdated => {
-                self.resize(self.window.inner_size());
-                return self.unseen();
-            }
-            Current::Timeout | Current::Occluded | Current::Validation => return self.unseen(),
-        };
-        let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        }
+        if screens.is_empty() {
+            return self.unseen();
+        }
 
         // Devices to light, on one page: frame.rs.
-        let look = Pictured {
-            target: &self.radiance,
-            fov: self.settings.fov,
-            effects: self.settings.effects,
-            latency: self.settings.latency,
+        let canvas = match &mut self.scenery {
+            Scenery::Picture { radiance, .. } => Canvas::Picture { target: radiance, fov: self.settings.fov },
+            Scenery::Room(walls) => Canvas::Room(walls),
         };
-        let Some(events) = self.ride.frame(&self.gpu, &look)? else { return Ok(false) };
+        let look = Pictured { canvas, effects: self.settings.effects, latency: self.settings.latency };
+        let Some(events) = self.ride.frame(&self.gpu, look)? else { return Ok(false) };
 
         // The eye adapts to it.
         let development = self.settings.development;
-        let seen = Seen { radiance: self.radiance.result(), stored: self.ride.stored, elapsed_s: self.ride.elapsed_s };
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.display.adapt(&self.gpu, &mut encoder, &mut self.adaptation, &seen, &development);
-        self.gpu.queue.submit([encoder.finish()]);
+        let elapsed_s = self.ride.elapsed_s;
+        match &mut self.scenery {
+            Scenery::Picture { radiance, display, adaptation } => {
+                let seen = Seen { radiance: radiance.result(), stored: self.ride.stored, elapsed_s };
+                let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+                display.adapt(&self.gpu, &mut encoder, adaptation, &seen, &development);
+                self.gpu.queue.submit([encoder.finish()]);
+            }
+            Scenery::Room(walls) => walls.adapt(&self.gpu, &development, elapsed_s),
+        }
 
         for action in events {
             match action {
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
-                    let taken = photo::take(&self.gpu, &self.radiance, &self.adaptation, &development);
+                    let taken = match &mut self.scenery {
+                        Scenery::Picture { radiance, adaptation, .. } => {
+                            photo::take(&self.gpu, radiance, adaptation, &development)
+                        }
+                        Scenery::Room(walls) => photo::take_room(&self.gpu, walls, &development),
+                    };
                     self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
                 }
                 _ => {}
             }
         }
 
-        // Light to the window, and the display over it.
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let radiance = self.radiance.result();
-        self.display.show(&self.gpu, &mut encoder, radiance, &self.adaptation, &development, &screen);
+        // Light to the windows, and the interface over the first.
         let readings = self.ride.readings();
         let panel = self.ride.panel(&self.gpu);
         let settings = &mut self.settings;
         let mut wanted = Vec::new();
-        let size = [texture.texture.width(), texture.texture.height()];
-        self.interface.draw(&self.gpu, &self.window, &mut encoder, &screen, size, |ui| {
-            if settings.readings {
-                hud::show(ui, &readings);
+        for (pane, texture) in &screens {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+            let window = &self.panes[*pane].window;
+            match &mut self.scenery {
+                Scenery::Picture { radiance, display, adaptation } => {
+                    display.show(&self.gpu, &mut encoder, radiance.result(), adaptation, &development, &screen);
+                }
+                Scenery::Room(walls) => {
+                    let first_pixel = window.inner_position().map_or([0, 0], |place| [place.x, place.y]);
+                    walls.show_window(&self.gpu, &mut encoder, *pane, &development, &screen, first_pixel);
+                }
             }
-            wanted.extend(panel::show(ui, settings, &panel));
-        });
+            if *pane == 0 {
+                let size = [texture.texture.width(), texture.texture.height()];
+                self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
+                    if settings.readings {
+                        hud::show(ui, &readings);
+                    }
+                    wanted.extend(panel::show(ui, settings, &panel));
+                });
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+        }
         for action in wanted {
             self.ride.live.say(|at| Sample::action(at, &action));
         }
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.queue.present(texture);
+        for (_, texture) in screens {
+            self.gpu.queue.present(texture);
+        }
         self.ride.pace.stage("show");
         Ok(true)
     }
