@@ -22,16 +22,24 @@ mod error;
 pub mod file;
 mod frustum;
 mod gains;
+mod grid_file;
+mod maps;
+mod net;
+mod pfm;
+pub mod projector;
 pub mod surface;
 mod viewer;
+mod warp;
 mod window;
 
 pub use channel::{Channel, Part};
 pub use error::{At, DisplayError};
 pub use frustum::{EyeBehind, Frustum, frustum};
-pub use gains::Gains;
-pub use surface::{Flat, Hit, Surface};
+pub use gains::{Gains, Map, Reflection};
+pub use projector::{Lens, Projector};
+pub use surface::{Cylinder, Flat, Hit, Mesh, Sphere, Surface};
 pub use viewer::{Eye, Viewer};
+pub use warp::{Corners, Measured, Warp};
 pub use window::{Combine, Monitor, WindowPlace};
 
 use glam::{DMat3, DVec3};
@@ -46,6 +54,8 @@ pub struct Display {
     pub viewer: Viewer,
     /// Surfaces in the room.
     pub screens: Vec<Screen>,
+    /// What throws light on them, where that matters.
+    pub projectors: Vec<Projector>,
     /// Windows on monitors.
     pub windows: Vec<WindowPlace>,
     /// What each shows: indices in it are good, viewports lie in their windows.
@@ -63,6 +73,8 @@ pub struct Screen {
     pub name: String,
     /// Where it is.
     pub surface: Surface,
+    /// How it sends back projectors' light.
+    pub reflection: Reflection,
 }
 
 impl Display {

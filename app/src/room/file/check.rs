@@ -48,6 +48,11 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
     let surface = &display.screens[channel.screen].surface;
     let eye_m = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let uv = channel.part.uv(DVec2::splat(0.5));
-    let distance_m = (eye_m - surface.point(uv)).dot(surface.normal(uv));
+    // Of a projector's channel, the middle of what it lights.
+    let uv = match channel.projector {
+        Some(_) => surface.uv(channel.point(display, DVec2::splat(0.5))?)?,
+        None => uv,
+    };
+    let distance_m = (eye_m - surface.point(uv)?).dot(surface.normal(uv)?);
     (distance_m <= 0.0).then_some(EyeBehind { eye_m, distance_m })
 }

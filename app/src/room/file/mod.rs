@@ -4,6 +4,7 @@
 
 mod channels;
 mod check;
+mod projectors;
 mod schema;
 mod screens;
 mod text;
@@ -46,12 +47,16 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
     let viewer = viewer(&text, file.viewer.as_ref())?;
     let screens = screens::resolve(&text, &file.screen, folder)?;
     let windows = windows(&text, &file.window)?;
-    let channels = channels::resolve(&text, &file, &screens, &windows)?;
+    let projectors = projectors::resolve(&text, &file.projector, folder)?;
+    let channels =
+        channels::Resolver { text: &text, screens: &screens, projectors: &projectors, windows: &windows, folder }
+            .resolve(&file.channel)?;
     let notices = channels::notices(&windows, &channels);
     let display = Display {
         name: file.name.clone().unwrap_or_default(),
         viewer,
         screens,
+        projectors,
         windows,
         channels,
         tracker: file.tracker.clone(),
