@@ -83,10 +83,17 @@ impl Channel {
 
     /// The place in the viewport that lights a point of the screen, if one does: [`point`](Self::point) backwards.
     pub fn place(&self, display: &Display, point: DVec3) -> Option<DVec2> {
-        let screen = &display.screens[self.screen];
+        let surface = &display.screens[self.screen].surface;
+        let uv = if self.projector.is_none() { surface.uv(point)? } else { DVec2::ZERO };
+        self.place_of(display, uv, point)
+    }
+
+    /// As [`place`](Self::place), of a point whose place on the surface is known.
+    pub(super) fn place_of(&self, display: &Display, uv: DVec2, point: DVec3) -> Option<DVec2> {
+        let surface = &display.screens[self.screen].surface;
         let picture = match self.projector(display) {
-            Some(projector) => projector.lit_place(&screen.surface, point)?,
-            None => self.part.place(screen.surface.uv(point)?),
+            Some(projector) => projector.lit_place(surface, point)?,
+            None => self.part.place(uv),
         };
         self.viewport_of_picture(picture)
     }

@@ -1,6 +1,6 @@
 //! The room around the viewer: which surfaces show which part of the world, for which eye, in which window.
 //!
-//! A [`Display`] is plain data, made from a TOML file ([`file`]), from a built-in one ([`built_in`]), or imported ([`mpcdi`], [`pvx`]).
+//! A [`Display`] is plain data, made from a TOML file ([`file`]), from a built-in one ([`built_in`]), or imported (MPCDI, ParaView's `.pvx`: [`Display::load`]).
 //! It lists *screens* (surfaces in the room), *windows* (pixels of a monitor), *projectors* and *channels*. A channel shows one screen to
 //! one eye in a rectangle of a window. It is at heart a map
 //!
@@ -23,10 +23,12 @@ pub mod file;
 mod frustum;
 mod gains;
 mod grid_file;
+mod import;
 mod maps;
 mod net;
 mod pfm;
 pub mod projector;
+mod report;
 pub mod surface;
 mod viewer;
 mod warp;
@@ -78,12 +80,12 @@ pub struct Screen {
 }
 
 impl Display {
-    /// Reads a display file: `.toml`.
+    /// Reads a display file: `.toml`, or one of another program: `.pvx`, `.mpcdi`, `.mpcdi.xml`.
     ///
     /// # Errors
     /// [`DisplayError`] with file, line, key and reason.
     pub fn load(path: &Path) -> Result<Self, DisplayError> {
-        file::load(path)
+        if import::is_imported(path) { import::load(path) } else { file::load(path) }
     }
 
     /// A display that comes with the program, by one of [`built_in::NAMES`].
@@ -104,6 +106,13 @@ impl Display {
             return Self::load(path);
         }
         Err(DisplayError::NoSuch { name: name.to_owned() })
+    }
+}
+
+impl std::fmt::Display for Display {
+    /// What `rapidity check` says of it.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        report::write(self, f)
     }
 }
 

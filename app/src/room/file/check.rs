@@ -1,20 +1,11 @@
 //! What only the whole display can show: pixels that two channels want, eyes behind their screens.
 
-use super::schema::File;
-use super::text::Text;
 use crate::room::frustum::EyeBehind;
 use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
-/// Compares everything with everything.
-pub(super) fn check(text: &Text<'_>, file: &File, display: &Display) -> Result<(), DisplayError> {
-    let at = |index: usize, key: &str| {
-        text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
-    };
-    if display.channels.is_empty() {
-        let at = At { file: text.name.into(), line: None, key: String::new() };
-        return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
-    }
+/// Compares everything with everything; `at` says where a key of a channel is.
+pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> At) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;

@@ -9,7 +9,7 @@ mod schema;
 mod screens;
 mod text;
 
-use super::{Combine, Display, DisplayError, Monitor, Viewer, WindowPlace};
+use super::{At, Combine, Display, DisplayError, Monitor, Viewer, WindowPlace};
 use glam::DVec3;
 use schema::File;
 use std::path::Path;
@@ -62,8 +62,26 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
         tracker: file.tracker.clone(),
         notices,
     };
-    check::check(&text, &file, &display)?;
+    if display.channels.is_empty() {
+        let at = At { file: text.name.into(), line: None, key: String::new() };
+        return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
+    }
+    check::check(&display, &|index, key| {
+        text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
+    })?;
     Ok(display)
+}
+
+/// What is asked of a written display, of an imported one.
+///
+/// # Errors
+/// [`DisplayError`].
+pub(super) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
+    check::check(display, &|index, _| At {
+        file: name.to_owned(),
+        line: None,
+        key: format!("channel {:?}", display.channels[index].name),
+    })
 }
 
 /// Names are unique, and not empty.
