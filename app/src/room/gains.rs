@@ -18,6 +18,7 @@ pub struct Gains {
     /// Width and height, pixels.
     pub size: [u32; 2],
     /// What light is multiplied by, 0 to 1, row by row from the upper left: brightness correction × blending × the channel's own map.
+    /// Of pixels that light nothing it says nothing: it is not their black.
     pub factors: Vec<f32>,
     /// What is then added, so that dark parts look alike where projectors' black levels add up; `None`: nothing.
     pub lifts: Option<Vec<f32>>,
@@ -149,22 +150,37 @@ pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Opt
         Some((weight * target / group.delivered(projector, picture, point, normal)?).min(1.0))
     };
 
-    // Row by row, each on its own.
+    // Each pixel on its own; NaN: it lights nothing.
     let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
     let place = |index: usize| {
         let (x, y) = (index % size[0] as usize, index / size[0] as usize);
         (DVec2::new(x as f64, y as f64) + 0.5) / pixels
     };
     let count = size[0] as usize * size[1] as usize;
+    let lit: Vec<f32> =
+        (0..count).into_par_iter().map(|index| factor(place(index)).map_or(f32::NAN, |f| f as f32)).collect();
+
     let beta = |place: DVec2| channel.beta.as_ref().map_or(0.0, |map| map.at(place));
     let alpha = |place: DVec2| channel.alpha.as_ref().map_or(1.0, |map| map.at(place));
-    let factors = (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let place = place(index);
-            factor(place).unwrap_or(0.0) as f32 * alpha(place) * (1.0 - beta(place))
-        })
-        .collect();
+    let own = |index: usize| alpha(place(index)) * (1.0 - beta(place(index)));
+    let factors = (0..count).map(|index| continued(&lit, size, index) * own(index)).collect();
     let lifts = channel.beta.is_some().then(|| (0..count).map(|index| beta(place(index))).collect());
     Some(Gains { size, factors, lifts })
+}
+
+/// The factor of a pixel; of one that lights nothing, the mean of those beside it that do: between pixel centres, the last that is lit is then not
+/// mixed with black.
+fn continued(lit: &[f32], [width, height]: [u32; 2], index: usize) -> f32 {
+    if !lit[index].is_nan() {
+        return lit[index];
+    }
+    let (width, height) = (width as usize, height as usize);
+    let (x, y) = (index % width, index / width);
+    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+    let beside = near(y, height).flat_map(|row| near(x, width).map(move |column| row * width + column));
+    let (count, sum) = beside
+        .map(|index| lit[index])
+        .filter(|factor| !factor.is_nan())
+        .fold((0.0_f32, 0.0), |(count, sum), factor| (count + 1.0, sum + factor));
+    if count > 0.0 { sum / count } else { 0.0 }
 }

@@ -109,6 +109,11 @@ impl Display {
     }
 }
 
+/// Whether a file is a display, by its ending.
+pub fn is_display(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) || import::is_imported(path)
+}
+
 impl std::fmt::Display for Display {
     /// What `rapidity check` says of it.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

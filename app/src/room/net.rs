@@ -15,13 +15,13 @@ pub(super) struct Within {
 }
 
 impl Within {
-    /// What the corners' values come to here.
+    /// What the corners' values come to here. A corner without weight does not count, even if its value is unknown.
     pub fn mix<T>(&self, values: &[T]) -> T
     where
-        T: Copy + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+        T: Copy + Default + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
     {
-        let [a, b, c] = self.corners.map(|corner| values[corner as usize]);
-        a * self.weights.x + b * self.weights.y + c * self.weights.z
+        let weighted = self.corners.iter().zip(self.weights.to_array()).filter(|(_, weight)| *weight != 0.0);
+        weighted.fold(T::default(), |sum, (&corner, weight)| sum + values[corner as usize] * weight)
     }
 }
 
