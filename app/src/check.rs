@@ -1,7 +1,8 @@
-//! `rapidity check`: is this scene or recording good, and what is wrong with it?
+//! `rapidity check`: is this scene, display or recording good, and what is wrong with it?
 
 use crate::command::CheckOptions;
 use crate::error::Error;
+use crate::room::{self, Display};
 use crate::scene::{self, panorama};
 use input::recording::{Entry, Recording, RecordingError};
 use std::io::Write;
@@ -29,6 +30,7 @@ fn report(path: &Path) -> Result<String, Error> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("gltf" | "glb") => Ok(scene::check::check(path)?.to_string()),
         Some("mcap") => Ok(recording(path)?),
+        _ if room::is_display(path) => Ok(Display::load(path)?.to_string()),
         _ if panorama::is_picture(path) => Ok(scene::check::check(path)?.to_string()),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }

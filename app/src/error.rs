@@ -50,6 +50,9 @@ pub enum Error {
     /// A scene that `rapidity check` refuses.
     #[error(transparent)]
     Check(#[from] crate::scene::check::CheckError),
+    /// No display, or one with a flaw.
+    #[error(transparent)]
+    Display(#[from] crate::room::DisplayError),
     /// A file that could not be exported.
     #[error(transparent)]
     Export(#[from] crate::scene::export::ExportError),
@@ -86,7 +89,7 @@ pub enum Error {
         files: usize,
     },
     /// A file that nothing here reads.
-    #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .hdr, .exr) nor a recording (.mcap)", path.display())]
+    #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .hdr, .exr), a display (.toml, .pvx, .mpcdi) nor a recording (.mcap)", path.display())]
     UnknownKind {
         /// The file.
         path: PathBuf,

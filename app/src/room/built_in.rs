@@ -4,10 +4,17 @@ use super::{Display, file};
 use std::path::Path;
 
 /// Their names.
-pub const NAMES: [&str; 2] = ["window", "stereo-wall"];
+pub const NAMES: [&str; 6] = ["window", "stereo-wall", "cave4", "cave6", "curved", "dome6"];
 
 /// Their files.
-const TEXTS: [&str; 2] = [include_str!("../../displays/window.toml"), include_str!("../../displays/stereo-wall.toml")];
+const TEXTS: [&str; 6] = [
+    include_str!("../../displays/window.toml"),
+    include_str!("../../displays/stereo-wall.toml"),
+    include_str!("../../displays/cave4.toml"),
+    include_str!("../../displays/cave6.toml"),
+    include_str!("../../displays/curved.toml"),
+    include_str!("../../displays/dome6.toml"),
+];
 
 /// A built-in display's file, by one of [`NAMES`].
 pub fn text(name: &str) -> Option<&'static str> {

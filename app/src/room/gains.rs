@@ -1,12 +1,186 @@
-//! How bright each pixel may be: what makes several projectors' light one even picture.
+//! How bright each pixel may be: what makes several projectors' light one even picture (B 4.2, 5.1.6).
+//!
+//! Projector p delivers to a point X the luminance `L_p` (B eq. 4.5), at full white. It is given the share `w_p` of the light there, `Σ w = 1`,
+//! and its pixel the factor `w_p · T / L_p` with one target T for the whole screen: the sum of factor times delivered luminance
+//! is then T everywhere. T is as large as it can be without a factor above 1.
+
+use super::projector::Projector;
+use super::{Channel, Display, Eye, Screen};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// The target is looked for at this many places along and across each picture.
+const PROBES: u32 = 65;
 
 /// Factors of a channel's pixels, in linear light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gains {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// What light is multiplied by, 0 to 1, row by row from the upper left: brightness correction × blending (B 4.2, 5.1.6).
+    /// What light is multiplied by, 0 to 1, row by row from the upper left: brightness correction × blending × the channel's own map.
+    /// Of pixels that light nothing it says nothing: it is not their black.
     pub factors: Vec<f32>,
     /// What is then added, so that dark parts look alike where projectors' black levels add up; `None`: nothing.
     pub lifts: Option<Vec<f32>>,
+}
+
+/// A measured map of a channel's pixels: linear light, 0 to 1, as large as it likes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Row by row from the upper left.
+    pub values: Vec<f32>,
+}
+
+impl Map {
+    /// The value at a place of the viewport, bilinear between the centres of its pixels.
+    pub fn at(&self, place: DVec2) -> f32 {
+        let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+        let scaled = (place * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
+        let (low, part) = (scaled.floor(), scaled.fract());
+        let high = (low + 1.0).min(size - 1.0);
+        let value = |x: f64, y: f64| f64::from(self.values[y as usize * self.size[0] as usize + x as usize]);
+        let above = value(low.x, low.y) * (1.0 - part.x) + value(high.x, low.y) * part.x;
+        let below = value(low.x, high.y) * (1.0 - part.x) + value(high.x, high.y) * part.x;
+        (above * (1.0 - part.y) + below * part.y) as f32
+    }
+}
+
+/// How a screen sends back light.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reflection {
+    /// Share of the light that goes into a lobe round the mirror's direction; the rest is ideally diffuse. 0 for a matt screen.
+    pub gloss: f64,
+    /// How narrow the lobe is: it falls as the cosine to this power.
+    pub exponent: f64,
+}
+
+impl Reflection {
+    /// B(θ_P, θ_B) of B eq. 4.5, per steradian: what share of the light that falls on a point the viewer gets.
+    ///
+    /// *Equation.* Lambert's 1/π and a normalised Phong lobe, (n + 1)/2π · cosⁿ of the angle to the mirror's direction.
+    pub fn toward(&self, to_projector: DVec3, to_viewer: DVec3, normal: DVec3) -> f64 {
+        use std::f64::consts::{FRAC_1_PI, TAU};
+        if self.gloss == 0.0 {
+            return FRAC_1_PI;
+        }
+        let mirror = 2.0 * to_projector.dot(normal) * normal - to_projector;
+        let cosine = mirror.normalize().dot(to_viewer.normalize()).max(0.0);
+        let lobe = (self.exponent + 1.0) / TAU * cosine.powf(self.exponent);
+        (1.0 - self.gloss) * FRAC_1_PI + self.gloss * lobe
+    }
+}
+
+/// Projectors whose pictures are one: those of one eye on one screen.
+struct Group<'a> {
+    screen: &'a Screen,
+    viewer_m: DVec3,
+    members: Vec<(&'a Channel, &'a Projector)>,
+}
+
+impl<'a> Group<'a> {
+    fn of(display: &'a Display, screen: usize, eye: Eye) -> Self {
+        let members = display
+            .channels
+            .iter()
+            .filter(|channel| channel.screen == screen && channel.eye == eye)
+            .filter_map(|channel| Some((channel, channel.projector(display)?)))
+            .collect();
+        Self { screen: &display.screens[screen], viewer_m: display.viewer.head_m, members }
+    }
+
+    /// Luminance toward the viewer of a projector's white.
+    fn delivered(&self, projector: &Projector, place: DVec2, point: DVec3, normal: DVec3) -> Option<f64> {
+        let to_projector = projector.position_m - point;
+        let reflected = self.screen.reflection.toward(to_projector, self.viewer_m - point, normal);
+        Some(projector.illuminance(place, point, normal)? * reflected).filter(|light| light.is_finite() && *light > 0.0)
+    }
+
+    /// The share of one channel in the light at a point that it shows at `viewport`.
+    fn weight(&self, channel: &Channel, projector: &Projector, viewport: DVec2, point: DVec3) -> f64 {
+        if !projector.blend {
+            return 1.0;
+        }
+        let own = channel.ramp(viewport);
+        let others = self.members.iter().filter(|(other, projector)| other.name != channel.name && projector.blend);
+        let ramps = others.filter_map(|(other, projector)| {
+            let picture = projector.lit_place(&self.screen.surface, point)?;
+            Some(other.ramp(other.viewport_of_picture(picture)?))
+        });
+        let (count, sum) = ramps.fold((1.0, own), |(count, sum), ramp| (count + 1.0, sum + ramp));
+        // On the very edge of all pictures, all ramps are 0.
+        if sum > 0.0 { own / sum } else { 1.0 / count }
+    }
+
+    /// The brightest luminance that all members together can bring to every place they reach.
+    fn target(&self) -> f64 {
+        let places: Vec<DVec2> = (0..PROBES * PROBES)
+            .map(|probe| DVec2::new(f64::from(probe % PROBES), f64::from(probe / PROBES)) / f64::from(PROBES - 1))
+            .collect();
+        let limit = |&(channel, projector): &(&Channel, &Projector), viewport: DVec2| {
+            let (picture, point, normal) = channel.lit(self.screen, projector, viewport)?;
+            let weight = self.weight(channel, projector, viewport, point);
+            Some(self.delivered(projector, picture, point, normal)? / weight)
+        };
+        self.members
+            .iter()
+            .filter(|(_, projector)| projector.even)
+            .flat_map(|member| places.par_iter().filter_map(|&place| limit(member, place)).collect::<Vec<_>>())
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The factors of a channel; `None`: all are 1.
+pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Option<Gains> {
+    let projector = channel.projector(display);
+    let group = Group::of(display, channel.screen, channel.eye);
+    let alone = projector.is_none_or(|projector| !projector.even && (!projector.blend || group.members.len() == 1));
+    if alone && channel.alpha.is_none() && channel.beta.is_none() {
+        return None;
+    }
+    let target = if projector.is_some_and(|projector| projector.even) { group.target() } else { 1.0 };
+    let factor = |viewport: DVec2| -> Option<f64> {
+        let Some(projector) = projector else { return Some(1.0) };
+        let (picture, point, normal) = channel.lit(group.screen, projector, viewport)?;
+        let weight = group.weight(channel, projector, viewport, point);
+        if !projector.even {
+            return Some(weight);
+        }
+        Some((weight * target / group.delivered(projector, picture, point, normal)?).min(1.0))
+    };
+
+    // Each pixel on its own; NaN: it lights nothing.
+    let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+    let place = |index: usize| {
+        let (x, y) = (index % size[0] as usize, index / size[0] as usize);
+        (DVec2::new(x as f64, y as f64) + 0.5) / pixels
+    };
+    let count = size[0] as usize * size[1] as usize;
+    let lit: Vec<f32> =
+        (0..count).into_par_iter().map(|index| factor(place(index)).map_or(f32::NAN, |f| f as f32)).collect();
+
+    let beta = |place: DVec2| channel.beta.as_ref().map_or(0.0, |map| map.at(place));
+    let alpha = |place: DVec2| channel.alpha.as_ref().map_or(1.0, |map| map.at(place));
+    let own = |index: usize| alpha(place(index)) * (1.0 - beta(place(index)));
+    let factors = (0..count).map(|index| continued(&lit, size, index) * own(index)).collect();
+    let lifts = channel.beta.is_some().then(|| (0..count).map(|index| beta(place(index))).collect());
+    Some(Gains { size, factors, lifts })
+}
+
+/// The factor of a pixel; of one that lights nothing, the mean of those beside it that do: between pixel centres, the last that is lit is then not
+/// mixed with black.
+fn continued(lit: &[f32], [width, height]: [u32; 2], index: usize) -> f32 {
+    if !lit[index].is_nan() {
+        return lit[index];
+    }
+    let (width, height) = (width as usize, height as usize);
+    let (x, y) = (index % width, index / width);
+    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+    let beside = near(y, height).flat_map(|row| near(x, width).map(move |column| row * width + column));
+    let (count, sum) = beside
+        .map(|index| lit[index])
+        .filter(|factor| !factor.is_nan())
+        .fold((0.0_f32, 0.0), |(count, sum), factor| (count + 1.0, sum + factor));
+    if count > 0.0 { sum / count } else { 0.0 }
 }

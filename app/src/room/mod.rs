@@ -1,6 +1,6 @@
 //! The room around the viewer: which surfaces show which part of the world, for which eye, in which window.
 //!
-//! A [`Display`] is plain data, made from a TOML file ([`file`]), from a built-in one ([`built_in`]), or imported ([`mpcdi`], [`pvx`]).
+//! A [`Display`] is plain data, made from a TOML file ([`file`]), from a built-in one ([`built_in`]), or imported (MPCDI, ParaView's `.pvx`: [`Display::load`]).
 //! It lists *screens* (surfaces in the room), *windows* (pixels of a monitor), *projectors* and *channels*. A channel shows one screen to
 //! one eye in a rectangle of a window. It is at heart a map
 //!
@@ -22,16 +22,26 @@ mod error;
 pub mod file;
 mod frustum;
 mod gains;
+mod grid_file;
+mod import;
+mod maps;
+mod net;
+mod pfm;
+pub mod projector;
+mod report;
 pub mod surface;
 mod viewer;
+mod warp;
 mod window;
 
 pub use channel::{Channel, Part};
 pub use error::{At, DisplayError};
 pub use frustum::{EyeBehind, Frustum, frustum};
-pub use gains::Gains;
-pub use surface::{Flat, Hit, Surface};
+pub use gains::{Gains, Map, Reflection};
+pub use projector::{Lens, Projector};
+pub use surface::{Cylinder, Flat, Hit, Mesh, Sphere, Surface};
 pub use viewer::{Eye, Viewer};
+pub use warp::{Corners, Measured, Warp};
 pub use window::{Combine, Monitor, WindowPlace};
 
 use glam::{DMat3, DVec3};
@@ -46,6 +56,8 @@ pub struct Display {
     pub viewer: Viewer,
     /// Surfaces in the room.
     pub screens: Vec<Screen>,
+    /// What throws light on them, where that matters.
+    pub projectors: Vec<Projector>,
     /// Windows on monitors.
     pub windows: Vec<WindowPlace>,
     /// What each shows: indices in it are good, viewports lie in their windows.
@@ -63,15 +75,17 @@ pub struct Screen {
     pub name: String,
     /// Where it is.
     pub surface: Surface,
+    /// How it sends back projectors' light.
+    pub reflection: Reflection,
 }
 
 impl Display {
-    /// Reads a display file: `.toml`.
+    /// Reads a display file: `.toml`, or one of another program: `.pvx`, `.mpcdi`, `.mpcdi.xml`.
     ///
     /// # Errors
     /// [`DisplayError`] with file, line, key and reason.
     pub fn load(path: &Path) -> Result<Self, DisplayError> {
-        file::load(path)
+        if import::is_imported(path) { import::load(path) } else { file::load(path) }
     }
 
     /// A display that comes with the program, by one of [`built_in::NAMES`].
@@ -92,6 +106,18 @@ impl Display {
             return Self::load(path);
         }
         Err(DisplayError::NoSuch { name: name.to_owned() })
+    }
+}
+
+/// Whether a file is a display, by its ending.
+pub fn is_display(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) || import::is_imported(path)
+}
+
+impl std::fmt::Display for Display {
+    /// What `rapidity check` says of it.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        report::write(self, f)
     }
 }
 

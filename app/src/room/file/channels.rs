@@ -1,83 +1,161 @@
-//! `[[channel]]`: names become indices.
+//! `[[channel]]`: names become indices, files become maps.
 
-use super::schema::{self, File};
+use super::schema;
 use super::text::Text;
 use crate::room::error::{At, nearest};
-use crate::room::{Channel, DisplayError, Eye, Part, Screen, WindowPlace};
+use crate::room::maps::{self, MapError};
+use crate::room::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
 use glam::{DVec2, DVec4};
+use std::path::Path;
 use toml::Spanned;
 
-/// All channels.
-pub(super) fn resolve(
-    text: &Text<'_>,
-    file: &File,
-    screens: &[Screen],
-    windows: &[WindowPlace],
-) -> Result<Vec<Channel>, DisplayError> {
-    super::names(text, "channel", &file.channel, |channel| &channel.name)?;
-    let screens: Vec<&str> = screens.iter().map(|screen| screen.name.as_str()).collect();
-    file.channel.iter().map(|table| channel(text, table, &screens, windows)).collect()
+/// What channels refer to.
+pub(super) struct Resolver<'a> {
+    pub text: &'a Text<'a>,
+    pub screens: &'a [Screen],
+    pub projectors: &'a [Projector],
+    pub windows: &'a [WindowPlace],
+    pub folder: &'a Path,
 }
 
-fn channel(
-    text: &Text<'_>,
-    table: &Spanned<schema::Channel>,
-    screens: &[&str],
-    windows: &[WindowPlace],
-) -> Result<Channel, DisplayError> {
-    let given = table.get_ref();
-    let at = |key: &str| text.at(table.span().start, &format!("channel {:?}", given.name), key);
-    if let Some(reason) = not_a_file_name(&given.name) {
-        return Err(DisplayError::NotAName { at: at("name"), name: given.name.clone(), reason });
+impl Resolver<'_> {
+    /// All channels.
+    pub fn resolve(&self, tables: &[Spanned<schema::Channel>]) -> Result<Vec<Channel>, DisplayError> {
+        super::names(self.text, "channel", tables, |channel| &channel.name)?;
+        tables.iter().map(|table| self.channel(table)).collect()
     }
-    let screen = find(|| at("screen"), "screen", &given.screen, screens)?;
-    let names: Vec<&str> = windows.iter().map(|window| window.name.as_str()).collect();
-    let window = find(|| at("window"), "window", &given.window, &names)?;
-    let eyes = [Eye::Left, Eye::Right, Eye::Centre];
-    let eye = given.eye.as_deref().unwrap_or("centre");
-    let eye = eyes[find(|| at("eye"), "eye", eye, &eyes.map(Eye::name))?];
-    let [width, height] = windows[window].size;
-    let viewport = given.viewport.unwrap_or([0, 0, width, height]);
-    if viewport[2] == 0 || viewport[3] == 0 {
-        return Err(DisplayError::Value {
-            at: at("viewport"),
-            reason: "its width and height must be at least one pixel".into(),
-        });
-    }
-    let inside = |from: u32, length: u32, whole: u32| u64::from(from) + u64::from(length) <= u64::from(whole);
-    if !(inside(viewport[0], viewport[2], width) && inside(viewport[1], viewport[3], height)) {
-        let window = &windows[window];
-        return Err(DisplayError::ViewportOutside {
-            at: at("viewport"),
-            viewport,
-            window: window.name.clone(),
-            size: window.size,
-        });
-    }
-    let part = match given.part.map(DVec4::from) {
-        None => Part::default(),
-        Some(part) => {
-            let (from, to) = (DVec2::new(part.x, part.y), DVec2::new(part.z, part.w));
-            if !(part.cmpge(DVec4::ZERO).all() && part.cmple(DVec4::ONE).all() && to.cmpgt(from).all()) {
-                let reason = format!(
-                    "{part} is no part of a screen; write left, bottom, right, top, each from 0 to 1, left < right, bottom < top"
-                );
-                return Err(DisplayError::Value { at: at("part"), reason });
-            }
-            Part { from, to }
+
+    fn channel(&self, table: &Spanned<schema::Channel>) -> Result<Channel, DisplayError> {
+        let given = table.get_ref();
+        let at = |key: &str| self.text.at(table.span().start, &format!("channel {:?}", given.name), key);
+        let refuse = |key: &str, reason: String| DisplayError::Value { at: at(key), reason };
+        if let Some(reason) = not_a_file_name(&given.name) {
+            return Err(DisplayError::NotAName { at: at("name"), name: given.name.clone(), reason });
         }
-    };
-    Ok(Channel { name: given.name.clone(), screen, eye, window, viewport, part })
+        let screen =
+            find(|| at("screen"), "screen", &given.screen, self.screens.iter().map(|screen| screen.name.as_str()))?;
+        let window =
+            find(|| at("window"), "window", &given.window, self.windows.iter().map(|window| window.name.as_str()))?;
+        let names = || self.projectors.iter().map(|projector| projector.name.as_str());
+        let projector =
+            given.projector.as_ref().map(|name| find(|| at("projector"), "projector", name, names())).transpose()?;
+        let eyes = [Eye::Left, Eye::Right, Eye::Centre];
+        let eye =
+            eyes[find(|| at("eye"), "eye", given.eye.as_deref().unwrap_or("centre"), eyes.map(Eye::name).into_iter())?];
+        let viewport = self.viewport(given, window, &at)?;
+        let part = part(given, &at)?;
+        if given.part.is_some() && projector.is_some() {
+            return Err(refuse(
+                "part",
+                "the projector says which part of the screen it lights; leave one of them out".into(),
+            ));
+        }
+        if given.corners.is_some() && given.warp.is_some() {
+            return Err(refuse("corners", "a channel has either corners or a warp".into()));
+        }
+        let warp = match (&given.corners, &given.warp) {
+            (Some(corners), _) => self.corners(corners, viewport, &at)?,
+            (None, Some(file)) => Some(Warp::Grid(self.read(file, |bytes| maps::warp(bytes))?)),
+            (None, None) => None,
+        };
+        Ok(Channel {
+            name: given.name.clone(),
+            screen,
+            eye,
+            window,
+            viewport,
+            part,
+            warp,
+            projector,
+            alpha: self.map(&given.alpha, given.alpha_gamma, || at("alpha_gamma"))?,
+            beta: self.map(&given.beta, given.beta_gamma, || at("beta_gamma"))?,
+        })
+    }
+
+    fn viewport(
+        &self,
+        given: &schema::Channel,
+        window: usize,
+        at: &dyn Fn(&str) -> At,
+    ) -> Result<[u32; 4], DisplayError> {
+        let WindowPlace { name, size: size @ [width, height], .. } = &self.windows[window];
+        let viewport = given.viewport.unwrap_or([0, 0, *width, *height]);
+        if viewport[2] == 0 || viewport[3] == 0 {
+            let reason = "its width and height must be at least one pixel".into();
+            return Err(DisplayError::Value { at: at("viewport"), reason });
+        }
+        let inside = |from: u32, length: u32, whole: u32| u64::from(from) + u64::from(length) <= u64::from(whole);
+        if inside(viewport[0], viewport[2], *width) && inside(viewport[1], viewport[3], *height) {
+            Ok(viewport)
+        } else {
+            Err(DisplayError::ViewportOutside { at: at("viewport"), viewport, window: name.clone(), size: *size })
+        }
+    }
+
+    /// Corners are pixels from the viewport's upper left; those left out stay where they are.
+    fn corners(
+        &self,
+        given: &schema::Corners,
+        viewport: [u32; 4],
+        at: &dyn Fn(&str) -> At,
+    ) -> Result<Option<Warp>, DisplayError> {
+        let size = DVec2::new(f64::from(viewport[2]), f64::from(viewport[3]));
+        let places = [
+            given.upper_left.map_or(DVec2::ZERO, |place| DVec2::from(place) / size),
+            given.upper_right.map_or(DVec2::X, |place| DVec2::from(place) / size),
+            given.lower_right.map_or(DVec2::ONE, |place| DVec2::from(place) / size),
+            given.lower_left.map_or(DVec2::Y, |place| DVec2::from(place) / size),
+        ];
+        if places == [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y] {
+            return Ok(None);
+        }
+        Corners::new(places)
+            .map(|corners| Some(Warp::Corners(corners)))
+            .map_err(|error| DisplayError::Value { at: at("corners"), reason: error.to_string() })
+    }
+
+    fn map(&self, file: &Option<String>, gamma: Option<f64>, at: impl Fn() -> At) -> Result<Option<Map>, DisplayError> {
+        let gamma = gamma.unwrap_or(1.0);
+        if !(gamma.is_finite() && gamma > 0.0) {
+            return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });
+        }
+        file.as_ref().map(|file| self.read(file, |bytes| maps::gain(bytes, gamma))).transpose()
+    }
+
+    fn read<T>(&self, file: &str, understand: impl Fn(&[u8]) -> Result<T, MapError>) -> Result<T, DisplayError> {
+        let path = self.folder.join(file);
+        let bytes = std::fs::read(&path)
+            .map_err(|error| DisplayError::Read { path: path.clone(), reason: error.to_string() })?;
+        understand(&bytes).map_err(|error| DisplayError::Import { path, reason: error.to_string() })
+    }
+}
+
+fn part(given: &schema::Channel, at: &dyn Fn(&str) -> At) -> Result<Part, DisplayError> {
+    let Some(part) = given.part.map(DVec4::from) else { return Ok(Part::default()) };
+    let (from, to) = (DVec2::new(part.x, part.y), DVec2::new(part.z, part.w));
+    if part.cmpge(DVec4::ZERO).all() && part.cmple(DVec4::ONE).all() && to.cmpgt(from).all() {
+        Ok(Part { from, to })
+    } else {
+        let reason = format!(
+            "{part} is no part of a screen; write left, bottom, right, top, each from 0 to 1, left < right, bottom < top"
+        );
+        Err(DisplayError::Value { at: at("part"), reason })
+    }
 }
 
 /// The index of a name.
-pub(super) fn find(at: impl Fn() -> At, kind: &'static str, name: &str, known: &[&str]) -> Result<usize, DisplayError> {
-    known.iter().position(|candidate| *candidate == name).ok_or_else(|| DisplayError::Unknown {
+fn find<'a>(
+    at: impl Fn() -> At,
+    kind: &'static str,
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Result<usize, DisplayError> {
+    known.clone().position(|candidate| candidate == name).ok_or_else(|| DisplayError::Unknown {
         at: at(),
         kind,
         name: name.to_owned(),
-        nearest: nearest(name, known.iter().copied()).map(str::to_owned),
-        known: known.iter().map(|&name| name.to_owned()).collect(),
+        nearest: nearest(name, known.clone()).map(str::to_owned),
+        known: known.map(str::to_owned).collect(),
     })
 }
 

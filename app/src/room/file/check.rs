@@ -1,20 +1,11 @@
 //! What only the whole display can show: pixels that two channels want, eyes behind their screens.
 
-use super::schema::File;
-use super::text::Text;
 use crate::room::frustum::EyeBehind;
 use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
-/// Compares everything with everything.
-pub(super) fn check(text: &Text<'_>, file: &File, display: &Display) -> Result<(), DisplayError> {
-    let at = |index: usize, key: &str| {
-        text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
-    };
-    if display.channels.is_empty() {
-        let at = At { file: text.name.into(), line: None, key: String::new() };
-        return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
-    }
+/// Compares everything with everything; `at` says where a key of a channel is.
+pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> At) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;
@@ -48,6 +39,11 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
     let surface = &display.screens[channel.screen].surface;
     let eye_m = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let uv = channel.part.uv(DVec2::splat(0.5));
-    let distance_m = (eye_m - surface.point(uv)).dot(surface.normal(uv));
+    // Of a projector's channel, the middle of what it lights.
+    let uv = match channel.projector {
+        Some(_) => surface.uv(channel.point(display, DVec2::splat(0.5))?)?,
+        None => uv,
+    };
+    let distance_m = (eye_m - surface.point(uv)?).dot(surface.normal(uv)?);
     (distance_m <= 0.0).then_some(EyeBehind { eye_m, distance_m })
 }

@@ -4,11 +4,12 @@
 
 mod channels;
 mod check;
+mod projectors;
 mod schema;
 mod screens;
 mod text;
 
-use super::{Combine, Display, DisplayError, Monitor, Viewer, WindowPlace};
+use super::{At, Combine, Display, DisplayError, Monitor, Viewer, WindowPlace};
 use glam::DVec3;
 use schema::File;
 use std::path::Path;
@@ -46,19 +47,41 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
     let viewer = viewer(&text, file.viewer.as_ref())?;
     let screens = screens::resolve(&text, &file.screen, folder)?;
     let windows = windows(&text, &file.window)?;
-    let channels = channels::resolve(&text, &file, &screens, &windows)?;
+    let projectors = projectors::resolve(&text, &file.projector, folder)?;
+    let channels =
+        channels::Resolver { text: &text, screens: &screens, projectors: &projectors, windows: &windows, folder }
+            .resolve(&file.channel)?;
     let notices = channels::notices(&windows, &channels);
     let display = Display {
         name: file.name.clone().unwrap_or_default(),
         viewer,
         screens,
+        projectors,
         windows,
         channels,
         tracker: file.tracker.clone(),
         notices,
     };
-    check::check(&text, &file, &display)?;
+    if display.channels.is_empty() {
+        let at = At { file: text.name.into(), line: None, key: String::new() };
+        return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
+    }
+    check::check(&display, &|index, key| {
+        text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
+    })?;
     Ok(display)
+}
+
+/// What is asked of a written display, of an imported one.
+///
+/// # Errors
+/// [`DisplayError`].
+pub(super) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
+    check::check(display, &|index, _| At {
+        file: name.to_owned(),
+        line: None,
+        key: format!("channel {:?}", display.channels[index].name),
+    })
 }
 
 /// Names are unique, and not empty.

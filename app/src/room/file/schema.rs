@@ -13,6 +13,8 @@ pub(super) struct File {
     #[serde(default)]
     pub screen: Vec<Spanned<Screen>>,
     #[serde(default)]
+    pub projector: Vec<Spanned<Projector>>,
+    #[serde(default)]
     pub window: Vec<Spanned<Window>>,
     #[serde(default)]
     pub channel: Vec<Spanned<Channel>>,
@@ -40,6 +42,68 @@ pub(super) struct Screen {
     pub yaw: Option<f64>,
     pub pitch: Option<f64>,
     pub roll: Option<f64>,
+    pub cylinder: Option<Cylinder>,
+    pub sphere: Option<Sphere>,
+    pub sweep: Option<Sweep>,
+    pub mesh: Option<String>,
+    pub gloss: Option<f64>,
+    pub gloss_exponent: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Cylinder {
+    #[serde(default)]
+    pub centre: [f64; 3],
+    pub radius: f64,
+    pub left: f64,
+    pub right: f64,
+    pub bottom: f64,
+    pub top: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Sphere {
+    #[serde(default)]
+    pub centre: [f64; 3],
+    pub radius: f64,
+    pub left: Option<f64>,
+    pub right: Option<f64>,
+    pub bottom: Option<f64>,
+    pub top: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Sweep {
+    #[serde(default)]
+    pub centre: [f64; 3],
+    pub width: f64,
+    pub profile: Vec<[f64; 2]>,
+    pub bend: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Projector {
+    pub name: String,
+    pub position: [f64; 3],
+    pub yaw: Option<f64>,
+    pub pitch: Option<f64>,
+    pub roll: Option<f64>,
+    pub lens: Option<String>,
+    pub size: Option<[u32; 2]>,
+    pub throw_ratio: Option<f64>,
+    pub shift: Option<[f64; 2]>,
+    pub tangents: Option<[f64; 4]>,
+    pub step: Option<f64>,
+    pub magnification: Option<f64>,
+    pub table: Option<String>,
+    pub light: Option<f64>,
+    pub gamma: Option<f64>,
+    pub even: Option<bool>,
+    pub blend: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -65,4 +129,20 @@ pub(super) struct Channel {
     pub window: String,
     pub viewport: Option<[u32; 4]>,
     pub part: Option<[f64; 4]>,
+    pub projector: Option<String>,
+    pub corners: Option<Corners>,
+    pub warp: Option<String>,
+    pub alpha: Option<String>,
+    pub alpha_gamma: Option<f64>,
+    pub beta: Option<String>,
+    pub beta_gamma: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Corners {
+    pub upper_left: Option<[f64; 2]>,
+    pub upper_right: Option<[f64; 2]>,
+    pub lower_right: Option<[f64; 2]>,
+    pub lower_left: Option<[f64; 2]>,
 }

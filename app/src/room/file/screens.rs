@@ -2,7 +2,8 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::{DisplayError, Flat, Screen, Surface};
+use crate::room::surface::{mesh_file, sweep};
+use crate::room::{Cylinder, DisplayError, Flat, Reflection, Screen, Sphere, Surface};
 use glam::{DVec2, DVec3};
 use std::path::Path;
 use toml::Spanned;
@@ -11,14 +12,14 @@ use toml::Spanned;
 pub(super) fn resolve(
     text: &Text<'_>,
     tables: &[Spanned<schema::Screen>],
-    _folder: &Path,
+    folder: &Path,
 ) -> Result<Vec<Screen>, DisplayError> {
     super::names(text, "screen", tables, |screen| &screen.name)?;
     tables
         .iter()
         .map(|table| {
-            let form = Form { text, start: table.span().start, given: table.get_ref() };
-            Ok(Screen { name: form.given.name.clone(), surface: form.surface()? })
+            let form = Form { text, start: table.span().start, given: table.get_ref(), folder };
+            Ok(Screen { name: form.given.name.clone(), surface: form.surface()?, reflection: form.reflection()? })
         })
         .collect()
 }
@@ -28,6 +29,7 @@ struct Form<'a> {
     text: &'a Text<'a>,
     start: usize,
     given: &'a schema::Screen,
+    folder: &'a Path,
 }
 
 impl Form<'_> {
@@ -47,13 +49,33 @@ impl Form<'_> {
         let has_centre = given.centre.is_some()
             || given.size.is_some()
             || [given.yaw, given.pitch, given.roll].iter().any(Option::is_some);
-        match (has_corners, has_centre) {
-            (true, false) => self.corners(),
-            (false, true) => self.centre(),
-            (true, true) => self.refuse("", "it has corners and a centre; write one of them only"),
-            (false, false) => {
-                self.refuse("", "it says nowhere where it is; write three corners, or a centre and a size")
-            }
+        let forms = [
+            has_corners,
+            has_centre,
+            given.cylinder.is_some(),
+            given.sphere.is_some(),
+            given.sweep.is_some(),
+            given.mesh.is_some(),
+        ];
+        const FORMS: &str = "three corners, or a centre and a size, or one of cylinder, sphere, sweep, mesh";
+        match forms.iter().filter(|form| **form).count() {
+            0 => return self.refuse("", format!("it says nowhere where it is; write {FORMS}")),
+            1 => {}
+            _ => return self.refuse("", format!("it says more than once where it is; write only {FORMS}")),
+        }
+        if has_corners {
+            self.corners()
+        } else if has_centre {
+            self.centre()
+        } else if let Some(cylinder) = &given.cylinder {
+            self.cylinder(cylinder)
+        } else if let Some(sphere) = &given.sphere {
+            self.sphere(sphere)
+        } else if let Some(sweep) = &given.sweep {
+            self.sweep(sweep)
+        } else {
+            let path = self.folder.join(given.mesh.as_deref().unwrap_or_default());
+            mesh_file::load(&path).map(Surface::Mesh).map_err(|reason| DisplayError::Import { path, reason })
         }
     }
 
@@ -71,10 +93,25 @@ impl Form<'_> {
             ("pitch", given.pitch.map(|angle| [angle, 0.0, 0.0])),
             ("roll", given.roll.map(|angle| [angle, 0.0, 0.0])),
         ];
-        for (key, point) in points {
-            if point.is_some_and(|point| !point.iter().all(|number| number.is_finite())) {
-                return self.refuse(key, "a number in it is not finite");
-            }
+        let mut numbers: Vec<(&str, f64)> =
+            points.iter().flat_map(|(key, point)| point.iter().flatten().map(|&number| (*key, number))).collect();
+        if let Some(cylinder) = &given.cylinder {
+            let schema::Cylinder { centre, radius, left, right, bottom, top } = cylinder;
+            numbers.extend([radius, left, right, bottom, top].map(|&number| ("cylinder", number)));
+            numbers.extend(centre.map(|number| ("cylinder", number)));
+        }
+        if let Some(sphere) = &given.sphere {
+            let schema::Sphere { centre, radius, left, right, bottom, top } = sphere;
+            numbers.extend([left, right, bottom, top].iter().filter_map(|number| Some(("sphere", (**number)?))));
+            numbers.extend(centre.iter().chain([radius]).map(|&number| ("sphere", number)));
+        }
+        if let Some(sweep) = &given.sweep {
+            let ends = [sweep.width, sweep.bend.unwrap_or(0.0)];
+            let all = ends.iter().chain(&sweep.centre).chain(sweep.profile.iter().flatten());
+            numbers.extend(all.map(|&number| ("sweep", number)));
+        }
+        if let Some((key, number)) = numbers.iter().find(|(_, number)| !number.is_finite()) {
+            return self.refuse(key, format!("{number} is not a finite number"));
         }
         Ok(())
     }
@@ -107,5 +144,78 @@ impl Form<'_> {
         Flat::from_centre(centre.into(), DVec2::from(size), angles.into())
             .map(Surface::Flat)
             .map_err(|reason| DisplayError::NotRectangle { at: self.at("size"), reason })
+    }
+
+    /// Yaws from left to right and the two ends of the height, of what is curved.
+    fn ranges(&self, key: &str, [left, right, bottom, top]: [f64; 4], radius: f64) -> Result<(), DisplayError> {
+        if !(radius > 0.0) {
+            return self.refuse(key, format!("its radius is {radius} m; it must be more than 0"));
+        }
+        if !(left > right && left - right <= 360.0) {
+            return self.refuse(
+                key,
+                format!(
+                    "left = {left}° must be more than right = {right}°, by at most 360°: yaw is positive to the left"
+                ),
+            );
+        }
+        if !(top > bottom) {
+            return self.refuse(key, format!("top = {top} must be more than bottom = {bottom}"));
+        }
+        Ok(())
+    }
+
+    fn cylinder(&self, given: &schema::Cylinder) -> Result<Surface, DisplayError> {
+        self.ranges("cylinder", [given.left, given.right, given.bottom, given.top], given.radius)?;
+        Ok(Surface::Cylinder(Cylinder {
+            centre: given.centre.into(),
+            radius_m: given.radius,
+            left_rad: given.left.to_radians(),
+            right_rad: given.right.to_radians(),
+            bottom_m: given.bottom,
+            top_m: given.top,
+        }))
+    }
+
+    fn sphere(&self, given: &schema::Sphere) -> Result<Surface, DisplayError> {
+        let [left, right] = [given.left.unwrap_or(180.0), given.right.unwrap_or(-180.0)];
+        let [bottom, top] = [given.bottom.unwrap_or(0.0), given.top.unwrap_or(90.0)];
+        self.ranges("sphere", [left, right, bottom, top], given.radius)?;
+        if bottom < -90.0 || top > 90.0 {
+            return self.refuse("sphere", format!("bottom = {bottom}° and top = {top}° are pitches: −90° to 90°"));
+        }
+        Ok(Surface::Sphere(Sphere {
+            centre: given.centre.into(),
+            radius_m: given.radius,
+            left_rad: left.to_radians(),
+            right_rad: right.to_radians(),
+            bottom_rad: bottom.to_radians(),
+            top_rad: top.to_radians(),
+        }))
+    }
+
+    fn sweep(&self, given: &schema::Sweep) -> Result<Surface, DisplayError> {
+        let bend = given.bend.unwrap_or(0.0);
+        if !(given.width > 0.0 && bend >= 0.0) {
+            return self
+                .refuse("sweep", format!("width = {} m must be more than 0, bend = {bend} m not less", given.width));
+        }
+        let profile: Vec<DVec2> = given.profile.iter().map(|&point| point.into()).collect();
+        match sweep(given.centre.into(), given.width, &profile, bend) {
+            Ok(mesh) => Ok(Surface::Mesh(mesh)),
+            Err(error) => self.refuse("sweep", error.to_string()),
+        }
+    }
+
+    fn reflection(&self) -> Result<Reflection, DisplayError> {
+        let given = self.given;
+        let (gloss, exponent) = (given.gloss.unwrap_or(0.0), given.gloss_exponent.unwrap_or(20.0));
+        if !(0.0..=1.0).contains(&gloss) {
+            return self.refuse("gloss", format!("{gloss} is no share; write 0 (matt) to 1"));
+        }
+        if !(0.0..=10_000.0).contains(&exponent) {
+            return self.refuse("gloss_exponent", format!("{exponent} is no exponent; write 0 to 10000"));
+        }
+        Ok(Reflection { gloss, exponent })
     }
 }

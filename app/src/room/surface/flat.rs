@@ -117,11 +117,14 @@ impl Flat {
             return None;
         }
         let offset = origin + direction * distance - self.lower_left;
-        let uv = DVec2::new(
-            offset.dot(self.right) / self.right.length_squared(),
-            offset.dot(self.up) / self.up.length_squared(),
-        );
-        let inside = uv.cmpge(DVec2::splat(-EDGE)).all() && uv.cmple(DVec2::splat(1.0 + EDGE)).all();
-        inside.then(|| Hit { distance, point: self.lower_left + offset, normal, uv: uv.clamp(DVec2::ZERO, DVec2::ONE) })
+        Some(Hit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
+    }
+
+    /// The place of a point, relative to the lower left corner; `None` outside.
+    pub(super) fn uv(&self, offset: DVec3) -> Option<DVec2> {
+        let (right, up) = (self.right.length_squared(), self.up.length_squared());
+        let uv = DVec2::new(offset.dot(self.right) / right, offset.dot(self.up) / up);
+        let inside = uv.min_element() >= -EDGE && uv.max_element() <= 1.0 + EDGE;
+        inside.then(|| uv.clamp(DVec2::ZERO, DVec2::ONE))
     }
 }

@@ -1,0 +1,52 @@
+//! Measured maps of a channel's pixels: warps from PFM files, gains from PNG files.
+
+use super::gains::Map;
+use super::pfm;
+use super::warp::Measured;
+use glam::DVec2;
+use thiserror::Error;
+
+/// A map that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MapError {
+    /// No portable float map.
+    #[error("{0}")]
+    Pfm(String),
+    /// One sample is no grid.
+    #[error("a warp needs at least 2 × 2 samples, and it has {width} × {height}")]
+    TooSmall {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// No picture.
+    #[error("it is no picture that can be read: {0}")]
+    Picture(String),
+}
+
+/// A portable float map with at least two samples each way.
+pub(super) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
+    let map = pfm::read(bytes).map_err(MapError::Pfm)?;
+    if map.width < 2 || map.height < 2 {
+        return Err(MapError::TooSmall { width: map.width, height: map.height });
+    }
+    Ok(map)
+}
+
+/// Which place of the picture (red: x to the right, green: y down, 0 to 1) each place of the viewport shows.
+pub(super) fn warp(bytes: &[u8]) -> Result<Measured, MapError> {
+    let map = grid(bytes)?;
+    let places = map.samples.iter().map(|&[x, y, _]| DVec2::new(f64::from(x), f64::from(y))).collect();
+    Ok(Measured::new(map.width, map.height, places))
+}
+
+/// A picture's luminance as linear light: its values, 0 to 1, to the power of `gamma`.
+pub(super) fn gain(bytes: &[u8], gamma: f64) -> Result<Map, MapError> {
+    let picture = image::load_from_memory(bytes).map_err(|error| MapError::Picture(error.to_string()))?.into_rgb32f();
+    let values = picture.pixels().map(|pixel| {
+        let [red, green, blue] = pixel.0.map(|value| f64::from(value).max(0.0).powf(gamma));
+        (0.2126 * red + 0.7152 * green + 0.0722 * blue) as f32
+    });
+    Ok(Map { size: [picture.width(), picture.height()], values: values.collect() })
+}

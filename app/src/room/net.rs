@@ -1,0 +1,166 @@
+//! Piecewise linear maps of the plane: which triangle a place lies in, and where within it.
+//!
+//! Grids and meshes are linear within each triangle, forwards and backwards, so that what one way does the other undoes to rounding.
+
+use glam::{DVec2, DVec3};
+
+/// Barycentric coordinates may be this much below 0 by rounding.
+const EDGE: f64 = 1e-9;
+
+/// A place within a triangle: its corners, and their weights, which sum to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Within {
+    pub corners: [u32; 3],
+    pub weights: DVec3,
+}
+
+impl Within {
+    /// What the corners' values come to here. A corner without weight does not count, even if its value is unknown.
+    pub fn mix<T>(&self, values: &[T]) -> T
+    where
+        T: Copy + Default + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+    {
+        let weighted = self.corners.iter().zip(self.weights.to_array()).filter(|(_, weight)| *weight != 0.0);
+        weighted.fold(T::default(), |sum, (&corner, weight)| sum + values[corner as usize] * weight)
+    }
+}
+
+/// An even grid over the unit square, first sample in its first corner, row by row; each cell is cut from its first corner
+/// to the opposite one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    /// Samples along a row.
+    pub columns: u32,
+    /// Rows.
+    pub rows: u32,
+}
+
+impl Grid {
+    /// The triangle at a place; `None` outside 0 to 1.
+    pub fn find(self, place: DVec2) -> Option<Within> {
+        let inside = place.cmpge(DVec2::splat(-EDGE)).all() && place.cmple(DVec2::splat(1.0 + EDGE)).all();
+        if !inside {
+            return None;
+        }
+        let cells = DVec2::new(f64::from(self.columns - 1), f64::from(self.rows - 1));
+        let scaled = place.clamp(DVec2::ZERO, DVec2::ONE) * cells;
+        let cell = scaled.floor().min(cells - 1.0);
+        let (f, column, row) = (scaled - cell, cell.x as u32, cell.y as u32);
+        let first = row * self.columns + column;
+        let last = first + self.columns + 1;
+        Some(if f.x >= f.y {
+            Within { corners: [first, first + 1, last], weights: DVec3::new(1.0 - f.x, f.x - f.y, f.y) }
+        } else {
+            Within { corners: [first, last, last - 1], weights: DVec3::new(1.0 - f.y, f.x, f.y - f.x) }
+        })
+    }
+
+    /// The place of a sample.
+    pub fn place(self, sample: u32) -> DVec2 {
+        DVec2::new(f64::from(sample % self.columns), f64::from(sample / self.columns))
+            / DVec2::new(f64::from(self.columns - 1), f64::from(self.rows - 1))
+    }
+
+    /// The place within a triangle of samples.
+    pub fn place_within(self, within: &Within) -> DVec2 {
+        let [a, b, c] = within.corners.map(|sample| self.place(sample));
+        a * within.weights.x + b * within.weights.y + c * within.weights.z
+    }
+
+    /// All triangles, with the corners in the same order as [`find`](Self::find)'s.
+    pub fn triangles(self) -> Vec<[u32; 3]> {
+        let cells = (0..self.rows - 1).flat_map(|row| (0..self.columns - 1).map(move |column| (row, column)));
+        cells
+            .flat_map(|(row, column)| {
+                let first = row * self.columns + column;
+                let last = first + self.columns + 1;
+                [[first, first + 1, last], [first, last, last - 1]]
+            })
+            .collect()
+    }
+}
+
+/// Triangles in the plane, sorted into buckets so that the one at a place is found at once.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Net {
+    corners: Vec<DVec2>,
+    triangles: Vec<[u32; 3]>,
+    lowest: DVec2,
+    /// Buckets per unit.
+    scale: DVec2,
+    side: usize,
+    /// Where each bucket's triangles begin in `sorted`; one more than there are buckets.
+    starts: Vec<u32>,
+    sorted: Vec<u32>,
+}
+
+impl Net {
+    /// Sorts them. Triangles with a corner that is not finite, or without area, are left out.
+    pub fn new(corners: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
+        let good = |triangle: &&[u32; 3]| {
+            let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
+            let area = (b - a).perp_dot(c - a);
+            area.is_finite() && area != 0.0
+        };
+        let triangles: Vec<[u32; 3]> = triangles.iter().filter(good).copied().collect();
+        let used = || triangles.iter().flatten().map(|&corner| corners[corner as usize]);
+        let lowest = used().fold(DVec2::INFINITY, DVec2::min);
+        let highest = used().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let side = ((triangles.len() as f64 / 2.0).sqrt() as usize).clamp(1, 2048);
+        let scale = side as f64 / (highest - lowest).max(DVec2::splat(f64::MIN_POSITIVE));
+        let mut net =
+            Self { corners, triangles, lowest, scale, side, starts: vec![0; side * side + 1], sorted: Vec::new() };
+
+        // Count, add up, fill.
+        for index in 0..net.triangles.len() {
+            for bucket in net.buckets(index) {
+                net.starts[bucket + 1] += 1;
+            }
+        }
+        for bucket in 0..side * side {
+            net.starts[bucket + 1] += net.starts[bucket];
+        }
+        let mut next = net.starts.clone();
+        net.sorted = vec![0; net.starts[side * side] as usize];
+        for index in 0..net.triangles.len() {
+            for bucket in net.buckets(index) {
+                net.sorted[next[bucket] as usize] = index as u32;
+                next[bucket] += 1;
+            }
+        }
+        net
+    }
+
+    /// The triangle at a place, the first in the given order where several lie over each other.
+    pub fn find(&self, place: DVec2) -> Option<Within> {
+        let scaled = (place - self.lowest) * self.scale;
+        let [column, row] = self.bucket(scaled)?;
+        let bucket = row * self.side + column;
+        let range = self.starts[bucket] as usize..self.starts[bucket + 1] as usize;
+        self.sorted[range].iter().find_map(|&index| {
+            let corners = self.triangles[index as usize];
+            let [a, b, c] = corners.map(|corner| self.corners[corner as usize]);
+            let area = (b - a).perp_dot(c - a);
+            let weights = DVec3::new((b - place).perp_dot(c - place), (c - place).perp_dot(a - place), 0.0) / area;
+            let weights = DVec3::new(weights.x, weights.y, 1.0 - weights.x - weights.y);
+            (weights.min_element() >= -EDGE).then_some(Within { corners, weights })
+        })
+    }
+
+    fn bucket(&self, scaled: DVec2) -> Option<[usize; 2]> {
+        let slack = EDGE * self.side as f64;
+        let inside = scaled.min_element() >= -slack && scaled.max_element() <= self.side as f64 + slack;
+        inside.then(|| scaled.to_array().map(|part| (part.max(0.0) as usize).min(self.side - 1)))
+    }
+
+    /// The buckets that a triangle's bounding box touches.
+    fn buckets(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+        let corners = self.triangles[index].map(|corner| (self.corners[corner as usize] - self.lowest) * self.scale);
+        let slack = DVec2::splat(2.0 * EDGE * self.side as f64);
+        let cell = |place: DVec2| place.max(DVec2::ZERO).to_array().map(|part| (part as usize).min(self.side - 1));
+        let low = cell(corners[0].min(corners[1]).min(corners[2]) - slack);
+        let high = cell(corners[0].max(corners[1]).max(corners[2]) + slack);
+        let side = self.side;
+        (low[1]..=high[1]).flat_map(move |row| (low[0]..=high[0]).map(move |column| row * side + column))
+    }
+}

@@ -1,0 +1,175 @@
+//! Any surface at all, as triangles.
+
+use super::{EDGE, Hit, NEAREST};
+use crate::room::net::{Grid, Net, Within};
+use glam::{DVec2, DVec3};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::query::Ray;
+use std::sync::OnceLock;
+
+/// Triangles with places: front faces are counter-clockwise as seen by the viewer.
+#[derive(Clone)]
+pub struct Mesh {
+    points: Vec<DVec3>,
+    uvs: Vec<DVec2>,
+    triangles: Vec<[u32; 3]>,
+    places: Places,
+    size_m: f64,
+    /// For rays; made when the first comes.
+    boxes: OnceLock<Bvh>,
+}
+
+/// How the triangle at a place is found.
+#[derive(Clone)]
+enum Places {
+    /// From its number in the grid.
+    Grid(Grid),
+    /// By search.
+    Net(Net),
+}
+
+impl PartialEq for Mesh {
+    fn eq(&self, other: &Self) -> bool {
+        self.points == other.points && self.uvs == other.uvs && self.triangles == other.triangles
+    }
+}
+
+impl std::fmt::Debug for Mesh {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Mesh").field("points", &self.points.len()).field("triangles", &self.triangles.len()).finish()
+    }
+}
+
+impl Mesh {
+    /// From triangles; indices must be below the number of points, and there are as many uvs as points. What has a corner that
+    /// is not finite, or no area, is a hole.
+    pub fn new(points: Vec<DVec3>, uvs: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
+        let places = Places::Net(Net::new(uvs.clone(), triangles));
+        Self::with(points, uvs, triangles.to_vec(), places)
+    }
+
+    /// From points in rows, the lower left one first, evenly spaced in uv; at least two columns and two rows.
+    pub fn grid(columns: u32, rows: u32, points: Vec<DVec3>) -> Self {
+        let grid = Grid { columns, rows };
+        let uvs = (0..columns * rows).map(|sample| grid.place(sample)).collect();
+        Self::with(points, uvs, grid.triangles(), Places::Grid(grid))
+    }
+
+    fn with(points: Vec<DVec3>, uvs: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, places: Places) -> Self {
+        triangles.retain(|corners| {
+            let [a, b, c] = corners.map(|corner| points[corner as usize]);
+            let area = (b - a).cross(c - a).length();
+            area.is_finite() && area > 0.0
+        });
+        let used = || points.iter().filter(|point| point.is_finite());
+        let lowest = used().fold(DVec3::INFINITY, |low, &point| low.min(point));
+        let highest = used().fold(DVec3::NEG_INFINITY, |high, &point| high.max(point));
+        let size_m = (highest - lowest).length();
+        Self { points, uvs, triangles, places, size_m, boxes: OnceLock::new() }
+    }
+
+    /// Vertices, room axes, metres; what is not finite is unknown.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// Their places, 0 to 1 from the lower left.
+    pub fn uvs(&self) -> &[DVec2] {
+        &self.uvs
+    }
+
+    /// The triangles that are none of them holes.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Length of its bounding box's diagonal, metres.
+    pub fn size_m(&self) -> f64 {
+        self.size_m
+    }
+
+    fn find(&self, uv: DVec2) -> Option<Within> {
+        match &self.places {
+            Places::Grid(grid) => grid.find(uv),
+            Places::Net(net) => net.find(uv),
+        }
+    }
+
+    /// Point at a place; `None` in a hole.
+    pub fn point(&self, uv: DVec2) -> Option<DVec3> {
+        Some(self.find(uv)?.mix(&self.points)).filter(|point| point.is_finite())
+    }
+
+    /// Unit normal of the triangle there; `None` in a hole.
+    pub fn normal(&self, uv: DVec2) -> Option<DVec3> {
+        self.facing(self.find(uv)?.corners)
+    }
+
+    fn facing(&self, corners: [u32; 3]) -> Option<DVec3> {
+        let [a, b, c] = self.corners(corners);
+        (b - a).cross(c - a).try_normalize()
+    }
+
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        if self.triangles.is_empty() || !(origin.is_finite() && direction.is_finite()) {
+            return None;
+        }
+        let boxes = self.boxes.get_or_init(|| {
+            let bounds = self.triangles.iter().map(|&corners| {
+                let [a, b, c] = self.corners(corners);
+                Aabb::new(vector(a.min(b).min(c)), vector(a.max(b).max(c)))
+            });
+            Bvh::from_leaves(BvhBuildStrategy::Binned, &bounds.collect::<Vec<_>>())
+        });
+        let nearest = NEAREST * self.size_m / direction.length();
+        let ray = Ray::new(vector(origin), vector(direction));
+        let meet = |index: u32| {
+            meet(self.corners(self.triangles[index as usize]), origin, direction)
+                .filter(|(distance, _)| *distance > nearest)
+        };
+        let (index, _) = boxes.cast_ray(&ray, f64::MAX, |index, _| meet(index).map(|(distance, _)| distance))?;
+        let ((distance, weights), corners) = (meet(index)?, self.triangles[index as usize]);
+        let within = Within { corners, weights };
+        Some(Hit {
+            distance,
+            point: within.mix(&self.points),
+            normal: self.facing(corners)?,
+            uv: within.mix(&self.uvs),
+        })
+    }
+
+    /// The place of a point on one of the triangles, which are all looked at.
+    pub(super) fn uv(&self, point: DVec3) -> Option<DVec2> {
+        let within = |&corners: &[u32; 3]| {
+            let triangle = self.corners(corners);
+            let normal = self.facing(corners)?;
+            let (distance, weights) = meet(triangle, point, normal)?;
+            (distance.abs() < 1e-6 * self.size_m).then(|| Within { corners, weights }.mix(&self.uvs))
+        };
+        self.triangles.iter().find_map(within)
+    }
+
+    fn corners(&self, corners: [u32; 3]) -> [DVec3; 3] {
+        corners.map(|corner| self.points[corner as usize])
+    }
+}
+
+/// Where a ray meets a triangle, in lengths of its direction, and the corners' weights there.
+///
+/// *Equation.* Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection (1997).
+fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, DVec3)> {
+    let (ab, ac, from) = (b - a, c - a, origin - a);
+    let across = direction.cross(ac);
+    let determinant = ab.dot(across);
+    let (second, along) = (from.dot(across) / determinant, from.cross(ab));
+    let third = direction.dot(along) / determinant;
+    let weights = DVec3::new(1.0 - second - third, second, third);
+    let inside = weights.is_finite() && weights.min_element() >= -EDGE;
+    inside.then(|| (ac.dot(along) / determinant, weights))
+}
+
+fn vector(v: DVec3) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}

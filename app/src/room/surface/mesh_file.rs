@@ -1,0 +1,105 @@
+//! Meshes from files: Wavefront OBJ, and CSV grids.
+
+use super::Mesh;
+use glam::{DVec2, DVec3};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The most triangles that are read.
+const MAX_TRIANGLES: usize = 4_000_000;
+
+/// Reads `path`: `.obj` or `.csv`. What is wrong is said in words that follow the file's name.
+pub(in crate::room) fn load(path: &Path) -> Result<Mesh, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
+    match ending.as_str() {
+        "obj" => obj(&text),
+        "csv" => csv(&text),
+        _ => Err("a mesh is an .obj or a .csv file".into()),
+    }
+}
+
+/// `v x y z` in metres, `vt u v` from the lower left, `f v/vt …` counter-clockwise as seen by the viewer; all else is passed over.
+fn obj(text: &str) -> Result<Mesh, String> {
+    let (mut positions, mut places) = (Vec::new(), Vec::new());
+    let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut vertices: HashMap<(usize, usize), u32> = HashMap::new();
+    for (index, line) in text.lines().enumerate() {
+        let wrong = |what: &str| format!("line {}: {what}", index + 1);
+        let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
+        match words.next() {
+            Some("v") => {
+                positions.push(DVec3::from(numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers"))?))
+            }
+            Some("vt") => {
+                places.push(DVec2::from(numbers::<2>(words).ok_or_else(|| wrong("vt needs two finite numbers"))?))
+            }
+            Some("f") => {
+                let mut face = Vec::new();
+                for word in words {
+                    let mut parts = word.split('/');
+                    let v = parts.next().and_then(|part| nth(part, positions.len()));
+                    let v = v.ok_or_else(|| wrong(&format!("{word:?} names no v that stands before it")))?;
+                    let vt = parts.next().and_then(|part| nth(part, places.len()));
+                    let vt = vt.ok_or_else(|| {
+                        wrong(&format!(
+                            "{word:?} names no vt; faces must be v/vt, so that a picture can lie on the mesh"
+                        ))
+                    })?;
+                    let next = points.len() as u32;
+                    let vertex = *vertices.entry((v, vt)).or_insert(next);
+                    if vertex == next {
+                        points.push(positions[v]);
+                        uvs.push(places[vt]);
+                    }
+                    face.push(vertex);
+                }
+                if face.len() < 3 {
+                    return Err(wrong("a face needs at least three corners"));
+                }
+                triangles.extend(face.windows(2).skip(1).map(|pair| [face[0], pair[0], pair[1]]));
+                if triangles.len() > MAX_TRIANGLES {
+                    return Err(wrong(&format!("it has more than {MAX_TRIANGLES} triangles")));
+                }
+            }
+            _ => {}
+        }
+    }
+    if triangles.is_empty() {
+        return Err("it has no face (f)".into());
+    }
+    good(Mesh::new(points, uvs, &triangles))
+}
+
+/// OBJ counts from 1, or backwards from −1.
+fn nth(part: &str, count: usize) -> Option<usize> {
+    let number: i64 = part.parse().ok()?;
+    let index = if number > 0 { number - 1 } else { count as i64 + number };
+    usize::try_from(index).ok().filter(|index| number != 0 && *index < count)
+}
+
+/// Lines `u, v, x, y, z`.
+fn csv(text: &str) -> Result<Mesh, String> {
+    let (columns, rows, points) = crate::room::grid_file::read::<3>(text, "u, v, x, y, z")?;
+    good(Mesh::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
+}
+
+fn good(mesh: Mesh) -> Result<Mesh, String> {
+    if mesh.triangles().is_empty() {
+        return Err("none of its triangles has an area".into());
+    }
+    let inside = |uv: &DVec2| uv.min_element() >= 0.0 && uv.max_element() <= 1.0;
+    match mesh.uvs().iter().find(|uv| !inside(uv)) {
+        Some(uv) => Err(format!("the place {uv} is outside 0 to 1")),
+        None => Ok(mesh),
+    }
+}
+
+/// The first N numbers, if there are that many and all are finite.
+fn numbers<'a, const N: usize>(mut words: impl Iterator<Item = &'a str>) -> Option<[f64; N]> {
+    let mut found = [0.0; N];
+    for number in &mut found {
+        *number = words.next()?.parse().ok().filter(|number: &f64| number.is_finite())?;
+    }
+    Some(found)
+}

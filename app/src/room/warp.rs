@@ -1,0 +1,99 @@
+//! From a channel's viewport to its picture, where the two are not the same: nudged corners, and measured grids.
+
+use super::net::{Grid, Net};
+use glam::{DMat3, DVec2, DVec3};
+use thiserror::Error;
+
+/// Corners that no picture can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the corners make no convex quadrilateral in the order upper left, upper right, lower right, lower left")]
+pub struct NotConvex;
+
+/// Which place of the picture a place of the viewport shows; both 0 to 1, x right, y down.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Warp {
+    /// The picture is drawn into a quadrilateral, as a keystone correction does it.
+    Corners(Corners),
+    /// Measured at an even grid.
+    Grid(Measured),
+}
+
+/// A projective map that takes the picture's corners to given places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corners {
+    /// Places in the viewport of the picture's upper left, upper right, lower right and lower left corners.
+    pub places: [DVec2; 4],
+    picture_from_viewport: DMat3,
+    viewport_from_picture: DMat3,
+}
+
+impl Corners {
+    /// From the places in the viewport of the picture's upper left, upper right, lower right and lower left corners.
+    ///
+    /// *Equation.* Heckbert, Fundamentals of Texture Mapping and Image Warping (1989), 2.2.3.
+    ///
+    /// # Errors
+    /// [`NotConvex`].
+    pub fn new(places: [DVec2; 4]) -> Result<Self, NotConvex> {
+        let convex = (0..4).all(|i| {
+            let [a, b, c] = [places[i], places[(i + 1) % 4], places[(i + 2) % 4]];
+            // y is down: clockwise on the screen is positive here.
+            (b - a).perp_dot(c - b) > 1e-9
+        });
+        if !convex {
+            return Err(NotConvex);
+        }
+        let [p0, p1, p2, p3] = places;
+        let (d1, d2, sum) = (p1 - p2, p3 - p2, p0 - p1 + p2 - p3);
+        let denominator = d1.perp_dot(d2);
+        let (g, h) = (sum.perp_dot(d2) / denominator, d1.perp_dot(sum) / denominator);
+        let viewport_from_picture =
+            DMat3::from_cols((p1 - p0 + g * p1).extend(g), (p3 - p0 + h * p3).extend(h), p0.extend(1.0));
+        Ok(Self { places, picture_from_viewport: viewport_from_picture.inverse(), viewport_from_picture })
+    }
+}
+
+/// A measured map: piecewise linear over an even grid, first sample in the viewport's upper left corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    grid: Grid,
+    places: Vec<DVec2>,
+    back: Net,
+}
+
+impl Measured {
+    /// From `columns` × `rows` places in the picture, at least two each, rows from above; what is not finite is unknown.
+    pub fn new(columns: u32, rows: u32, places: Vec<DVec2>) -> Self {
+        let grid = Grid { columns, rows };
+        let back = Net::new(places.clone(), &grid.triangles());
+        Self { grid, places, back }
+    }
+}
+
+impl Warp {
+    /// The picture's place at a place of the viewport; `None` where nothing of the picture is.
+    pub fn picture(&self, viewport: DVec2) -> Option<DVec2> {
+        let place = match self {
+            Self::Corners(corners) => project(corners.picture_from_viewport, viewport)?,
+            Self::Grid(measured) => measured.grid.find(viewport)?.mix(&measured.places),
+        };
+        super::projector::inside(place).then_some(place)
+    }
+
+    /// The place of the viewport that shows a place of the picture, if one does.
+    pub fn viewport(&self, picture: DVec2) -> Option<DVec2> {
+        let place = match self {
+            Self::Corners(corners) => project(corners.viewport_from_picture, picture)?,
+            Self::Grid(measured) => {
+                let within = measured.back.find(picture)?;
+                measured.grid.place_within(&within)
+            }
+        };
+        super::projector::inside(place).then_some(place)
+    }
+}
+
+fn project(matrix: DMat3, place: DVec2) -> Option<DVec2> {
+    let DVec3 { x, y, z } = matrix * place.extend(1.0);
+    (z > 0.0).then(|| DVec2::new(x, y) / z)
+}

@@ -1,0 +1,353 @@
+//! Displays of other programs come in as what they mean. A wrong program would show them upside down, mirrored, or in the wrong size: every
+//! container here is put together byte by byte, so that nothing is taken from the code it tests.
+
+use glam::{DVec2, DVec3};
+use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface};
+use std::path::PathBuf;
+
+/// f32 in the files.
+const SINGLE: f64 = 1e-6;
+
+/// A zip of stored files: local header, data, then the central directory and its end.
+fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut out, mut directory) = (Vec::new(), Vec::new());
+    for (name, data) in files {
+        let offset = out.len() as u32;
+        let mut common = Vec::new();
+        common.extend(20_u16.to_le_bytes()); // version needed
+        common.extend([0; 2]); // flags
+        common.extend([0; 2]); // stored
+        common.extend([0, 0, 0x21, 0x58]); // time and date
+        common.extend(crc(data).to_le_bytes());
+        common.extend((data.len() as u32).to_le_bytes());
+        common.extend((data.len() as u32).to_le_bytes());
+        common.extend((name.len() as u16).to_le_bytes());
+        common.extend([0; 2]); // extra
+        out.extend(b"PK\x03\x04");
+        out.extend(&common);
+        out.extend(name.as_bytes());
+        out.extend(*data);
+        directory.extend(b"PK\x01\x02");
+        directory.extend(20_u16.to_le_bytes()); // version made by
+        directory.extend(&common);
+        directory.extend([0; 2 + 2 + 2 + 4]); // comment, disk, attributes
+        directory.extend(offset.to_le_bytes());
+        directory.extend(name.as_bytes());
+    }
+    let (start, count) = (out.len() as u32, files.len() as u16);
+    out.extend(&directory);
+    out.extend(b"PK\x05\x06");
+    out.extend([0; 4]);
+    out.extend(count.to_le_bytes());
+    out.extend(count.to_le_bytes());
+    out.extend((directory.len() as u32).to_le_bytes());
+    out.extend(start.to_le_bytes());
+    out.extend([0; 2]);
+    out
+}
+
+/// CRC-32 of zip and PNG, bit by bit.
+fn crc(data: &[u8]) -> u32 {
+    !data.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 })
+    })
+}
+
+/// A grey PNG of 8 bits: signature, IHDR, stored zlib block, IEND.
+fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    let mut raw = Vec::new();
+    for row in pixels.chunks(width as usize) {
+        raw.push(0);
+        raw.extend(row);
+    }
+    let (mut low, mut high) = (1_u32, 0_u32);
+    for byte in &raw {
+        low = (low + u32::from(*byte)) % 65_521;
+        high = (high + low) % 65_521;
+    }
+    let length = raw.len() as u16;
+    let mut data = vec![0x78, 0x01, 1];
+    data.extend(length.to_le_bytes());
+    data.extend((!length).to_le_bytes());
+    data.extend(&raw);
+    data.extend((high << 16 | low).to_be_bytes());
+    let mut head = Vec::new();
+    head.extend(width.to_be_bytes());
+    head.extend(height.to_be_bytes());
+    head.extend([8, 0, 0, 0, 0]);
+    let mut out = b"\x89PNG\r\n\x1a\n".to_vec();
+    for (kind, body) in [(b"IHDR", &head), (b"IDAT", &data), (b"IEND", &Vec::new())] {
+        let mut chunk = kind.to_vec();
+        chunk.extend(body);
+        out.extend((body.len() as u32).to_be_bytes());
+        out.extend(&chunk);
+        out.extend(crc(&chunk).to_be_bytes());
+    }
+    out
+}
+
+/// A portable float map of rows given from above: the file has the lowest row first.
+fn pfm(rows: &[&[[f32; 3]]], little: bool) -> Vec<u8> {
+    let mut out =
+        format!("PF\n{} {}\n{}\n", rows[0].len(), rows.len(), if little { "-1.0" } else { "1.0" }).into_bytes();
+    for number in rows.iter().rev().flat_map(|row| row.iter()).flatten() {
+        out.extend(if little { number.to_le_bytes() } else { number.to_be_bytes() });
+    }
+    out
+}
+
+fn load(name: &str, bytes: &[u8]) -> Result<Display, DisplayError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    Display::load(&path)
+}
+
+/// Version 2.0, two projectors whose surface points are known.
+const SOLID: &str = r#"<?xml version="1.0" encoding="utf-8"?>
+<MPCDI profile="a3" geometry="2" color="2" date="2024-01-02 03:04:05" version="2.0">
+  <display>
+    <buffer id="b" xResolution="8" yResolution="4">
+      <region id="left" x="0" y="0" xSize="0.5" ySize="1" xResolution="4" yResolution="2"/>
+      <region id="right" x="0.5" y="0" xSize="0.5" ySize="1" xResolution="4" yResolution="2"/>
+    </buffer>
+  </display>
+  <files>
+    <fileset region="left">
+      <geometryWarpFile>
+        <path>left.pfm</path><interpolation>linear</interpolation>
+        <geometricUnit>cm</geometricUnit><originOf3DData>idealEyePoint</originOf3DData>
+      </geometryWarpFile>
+      <alphaMap><path>left.png</path><componentDepth>1</componentDepth><bitDepth>8</bitDepth><gammaEmbedded>2.0</gammaEmbedded></alphaMap>
+      <betaMap><path>beta.png</path><componentDepth>1</componentDepth><bitDepth>8</bitDepth></betaMap>
+    </fileset>
+    <fileset region="right">
+      <geometryWarpFile>
+        <path>right.pfm</path><interpolation>linear</interpolation>
+        <geometricUnit>cm</geometricUnit><originOf3DData>idealEyePoint</originOf3DData>
+      </geometryWarpFile>
+    </fileset>
+  </files>
+</MPCDI>"#;
+
+/// Centimetres; x to the left, y up, z into the screen: a wall 2 m before the eye, from 1 m left of it to its middle, 1 m high to 1 m low; the middle row
+/// is 10 cm nearer.
+const LEFT: [[[f32; 3]; 2]; 3] = [
+    [[100.0, 100.0, 200.0], [0.0, 100.0, 200.0]],
+    [[100.0, 0.0, 190.0], [0.0, 0.0, 190.0]],
+    [[100.0, -100.0, 200.0], [0.0, -100.0, 200.0]],
+];
+
+fn solid(little: bool) -> Vec<u8> {
+    let nan = f32::NAN;
+    let right = [
+        [[0.0, 100.0, 200.0], [-50.0, 100.0, 200.0], [nan, nan, nan]],
+        [[0.0, -100.0, 200.0], [-50.0, -100.0, 200.0], [-100.0, -100.0, 200.0]],
+    ];
+    zip(&[
+        ("mpcdi.xml", SOLID.as_bytes()),
+        ("LEFT.PFM", &pfm(&LEFT.each_ref().map(|row| row.as_slice()), little)),
+        ("right.pfm", &pfm(&right.each_ref().map(|row| row.as_slice()), little)),
+        ("left.png", &png(2, 1, &[255, 128])),
+        ("beta.png", &png(1, 1, &[51])),
+    ])
+}
+
+#[test]
+fn profile_a3_puts_pixels_on_the_points_it_gives() {
+    for little in [true, false] {
+        let display = load("wall.mpcdi", &solid(little)).unwrap();
+        assert_eq!((display.name.as_str(), display.screens.len(), display.channels.len()), ("wall", 2, 2));
+        assert_eq!(display.viewer.head_m, DVec3::ZERO, "the ideal eye point");
+        let point = |channel: usize, x, y| display.channels[channel].point(&display, DVec2::new(x, y));
+        let near = |found: Option<DVec3>, expected: [f64; 3]| {
+            assert!(found.unwrap().distance(expected.into()) < SINGLE, "{found:?} {expected:?}");
+        };
+        // The upper left pixel is on the left and above, whatever the file's order of rows.
+        near(point(0, 0.0, 0.0), [-1.0, 1.0, -2.0]);
+        near(point(0, 1.0, 0.0), [0.0, 1.0, -2.0]);
+        near(point(0, 0.0, 1.0), [-1.0, -1.0, -2.0]);
+        near(point(0, 0.5, 0.25), [-0.5, 0.5, -1.95]);
+        near(point(1, 0.5, 1.0), [0.5, -1.0, -2.0]);
+        near(point(1, 0.25, 0.5), [0.25, 0.0, -2.0]);
+        assert_eq!(point(1, 0.9, 0.1), None, "unknown points are holes");
+        let Surface::Mesh(mesh) = &display.screens[0].surface else { panic!("no mesh") };
+        assert_eq!(mesh.triangles().len(), 4);
+        // Every region is a window of its own on an output of its own.
+        assert_eq!(display.windows[1].monitor, Some(Monitor::Index(1)));
+        assert_eq!((display.windows[0].size, display.windows[0].fullscreen), ([4, 2], true));
+    }
+}
+
+#[test]
+fn alpha_and_beta_become_gains_in_linear_light() {
+    let display = load("wall.mpcdi", &solid(true)).unwrap();
+    let gains = display.channels[0].gains(&display, [2, 1]).unwrap();
+    // beta = 51/255 = 0.2; alpha = (value/255)²: out = in · alpha · (1 − beta) + beta.
+    let alpha = (128.0_f32 / 255.0).powi(2);
+    for (found, expected) in gains.factors.iter().zip([0.8, 0.8 * alpha]) {
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+    assert!(gains.lifts.unwrap().iter().all(|lift| (lift - 0.2).abs() < 1e-5));
+    assert!(display.channels[1].gains(&display, [2, 1]).is_none());
+}
+
+/// Version 1.0: `level`, other spellings, one region of a picture of 2 : 1.
+const FLAT: &str = r#"<mpcdi profile="2d" level="1" date="2013-02-01 10:00:00" version="1.0"><display>
+<buffer id="front" Xresolution="2000" Yresolution="1000">
+<region id="p/1" Xresolution="4" Yresolution="4" x="0.5" y="0.0" xsize="0.5" ysize="0.5"/></buffer></display>
+<files></files><fileset region="p/1"><geometrywarpfile><path>w.pfm</path></geometrywarpfile></fileset></mpcdi>"#;
+
+#[test]
+fn profile_2d_warps_its_part_of_a_flat_picture() {
+    // The projector stands to the right: its picture is narrower above.
+    let warp = pfm(&[&[[-0.25, 0.0, 0.0], [1.25, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
+    let display = load("flat.mpcdi", &zip(&[("mpcdi.xml", FLAT.as_bytes()), ("w.pfm", &warp)])).unwrap();
+    // Flat, 4 m × 2 m, 2 m before the head; the region is its right upper quarter.
+    let Surface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
+    assert_eq!(flat.size_m(), DVec2::new(4.0, 2.0));
+    assert!(display.notices.iter().any(|notice| notice.contains("2d")), "{:?}", display.notices);
+    let channel = &display.channels[0];
+    assert_eq!(channel.name, "p-1", "names are made fit for files");
+    let point = |x, y| channel.point(&display, DVec2::new(x, y)).map(|point| point - display.viewer.head_m);
+    assert!(point(0.0, 1.0).unwrap().distance(DVec3::new(0.0, 0.0, -2.0)) < SINGLE);
+    assert!(point(1.0, 1.0).unwrap().distance(DVec3::new(2.0, 0.0, -2.0)) < SINGLE);
+    assert_eq!(point(0.0, 0.0), None, "beyond the picture is black");
+    let above = point(0.5, 0.0).unwrap();
+    assert!(above.distance(DVec3::new(1.0, 1.0, -2.0)) < SINGLE, "{above}");
+}
+
+#[test]
+fn a_bare_description_has_its_maps_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("x.mpcdi.xml"), FLAT).unwrap();
+    let path = folder.path().join("x.mpcdi.xml");
+    assert!(Display::load(&path).unwrap_err().to_string().contains("w.pfm"));
+    let straight = pfm(&[&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
+    std::fs::write(folder.path().join("w.pfm"), straight).unwrap();
+    assert_eq!(Display::load(&path).unwrap().name, "x");
+    // And nowhere else.
+    std::fs::write(&path, FLAT.replace("w.pfm", "../w.pfm")).unwrap();
+    assert!(Display::load(&path).unwrap_err().to_string().contains("not beside it"));
+}
+
+#[test]
+fn containers_with_flaws_are_refused_with_the_reason() {
+    let container = |xml: &str, warp: &[u8]| load("x.mpcdi", &zip(&[("mpcdi.xml", xml.as_bytes()), ("w.pfm", warp)]));
+    let straight = pfm(&[&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
+    assert!(container(FLAT, &straight).is_ok());
+    let cases: [(Result<Display, DisplayError>, &str); 15] = [
+        (load("x.mpcdi", b"PK\x03\x04 and nothing"), "no good zip"),
+        (load("x.mpcdi", &zip(&[("other.xml", b"")])), "no \"mpcdi.xml\" in it"),
+        (load("x.mpcdi", b"\xff\xfe"), "UTF-8"),
+        (load("x.mpcdi", b"<a/>"), "its root is <a>"),
+        (load("x.mpcdi", b"<MPCDI profile='2d'>"), "no XML"),
+        (load("x.mpcdi", b"<MPCDI profile='2d'/>"), "no <region>"),
+        (container(&FLAT.replace("2d", "sl"), &straight), "only 2d and a3"),
+        (
+            container(&FLAT.replace("\"2d\"", "\"a3\"").replace("<path>w.pfm</path>", ""), &straight),
+            "needs its geometryWarpFile",
+        ),
+        (container(&FLAT.replace("xsize=\"0.5\"", "xsize=\"0.6\""), &straight), "no part of its buffer"),
+        (container(&FLAT.replace("Xresolution=\"4\"", "Xresolution=\"0\""), &straight), "no raster"),
+        (container(&FLAT.replace("Xresolution=\"4\"", ""), &straight), "line 3, <region>: it has no xResolution"),
+        (container(FLAT, &straight[..straight.len() - 1]), "cut short"),
+        (container(FLAT, b"P6\n2 2\n255\n"), "not with PF"),
+        (container(FLAT, b"PF\n1 1\n-1\n012301230123"), "at least 2 × 2"),
+        (container(FLAT, b"PF\n9999999 9999999\n-1\n"), "can be read"),
+    ];
+    for (result, word) in cases {
+        let message = result.expect_err(word).to_string();
+        assert!(message.contains(word) && message.contains("x.mpcdi"), "{message:?} does not say {word:?}");
+    }
+}
+
+#[test]
+fn cut_and_spoilt_containers_end_in_words() {
+    let good = solid(true);
+    for length in (0..good.len()).step_by(7) {
+        assert!(load("x.mpcdi", &good[..length]).is_err(), "{length}");
+    }
+    for at in (0..good.len()).step_by(5) {
+        let mut spoilt = good.clone();
+        spoilt[at] ^= 0x55;
+        // Whatever becomes of it, it comes back.
+        let _ = load("x.mpcdi", &spoilt).map(|display| display.to_string());
+    }
+}
+
+/// Two walls at a right angle, an eye each, and one in between.
+const WALLS: &str = r#"<?xml version="1.0"?>
+<!-- a corner -->
+<pvx>
+  <Process Type="render-server">
+    <EyeSeparation Value="0.07"/>
+    <Machine Name="node" Environment="DISPLAY=:0.1" Geometry="640x480+20-30" FullScreen="0" StereoType="Left"
+      LowerLeft="-1 -1 -1.5" LowerRight="1 -1 -1.5" UpperRight="1 1 -1.5"/>
+    <Machine Name="node" Geometry="640x480" FullScreen="1" StereoType="Right"
+      LowerLeft="1 -1 -1.5" LowerRight="1.0 -1 1.5" UpperRight="1 1 1.5"/>
+    <Machine Name="a/b" Geometry="101x50+0+0" StereoType="SplitViewportHorizontal"
+      LowerLeft="-1 -1 -1.5" LowerRight="1 -1 -1.5" UpperRight="1 1 -1.5"/>
+    <Machine Geometry="64x64" StereoType="Anaglyph" LowerLeft="-1 -1 -1.5" LowerRight="1 -1 -1.5" UpperRight="1 1 -1.5"/>
+    <Machine StereoType="Crystal Eyes" LowerLeft="-1 -1 -1.5" LowerRight="1 -1 -1.5" UpperRight="1 1 -1.5"/>
+  </Process>
+</pvx>"#;
+
+#[test]
+fn paraviews_walls_are_read() {
+    let display = load("corner.pvx", WALLS.as_bytes()).unwrap();
+    assert_eq!((display.name.as_str(), display.viewer.eye_separation_m), ("corner", 0.07));
+    assert_eq!(display.viewer.head_m, DVec3::ZERO);
+    let Surface::Flat(wall) = display.screens[1].surface else { panic!("not flat") };
+    assert_eq!((wall.lower_left, wall.right, wall.up), (DVec3::new(1.0, -1.0, -1.5), DVec3::Z * 3.0, DVec3::Y * 2.0));
+    assert_eq!(wall.normal(), DVec3::NEG_X);
+    let window = &display.windows[0];
+    assert_eq!((window.size, window.position, window.fullscreen), ([640, 480], Some([20, -30]), false));
+    assert_eq!(window.monitor, Some(Monitor::Index(1)));
+    assert_eq!((display.windows[1].position, display.windows[1].fullscreen), (None, true));
+    let channels: Vec<(&str, Eye, [u32; 4])> =
+        display.channels.iter().map(|channel| (channel.name.as_str(), channel.eye, channel.viewport)).collect();
+    assert_eq!(
+        channels,
+        [
+            ("node", Eye::Left, [0, 0, 640, 480]),
+            ("node-2", Eye::Right, [0, 0, 640, 480]),
+            ("a-b-left", Eye::Left, [0, 0, 50, 50]),
+            ("a-b-right", Eye::Right, [50, 0, 50, 50]),
+            ("screen-left", Eye::Left, [0, 0, 64, 64]),
+            ("screen-right", Eye::Right, [0, 0, 64, 64]),
+            ("screen-2", Eye::Centre, [0, 0, 600, 600]),
+        ]
+    );
+    assert_eq!(display.windows[3].combine, Combine::AnaglyphDubois);
+    for word in ["Crystal Eyes", "no Geometry", "Doppler"] {
+        assert!(display.notices.iter().any(|notice| notice.contains(word)), "{word}: {:?}", display.notices);
+    }
+}
+
+#[test]
+fn paraviews_walls_with_flaws_are_refused_with_the_reason() {
+    for (from, to, word) in [
+        (
+            "UpperRight=\"1 1 -1.5\"",
+            "UpperRight=\"1 1\"",
+            "line 6, <Machine>: UpperRight = \"1 1\" is not three numbers",
+        ),
+        ("UpperRight=\"1 1 -1.5\"", "UpperRight=\"2 1 -1.5\"", "no rectangle"),
+        ("UpperRight=\"1 1 -1.5\"", "UpperRight=\"1 NaN -1.5\"", "length"),
+        ("LowerRight=\"1 -1 -1.5\"", "", "it has no LowerRight"),
+        ("640x480+20-30", "640x0", "is not WIDTHxHEIGHT+X+Y"),
+        ("640x480+20-30", "640x480+20", "is not WIDTHxHEIGHT+X+Y"),
+        ("640x480+20-30", "640x480+é-", "is not WIDTHxHEIGHT+X+Y"),
+        ("0.07", "x", "Value = \"x\" is no number"),
+        ("0.07", "-1", "eye separation"),
+        ("Machine", "Engine", "no <Machine>"),
+    ] {
+        let text = if from == "Machine" { WALLS.replace(from, to) } else { WALLS.replacen(from, to, 1) };
+        let message = load("x.pvx", text.as_bytes()).expect_err(word).to_string();
+        assert!(message.contains(word) && message.contains("x.pvx"), "{message:?} does not say {word:?}");
+    }
+    let behind = "<pvx><Machine Name='m' LowerLeft='-1 -1 1' LowerRight='1 -1 1' UpperRight='1 1 1'/></pvx>";
+    let message = load("x.pvx", behind.as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("channel \"m\"") && message.contains("1.000 m behind"), "{message}");
+}
