@@ -50,9 +50,6 @@ pub enum Error {
     /// A scene that `rapidity check` refuses.
     #[error(transparent)]
     Check(#[from] crate::scene::check::CheckError),
-    /// No display, or one with a flaw.
-    #[error(transparent)]
-    Display(#[from] crate::room::DisplayError),
     /// A file that could not be exported.
     #[error(transparent)]
     Export(#[from] crate::scene::export::ExportError),

@@ -150,13 +150,7 @@ impl Ride {
     }
 
     /// Draws every channel of a room, each eye's photo-surface beside the drawing of the one before.
-    fn surround(
-        &mut self,
-        gpu: &Gpu,
-        walls: &mut Walls,
-        occupant: &Occupant,
-        effects: Effects,
-    ) -> Result<(), Error> {
+    fn surround(&mut self, gpu: &Gpu, walls: &mut Walls, occupant: &Occupant, effects: Effects) -> Result<(), Error> {
         let drawn = walls.draw(gpu, &mut self.renderer, occupant, effects)?;
         self.pace.transformed(drawn.transform);
         self.not_finite = drawn.not_finite;

@@ -13,6 +13,7 @@ use crate::renderers::polygon::Pace;
 use crate::room::Display;
 use crate::scene::{Start, source};
 use crate::views::Camera;
+use crate::walls::preview::Onlooker;
 use crate::walls::{Occupant, Quality, Walls};
 use physics::Event;
 use physics::worldline::State;
@@ -62,7 +63,8 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
 
     let count = walls.display.channels.len();
     let spinner = progress::spinner("drawing");
-    let drawn = walls.draw(gpu, &mut renderer, &Occupant { vehicle, head }, picture.effects)?;
+    let occupant = Occupant { vehicle, head };
+    let drawn = walls.draw(gpu, &mut renderer, &occupant, picture.effects)?;
     if let Some((channel, behind)) = drawn.behind.first() {
         return Err(Error::EyeBehind { channel: channel.clone(), behind: *behind });
     }
@@ -75,6 +77,13 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     for channel in 0..count {
         let path = folder.join(format!("{}.png", walls.display.channels[channel].name));
         save(&walls.develop(gpu, channel, &picture.development())?, &path)?;
+        eprintln!("wrote {}", path.display());
+    }
+    if options.room.preview {
+        let mut onlooker = Onlooker::outside(&walls);
+        onlooker.from_m = options.room.preview_from.unwrap_or(onlooker.from_m);
+        let path = folder.join("room.png");
+        save(&walls.develop_room(gpu, picture.size, &occupant, &onlooker, &picture.development())?, &path)?;
         eprintln!("wrote {}", path.display());
     }
     Ok(())

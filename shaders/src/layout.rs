@@ -168,3 +168,11 @@ pub struct Facet {
     /// Texel that lies straight ahead, then texels per tangent right and up (which is negative).
     pub texel: Vec4,
 }
+
+/// From where a room is seen.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RoomView {
+    /// From the room's axes, metres.
+    pub clip_from_room: Mat4,
+}

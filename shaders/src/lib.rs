@@ -8,7 +8,7 @@
 
 mod layout;
 
-pub use layout::{Accumulate, Adaptation, Facet, Lighting, Map, Material, Metering, Pane, Placement, View};
+pub use layout::{Accumulate, Adaptation, Facet, Lighting, Map, Material, Metering, Pane, Placement, RoomView, View};
 
 use glam::DVec3;
 use physics::colour::{ShiftTable, luminance};
@@ -179,14 +179,19 @@ pub const DISPLAY: Module = Module {
 /// Both eyes' pictures on the same pixels.
 pub const COMBINE: Module =
     Module { name: "combine", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/combine.wgsl")] };
+/// A room seen from anywhere.
+pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/room.wgsl")] };
+/// Linear light as a screen takes it.
+pub const ENCODED: Module =
+    Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
 /// From flat pictures to a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for validation.
-pub const MODULES: [Module; 11] =
-    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, RESAMPLE, PROBE];
+pub const MODULES: [Module; 13] =
+    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, PROBE];
 
 /// The WGSL declarations of the constants above.
 fn constants() -> String {

@@ -72,6 +72,7 @@ fn structs_have_the_same_layout_on_both_sides() {
         Metering { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances, columns, rows }
     );
     assert_mirrors!(parse(&shaders::DISPLAY), Placement { origin, exposure, odd });
+    assert_mirrors!(parse(&shaders::ROOM), RoomView { clip_from_room });
     assert_mirrors!(parse(&shaders::RESAMPLE), Facet { eye, right, up, forward, texel });
     assert_mirrors!(meter, Adaptation { exposure, white, log2_exposure, gain, bright });
 }

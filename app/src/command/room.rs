@@ -18,6 +18,12 @@ pub struct RoomOptions {
     /// folder that --out names; --size and --fov say nothing then.
     #[arg(long, value_name = "DISPLAY")]
     pub display: Option<String>,
+    /// Write a picture of the room itself, too, as room.png of --size: its screens with what they show, and the head.
+    #[arg(long, requires = "display")]
+    pub preview: bool,
+    /// From where, room axes, metres [default: outside, behind the head, so that all is in sight].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "preview")]
+    pub preview_from: Option<DVec3>,
     /// Place of the head in the room, metres: right, up, backward [default: the display's].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "display")]
     head: Option<DVec3>,

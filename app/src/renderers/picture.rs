@@ -11,7 +11,7 @@ use image::{Rgb32FImage, RgbaImage};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// What a picture is stored as.
-pub(crate) const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// What light is fetched as.
 const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 

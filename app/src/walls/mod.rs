@@ -12,6 +12,7 @@ pub mod curved;
 pub mod facet;
 pub mod head;
 mod picture;
+pub mod preview;
 mod show;
 
 pub use head::{Head, Occupant, OccupantEye};

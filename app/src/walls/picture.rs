@@ -1,8 +1,8 @@
 //! One channel: where it is drawn, and how it is drawn for an eye.
 
+use super::Quality;
 use super::curved::Curved;
 use super::head::OccupantEye;
-use super::Quality;
 use crate::gpu::Gpu;
 use crate::renderers::certainty::Certainty;
 use crate::renderers::display::{self, Accumulator, Pass, Stored};

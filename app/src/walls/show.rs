@@ -1,6 +1,7 @@
 //! From the channels' light to windows and pictures.
 
-use super::Walls;
+use super::preview::{Onlooker, Preview};
+use super::{Occupant, Walls};
 use crate::gpu::{Gpu, GpuError};
 use crate::renderers::display::{self, Development, Part};
 use crate::renderers::picture::{SCREEN_FORMAT, Sheet};
@@ -80,6 +81,26 @@ impl Walls {
         self.show_window(gpu, &mut encoder, window, development, &sheet.view(), [0, 0]);
         let pixels = sheet.fetch(gpu, encoder)?;
         Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
+    }
+
+    /// A picture of the room, from somewhere.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn develop_room(
+        &mut self,
+        gpu: &Gpu,
+        size: [u32; 2],
+        occupant: &Occupant,
+        onlooker: &Onlooker,
+        development: &Development,
+    ) -> Result<RgbaImage, GpuError> {
+        let sheet = Sheet::new(gpu, size, SCREEN_FORMAT);
+        let mut preview = Preview::new(gpu, self, SCREEN_FORMAT);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        preview.draw(gpu, &mut encoder, self, (occupant, onlooker), development, &sheet.view());
+        let pixels = sheet.fetch(gpu, encoder)?;
+        Ok(RgbaImage::from_raw(size[0], size[1], pixels).expect("the sheet has four bytes a pixel"))
     }
 
     /// A channel's picture in linear light, for what comes after.

@@ -222,6 +222,12 @@ pub fn resample(gpu: &Gpu, format: wgpu::TextureFormat, smooth: bool) -> Pass {
     Pass::new(gpu, &shaders::RESAMPLE, &overrides, &[UNFILTERED, UNIFORM, UNFILTERED], format)
 }
 
+/// The pass that writes linear light to a screen.
+pub fn encoded(gpu: &Gpu, screen: wgpu::TextureFormat) -> Pass {
+    let overrides = [("ENCODE", f64::from(u8::from(encodes(screen))))];
+    Pass::new(gpu, &shaders::ENCODED, &overrides, &[UNFILTERED], screen)
+}
+
 /// Factors of pixels, where the device reads them: red multiplies, and green is what is then added.
 pub fn gains(gpu: &Gpu, gains: &Gains) -> wgpu::TextureView {
     let lift = |pixel: usize| gains.lifts.as_ref().map_or(0.0, |lifts| lifts[pixel]);
