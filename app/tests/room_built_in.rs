@@ -1,4 +1,5 @@
 //! The built-in displays are what the theses describe, and their files are good. A display that is not would be found on the wall only.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2};
 use rapidity::room::{Display, Eye, Surface, built_in, frustum};

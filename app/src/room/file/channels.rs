@@ -2,7 +2,7 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::error::{At, nearest};
+use crate::room::error::At;
 use crate::room::maps::{self, MapError};
 use crate::room::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
 use glam::{DVec2, DVec4};
@@ -55,7 +55,7 @@ impl Resolver<'_> {
         }
         let warp = match (&given.corners, &given.warp) {
             (Some(corners), _) => self.corners(corners, viewport, &at)?,
-            (None, Some(file)) => Some(Warp::Grid(self.read(file, |bytes| maps::warp(bytes))?)),
+            (None, Some(file)) => Some(Warp::Grid(self.read(file, maps::warp)?)),
             (None, None) => None,
         };
         Ok(Channel {
@@ -76,7 +76,7 @@ impl Resolver<'_> {
         &self,
         given: &schema::Channel,
         window: usize,
-        at: &dyn Fn(&str) -> At,
+        at: &dyn Fn(&str) -> Box<At>,
     ) -> Result<[u32; 4], DisplayError> {
         let WindowPlace { name, size: size @ [width, height], .. } = &self.windows[window];
         let viewport = given.viewport.unwrap_or([0, 0, *width, *height]);
@@ -97,7 +97,7 @@ impl Resolver<'_> {
         &self,
         given: &schema::Corners,
         viewport: [u32; 4],
-        at: &dyn Fn(&str) -> At,
+        at: &dyn Fn(&str) -> Box<At>,
     ) -> Result<Option<Warp>, DisplayError> {
         let size = DVec2::new(f64::from(viewport[2]), f64::from(viewport[3]));
         let places = [
@@ -114,7 +114,12 @@ impl Resolver<'_> {
             .map_err(|error| DisplayError::Value { at: at("corners"), reason: error.to_string() })
     }
 
-    fn map(&self, file: &Option<String>, gamma: Option<f64>, at: impl Fn() -> At) -> Result<Option<Map>, DisplayError> {
+    fn map(
+        &self,
+        file: &Option<String>,
+        gamma: Option<f64>,
+        at: impl Fn() -> Box<At>,
+    ) -> Result<Option<Map>, DisplayError> {
         let gamma = gamma.unwrap_or(1.0);
         if !(gamma.is_finite() && gamma > 0.0) {
             return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });
@@ -130,7 +135,7 @@ impl Resolver<'_> {
     }
 }
 
-fn part(given: &schema::Channel, at: &dyn Fn(&str) -> At) -> Result<Part, DisplayError> {
+fn part(given: &schema::Channel, at: &dyn Fn(&str) -> Box<At>) -> Result<Part, DisplayError> {
     let Some(part) = given.part.map(DVec4::from) else { return Ok(Part::default()) };
     let (from, to) = (DVec2::new(part.x, part.y), DVec2::new(part.z, part.w));
     if part.cmpge(DVec4::ZERO).all() && part.cmple(DVec4::ONE).all() && to.cmpgt(from).all() {
@@ -145,7 +150,7 @@ fn part(given: &schema::Channel, at: &dyn Fn(&str) -> At) -> Result<Part, Displa
 
 /// The index of a name.
 fn find<'a>(
-    at: impl Fn() -> At,
+    at: impl Fn() -> Box<At>,
     kind: &'static str,
     name: &str,
     known: impl Iterator<Item = &'a str> + Clone,
@@ -154,7 +159,6 @@ fn find<'a>(
         at: at(),
         kind,
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()).map(str::to_owned),
         known: known.map(str::to_owned).collect(),
     })
 }

@@ -5,7 +5,7 @@ use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
 /// Compares everything with everything; `at` says where a key of a channel is.
-pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> At) -> Result<(), DisplayError> {
+pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;

@@ -63,7 +63,7 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
         notices,
     };
     if display.channels.is_empty() {
-        let at = At { file: text.name.into(), line: None, key: String::new() };
+        let at = Box::new(At { file: text.name.into(), line: None, key: String::new() });
         return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
     }
     check::check(&display, &|index, key| {
@@ -77,10 +77,8 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
 /// # Errors
 /// [`DisplayError`].
 pub(super) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
-    check::check(display, &|index, _| At {
-        file: name.to_owned(),
-        line: None,
-        key: format!("channel {:?}", display.channels[index].name),
+    check::check(display, &|index, _| {
+        Box::new(At { file: name.to_owned(), line: None, key: format!("channel {:?}", display.channels[index].name) })
     })
 }
 
@@ -163,14 +161,7 @@ fn window(text: &Text<'_>, table: &Spanned<schema::Window>) -> Result<WindowPlac
             Some(combine) => combine,
             None => {
                 let known = Combine::ALL.map(|combine| combine.name().to_owned()).to_vec();
-                let nearest = super::error::nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-                return Err(DisplayError::Unknown {
-                    at: at("combine"),
-                    kind: "combine",
-                    name: name.clone(),
-                    nearest,
-                    known,
-                });
+                return Err(DisplayError::Unknown { at: at("combine"), kind: "combine", name: name.clone(), known });
             }
         },
     };

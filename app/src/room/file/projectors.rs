@@ -2,7 +2,6 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::error::nearest;
 use crate::room::projector::{Lens, Projector, Table};
 use crate::room::{At, DisplayError, room_from_turned};
 use glam::DVec2;
@@ -34,7 +33,7 @@ struct Form<'a> {
 }
 
 impl Form<'_> {
-    fn at(&self, key: &str) -> At {
+    fn at(&self, key: &str) -> Box<At> {
         self.text.at(self.start, &format!("projector {:?}", self.given.name), key)
     }
 
@@ -85,7 +84,6 @@ impl Form<'_> {
                 at: self.at("lens"),
                 kind: "lens",
                 name: name.into(),
-                nearest: nearest(name, LENSES).map(str::to_owned),
                 known: LENSES.map(str::to_owned).to_vec(),
             });
         }

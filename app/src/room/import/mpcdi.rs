@@ -208,7 +208,7 @@ impl<'a> Import<'a> {
         if mesh.triangles().is_empty() {
             return Err("its warp has no three neighbouring points that are known".into());
         }
-        Ok(Surface::Mesh(mesh))
+        Ok(Surface::Mesh(Box::new(mesh)))
     }
 
     fn notice(&mut self, notice: String) {

@@ -29,10 +29,10 @@ fn obj(text: &str) -> Result<Mesh, String> {
         let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
         match words.next() {
             Some("v") => {
-                positions.push(DVec3::from(numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers"))?))
+                positions.push(DVec3::from(numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers"))?));
             }
             Some("vt") => {
-                places.push(DVec2::from(numbers::<2>(words).ok_or_else(|| wrong("vt needs two finite numbers"))?))
+                places.push(DVec2::from(numbers::<2>(words).ok_or_else(|| wrong("vt needs two finite numbers"))?));
             }
             Some("f") => {
                 let mut face = Vec::new();
