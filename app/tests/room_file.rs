@@ -1,6 +1,6 @@
 //! Display files mean what they say, and each flaw is named with its file, line, key and reason. A wrong program would take a typing error for a
 //! default, or refuse without saying where.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
