@@ -233,7 +233,10 @@ fn only_two_eyes_may_share_pixels() {
     assert!(added(&second("right", "[480, 0, 480, 480]")).is_ok());
     // In a window that combines eyes: the other eye on the same pixels, and nothing else.
     let combined = CORE.replace("size = [960, 480]", "size = [960, 480]\ncombine = \"rows\"");
-    assert!(parse(&format!("{combined}{}", second("right", "[0, 0, 480, 480]"))).is_ok());
+    let pair = parse(&format!("{combined}{}", second("right", "[0, 0, 480, 480]"))).unwrap();
+    assert_eq!((pair.partner(0), pair.partner(1), pair.notices.len()), (Some(1), Some(0), 0));
+    let alone = parse(&combined).unwrap();
+    assert!(alone.partner(0).is_none() && alone.notices[0].contains("the other eye"), "{:?}", alone.notices);
     says(parse(&format!("{combined}{}", second("left", "[0, 0, 480, 480]"))), 23, &["overlaps"]);
     says(parse(&format!("{combined}{}", second("centre", "[0, 0, 480, 480]"))), 23, &["overlaps"]);
     says(parse(&format!("{combined}{}", second("right", "[0, 0, 480, 479]"))), 23, &["overlaps"]);

@@ -37,7 +37,7 @@ pub enum DisplayError {
         name: String,
     },
     /// A file that cannot be read.
-    #[error("{}: cannot be read: {reason}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Read {
         /// The file.
         path: PathBuf,

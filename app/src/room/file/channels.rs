@@ -4,6 +4,7 @@ use super::schema;
 use super::text::Text;
 use crate::room::error::At;
 use crate::room::maps::{self, MapError};
+use crate::room::read;
 use crate::room::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
 use glam::{DVec2, DVec4};
 use std::path::Path;
@@ -129,8 +130,7 @@ impl Resolver<'_> {
 
     fn read<T>(&self, file: &str, understand: impl Fn(&[u8]) -> Result<T, MapError>) -> Result<T, DisplayError> {
         let path = self.folder.join(file);
-        let bytes = std::fs::read(&path)
-            .map_err(|error| DisplayError::Read { path: path.clone(), reason: error.to_string() })?;
+        let bytes = read::bytes(&path).map_err(|reason| DisplayError::Read { path: path.clone(), reason })?;
         understand(&bytes).map_err(|error| DisplayError::Import { path, reason: error.to_string() })
     }
 }
@@ -178,22 +178,4 @@ fn not_a_file_name(name: &str) -> Option<&'static str> {
     } else {
         None
     }
-}
-
-/// What the user should know about a good display.
-pub(super) fn notices(windows: &[WindowPlace], channels: &[Channel]) -> Vec<String> {
-    let mut notices = Vec::new();
-    for (index, window) in windows.iter().enumerate() {
-        let name = &window.name;
-        if window.combine.is_anaglyph() {
-            notices.push(format!(
-                "window {name:?}: an anaglyph tells the eyes apart by colour, so it cannot show the Doppler shift's colours too; \
-                 switch the Doppler effect off, or choose another stereo"
-            ));
-        }
-        if !channels.iter().any(|channel| channel.window == index) {
-            notices.push(format!("window {name:?}: no channel draws in it, so it stays black"));
-        }
-    }
-    notices
 }

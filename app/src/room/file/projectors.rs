@@ -171,7 +171,7 @@ impl Form<'_> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
         let read = || -> Result<Lens, String> {
-            let text = std::fs::read_to_string(&path).map_err(|error| format!("cannot be read: {error}"))?;
+            let text = crate::room::read::text(&path)?;
             let (columns, rows, angles) = crate::room::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
             Ok(Lens::Table(Table::new(columns, rows, angles)))

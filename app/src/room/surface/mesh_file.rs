@@ -10,7 +10,7 @@ const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads `path`: `.obj` or `.csv`. What is wrong is said in words that follow the file's name.
 pub(in crate::room) fn load(path: &Path) -> Result<Mesh, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let text = crate::room::read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
