@@ -1,4 +1,5 @@
 //! The built-in displays are what the theses describe, and their files are good. A display that is not would be found on the wall only.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2};
 use rapidity::room::{Display, Eye, Surface, built_in, frustum};
@@ -25,8 +26,8 @@ fn the_walls_of_the_caves_close_without_a_gap() {
         for screen in 0..count {
             for corner in corners(screen) {
                 let shared = (0..count).filter(|&other| corners(other).contains(&corner)).count();
-                let open = corner.y == 3.0 && corner.z == 1.5 || corner.y == 3.0 || corner.z == 1.5;
-                assert!(shared == 3 || count == 4 && open && shared >= 1, "{name} {corner}: {shared}");
+                let open = corner.y == 3.0 || corner.z == 1.5;
+                assert!(shared == 3 || count == 4 && open, "{name} {corner}: {shared}");
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Display files mean what they say, and each flaw is named with its file, line, key and reason. A wrong program would take a typing error for a
 //! default, or refuse without saying where.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
@@ -66,6 +67,8 @@ fn pixels_run_right_and_down_and_the_surface_up() {
     let point = |x, y| display.channels[0].point(&display, DVec2::new(x, y)).unwrap();
     assert_eq!(point(0.0, 0.0), DVec3::new(-1.5, 3.0, -1.5));
     assert_eq!(point(1.0, 1.0), DVec3::new(1.5, 0.0, -1.5));
+    let points = display.channels[0].points(&display, [3, 2]);
+    assert_eq!(points[5].unwrap().distance(point(5.0 / 6.0, 0.75)), 0.0, "pixel centres, row by row");
     // A part: its right upper quarter.
     let display = added("part = [0.5, 0.5, 1.0, 1.0]\n").unwrap();
     let point = |x, y| display.channels[0].point(&display, DVec2::new(x, y)).unwrap();
@@ -230,7 +233,10 @@ fn only_two_eyes_may_share_pixels() {
     assert!(added(&second("right", "[480, 0, 480, 480]")).is_ok());
     // In a window that combines eyes: the other eye on the same pixels, and nothing else.
     let combined = CORE.replace("size = [960, 480]", "size = [960, 480]\ncombine = \"rows\"");
-    assert!(parse(&format!("{combined}{}", second("right", "[0, 0, 480, 480]"))).is_ok());
+    let pair = parse(&format!("{combined}{}", second("right", "[0, 0, 480, 480]"))).unwrap();
+    assert_eq!((pair.partner(0), pair.partner(1), pair.notices.len()), (Some(1), Some(0), 0));
+    let alone = parse(&combined).unwrap();
+    assert!(alone.partner(0).is_none() && alone.notices[0].contains("the other eye"), "{:?}", alone.notices);
     says(parse(&format!("{combined}{}", second("left", "[0, 0, 480, 480]"))), 23, &["overlaps"]);
     says(parse(&format!("{combined}{}", second("centre", "[0, 0, 480, 480]"))), 23, &["overlaps"]);
     says(parse(&format!("{combined}{}", second("right", "[0, 0, 480, 479]"))), 23, &["overlaps"]);

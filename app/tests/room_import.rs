@@ -1,5 +1,6 @@
 //! Displays of other programs come in as what they mean. A wrong program would show them upside down, mirrored, or in the wrong size: every
 //! container here is put together byte by byte, so that nothing is taken from the code it tests.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface};

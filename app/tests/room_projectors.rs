@@ -1,5 +1,6 @@
 //! Projectors: lenses invert, the laser scanner is the thesis', light is conserved. A wrong lens shifts the picture by its error; a wrong brightness
 //! shows as a shading of the screen.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};

@@ -1,4 +1,5 @@
 //! Surfaces, frusta and warps: what one way does, the other undoes. A wrong sign here turns a wall round, and every picture on it.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
@@ -50,8 +51,8 @@ fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
         ("cylinder", Surface::Cylinder(cylinder), DVec3::new(0.4, 1.6, -0.1)),
         ("sphere", Surface::Sphere(sphere), DVec3::new(0.4, 1.6, -0.1)),
         ("whole sphere", Surface::Sphere(whole), DVec3::new(0.4, 1.6, -0.1)),
-        ("sheet", Surface::Mesh(sheet), DVec3::new(0.3, 1.6, -0.5)),
-        ("grid", Surface::Mesh(Mesh::grid(5, 4, points.collect())), DVec3::new(0.3, 1.6, 1.0)),
+        ("sheet", Surface::Mesh(Box::new(sheet)), DVec3::new(0.3, 1.6, -0.5)),
+        ("grid", Surface::Mesh(Box::new(Mesh::grid(5, 4, points.collect()))), DVec3::new(0.3, 1.6, 1.0)),
     ]
 }
 
@@ -94,6 +95,20 @@ fn rays_that_miss_hit_nothing() {
     let beyond = flat.point(DVec2::new(1.001, 0.5));
     assert!(Surface::Flat(flat).hit(DVec3::Y, beyond - DVec3::Y).is_none());
     assert!(Surface::Flat(flat).hit(DVec3::Y, DVec3::Y - beyond).is_none(), "behind the ray");
+}
+
+#[test]
+fn what_draws_the_room_gets_the_surface_itself() {
+    for (name, surface, eye) in surfaces() {
+        let mesh = surface.to_mesh(33, 33);
+        for (point, uv) in mesh.points().iter().zip(mesh.uvs()) {
+            assert!(point.distance(surface.point(*uv).unwrap()) < ROUNDING, "{name}");
+        }
+        for corners in mesh.triangles() {
+            let [a, b, c] = corners.map(|corner| mesh.points()[corner as usize]);
+            assert!((b - a).cross(c - a).dot(eye - a) > 0.0, "{name}: a triangle faces away from the viewer");
+        }
+    }
 }
 
 #[test]
@@ -199,7 +214,7 @@ fn warps_are_undone_by_their_inverse() {
 fn a_mesh_with_a_hole_shows_nothing_there() {
     let mut points: Vec<DVec3> = (0..16).map(|i| DVec3::new(f64::from(i % 4), f64::from(i / 4), -2.0)).collect();
     points[5] = DVec3::NAN;
-    let surface = Surface::Mesh(Mesh::grid(4, 4, points));
+    let surface = Surface::Mesh(Box::new(Mesh::grid(4, 4, points)));
     assert_eq!(surface.point(DVec2::new(0.3, 0.3)), None);
     assert_eq!(surface.point(DVec2::new(0.9, 0.9)).unwrap().z, -2.0);
     assert!(surface.hit(DVec3::new(0.9, 0.9, 0.0), DVec3::NEG_Z).is_none());

@@ -4,6 +4,7 @@ use super::gains::{self, Map};
 use super::projector::Projector;
 use super::{Display, Eye, Flat, Gains, Screen, Surface, Warp};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// A rectangle of a surface in uv.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +80,18 @@ impl Channel {
             Some(projector) => Some(self.lit(screen, projector, place)?.1),
             None => screen.surface.point(self.part.uv(self.picture(place)?)),
         }
+    }
+
+    /// [`point`](Self::point) at the centres of `size` pixels spread evenly over the viewport, row by row from the upper left.
+    ///
+    /// It does not depend on the eye: it is made once, and serves however the head moves (B 4.1).
+    pub fn points(&self, display: &Display, size: [u32; 2]) -> Vec<Option<DVec3>> {
+        let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let point = |index: u64| {
+            let at = DVec2::new((index % u64::from(size[0])) as f64, (index / u64::from(size[0])) as f64);
+            self.point(display, (at + 0.5) / pixels)
+        };
+        (0..u64::from(size[0]) * u64::from(size[1])).into_par_iter().map(point).collect()
     }
 
     /// The place in the viewport that lights a point of the screen, if one does: [`point`](Self::point) backwards.

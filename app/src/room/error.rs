@@ -37,7 +37,7 @@ pub enum DisplayError {
         name: String,
     },
     /// A file that cannot be read.
-    #[error("{}: cannot be read: {reason}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -48,7 +48,7 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     Syntax {
         /// Where.
-        at: At,
+        at: Box<At>,
         /// As the parser says it.
         reason: String,
     },
@@ -56,7 +56,7 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     Value {
         /// Where.
-        at: At,
+        at: Box<At>,
         /// What is wrong, and what to do.
         reason: String,
     },
@@ -64,21 +64,19 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     NotRectangle {
         /// Which screen.
-        at: At,
+        at: Box<At>,
         /// In what way.
         reason: NotRectangle,
     },
     /// A name that stands for nothing.
-    #[error("{at}: there is no {kind} {name:?}{}; there is {}", suggestion(nearest), listed(known))]
+    #[error("{at}: there is no {kind} {name:?}{}; there is {}", suggestion(name, known), listed(known))]
     Unknown {
         /// Where.
-        at: At,
+        at: Box<At>,
         /// `screen`, `window`, `projector`.
         kind: &'static str,
         /// As written.
         name: String,
-        /// The one that was probably meant.
-        nearest: Option<String>,
         /// All.
         known: Vec<String>,
     },
@@ -86,7 +84,7 @@ pub enum DisplayError {
     #[error("{at}: another {kind} is already called {name:?}; give each a name of its own")]
     Duplicate {
         /// Where the second is.
-        at: At,
+        at: Box<At>,
         /// `screen`, `window`, `projector`, `channel`.
         kind: &'static str,
         /// The name.
@@ -96,7 +94,7 @@ pub enum DisplayError {
     #[error("{at}: {name:?} cannot be a name: {reason}")]
     NotAName {
         /// Where.
-        at: At,
+        at: Box<At>,
         /// As written.
         name: String,
         /// Why not.
@@ -106,7 +104,7 @@ pub enum DisplayError {
     #[error("{at}: the viewport [{}, {}, {}, {}] is not inside window {window:?} of {} × {} pixels", viewport[0], viewport[1], viewport[2], viewport[3], size[0], size[1])]
     ViewportOutside {
         /// Which channel.
-        at: At,
+        at: Box<At>,
         /// As written.
         viewport: [u32; 4],
         /// The window's name.
@@ -120,7 +118,7 @@ pub enum DisplayError {
     )]
     Overlap {
         /// The second channel.
-        at: At,
+        at: Box<At>,
         /// The first channel's name.
         other: String,
     },
@@ -128,7 +126,7 @@ pub enum DisplayError {
     #[error("{at}: screen {screen:?}, {eye} eye: {reason}")]
     Behind {
         /// Which channel.
-        at: At,
+        at: Box<At>,
         /// The screen's name.
         screen: String,
         /// Which eye.
@@ -146,8 +144,8 @@ pub enum DisplayError {
     },
 }
 
-fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or(String::new(), |name| format!(" (did you mean {name:?}?)"))
+fn suggestion(name: &str, known: &[String]) -> String {
+    nearest(name, known.iter().map(String::as_str)).map_or(String::new(), |name| format!(" (did you mean {name:?}?)"))
 }
 
 fn listed(known: &[String]) -> String {

@@ -28,6 +28,7 @@ mod maps;
 mod net;
 mod pfm;
 pub mod projector;
+mod read;
 mod report;
 pub mod surface;
 mod viewer;
@@ -86,6 +87,16 @@ impl Display {
     /// [`DisplayError`] with file, line, key and reason.
     pub fn load(path: &Path) -> Result<Self, DisplayError> {
         if import::is_imported(path) { import::load(path) } else { file::load(path) }
+    }
+
+    /// The channel that has the same pixels for the other eye, in a window that [combines](WindowPlace::combine) eyes.
+    pub fn partner(&self, channel: usize) -> Option<usize> {
+        let own = &self.channels[channel];
+        let shares = |other: &Channel| {
+            other.window == own.window && other.viewport == own.viewport && other.eye.side() == -own.eye.side()
+        };
+        let combines = self.windows[own.window].combine != Combine::None && own.eye != Eye::Centre;
+        self.channels.iter().position(shares).filter(|_| combines)
     }
 
     /// A display that comes with the program, by one of [`built_in::NAMES`].

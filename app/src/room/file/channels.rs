@@ -2,8 +2,9 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::error::{At, nearest};
+use crate::room::error::At;
 use crate::room::maps::{self, MapError};
+use crate::room::read;
 use crate::room::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
 use glam::{DVec2, DVec4};
 use std::path::Path;
@@ -55,7 +56,7 @@ impl Resolver<'_> {
         }
         let warp = match (&given.corners, &given.warp) {
             (Some(corners), _) => self.corners(corners, viewport, &at)?,
-            (None, Some(file)) => Some(Warp::Grid(self.read(file, |bytes| maps::warp(bytes))?)),
+            (None, Some(file)) => Some(Warp::Grid(self.read(file, maps::warp)?)),
             (None, None) => None,
         };
         Ok(Channel {
@@ -76,7 +77,7 @@ impl Resolver<'_> {
         &self,
         given: &schema::Channel,
         window: usize,
-        at: &dyn Fn(&str) -> At,
+        at: &dyn Fn(&str) -> Box<At>,
     ) -> Result<[u32; 4], DisplayError> {
         let WindowPlace { name, size: size @ [width, height], .. } = &self.windows[window];
         let viewport = given.viewport.unwrap_or([0, 0, *width, *height]);
@@ -97,7 +98,7 @@ impl Resolver<'_> {
         &self,
         given: &schema::Corners,
         viewport: [u32; 4],
-        at: &dyn Fn(&str) -> At,
+        at: &dyn Fn(&str) -> Box<At>,
     ) -> Result<Option<Warp>, DisplayError> {
         let size = DVec2::new(f64::from(viewport[2]), f64::from(viewport[3]));
         let places = [
@@ -114,7 +115,12 @@ impl Resolver<'_> {
             .map_err(|error| DisplayError::Value { at: at("corners"), reason: error.to_string() })
     }
 
-    fn map(&self, file: &Option<String>, gamma: Option<f64>, at: impl Fn() -> At) -> Result<Option<Map>, DisplayError> {
+    fn map(
+        &self,
+        file: &Option<String>,
+        gamma: Option<f64>,
+        at: impl Fn() -> Box<At>,
+    ) -> Result<Option<Map>, DisplayError> {
         let gamma = gamma.unwrap_or(1.0);
         if !(gamma.is_finite() && gamma > 0.0) {
             return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });
@@ -124,13 +130,12 @@ impl Resolver<'_> {
 
     fn read<T>(&self, file: &str, understand: impl Fn(&[u8]) -> Result<T, MapError>) -> Result<T, DisplayError> {
         let path = self.folder.join(file);
-        let bytes = std::fs::read(&path)
-            .map_err(|error| DisplayError::Read { path: path.clone(), reason: error.to_string() })?;
+        let bytes = read::bytes(&path).map_err(|reason| DisplayError::Read { path: path.clone(), reason })?;
         understand(&bytes).map_err(|error| DisplayError::Import { path, reason: error.to_string() })
     }
 }
 
-fn part(given: &schema::Channel, at: &dyn Fn(&str) -> At) -> Result<Part, DisplayError> {
+fn part(given: &schema::Channel, at: &dyn Fn(&str) -> Box<At>) -> Result<Part, DisplayError> {
     let Some(part) = given.part.map(DVec4::from) else { return Ok(Part::default()) };
     let (from, to) = (DVec2::new(part.x, part.y), DVec2::new(part.z, part.w));
     if part.cmpge(DVec4::ZERO).all() && part.cmple(DVec4::ONE).all() && to.cmpgt(from).all() {
@@ -145,7 +150,7 @@ fn part(given: &schema::Channel, at: &dyn Fn(&str) -> At) -> Result<Part, Displa
 
 /// The index of a name.
 fn find<'a>(
-    at: impl Fn() -> At,
+    at: impl Fn() -> Box<At>,
     kind: &'static str,
     name: &str,
     known: impl Iterator<Item = &'a str> + Clone,
@@ -154,7 +159,6 @@ fn find<'a>(
         at: at(),
         kind,
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()).map(str::to_owned),
         known: known.map(str::to_owned).collect(),
     })
 }
@@ -174,22 +178,4 @@ fn not_a_file_name(name: &str) -> Option<&'static str> {
     } else {
         None
     }
-}
-
-/// What the user should know about a good display.
-pub(super) fn notices(windows: &[WindowPlace], channels: &[Channel]) -> Vec<String> {
-    let mut notices = Vec::new();
-    for (index, window) in windows.iter().enumerate() {
-        let name = &window.name;
-        if window.combine.is_anaglyph() {
-            notices.push(format!(
-                "window {name:?}: an anaglyph tells the eyes apart by colour, so it cannot show the Doppler shift's colours too; \
-                 switch the Doppler effect off, or choose another stereo"
-            ));
-        }
-        if !channels.iter().any(|channel| channel.window == index) {
-            notices.push(format!("window {name:?}: no channel draws in it, so it stays black"));
-        }
-    }
-    notices
 }

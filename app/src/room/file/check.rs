@@ -5,7 +5,7 @@ use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
 /// Compares everything with everything; `at` says where a key of a channel is.
-pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> At) -> Result<(), DisplayError> {
+pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;
@@ -46,4 +46,32 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
     };
     let distance_m = (eye_m - surface.point(uv)?).dot(surface.normal(uv)?);
     (distance_m <= 0.0).then_some(EyeBehind { eye_m, distance_m })
+}
+
+/// What the user should know about a good display.
+pub(super) fn notices(display: &Display) -> Vec<String> {
+    let mut notices = Vec::new();
+    for (index, window) in display.windows.iter().enumerate() {
+        let name = &window.name;
+        if window.combine.is_anaglyph() {
+            notices.push(format!(
+                "window {name:?}: an anaglyph tells the eyes apart by colour, so it cannot show the Doppler shift's colours too; \
+                 switch the Doppler effect off, or choose another stereo"
+            ));
+        }
+        if !display.channels.iter().any(|channel| channel.window == index) {
+            notices.push(format!("window {name:?}: no channel draws in it, so it stays black"));
+        }
+    }
+    for (index, channel) in display.channels.iter().enumerate() {
+        let combine = display.windows[channel.window].combine;
+        if combine != Combine::None && channel.eye != Eye::Centre && display.partner(index).is_none() {
+            notices.push(format!(
+                "channel {:?}: its window combines eyes by {}, but no channel has the same viewport for the other eye",
+                channel.name,
+                combine.name()
+            ));
+        }
+    }
+    notices
 }

@@ -9,7 +9,7 @@ mod schema;
 mod screens;
 mod text;
 
-use super::{At, Combine, Display, DisplayError, Monitor, Viewer, WindowPlace};
+use super::{At, Combine, Display, DisplayError, Monitor, Viewer, WindowPlace, read};
 use glam::DVec3;
 use schema::File;
 use std::path::Path;
@@ -24,8 +24,7 @@ const MAX_PIXELS: u32 = 1 << 16;
 /// # Errors
 /// [`DisplayError`].
 pub fn load(path: &Path) -> Result<Display, DisplayError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| DisplayError::Read { path: path.to_owned(), reason: error.to_string() })?;
+    let text = read::text(path).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
     let mut display = parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))?;
     if display.name.is_empty() {
         display.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -51,8 +50,7 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
     let channels =
         channels::Resolver { text: &text, screens: &screens, projectors: &projectors, windows: &windows, folder }
             .resolve(&file.channel)?;
-    let notices = channels::notices(&windows, &channels);
-    let display = Display {
+    let mut display = Display {
         name: file.name.clone().unwrap_or_default(),
         viewer,
         screens,
@@ -60,12 +58,13 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
         windows,
         channels,
         tracker: file.tracker.clone(),
-        notices,
+        notices: Vec::new(),
     };
     if display.channels.is_empty() {
-        let at = At { file: text.name.into(), line: None, key: String::new() };
+        let at = Box::new(At { file: text.name.into(), line: None, key: String::new() });
         return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
     }
+    display.notices = check::notices(&display);
     check::check(&display, &|index, key| {
         text.at(file.channel[index].span().start, &format!("channel {:?}", display.channels[index].name), key)
     })?;
@@ -77,10 +76,8 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
 /// # Errors
 /// [`DisplayError`].
 pub(super) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
-    check::check(display, &|index, _| At {
-        file: name.to_owned(),
-        line: None,
-        key: format!("channel {:?}", display.channels[index].name),
+    check::check(display, &|index, _| {
+        Box::new(At { file: name.to_owned(), line: None, key: format!("channel {:?}", display.channels[index].name) })
     })
 }
 
@@ -163,14 +160,7 @@ fn window(text: &Text<'_>, table: &Spanned<schema::Window>) -> Result<WindowPlac
             Some(combine) => combine,
             None => {
                 let known = Combine::ALL.map(|combine| combine.name().to_owned()).to_vec();
-                let nearest = super::error::nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-                return Err(DisplayError::Unknown {
-                    at: at("combine"),
-                    kind: "combine",
-                    name: name.clone(),
-                    nearest,
-                    known,
-                });
+                return Err(DisplayError::Unknown { at: at("combine"), kind: "combine", name: name.clone(), known });
             }
         },
     };

@@ -2,7 +2,6 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::error::nearest;
 use crate::room::projector::{Lens, Projector, Table};
 use crate::room::{At, DisplayError, room_from_turned};
 use glam::DVec2;
@@ -34,7 +33,7 @@ struct Form<'a> {
 }
 
 impl Form<'_> {
-    fn at(&self, key: &str) -> At {
+    fn at(&self, key: &str) -> Box<At> {
         self.text.at(self.start, &format!("projector {:?}", self.given.name), key)
     }
 
@@ -85,7 +84,6 @@ impl Form<'_> {
                 at: self.at("lens"),
                 kind: "lens",
                 name: name.into(),
-                nearest: nearest(name, LENSES).map(str::to_owned),
                 known: LENSES.map(str::to_owned).to_vec(),
             });
         }
@@ -173,7 +171,7 @@ impl Form<'_> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
         let read = || -> Result<Lens, String> {
-            let text = std::fs::read_to_string(&path).map_err(|error| format!("cannot be read: {error}"))?;
+            let text = crate::room::read::text(&path)?;
             let (columns, rows, angles) = crate::room::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
             Ok(Lens::Table(Table::new(columns, rows, angles)))

@@ -33,7 +33,7 @@ struct Form<'a> {
 }
 
 impl Form<'_> {
-    fn at(&self, key: &str) -> crate::room::At {
+    fn at(&self, key: &str) -> Box<crate::room::At> {
         self.text.at(self.start, &format!("screen {:?}", self.given.name), key)
     }
 
@@ -75,7 +75,9 @@ impl Form<'_> {
             self.sweep(sweep)
         } else {
             let path = self.folder.join(given.mesh.as_deref().unwrap_or_default());
-            mesh_file::load(&path).map(Surface::Mesh).map_err(|reason| DisplayError::Import { path, reason })
+            mesh_file::load(&path)
+                .map(|mesh| Surface::Mesh(Box::new(mesh)))
+                .map_err(|reason| DisplayError::Import { path, reason })
         }
     }
 
@@ -148,7 +150,7 @@ impl Form<'_> {
 
     /// Yaws from left to right and the two ends of the height, of what is curved.
     fn ranges(&self, key: &str, [left, right, bottom, top]: [f64; 4], radius: f64) -> Result<(), DisplayError> {
-        if !(radius > 0.0) {
+        if radius <= 0.0 {
             return self.refuse(key, format!("its radius is {radius} m; it must be more than 0"));
         }
         if !(left > right && left - right <= 360.0) {
@@ -159,7 +161,7 @@ impl Form<'_> {
                 ),
             );
         }
-        if !(top > bottom) {
+        if top <= bottom {
             return self.refuse(key, format!("top = {top} must be more than bottom = {bottom}"));
         }
         Ok(())
@@ -202,7 +204,7 @@ impl Form<'_> {
         }
         let profile: Vec<DVec2> = given.profile.iter().map(|&point| point.into()).collect();
         match sweep(given.centre.into(), given.width, &profile, bend) {
-            Ok(mesh) => Ok(Surface::Mesh(mesh)),
+            Ok(mesh) => Ok(Surface::Mesh(Box::new(mesh))),
             Err(error) => self.refuse("sweep", error.to_string()),
         }
     }

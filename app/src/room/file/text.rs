@@ -10,7 +10,7 @@ pub(super) struct Text<'a> {
 
 impl Text<'_> {
     /// Where a key of the table is that begins at byte `start`; an empty key is the table itself.
-    pub fn at(&self, start: usize, table: &str, key: &str) -> At {
+    pub fn at(&self, start: usize, table: &str, key: &str) -> Box<At> {
         let from = start.min(self.text.len());
         let tail = self.text.get(from..).unwrap_or_default();
         // The table ends where the next one begins; its own head is the first line.
@@ -21,7 +21,7 @@ impl Text<'_> {
             .map(|(index, _)| index)
             .next();
         let what = if key.is_empty() { table.to_owned() } else { format!("{table}, key {key}") };
-        At { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what }
+        Box::new(At { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what })
     }
 
     /// Line of a byte, from 1.
@@ -41,6 +41,7 @@ impl Text<'_> {
             }
         }
         let line = error.span().map(|span| self.line(span.start));
-        DisplayError::Syntax { at: At { file: self.name.to_owned(), line, key: String::new() }, reason }
+        let at = Box::new(At { file: self.name.to_owned(), line, key: String::new() });
+        DisplayError::Syntax { at, reason }
     }
 }

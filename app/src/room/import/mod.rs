@@ -4,7 +4,7 @@ mod mpcdi;
 mod pvx;
 mod xml;
 
-use super::{Display, DisplayError, file};
+use super::{Display, DisplayError, file, read};
 use std::path::Path;
 
 /// Reads a `.pvx`, `.mpcdi` or `.mpcdi.xml` file.
@@ -12,8 +12,7 @@ use std::path::Path;
 /// # Errors
 /// [`DisplayError`].
 pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
-    let bytes =
-        std::fs::read(path).map_err(|error| DisplayError::Read { path: path.to_owned(), reason: error.to_string() })?;
+    let bytes = read::bytes(path).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().trim_end_matches(".mpcdi").to_owned();
     let read =
         if is_pvx(path) { pvx::read(&bytes) } else { mpcdi::read(bytes, path.parent().unwrap_or(Path::new(""))) };

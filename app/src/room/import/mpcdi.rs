@@ -6,6 +6,7 @@
 
 use super::{file_name, xml};
 use crate::room::maps;
+use crate::room::read;
 use crate::room::{
     Channel, Combine, Display, Eye, Flat, Map, Mesh, Monitor, Part, Reflection, Screen, Surface, Viewer, Warp,
     WindowPlace,
@@ -90,7 +91,7 @@ impl Files<'_> {
                 if Path::new(name).components().count() != 1 || Path::new(name).file_name().is_none() {
                     return Err(format!("{name:?} is not beside it"));
                 }
-                std::fs::read(folder.join(name)).map_err(|error| format!("{name:?} cannot be read: {error}"))
+                read::bytes(&folder.join(name)).map_err(|reason| format!("{name:?} {reason}"))
             }
             Self::Zip(zip) => {
                 let found = zip.file_names().filter_map(Result::ok).find(|file| file.eq_ignore_ascii_case(name));
@@ -205,10 +206,10 @@ impl<'a> Import<'a> {
         let point = |&[x, y, z]: &[f32; 3]| DVec3::new(-f64::from(x), f64::from(y), -f64::from(z)) * metres;
         let rows = map.samples.chunks(map.width as usize).rev();
         let mesh = Mesh::grid(map.width, map.height, rows.flatten().map(point).collect());
-        if mesh.triangles().is_empty() {
-            return Err("its warp has no three neighbouring points that are known".into());
+        if !(mesh.size_m() > 0.0 && mesh.size_m().is_finite()) {
+            return Err("its warp has no points that are known and apart".into());
         }
-        Ok(Surface::Mesh(mesh))
+        Ok(Surface::Mesh(Box::new(mesh)))
     }
 
     fn notice(&mut self, notice: String) {

@@ -13,12 +13,19 @@ use std::sync::OnceLock;
 #[derive(Clone)]
 pub struct Mesh {
     points: Vec<DVec3>,
-    uvs: Vec<DVec2>,
-    triangles: Vec<[u32; 3]>,
     places: Places,
     size_m: f64,
+    /// Of a grid, made when first asked for: who only wants the points of a projector's pixels never does.
+    shape: OnceLock<Shape>,
     /// For rays; made when the first comes.
     boxes: OnceLock<Bvh>,
+}
+
+#[derive(Clone)]
+struct Shape {
+    uvs: Vec<DVec2>,
+    /// Without those that are holes.
+    triangles: Vec<[u32; 3]>,
 }
 
 /// How the triangle at a place is found.
@@ -32,13 +39,29 @@ enum Places {
 
 impl PartialEq for Mesh {
     fn eq(&self, other: &Self) -> bool {
-        self.points == other.points && self.uvs == other.uvs && self.triangles == other.triangles
+        // Holes are NaN, and as good as equal.
+        let alike = |(a, b): (&DVec3, &DVec3)| a == b || !a.is_finite() && !b.is_finite();
+        self.points.len() == other.points.len()
+            && self.points.iter().zip(&other.points).all(alike)
+            && self.uvs() == other.uvs()
+            && self.triangles() == other.triangles()
     }
 }
 
 impl std::fmt::Debug for Mesh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Mesh").field("points", &self.points.len()).field("triangles", &self.triangles.len()).finish()
+        f.debug_struct("Mesh").field("points", &self.points.len()).field("size_m", &self.size_m).finish_non_exhaustive()
+    }
+}
+
+impl Shape {
+    fn new(points: &[DVec3], uvs: Vec<DVec2>, mut triangles: Vec<[u32; 3]>) -> Self {
+        triangles.retain(|corners| {
+            let [a, b, c] = corners.map(|corner| points[corner as usize]);
+            let area = (b - a).cross(c - a).length();
+            area.is_finite() && area > 0.0
+        });
+        Self { uvs, triangles }
     }
 }
 
@@ -47,27 +70,32 @@ impl Mesh {
     /// is not finite, or no area, is a hole.
     pub fn new(points: Vec<DVec3>, uvs: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
         let places = Places::Net(Net::new(uvs.clone(), triangles));
-        Self::with(points, uvs, triangles.to_vec(), places)
+        let shape = Shape::new(&points, uvs, triangles.to_vec());
+        Self { shape: shape.into(), ..Self::with(points, places) }
     }
 
     /// From points in rows, the lower left one first, evenly spaced in uv; at least two columns and two rows.
     pub fn grid(columns: u32, rows: u32, points: Vec<DVec3>) -> Self {
-        let grid = Grid { columns, rows };
-        let uvs = (0..columns * rows).map(|sample| grid.place(sample)).collect();
-        Self::with(points, uvs, grid.triangles(), Places::Grid(grid))
+        Self::with(points, Places::Grid(Grid { columns, rows }))
     }
 
-    fn with(points: Vec<DVec3>, uvs: Vec<DVec2>, mut triangles: Vec<[u32; 3]>, places: Places) -> Self {
-        triangles.retain(|corners| {
-            let [a, b, c] = corners.map(|corner| points[corner as usize]);
-            let area = (b - a).cross(c - a).length();
-            area.is_finite() && area > 0.0
-        });
+    fn with(points: Vec<DVec3>, places: Places) -> Self {
         let used = || points.iter().filter(|point| point.is_finite());
         let lowest = used().fold(DVec3::INFINITY, |low, &point| low.min(point));
         let highest = used().fold(DVec3::NEG_INFINITY, |high, &point| high.max(point));
         let size_m = (highest - lowest).length();
-        Self { points, uvs, triangles, places, size_m, boxes: OnceLock::new() }
+        Self { points, places, size_m, shape: OnceLock::new(), boxes: OnceLock::new() }
+    }
+
+    fn shape(&self) -> &Shape {
+        self.shape.get_or_init(|| match &self.places {
+            Places::Grid(grid) => {
+                let uvs = (0..grid.columns * grid.rows).map(|sample| grid.place(sample)).collect();
+                Shape::new(&self.points, uvs, grid.triangles())
+            }
+            // A net comes with its shape.
+            Places::Net(_) => Shape { uvs: Vec::new(), triangles: Vec::new() },
+        })
     }
 
     /// Vertices, room axes, metres; what is not finite is unknown.
@@ -77,12 +105,12 @@ impl Mesh {
 
     /// Their places, 0 to 1 from the lower left.
     pub fn uvs(&self) -> &[DVec2] {
-        &self.uvs
+        &self.shape().uvs
     }
 
     /// The triangles that are none of them holes.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
+        &self.shape().triangles
     }
 
     /// Length of its bounding box's diagonal, metres.
@@ -113,11 +141,11 @@ impl Mesh {
     }
 
     pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
-        if self.triangles.is_empty() || !(origin.is_finite() && direction.is_finite()) {
+        if self.triangles().is_empty() || !(origin.is_finite() && direction.is_finite()) {
             return None;
         }
         let boxes = self.boxes.get_or_init(|| {
-            let bounds = self.triangles.iter().map(|&corners| {
+            let bounds = self.triangles().iter().map(|&corners| {
                 let [a, b, c] = self.corners(corners);
                 Aabb::new(vector(a.min(b).min(c)), vector(a.max(b).max(c)))
             });
@@ -126,17 +154,17 @@ impl Mesh {
         let nearest = NEAREST * self.size_m / direction.length();
         let ray = Ray::new(vector(origin), vector(direction));
         let meet = |index: u32| {
-            meet(self.corners(self.triangles[index as usize]), origin, direction)
+            meet(self.corners(self.triangles()[index as usize]), origin, direction)
                 .filter(|(distance, _)| *distance > nearest)
         };
         let (index, _) = boxes.cast_ray(&ray, f64::MAX, |index, _| meet(index).map(|(distance, _)| distance))?;
-        let ((distance, weights), corners) = (meet(index)?, self.triangles[index as usize]);
+        let ((distance, weights), corners) = (meet(index)?, self.triangles()[index as usize]);
         let within = Within { corners, weights };
         Some(Hit {
             distance,
             point: within.mix(&self.points),
             normal: self.facing(corners)?,
-            uv: within.mix(&self.uvs),
+            uv: within.mix(self.uvs()),
         })
     }
 
@@ -146,9 +174,9 @@ impl Mesh {
             let triangle = self.corners(corners);
             let normal = self.facing(corners)?;
             let (distance, weights) = meet(triangle, point, normal)?;
-            (distance.abs() < 1e-6 * self.size_m).then(|| Within { corners, weights }.mix(&self.uvs))
+            (distance.abs() < 1e-6 * self.size_m).then(|| Within { corners, weights }.mix(self.uvs()))
         };
-        self.triangles.iter().find_map(within)
+        self.triangles().iter().find_map(within)
     }
 
     fn corners(&self, corners: [u32; 3]) -> [DVec3; 3] {

@@ -10,7 +10,7 @@ const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads `path`: `.obj` or `.csv`. What is wrong is said in words that follow the file's name.
 pub(in crate::room) fn load(path: &Path) -> Result<Mesh, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let text = crate::room::read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
@@ -29,10 +29,10 @@ fn obj(text: &str) -> Result<Mesh, String> {
         let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
         match words.next() {
             Some("v") => {
-                positions.push(DVec3::from(numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers"))?))
+                positions.push(DVec3::from(numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers"))?));
             }
             Some("vt") => {
-                places.push(DVec2::from(numbers::<2>(words).ok_or_else(|| wrong("vt needs two finite numbers"))?))
+                places.push(DVec2::from(numbers::<2>(words).ok_or_else(|| wrong("vt needs two finite numbers"))?));
             }
             Some("f") => {
                 let mut face = Vec::new();

@@ -49,7 +49,7 @@ pub enum Surface {
     /// A dome, or part of one.
     Sphere(Sphere),
     /// Triangles.
-    Mesh(Mesh),
+    Mesh(Box<Mesh>),
 }
 
 impl Surface {
@@ -93,6 +93,19 @@ impl Surface {
             Self::Sphere(sphere) => sphere.uv(point - sphere.centre),
             Self::Mesh(mesh) => mesh.uv(point),
         }
+    }
+
+    /// As a mesh of columns × rows places, at least two each, for what draws the room: a mesh as it is, anything else evenly divided.
+    pub fn to_mesh(&self, columns: u32, rows: u32) -> Mesh {
+        if let Self::Mesh(mesh) = self {
+            return (**mesh).clone();
+        }
+        let place = |i: u32, count: u32| f64::from(i) / f64::from(count - 1);
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let points = places.map(|(column, row)| {
+            self.point(DVec2::new(place(column, columns), place(row, rows))).unwrap_or(DVec3::NAN)
+        });
+        Mesh::grid(columns, rows, points.collect())
     }
 
     /// Width and height as one would measure them along the surface, metres; of a mesh, its bounding box's diagonal twice.
