@@ -2,74 +2,15 @@
 //! whole and replays to the bit. A window that lost keys, drew nothing or ended without completing its file would show here.
 #![cfg(target_os = "linux")]
 
-use std::io::{BufRead, BufReader};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+mod virtual_display;
 
-/// Long enough for a software driver on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(90);
-
-/// A virtual display that ends with the test.
-struct Display {
-    server: Child,
-    name: String,
-}
-
-impl Display {
-    fn open() -> Self {
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("Xvfb is installed (on Debian or Ubuntu: apt-get install xvfb xdotool)");
-        let mut number = String::new();
-        let output = server.stdout.take().expect("standard output was asked for as a pipe");
-        BufReader::new(output).read_line(&mut number).expect("the server names its display");
-        Self { server, name: format!(":{}", number.trim()) }
-    }
-
-    /// Runs xdotool; its output if it succeeded.
-    fn tool(&self, arguments: &[&str]) -> Option<String> {
-        let output = Command::new("xdotool")
-            .args(arguments)
-            .env("DISPLAY", &self.name)
-            .output()
-            .expect("xdotool is installed (on Debian or Ubuntu: apt-get install xvfb xdotool)");
-        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        let _ = self.server.kill();
-        let _ = self.server.wait();
-    }
-}
-
-/// Asks until there is an answer.
-fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
-    let began = Instant::now();
-    loop {
-        if let Some(found) = look() {
-            return found;
-        }
-        assert!(began.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
-        std::thread::sleep(Duration::from_millis(100));
-    }
-}
-
-fn rapidity(folder: &Path, display: &str, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rapidity"));
-    command.args(arguments).current_dir(folder).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");
-    command
-}
+use std::time::Duration;
+use virtual_display::{Display, rapidity, wait_for};
 
 #[test]
 fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     let folder = tempfile::tempdir().unwrap();
-    let display = Display::open();
+    let display = Display::open([640, 480]);
     let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "320x240", "--record", "r.mcap"];
     let mut program = rapidity(folder.path(), &display.name, &arguments).spawn().unwrap();
 

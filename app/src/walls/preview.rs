@@ -51,7 +51,11 @@ impl Onlooker {
         let high = points.iter().copied().fold(display.viewer.head_m, DVec3::max);
         let reach = (high - low).length();
         let towards_m = 0.5 * (low + high);
-        Self { from_m: towards_m + DVec3::new(0.45, 0.35, 1.0).normalize() * (0.85 * reach), towards_m, fov_degrees: 55.0 }
+        Self {
+            from_m: towards_m + DVec3::new(0.45, 0.35, 1.0).normalize() * (0.85 * reach),
+            towards_m,
+            fov_degrees: 55.0,
+        }
     }
 
     fn clip_from_room(&self, size: [u32; 2]) -> DMat4 {
