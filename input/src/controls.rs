@@ -27,7 +27,7 @@ pub struct Controls {
     /// roll to the left.
     pub turn: [f64; 3],
     /// The head in the room. `None` where nothing tracks it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub head: Option<HeadState>,
     /// What happened since the controls were last asked for, in order.
     pub actions: Vec<Action>,
