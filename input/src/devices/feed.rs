@@ -3,7 +3,7 @@
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
 
@@ -139,12 +139,14 @@ impl Feed {
         while !self.is_stopped() {
             match port.open() {
                 Ok((place, mut connection)) => {
-                    pause = FIRST_PAUSE;
+                    let began = Instant::now();
                     let source = place.source;
                     self.opened(place);
                     let why = self.read(source, connection.as_mut());
                     self.send(Sample::closed(self.clock.now(), source));
                     self.absent(why);
+                    // One that goes as soon as it has come is given time.
+                    pause = if began.elapsed() > LONGEST_PAUSE { FIRST_PAUSE } else { (2 * pause).min(LONGEST_PAUSE) };
                 }
                 Err(why) => {
                     self.absent(why);
@@ -280,5 +282,17 @@ mod tests {
         }
         drop(stop);
         thread.join().unwrap();
+    }
+
+    #[test]
+    fn a_device_that_goes_as_soon_as_it_has_come_is_given_time() {
+        let (feed, samples, _live, stop) = feed(4096);
+        let thread = std::thread::spawn(move || feed.run(Flaky { lives: 200 }));
+        std::thread::sleep(Duration::from_secs(1));
+        drop(stop);
+        thread.join().unwrap();
+        // At 0, 0.2, 0.6 and 1.4 s.
+        let lives = samples.try_iter().filter(|sample| sample.signal == crate::sample::Signal::Opened).count();
+        assert!((2..=3).contains(&lives), "{lives}");
     }
 }
