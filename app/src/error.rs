@@ -38,6 +38,12 @@ pub enum Error {
         /// Where the eye is.
         behind: crate::room::EyeBehind,
     },
+    /// A tracker that cannot be used.
+    #[error(transparent)]
+    Tracker(#[from] crate::walls::tracker::TrackerError),
+    /// A room without a graphical session.
+    #[error("--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`")]
+    NoWindows,
     /// Rays for a room.
     #[error("--renderer raytrace does not draw for --display; leave one out, or choose auto, polygon or image")]
     WallsByRays,

@@ -19,7 +19,7 @@ use crate::renderers::target::Radiance;
 use crate::renderers::{Effects, SceneRenderer};
 use crate::simulation::Frame;
 use crate::views::Gaze;
-use crate::walls::{Head, Occupant, Walls};
+use crate::walls::{Head, Occupant, Walls, tracker};
 use crate::window::{Readings, RidePanel};
 use glam::DVec2;
 use input::{Action, SECOND};
@@ -104,12 +104,14 @@ impl Ride {
         let actions = frame.controls.actions.clone();
         self.elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         let vehicle = *frame.vehicle.state();
+        let light = frame.vehicle.world().speed_of_light_m_s();
+        let head = frame.controls.head.as_ref().map(|state| tracker::head(state, light));
         self.frame = Some(frame);
         self.pace.stage("ride");
         let (target, fov) = match pictured.canvas {
             Canvas::Picture { target, fov } => (target, fov),
             Canvas::Room(walls) => {
-                let head = Head::at_rest(walls.display.viewer.head_m);
+                let head = head.unwrap_or(Head::at_rest(walls.display.viewer.head_m));
                 self.surround(gpu, walls, &Occupant { vehicle, head }, pictured.effects)?;
                 return Ok(Some(actions));
             }

@@ -8,20 +8,25 @@ use crate::live::Live;
 use crate::log::Log;
 use crate::progress;
 use crate::render::writable;
+use crate::room::Display;
 use crate::scene::collision::Collision;
 use crate::scene::{Scene, source};
 use crate::simulation::{Replay, Setup, Simulation, Start};
 use crate::vehicle::{Surroundings, VehicleSettings, World};
+use crate::walls::tracker;
 use crate::window;
 use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
-use input::{Action, Clock, DeskConfig, HeadConfig, Sample, VehicleKind};
+use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Where a ride is filmed that has no display and names no file.
 const FILM: &str = "ride.mp4";
+
+/// The display that a tracked head sees where none is named.
+const WINDOW: &str = "window";
 
 /// Key of a recording's setting that tells its scene from others.
 const FINGERPRINT: &str = "scene_fingerprint";
@@ -41,6 +46,9 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
     if options.out.is_none() && window::has_display() {
         let (scene, begin) = begin(options)?;
         return window::run(options, scene, begin);
+    }
+    if options.display.is_some() {
+        return Err(Error::NoWindows);
     }
     let path = options.out.clone().unwrap_or_else(|| {
         eprintln!("no display: filming the ride into {FILM}");
@@ -81,7 +89,7 @@ fn begin(options: &RideOptions) -> Result<(Scene, window::Begin), Error> {
 /// Devices that cannot be read.
 pub fn present(options: &RideOptions, simulation: Simulation, log: Log) -> Result<Live, Error> {
     let clock = Clock::start();
-    let devices = Devices::open(&devices_config(options), clock)?;
+    let devices = Devices::open(&devices_config(options, &simulation.setup().desk), clock)?;
     let mut live = Live::present(simulation, devices, clock, log, options.seconds);
     for action in first_actions(options) {
         live.say(|at| Sample::action(at, &action));
@@ -146,8 +154,31 @@ fn setup(options: &RideOptions, scene: &Scene) -> Result<Setup, Error> {
         kind,
         start: Start::at_rest(scene.start.position + eye, scene.start.look),
         vehicle,
-        desk: DeskConfig { head: options.devices.tracker.clone().map(HeadConfig::new), ..Default::default() },
+        desk: DeskConfig { head: head_config(options)?, ..Default::default() },
     })
+}
+
+/// The room that a ride is shown in, if it is: a tracked head before a single picture sees through it as through a window.
+///
+/// # Errors
+/// A display that cannot be used.
+pub fn display(options: &RideOptions) -> Result<Option<Display>, Error> {
+    let tracked = options.devices.tracker.as_ref().map(|_| WINDOW);
+    Ok(options.display.as_deref().or(tracked).map(Display::named_or_file).transpose()?)
+}
+
+/// How the head is tracked.
+fn head_config(options: &RideOptions) -> Result<Option<HeadConfig>, Error> {
+    let Some(display) = display(options)? else { return Ok(None) };
+    Ok(tracker::head_config(&display, options.devices.tracker.as_ref())?)
+}
+
+/// Whether it is the mouse that moves the head.
+///
+/// # Errors
+/// As [`display`].
+pub fn mouse_moves_head(options: &RideOptions) -> Result<bool, Error> {
+    Ok(options.replay.is_none() && head_config(options)?.is_some_and(|head| head.url == TrackerUrl::Mouse))
 }
 
 /// What the command line asks of the simulation while it runs.
@@ -157,11 +188,11 @@ pub fn first_actions(options: &RideOptions) -> Vec<Action> {
 }
 
 /// Which devices the command line names.
-pub fn devices_config(options: &RideOptions) -> DevicesConfig {
+pub fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
     DevicesConfig {
         bicycle: options.devices.bicycle.clone(),
         space_mouse: options.devices.spacemouse || window::has_display(),
-        tracker: options.devices.tracker.clone(),
+        tracker: desk.head.as_ref().map(|head| head.url.clone()),
         ..Default::default()
     }
 }

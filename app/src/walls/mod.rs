@@ -14,6 +14,7 @@ pub mod head;
 mod picture;
 pub mod preview;
 mod show;
+pub mod tracker;
 
 pub use head::{Head, Occupant, OccupantEye};
 

@@ -25,11 +25,11 @@ use crate::renderers::choice::Choice;
 use crate::renderers::display::{Adaptation, Display, Seen, development};
 use crate::renderers::polygon::Pace;
 use crate::renderers::target::{Format, Radiance};
-use crate::room;
+use crate::ride;
 use crate::scene::Scene;
 use crate::walls::{Quality, Walls};
 pub use hud::Readings;
-use input::{Action, Sample, Source};
+use input::{Action, MouseButton, MouseEvent, Sample, Source};
 use interface::Interface;
 use pane::{Acquired, Pane};
 pub use panel::Ride as RidePanel;
@@ -38,8 +38,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use winit::application::ApplicationHandler;
-use winit::dpi::PhysicalSize;
-use winit::event::{ElementState, WindowEvent};
+use winit::dpi::{PhysicalPosition, PhysicalSize};
+use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{KeyCode, PhysicalKey};
 use winit::window::{Fullscreen, Window, WindowId};
@@ -103,6 +103,9 @@ struct Open {
     format: Format,
     interface: Interface,
     settings: Settings,
+    /// Whether the mouse moves the head, and where it was last.
+    mouse_moves_head: bool,
+    cursor: Option<PhysicalPosition<f64>>,
     ride: Ride,
     /// Set by Ctrl-C: the recording is completed all the same.
     stop: Arc<AtomicBool>,
@@ -139,7 +142,7 @@ impl Application {
 
 impl Open {
     fn new(events: &ActiveEventLoop, options: &RideOptions, scene: Scene, live: Begin) -> Result<Self, Error> {
-        let display = options.display.as_deref().map(room::Display::named_or_file).transpose()?;
+        let display = ride::display(options)?;
         let title = format!("Rapidity: {}", scene.name);
         let attributes = match &display {
             Some(display) => {
@@ -206,6 +209,8 @@ impl Open {
                 fov: options.picture.fov,
                 development: options.picture.development(),
             },
+            mouse_moves_head: ride::mouse_moves_head(options)?,
+            cursor: None,
             ride: Ride::new(renderer, live()?),
             stop: interrupted(),
             gpu,
@@ -234,6 +239,37 @@ impl Open {
                     }
                 }
             }
+            WindowEvent::CursorMoved { position, .. } => {
+                let moved = self.cursor.replace(position).map(|before| (position.x - before.x, position.y - before.y));
+                if let Some((right, down)) = moved {
+                    self.mouse(MouseEvent::Moved { right: right as f32, down: down as f32 });
+                }
+            }
+            WindowEvent::CursorLeft { .. } => self.cursor = None,
+            WindowEvent::MouseInput { state, button, .. } => {
+                let pressed = state == ElementState::Pressed;
+                let button = match button {
+                    winit::event::MouseButton::Left => Some(MouseButton::Left),
+                    winit::event::MouseButton::Right => Some(MouseButton::Right),
+                    winit::event::MouseButton::Middle => Some(MouseButton::Middle),
+                    _ => None,
+                };
+                // A panel takes what is pressed on it; a button that is let go is let go for everybody.
+                if let Some(button) = button.filter(|_| !(taken && pressed)) {
+                    self.mouse(MouseEvent::Button { button, pressed });
+                }
+            }
+            WindowEvent::MouseWheel { delta, .. } if !taken => {
+                const PIXELS_PER_NOTCH: f64 = 40.0;
+                let notches = match delta {
+                    MouseScrollDelta::LineDelta(_, lines) => lines,
+                    MouseScrollDelta::PixelDelta(pixels) => (pixels.y / PIXELS_PER_NOTCH) as f32,
+                };
+                self.mouse(MouseEvent::Wheel(notches));
+            }
+            WindowEvent::ModifiersChanged(modifiers) => {
+                self.mouse(MouseEvent::Shift(modifiers.state().shift_key()));
+            }
             // All windows are drawn together.
             WindowEvent::RedrawRequested if pane == 0 => {
                 if self.frame()? {
@@ -251,6 +287,13 @@ impl Open {
     fn ride_key(&mut self, code: KeyCode, pressed: bool) {
         if let Some(key) = keys::key(code) {
             self.ride.live.say(|at| Sample::key(at, key, pressed));
+        }
+    }
+
+    /// What the mouse does, for a head that it moves.
+    fn mouse(&mut self, event: MouseEvent) {
+        if self.mouse_moves_head {
+            self.ride.live.say(|at| Sample::mouse(at, event));
         }
     }
 
