@@ -42,7 +42,9 @@ pub enum Error {
     #[error(transparent)]
     Tracker(#[from] crate::walls::tracker::TrackerError),
     /// A room without a graphical session.
-    #[error("--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`")]
+    #[error(
+        "--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`"
+    )]
     NoWindows,
     /// Rays for a room.
     #[error("--renderer raytrace does not draw for --display; leave one out, or choose auto, polygon or image")]

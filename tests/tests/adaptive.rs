@@ -49,11 +49,8 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
 }
 
 fn viewpoint(eye: DVec3, celerity: Celerity, look: DVec3, fov_degrees: f64) -> Viewpoint {
-    Viewpoint {
-        observer: Observer { event: Event { ct: 0.0, position: eye }, celerity },
-        camera: Camera::looking(look, DVec3::Y, fov_degrees.to_radians()),
-        size: SIZE,
-    }
+    let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
+    Viewpoint::new(observer, Camera::looking(look, DVec3::Y, fov_degrees.to_radians()), SIZE)
 }
 
 /// Anybody anywhere among the boxes, looking anywhere.
@@ -67,8 +64,8 @@ fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
 
 /// Where in the picture a place of the observer's space is, pixels from its middle.
 fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
-    let eye = viewpoint.camera.observer_from_eye.conjugate() * seen.normalize();
-    let focal_length = viewpoint.camera.tangents(SIZE).focal_length(SIZE).y;
+    let eye = viewpoint.pictures[0].0.observer_from_eye.conjugate() * seen.normalize();
+    let focal_length = viewpoint.pictures[0].0.tangents(SIZE).focal_length(SIZE).y;
     let at = eye.truncate() / -eye.z * focal_length;
     (eye.z < 0.0 && at.x.abs() < 0.5 * f64::from(SIZE[0]) && at.y.abs() < 0.5 * f64::from(SIZE[1])).then_some(at)
 }
@@ -99,7 +96,7 @@ fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64>
                     _ => {
                         let (seen, drawn) = (seen.normalize(), drawn.normalize());
                         let angle = seen.cross(drawn).length().atan2(seen.dot(drawn));
-                        errors.push(angle * viewpoint.camera.tangents(SIZE).focal_length(SIZE).y);
+                        errors.push(angle * viewpoint.pictures[0].0.tangents(SIZE).focal_length(SIZE).y);
                     }
                 }
             }
@@ -150,7 +147,7 @@ fn a_closed_surface_stays_closed_across_meshes_too() {
     for _ in 0..12 {
         let viewpoint = somebody(&mut random, 8.0);
         // Where the observer was a little before, there is much on the verge.
-        let mut earlier = viewpoint;
+        let mut earlier = viewpoint.clone();
         earlier.observer.event.position += 0.1 * direction(&mut random);
         let before = Cut::new(&torn, &earlier, FINENESS, None);
         for scene in [&whole, &torn] {

@@ -228,7 +228,7 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
         let who = Observer { event: Event { ct: 1.0, position: DVec3::new(0.0, 5.0, 0.0) }, celerity: at(beta) };
         let (look, _) = expected(&who, &known, DVec3::ZERO);
         let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
-        let viewpoint = Viewpoint { observer: who, camera: view.camera(), size: SIZE };
+        let viewpoint = Viewpoint::new(who, view.camera(), SIZE);
         let fineness = Fineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 1_000_000 };
         let cut = Cut::new(&scene, &viewpoint, fineness, None);
         assert!(cut.tolerance_px == 0.5 && cut.triangle_count() > 100, "{} triangles", cut.triangle_count());

@@ -261,19 +261,30 @@ impl SceneRenderer {
 
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.prepare_eye(gpu, &[(*shot, size)]);
+        self.prepare_picture(gpu, shot, size);
+    }
+
+    /// Makes what all pictures of one eye at one moment share, each of so many pixels.
+    pub fn prepare_eye(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
+        let Some((shot, _)) = shots.first() else { return };
         self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         match &mut self.way {
-            Way::Image(image, movers) if shot.effects.geometry => {
-                image.draw_map(gpu, &mut self.world, shot, size, self.subject);
-                if let Some(movers) = movers {
-                    movers.cut(gpu, shot, size);
-                }
-            }
+            Way::Image(_, Some(movers)) if shot.effects.geometry => movers.cut(gpu, shots),
             Way::VertexStage(stage) if shot.effects.geometry => {
                 stage.bend(gpu, &eyes(&self.motions, shot.eye, shot.ct));
             }
-            Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
+            Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shots),
             _ => {}
+        }
+    }
+
+    /// Makes what all samples of one picture share, after [`SceneRenderer::prepare_eye`].
+    pub fn prepare_picture(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        if let Way::Image(image, _) = &mut self.way
+            && shot.effects.geometry
+        {
+            image.draw_map(gpu, &mut self.world, shot, size, self.subject);
         }
     }
 

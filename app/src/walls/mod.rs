@@ -134,13 +134,19 @@ impl Walls {
                 renderer.show(gpu, transformed);
             }
             let sitting = Sitting { gpu, display, quality, passes, resample, eye, vantage, effects };
-            for (channel, picture) in sitting.display.channels.iter().zip(&mut self.pictures) {
-                if channel.eye == side {
-                    match picture.draw(renderer, channel, &sitting) {
-                        Ok(certainty) => drawn.certainty = drawn.certainty.or_worse(certainty),
-                        Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
-                    }
+            let of_eye = sitting.display.channels.iter().zip(&mut self.pictures);
+            let mut aimed = Vec::new();
+            for (channel, picture) in of_eye.filter(|(channel, _)| channel.eye == side) {
+                match picture.aim(channel, &sitting) {
+                    Ok(shots) => aimed.push((picture, shots)),
+                    Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
                 }
+            }
+            // What the eye's channels share, then each of them.
+            let all: Vec<_> = aimed.iter().flat_map(|(_, shots)| shots.iter().copied()).collect();
+            renderer.prepare_eye(gpu, &all);
+            for (picture, shots) in aimed {
+                drawn.certainty = drawn.certainty.or_worse(picture.draw(renderer, &shots, &sitting));
             }
         }
         Ok(drawn)

@@ -2,6 +2,7 @@
 
 use super::Quality;
 use super::curved::Curved;
+use super::facet::Facet;
 use super::head::OccupantEye;
 use crate::gpu::Gpu;
 use crate::renderers::certainty::Certainty;
@@ -90,32 +91,37 @@ impl Picture {
         self.sum.as_ref().map_or_else(|| self.sample(), Accumulator::result)
     }
 
-    /// Draws all samples. An eye behind its screen sees black.
+    /// What its flat pictures show, and their pixels. An eye behind its screen sees black.
     ///
     /// # Errors
     /// [`EyeBehind`].
-    pub fn draw(
-        &mut self,
-        renderer: &mut SceneRenderer,
-        channel: &Channel,
-        sitting: &Sitting<'_>,
-    ) -> Result<Certainty, EyeBehind> {
-        let &Sitting { gpu, display, quality, passes, .. } = sitting;
-        let mut shots = match self.shots(channel, display, sitting) {
+    pub fn aim(&mut self, channel: &Channel, sitting: &Sitting<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
+        let mut shots = match self.shots(channel, sitting) {
             Ok(shots) => shots,
             Err(behind) => {
-                self.blacken(gpu);
+                self.blacken(sitting.gpu);
                 return Err(behind);
             }
         };
-        // All flat pictures of the channel hold light alike.
-        let Some(first) = shots.first().copied() else {
+        // All of them hold light alike.
+        let scale = shots.first().map(|(shot, _)| shot.scale());
+        shots.iter_mut().for_each(|(shot, _)| shot.stored_scale = scale);
+        Ok(shots)
+    }
+
+    /// Draws all samples of them, for an eye that the renderer has been prepared for.
+    pub fn draw(
+        &mut self,
+        renderer: &mut SceneRenderer,
+        shots: &[(Shot, [u32; 2])],
+        sitting: &Sitting<'_>,
+    ) -> Certainty {
+        let &Sitting { gpu, quality, passes, .. } = sitting;
+        let Some((first, size)) = shots.first() else {
             self.blacken(gpu);
-            return Ok(Certainty::default());
+            return Certainty::default();
         };
-        let scale = first.scale();
-        shots.iter_mut().for_each(|shot| shot.stored_scale = Some(scale));
-        self.stored = renderer.stored(&Shot { stored_scale: Some(scale), ..first });
+        self.stored = renderer.stored(first);
 
         if let Some(sum) = &mut self.sum {
             sum.restart();
@@ -129,10 +135,10 @@ impl Picture {
                     (curved.facets.iter().map(|(_, target)| target).collect(), offset * quality.density)
                 }
             };
-            for (target, shot) in targets.into_iter().zip(&shots) {
+            for (target, (shot, size)) in targets.into_iter().zip(shots) {
                 // What all samples share is kept if there is only one picture.
                 if sample == 0 || shots.len() > 1 {
-                    renderer.prepare(gpu, shot, target.size);
+                    renderer.prepare_picture(gpu, shot, *size);
                 }
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
                 renderer.draw(gpu, &mut encoder, target, shot, offset);
@@ -150,33 +156,25 @@ impl Picture {
                 self.sum = Some(sum);
             }
         }
-        Ok(renderer.certainty(&shots[0], self.first_size()))
+        renderer.certainty(first, *size)
     }
 
     /// Where its flat pictures look.
-    fn shots(&mut self, channel: &Channel, display: &Display, sitting: &Sitting<'_>) -> Result<Vec<Shot>, EyeBehind> {
+    fn shots(&mut self, channel: &Channel, sitting: &Sitting<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
         let place_m = sitting.eye.place_m;
         match &mut self.way {
-            Way::Flat(_) => {
-                let flat = channel.flat(display).expect("its screen is flat");
+            Way::Flat(target) => {
+                let flat = channel.flat(sitting.display).expect("its screen is flat");
                 let frustum = frustum(&flat, place_m)?;
                 let low = DVec2::new(frustum.left, frustum.bottom);
                 let high = DVec2::new(frustum.right, frustum.top);
-                Ok(vec![sitting.shot(frustum.room_from_eye, Tangents { low, high })])
+                Ok(vec![(sitting.shot(frustum.room_from_eye, Tangents { low, high }), target.size)])
             }
             Way::Curved(curved) => {
                 curved.look_from(sitting.gpu, place_m, sitting.quality.density, sitting.quality.format);
-                let facets = curved.facets.iter();
-                Ok(facets.map(|(facet, _)| sitting.shot(facet.room_from_facet, facet.tangents)).collect())
+                let shot = |facet: &Facet| (sitting.shot(facet.room_from_facet, facet.tangents), facet.size);
+                Ok(curved.facets.iter().map(|(facet, _)| shot(facet)).collect())
             }
-        }
-    }
-
-    /// Of its first flat picture, pixels.
-    fn first_size(&self) -> [u32; 2] {
-        match &self.way {
-            Way::Flat(target) => target.size,
-            Way::Curved(curved) => curved.facets.first().map_or([1, 1], |(_, target)| target.size),
         }
     }
 

@@ -29,10 +29,11 @@ impl Movers {
         Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance) })
     }
 
-    /// Cuts it for a picture, in the light that falls on it then.
-    pub fn cut(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+    /// Cuts it for all pictures of one eye, in the light that falls on it then.
+    pub fn cut(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
+        let Some((shot, _)) = shots.first() else { return };
         self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
-        self.adaptive.cut(gpu, &mut self.world, shot, size);
+        self.adaptive.cut(gpu, &mut self.world, shots);
     }
 
     /// Some edges of the newest cut.

@@ -105,11 +105,13 @@ impl Adaptive {
         Self { scene, tolerance, shown: None, cutter }
     }
 
-    /// Makes, or takes, the cut for a picture, and bends its vertices.
-    pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2]) {
-        let viewpoint = Viewpoint { observer: shot.observer(), camera: shot.camera, size };
+    /// Makes, or takes, the cut for all pictures of one eye, and bends its vertices.
+    pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
+        let Some((first, _)) = shots.first() else { return };
+        let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
+        let viewpoint = Viewpoint { observer: first.observer(), pictures };
         let made = match (&mut self.cutter, &self.shown) {
-            (Some(cutter), Some(shown)) => cutter.follow(viewpoint, &shown.cut),
+            (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
         };
         if let Some(Made { cut, prepared, stats }) = made {
@@ -226,16 +228,16 @@ impl Cutter {
     }
 
     /// The newest cut, if there is a new one; asks for the next one.
-    fn follow(&mut self, viewpoint: Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
+    fn follow(&mut self, viewpoint: &Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
         let made = self.made.try_recv().ok();
         if let Some(made) = &made {
             self.busy = false;
             self.due = Instant::now() + REST * made.stats.duration;
         }
-        if !self.busy && Instant::now() >= self.due && self.asked != Some(viewpoint) {
+        if !self.busy && Instant::now() >= self.due && self.asked.as_ref() != Some(viewpoint) {
             let before = made.as_ref().map_or(shown, |made| &made.cut);
-            self.busy = self.wanted.try_send((viewpoint, Arc::clone(before))).is_ok();
-            self.asked = Some(viewpoint);
+            self.busy = self.wanted.try_send((viewpoint.clone(), Arc::clone(before))).is_ok();
+            self.asked = Some(viewpoint.clone());
         }
         made
     }

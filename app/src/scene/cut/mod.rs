@@ -58,15 +58,20 @@ pub struct Fineness {
     pub triangles: usize,
 }
 
-/// The picture that a cut is for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The pictures that a cut is for: one, or all that one eye sees.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Viewpoint {
     /// Who looks.
     pub observer: Observer,
-    /// Where he looks.
-    pub camera: Camera,
-    /// Pixels.
-    pub size: [u32; 2],
+    /// Where he looks, and pixels.
+    pub pictures: Vec<(Camera, [u32; 2])>,
+}
+
+impl Viewpoint {
+    /// Of one picture.
+    pub fn new(observer: Observer, camera: Camera, size: [u32; 2]) -> Self {
+        Self { observer, pictures: vec![(camera, size)] }
+    }
 }
 
 /// A vertex of a cut.
@@ -138,7 +143,8 @@ pub fn edge_key(a: DVec3, b: DVec3) -> u64 {
 /// Which edges are cut.
 struct Rule<'a> {
     sights: Vec<Sight>,
-    frame: Frame,
+    /// Of each picture.
+    frames: Vec<Frame>,
     fineness: Fineness,
     before: Option<&'a Cut>,
 }
@@ -192,10 +198,21 @@ impl<'a> Rule<'a> {
         let sight = |motion| Sight::new(scene, &viewpoint.observer, motion);
         Self {
             sights: (0..scene.motions.len()).map(Some).chain([None]).map(sight).collect(),
-            frame: Frame::new(&viewpoint.camera, viewpoint.size),
+            frames: viewpoint.pictures.iter().map(|(camera, size)| Frame::new(camera, *size)).collect(),
             fineness,
             before,
         }
+    }
+
+    /// Of all pictures the least.
+    fn least_allowed(&self) -> f64 {
+        self.frames.iter().map(|frame| frame.least_allowed(&self.fineness)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Of all pictures the least.
+    fn allowed(&self, direction: DVec3, radius: f64) -> f64 {
+        let each = self.frames.iter().map(|frame| frame.allowed(direction, radius, &self.fineness));
+        each.fold(f64::INFINITY, f64::min)
     }
 
     /// Of a mesh.
@@ -215,14 +232,14 @@ impl<'a> Rule<'a> {
         }
         // Most edges are so small beside their distance that nothing more need be asked.
         let seen = middle - sight.place;
-        if sight.bend.bound_anywhere(seen.length(), length) <= self.frame.least_allowed(&self.fineness) {
+        if sight.bend.bound_anywhere(seen.length(), length) <= self.least_allowed() {
             return None;
         }
         let Bound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
         if error_rad == 0.0 {
             return None;
         }
-        let allowed = self.frame.allowed(sight.observer_from_group * direction, radius_rad, &self.fineness);
+        let allowed = self.allowed(sight.observer_from_group * direction, radius_rad);
         let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(a, b)));
         (error_rad > allowed || error_rad > 0.5 * allowed && stays()).then_some(middle)
     }
@@ -230,8 +247,8 @@ impl<'a> Rule<'a> {
     /// Whether an edge of what is animated is to be cut.
     fn is_cut(&self, course: &Course, known: &Known, ends: [DVec3; 2]) -> bool {
         let seen = |place| known.seen(course, place);
-        let Some(chord) = Chord::of(seen, ends, self.frame.least_allowed(&self.fineness)) else { return false };
-        let allowed = self.frame.allowed(chord.direction, chord.radius_rad, &self.fineness);
+        let Some(chord) = Chord::of(seen, ends, self.least_allowed()) else { return false };
+        let allowed = self.allowed(chord.direction, chord.radius_rad);
         let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;
         let error =
             if chord.length_rad > DOPPLER_LENGTH * allowed { chord.error_rad.max(doppler) } else { chord.error_rad };
