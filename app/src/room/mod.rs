@@ -1,6 +1,6 @@
 //! The room around the viewer: which surfaces show which part of the world, for which eye, in which window.
 //!
-//! A [`Display`] is plain data, made from a TOML file ([`file`]), from a built-in one ([`built_in`]), or imported (MPCDI, ParaView's `.pvx`: [`Display::load`]).
+//! A [`Display`] is plain data, made from a TOML file ([`mod@file`]), from a built-in one ([`built_in`]), or imported (MPCDI, ParaView's `.pvx`: [`Display::load`]).
 //! It lists *screens* (surfaces in the room), *windows* (pixels of a monitor), *projectors* and *channels*. A channel shows one screen to
 //! one eye in a rectangle of a window. It is at heart a map
 //!
@@ -42,7 +42,7 @@ pub use gains::{Gains, Map, Reflection};
 pub use projector::{Lens, Projector};
 pub use surface::{Cylinder, Flat, Hit, Mesh, Sphere, Surface};
 pub use viewer::{Eye, Viewer};
-pub use warp::{Corners, Measured, Warp};
+pub use warp::{Corners, Measured, NotConvex, Warp};
 pub use window::{Combine, Monitor, WindowPlace};
 
 use glam::{DMat3, DVec3};
