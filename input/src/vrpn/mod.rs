@@ -227,7 +227,7 @@ mod tests {
         let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
         decoder.bytes(0, &golden::session(), &mut actions);
         assert_eq!(decoder.take_poses().len(), 1);
-        // Number 1 goes to another device; the next session's numbers are its own.
+        // Number 1 goes to another device; the next connection's numbers are its own.
         decoder.bytes(0, &description(DESCRIBES_SENDER, 1, "Wand"), &mut actions);
         decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
         assert_eq!(decoder.take_poses(), []);
@@ -235,6 +235,22 @@ mod tests {
         decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
         assert_eq!((decoder.take_poses().len(), decoder.faults().number()), (0, 0));
         assert!(!decoder.numbers().has_device());
+    }
+
+    #[test]
+    fn a_new_connection_begins_anew() {
+        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let stream = golden::session();
+        for half in 0..stream.len() {
+            decoder.bytes(0, &stream[..half], &mut actions);
+            decoder.reset(0);
+            decoder.take_poses();
+            // Numbers of before mean nothing, and half a message shifts nothing.
+            let unnamed = [golden::bytes(golden::COOKIE), golden::bytes(golden::IDENTITY)].concat();
+            decoder.bytes(0, &unnamed, &mut actions);
+            assert_eq!((decoder.take_poses(), decoder.faults().number()), (vec![], 0), "half {half}");
+            decoder.reset(0);
+        }
     }
 
     #[test]
