@@ -16,6 +16,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use thiserror::Error;
 
@@ -26,7 +27,7 @@ mod ride;
 mod values;
 mod world;
 
-pub use measure::MeasureOptions;
+pub use measure::{Goal, MeasureOptions};
 pub use picture::{PictureOptions, Renderer};
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
@@ -45,6 +46,9 @@ struct Cli {
 #[derive(Clone, Debug, PartialEq, Subcommand)]
 pub enum Command {
     /// Ride a bicycle, or fly, through the scene in a window.
+    ///
+    /// Where none of --renderer, --tolerance, --edge and --map-scale is given, rides are drawn as rapidity.toml in the user's configuration directory says
+    /// (~/.config/rapidity on Linux, or rapidity in XDG_CONFIG_HOME), if there is one: `rapidity measure --budget` and `--tolerance` write it.
     Ride(Box<RideOptions>),
     /// Draw a still or a film, without a window.
     Render(Box<RenderOptions>),
@@ -138,7 +142,11 @@ pub fn parse() -> Result<Command, ExitCode> {
 /// [`Stop::Help`] if only help was asked for, [`Stop::Usage`] if an option is unknown, out of range, or against another.
 pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Stop> {
     let matches = Cli::command().try_get_matches_from(arguments).map_err(stop)?;
-    let Cli { command } = Cli::from_arg_matches(&matches).map_err(stop)?;
+    let Cli { mut command } = Cli::from_arg_matches(&matches).map_err(stop)?;
+    if let (Command::Ride(options), Some(matches)) = (&mut command, matches.subcommand_matches("ride")) {
+        let given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
+        options.drawing_is_given = ["renderer", "tolerance", "edge", "map_scale"].into_iter().any(given);
+    }
     match &command {
         Command::Ride(options) => options.check(),
         Command::Render(options) => options.check(),

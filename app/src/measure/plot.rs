@@ -6,7 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
-use super::sweep::Row;
+use super::pictures::Row;
 
 /// Pixels.
 const SIZE: (u32, u32) = (1000, 620);
@@ -15,9 +15,9 @@ const FRONT: RGBColor = RGBColor(120, 120, 120);
 
 /// What a renderer's points look like.
 const KINDS: [(&str, &str, RGBColor); 3] = [
-    ("--edge", "polygon, cut once (--edge, metres)", RGBColor(214, 96, 36)),
-    ("--tolerance", "polygon, cut for the picture (--tolerance, pixels)", RGBColor(20, 110, 180)),
-    ("--map-scale", "image (--map-scale, texels a pixel)", RGBColor(40, 140, 60)),
+    ("edge", "polygon, cut once (--edge, metres)", RGBColor(214, 96, 36)),
+    ("tolerance", "polygon, cut for the picture (--tolerance, pixels)", RGBColor(20, 110, 180)),
+    ("map-scale", "image (--map-scale, texels a pixel)", RGBColor(40, 140, 60)),
 ];
 
 /// Why there is no plot.
@@ -97,11 +97,9 @@ fn draw<B: DrawingBackend>(
         .label("no setting is both faster and closer")
         .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], FRONT.stroke_width(2)));
 
-    for (flag, name, colour) in KINDS {
-        let points = rows.iter().filter_map(|row| {
-            let value = row.flags.split_once(flag)?.1.trim().to_owned();
-            Some((row.ms[0], row.arcmin[1], value))
-        });
+    for (dial, name, colour) in KINDS {
+        let of_dial = rows.iter().filter(|row| row.setting.dial() == dial);
+        let points = of_dial.map(|row| (row.ms[0], row.arcmin[1], row.setting.value().to_string()));
         let marks = points.map(|(ms, arcmin, value)| {
             EmptyElement::at((ms, arcmin))
                 + Circle::new((0, 0), 6, colour.filled())
