@@ -15,10 +15,10 @@ pub struct MeasureOptions {
     #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "replay", "budget", "tolerance"])]
     pub extremes: bool,
     /// Measure frames of a ride, and have rides drawn from now on with the least error that this time a frame allows in 95 of 100, as in 16.7ms.
-    #[arg(long, value_name = "TIME", value_parser = values::milliseconds, conflicts_with = "tolerance")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = values::milliseconds, conflicts_with = "tolerance")]
     pub budget: Option<f64>,
     /// Measure frames of a ride, and have rides drawn from now on as fast as an error of so many pixels in 99 of 100 allows, as in 1px.
-    #[arg(long, value_name = "PIXELS", value_parser = values::pixels)]
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::pixels)]
     pub tolerance: Option<f64>,
     /// Width and height of the pictures, pixels [default: 640x360, for --budget and --tolerance 1280x720].
     #[arg(long, value_name = "WxH", value_parser = values::size)]

@@ -36,7 +36,7 @@ pub enum ChoiceError {
         px: f64,
     },
     /// Nothing was measured.
-    #[error("nothing was written, for no setting could be measured on this scene")]
+    #[error("nothing was written, for no surface of this scene could be looked at; choose another --scene or --replay")]
     Nothing,
 }
 
@@ -69,6 +69,8 @@ pub fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Re
 
 /// For a budget, the closest of those that keep to it in 95 of 100 frames; for a tolerance, the fastest of those that keep to it in 99 of 100 pixels.
 fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError> {
+    // Where nothing was seen, nothing was wrong.
+    let seen = || rows.iter().filter(|row| row.pixels > 0);
     let by = |key: fn(&Row) -> [f64; 2]| {
         move |a: &&Row, b: &&Row| {
             let ([a, then_a], [b, then_b]) = (key(a), key(b));
@@ -78,19 +80,17 @@ fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError
     let closer = by(|row| [row.arcmin[1], row.ms[0]]);
     let faster = by(|row| [row.ms[0], row.arcmin[1]]);
     match goal {
-        Goal::Budget { ms: budget_ms } => {
-            rows.iter().filter(|row| row.ms[1] <= budget_ms).min_by(closer).ok_or_else(|| {
-                let fastest = rows.iter().min_by(by(|row| [row.ms[1], row.arcmin[1]]));
-                fastest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooSlow {
-                    budget_ms,
-                    flags: row.setting.flags(),
-                    ms: row.ms[1],
-                })
+        Goal::Budget { ms: budget_ms } => seen().filter(|row| row.ms[1] <= budget_ms).min_by(closer).ok_or_else(|| {
+            let fastest = seen().min_by(by(|row| [row.ms[1], row.arcmin[1]]));
+            fastest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooSlow {
+                budget_ms,
+                flags: row.setting.flags(),
+                ms: row.ms[1],
             })
-        }
+        }),
         Goal::Tolerance { pixels } => {
-            rows.iter().filter(|row| row.arcmin[1] <= pixels * pixel_arcmin).min_by(faster).ok_or_else(|| {
-                let closest = rows.iter().min_by(closer);
+            seen().filter(|row| row.arcmin[1] <= pixels * pixel_arcmin).min_by(faster).ok_or_else(|| {
+                let closest = seen().min_by(closer);
                 closest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooFarOff {
                     tolerance_px: pixels,
                     flags: row.setting.flags(),
@@ -115,6 +115,7 @@ mod tests {
             ms: [0.9 * ms, ms],
             stages_ms: [[0.0; 2]; 3],
             bytes: None,
+            pixels: 1,
             arcmin: [0.0, arcmin, 2.0 * arcmin],
             above_one: 0.0,
             colour: None,
@@ -144,6 +145,7 @@ mod tests {
         assert!(slow.contains("--edge 1") && slow.contains("5.0 ms"), "{slow}");
         let far = told(Goal::Tolerance { pixels: 1.0 });
         assert!(far.contains("--edge 2") && far.contains("1.20 pixels"), "{far}");
-        assert_eq!(best(&[], Goal::Budget { ms: 4.0 }, 10.0), Err(ChoiceError::Nothing));
+        let unseen: Vec<Row> = rows.into_iter().map(|row| Row { pixels: 0, arcmin: [0.0; 3], ..row }).collect();
+        assert_eq!(best(&unseen, Goal::Budget { ms: 90.0 }, 10.0), Err(ChoiceError::Nothing));
     }
 }

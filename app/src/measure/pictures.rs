@@ -86,6 +86,8 @@ pub struct Row {
     pub stages_ms: [[f64; 2]; 3],
     /// The most that its renderer held on the device, bytes, where the driver says.
     pub bytes: Option<f64>,
+    /// Pixels that showed a surface, in all pictures.
+    pub pixels: usize,
     /// Minutes of arc: median, 99th percentile and largest.
     pub arcmin: [f64; 3],
     /// Share of pixels that are off by more than one minute of arc.
@@ -139,7 +141,7 @@ pub fn measure(
     let bar = progress::bar("measuring", (shots.len() * candidates.len()) as u64);
     for shot in shots {
         let reference = tracer.map(|tracer| Reference::trace(tracer, shot, size, SAMPLES, stop));
-        // The first picture compiles pipelines and warms caches.
+        // The first pictures compile pipelines and warm caches: they are the ones that are compared.
         for candidate in &mut candidates {
             if stop.load(Ordering::Relaxed) {
                 break;
@@ -154,8 +156,8 @@ pub fn measure(
                 }
             } else {
                 candidate.begin(gpu)?;
+                candidate.picture(gpu, &radiance, shot, kind)?;
             }
-            candidate.picture(gpu, &radiance, shot, kind)?;
             candidate.hold(before, clock::device_bytes(gpu)?);
         }
         for _ in 0..measurement.rounds {
@@ -279,6 +281,7 @@ impl Candidate {
             ms: of(|stages| stages.total()),
             stages_ms: [of(|stages| stages.bend), of(|stages| stages.upload), of(|stages| stages.draw)],
             bytes: self.bytes.map(|(_, most)| most as f64),
+            pixels: directions.count(),
             arcmin: directions.summary(),
             above_one: directions.share_above(1.0),
             colour: (pictures > 0.0).then(|| (delta_e.summary(), flip)),
@@ -322,6 +325,7 @@ mod tests {
             ms: [ms; 2],
             stages_ms: [[0.0; 2]; 3],
             bytes: None,
+            pixels: 1,
             arcmin: [arcmin; 3],
             above_one: 0.0,
             colour: None,

@@ -48,7 +48,7 @@ pub fn measure(scene: &Scene, _: &[Shot]) -> Result<(String, Vec<Line>), Error> 
         let an_octave = shift_table.nodes() as f64 * std::f64::consts::LN_2 / (2.0 * ShiftTable::LN_LIMIT);
         let setting = format!("{} nodes ({an_octave:.0} an octave)", shift_table.nodes());
         let mut cells = vec![setting.clone(), String::new(), format!("{ms:.1}"), format!("{:.0}", bytes / 1e3)];
-        cells.extend([median, of_99, most].map(|delta_e| format!("{delta_e:.4}")));
+        cells.extend([median, of_99, most].map(|delta_e| format!("{delta_e:.1e}")));
         table.add(cells);
         let errors = [("delta_e_median", median), ("delta_e_99", of_99), ("delta_e_most", most)];
         let numbers = [("ms_median", ms), ("bytes", bytes)].into_iter().chain(errors).collect();

@@ -1,7 +1,7 @@
 //! Integrator and step: how far a worldline strays, in the steps of frames, from a ride whose every point is known.
 //!
-//! The built-in rider goes round the scene's circuit, or round a circle where there is none. His celerity at every quarter of a second is joined by cubic
-//! polynomials of his own time: their integral is where he is, exactly, and their slope is the thrust that keeps him there,
+//! The built-in rider goes round the scene's circuit, or round a circle where there is none. His celerity at every fifth of a second, where steps of all
+//! lengths end, is joined by cubic polynomials of his own time: their integral is where he is, exactly, and their slope is the thrust that keeps him there,
 //!
 //! ```text
 //! a = u̇ − u (u·u̇) / (γ (1 + γ))
@@ -28,7 +28,7 @@ use crate::vehicle::{OpenPlane, VehicleSettings, World};
 const RATES: [u32; 4] = [240, 60, 30, 15];
 /// Seconds of the ride, and of each polynomial.
 const SECONDS: u32 = 20;
-const KNOTS_PER_SECOND: u32 = 4;
+const KNOTS_PER_SECOND: u32 = 5;
 /// Until the rider is under way, and how long he is followed then, seconds: slopes at the end need a knot beyond.
 const BEGINNING_S: u32 = 5;
 const FOLLOWED_S: u32 = 14;
@@ -111,13 +111,19 @@ impl Ride {
         Ok(Self { spacing: world.metres(1.0 / f64::from(KNOTS_PER_SECOND)), celerities })
     }
 
-    /// Celerity, its rate, and the way since the beginning, at a proper time.
-    fn at(&self, proper_time: f64) -> [DVec3; 3] {
+    /// The last knot before a proper time, and the share of the way to the next that has gone by.
+    fn place(&self, proper_time: f64) -> (usize, f64) {
         let place = (proper_time / self.spacing).clamp(0.0, (self.celerities.len() - 2) as f64);
         let knot = (place.floor() as usize).min(self.celerities.len() - 2);
+        (knot, place - knot as f64)
+    }
+
+    /// Celerity, and the way since the beginning.
+    fn at(&self, proper_time: f64) -> [DVec3; 2] {
+        let (knot, t) = self.place(proper_time);
         let whole = (0..knot).map(|knot| self.polynomial(knot).way(1.0)).sum::<DVec3>();
-        let (polynomial, t) = (self.polynomial(knot), place - knot as f64);
-        [polynomial.value(t), polynomial.slope(t) / self.spacing, (whole + polynomial.way(t)) * self.spacing]
+        let polynomial = self.polynomial(knot);
+        [polynomial.value(t), (whole + polynomial.way(t)) * self.spacing]
     }
 
     /// From one knot to the next, with the slopes of the chords about them.
@@ -130,7 +136,9 @@ impl Ride {
 
     /// The thrust at a proper time, in the axes of the boost.
     fn acceleration(&self, proper_time: f64) -> DVec3 {
-        let [celerity, rate, _] = self.at(proper_time);
+        let (knot, t) = self.place(proper_time);
+        let polynomial = self.polynomial(knot);
+        let (celerity, rate) = (polynomial.value(t), polynomial.slope(t) / self.spacing);
         let gamma = (1.0 + celerity.length_squared()).sqrt();
         rate - celerity * (celerity.dot(rate) / (gamma * (1.0 + gamma)))
     }
@@ -150,7 +158,7 @@ impl Ride {
 
     /// How far a state is from where the ride is then: metres, and the rapidity of its motion against the ride's.
     fn strayed(&self, state: &State) -> [f64; 2] {
-        let [celerity, _, way] = self.at(state.proper_time);
+        let [celerity, way] = self.at(state.proper_time);
         let gamma = |celerity: DVec3| (1.0 + celerity.length_squared()).sqrt();
         let found = state.celerity.vector();
         // |relative celerity|² = |Δu|² − (Δγ)²; Δγ by its quotient, which does not cancel.

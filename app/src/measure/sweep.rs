@@ -22,6 +22,8 @@ const RIDE_SIZE: [u32; 2] = [1280, 720];
 
 /// A ride for which nothing says how long its frames may take is looked at as often as screens are, seconds.
 const FRAME_S: f64 = 1.0 / 60.0;
+/// Nobody rides by frames that are further apart, seconds.
+const LONGEST_FRAME_S: f64 = 1.0 / 15.0;
 
 /// Measures and writes the results.
 ///
@@ -45,7 +47,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         None => Kind::Stills,
         Some(goal) => {
             let frame_s = if let Goal::Budget { ms } = goal { 1e-3 * ms } else { FRAME_S };
-            Kind::Rides { own_m: World::OLD_TOWN.metres(frame_s) }
+            Kind::Rides { own_m: World::OLD_TOWN.metres(frame_s.min(LONGEST_FRAME_S)) }
         }
     };
     eprintln!(

@@ -7,7 +7,7 @@ use super::pictures::Row;
 use crate::error::Error;
 
 /// Columns of the file. Every dial has those that say something of it; the others stay empty.
-const COLUMNS: [&str; 25] = [
+const COLUMNS: [&str; 24] = [
     "ms_median",
     "ms_95",
     "bend_ms_median",
@@ -28,7 +28,6 @@ const COLUMNS: [&str; 25] = [
     "flip",
     "position_m",
     "rapidity",
-    "orientation_rad",
     "direction_rad_median",
     "direction_rad_99",
     "direction_rad_most",
