@@ -14,6 +14,7 @@ use crate::renderers::polygon::Pace;
 use crate::ride::{first_actions, prepared, present, recorded};
 use crate::scene::{Scene, source};
 use crate::simulation::{Frame, ReplayError, Replayed, Simulation, Tour};
+use crate::vehicle::World;
 use input::{Key, Nanos, SECOND, Sample, VehicleKind};
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -35,9 +36,12 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
     let (scene, moments) = match &options.replay {
-        Some(recording) => reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?,
+        Some(recording) => {
+            let ridden = reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?;
+            (ridden.scene, ridden.moments)
+        }
         None => {
-            let scene = source::load(&options.world.scene)?;
+            let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
             let (simulation, mut log) = prepared(options, &scene)?;
             if let Some(path) = &options.record {
                 log.record(path)?;
@@ -56,7 +60,18 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }
 
-/// A recorded ride once more: its scene, and the observer at each picture's time.
+/// A recorded ride once more.
+#[derive(Debug)]
+pub struct Ridden {
+    /// What was ridden through.
+    pub scene: Scene,
+    /// How fast light was.
+    pub world: World,
+    /// The observer at each picture's time.
+    pub moments: Vec<Moment>,
+}
+
+/// Rides a recorded ride once more.
 ///
 /// A recording that is damaged or differs is followed as far as it goes, and the user told.
 ///
@@ -67,8 +82,9 @@ pub fn reel(
     choice: &SceneChoice,
     frames_per_second: f64,
     seconds: Option<f64>,
-) -> Result<(Scene, Vec<Moment>), Error> {
+) -> Result<Ridden, Error> {
     let (scene, mut replay) = recorded(recording, choice)?;
+    let world = replay.simulation().setup().world;
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
     let mut differed = false;
@@ -92,7 +108,7 @@ pub fn reel(
         }
     }
     spinner.finish_and_clear();
-    Ok((scene, reel.moments))
+    Ok(Ridden { scene, world, moments: reel.moments })
 }
 
 /// What the film will show: the observer at each picture's time.

@@ -3,6 +3,7 @@
 use rapidity::command::{self, Command};
 use rapidity::error::Error;
 use rapidity::scene::{export, source};
+use rapidity::vehicle::World;
 use rapidity::{check, devices, measure, probe, render, ride};
 use std::process::ExitCode;
 
@@ -31,7 +32,7 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
         Command::Measure(options) => measure::measure(options)?,
         Command::Town(options) => {
             render::writable(&options.out)?;
-            let scene = source::load(&command::SceneChoice::Town)?;
+            let scene = source::load(&command::SceneChoice::Town, World::OLD_TOWN.speed_of_light_m_s())?;
             export::write_glb(&scene, &options.out)?;
             eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
         }

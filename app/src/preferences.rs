@@ -3,7 +3,7 @@
 //! ```toml
 //! [ride]
 //! renderer = "polygon"
-//! tolerance = 2.0     # or edge = 0.5; for the image renderer, map-scale = 0.9
+//! tolerance = 2.0     # or edge = 0.5, and transform = "gpu"; for the image renderer, map-scale = 0.9
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::command::{Renderer, RideOptions};
+use crate::command::{Renderer, RideOptions, Transform};
 use crate::measure::dials::Setting;
 
 /// The file's name.
@@ -35,6 +35,9 @@ pub struct Drawing {
     /// `--edge`, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub edge: Option<f64>,
+    /// `--transform`, for an edge; the CPU where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transform: Option<Transform>,
     /// `--tolerance`, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -131,7 +134,7 @@ impl Preferences {
             let place = line.map_or_else(String::new, |line| format!("line {line}: "));
             format!("{place}{}", error.message().lines().collect::<Vec<_>>().join(" "))
         })?;
-        let Drawing { edge, tolerance, map_scale, .. } = preferences.ride;
+        let Drawing { edge, transform, tolerance, map_scale, .. } = preferences.ride;
         let limits = [
             ("edge", edge, f64::MIN_POSITIVE, f64::MAX),
             ("tolerance", tolerance, 0.01, 100.0),
@@ -150,6 +153,9 @@ impl Preferences {
         if edge.is_some() && tolerance.is_some() {
             return Err("edge and tolerance exclude each other".to_owned());
         }
+        if transform == Some(Transform::Gpu) && edge.is_none() {
+            return Err("transform is \"gpu\", which needs edge, as on the command line".to_owned());
+        }
         Ok(preferences)
     }
 }
@@ -160,6 +166,7 @@ impl Drawing {
         let polygon = Self { renderer: RendererName::Polygon, ..Self::default() };
         match setting {
             Setting::Edge(metres) => Self { edge: Some(metres), ..polygon },
+            Setting::VertexStage(metres) => Self { edge: Some(metres), transform: Some(Transform::Gpu), ..polygon },
             Setting::Tolerance(pixels) => Self { tolerance: Some(pixels), ..polygon },
             Setting::Map(texels) => Self { renderer: RendererName::Image, map_scale: Some(texels), ..Self::default() },
         }
@@ -169,13 +176,18 @@ impl Drawing {
     fn flags(self) -> String {
         let dials = [("edge", self.edge), ("tolerance", self.tolerance), ("map-scale", self.map_scale)];
         let dials = dials.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        format!("--renderer {}{}", Renderer::from(self.renderer).name(), dials.collect::<String>())
+        let transform = match self.transform {
+            Some(Transform::Gpu) => " --transform gpu",
+            Some(Transform::Cpu) | None => "",
+        };
+        format!("--renderer {}{}{transform}", Renderer::from(self.renderer).name(), dials.collect::<String>())
     }
 
     fn apply(self, options: &mut RideOptions) {
         options.picture.renderer = self.renderer.into();
         options.picture.map_scale = self.map_scale;
         options.world.edge = self.edge;
+        options.world.transform = self.transform.unwrap_or_default();
         options.world.tolerance = self.tolerance;
     }
 }
@@ -214,7 +226,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        for setting in [Setting::Edge(0.5), Setting::Tolerance(2.0), Setting::Map(0.9)] {
+        for setting in [Setting::Edge(0.5), Setting::VertexStage(0.5), Setting::Tolerance(2.0), Setting::Map(0.9)] {
             let preferences = Preferences { ride: Drawing::of(setting) };
             let text = toml::to_string(&preferences).unwrap();
             assert_eq!(Preferences::from_toml(&text), Ok(preferences), "{text}");
@@ -234,6 +246,8 @@ mod tests {
             ("[ride]\nrenderer = \"auto\"\nedge = inf", "edge is inf"),
             ("[ride]\nrenderer = \"auto\"\nmap-scale = nan", "map-scale is NaN"),
             ("[ride]\nrenderer = \"auto\"\nedge = 1.0\ntolerance = 1.0", "exclude"),
+            ("[ride]\nrenderer = \"polygon\"\ntransform = \"gpu\"", "needs edge"),
+            ("[ride]\nrenderer = \"polygon\"\nedge = 1.0\ntransform = \"tpu\"", "line 4"),
         ] {
             let refused = Preferences::from_toml(text).unwrap_err();
             assert!(refused.contains(told) && !refused.contains('\n'), "{text:?}: {refused}");

@@ -7,7 +7,7 @@ use crate::command::{Output, PictureOptions, RenderOptions, Renderer, Viewpoint}
 use crate::error::Error;
 use crate::exr;
 use crate::film::{Film, Written};
-use crate::film_ride;
+use crate::film_ride::{self, Ridden};
 use crate::gpu::Gpu;
 use crate::progress;
 use crate::renderers::choice::{Bending, Choice};
@@ -39,7 +39,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
-    let scene = source::load(&options.world.scene)?;
+    let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
     let start = scene.start;
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     let speed_of_light = options.world.speed_of_light;
@@ -61,7 +61,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// The same with the eyes of a recorded rider.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let (scene, moments) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let Ridden { scene, moments, .. } = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
     let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     match &options.out {
         Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),

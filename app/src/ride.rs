@@ -68,7 +68,7 @@ fn begin(options: &RideOptions) -> Result<(Scene, window::Begin), Error> {
         let (scene, replay) = recorded(path, &options.world.scene)?;
         return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
     }
-    let scene = source::load(&options.world.scene)?;
+    let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
     let (simulation, mut log) = prepared(options, &scene)?;
     if let Some(path) = &options.record {
         log.record(path)?;
@@ -102,7 +102,7 @@ pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Er
         SceneChoice::Town => SceneChoice::from_name(&recording.header().scene),
         named => named.clone(),
     };
-    let scene = source::load(&choice)?;
+    let scene = source::load(&choice, recording.header().speed_of_light_m_s)?;
     if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
         eprintln!(
             "{}: {} is not the scene that was ridden through; expect another ride",

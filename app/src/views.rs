@@ -87,6 +87,8 @@ impl Camera {
             shift: DVec4::new(kappa_of_light, scale, 2.0 / width, 2.0 / height).as_vec4(),
             layer: Vec4::ZERO,
             source: Vec4::new(0.0, 0.0, -1.0, 1.0),
+            eye: Vec4::ZERO,
+            eye_rest: Vec4::ZERO,
         }
     }
 

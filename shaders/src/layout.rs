@@ -26,6 +26,10 @@ pub struct View {
     /// When geometry is off, of what moves in the world: unit vector along its motion, and its κ; w = 1 of what rests, and when geometry
     /// is on.
     pub source: Vec4,
+    /// Where the vertex stage bends: the eye relative to the scene's origin, metres, world axes, rounded to f32; w unused.
+    pub eye: Vec4,
+    /// What that rounding lost.
+    pub eye_rest: Vec4,
 }
 
 /// Daylight, in the frame of what it falls on: the world's, or that of something that moves.

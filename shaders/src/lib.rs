@@ -83,6 +83,8 @@ pub const SHIFT_NODES: u32 = ShiftTable::NODES as u32;
 pub const MAP_CELLS: u32 = 16;
 /// The largest value that a half float holds safely.
 pub const HALF_LIMIT: f32 = 60_000.0;
+/// Stands for each coordinate of a vertex that the CPU leaves to the vertex stage.
+pub const NOT_BENT: f32 = 3e38;
 /// The most looks along a stretched footprint in a panorama.
 pub const PANORAMA_LOOKS: f32 = 16.0;
 
@@ -110,11 +112,14 @@ const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
 const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
+const PHOTO_SURFACE: &str = include_str!("../wgsl/photo_surface.wgsl");
 const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
 
 /// Triangles of the photo-surface (or of the plain world) under sun and sky.
-pub const SURFACE: Module =
-    Module { name: "surface", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/surface.wgsl")] };
+pub const SURFACE: Module = Module {
+    name: "surface",
+    files: &[SHARED, ABERRATION, SHIFT, PHOTO_SURFACE, include_str!("../wgsl/surface.wgsl")],
+};
 /// The sky behind everything, per pixel.
 pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
 /// From the map of the world around the eye to what the observer sees.
@@ -163,6 +168,7 @@ fn constants() -> String {
         ("SHADOW_NORMAL_OFFSET_M", SHADOW_NORMAL_OFFSET_M),
         ("SHIFT_NODES_PER_OCTAVE", nodes_per_octave as f32),
         ("HALF_LIMIT", HALF_LIMIT),
+        ("NOT_BENT", NOT_BENT),
         ("PANORAMA_LOOKS", PANORAMA_LOOKS),
         ("TURN", std::f32::consts::TAU),
         ("BRIGHTEST", BRIGHTEST),

@@ -42,7 +42,10 @@ fn every_module_validates() {
 #[test]
 fn structs_have_the_same_layout_on_both_sides() {
     let surface = parse(&shaders::SURFACE);
-    assert_mirrors!(surface, View { clip_from_observer, forward, right, up, motion, shift, layer, source });
+    assert_mirrors!(
+        surface,
+        View { clip_from_observer, forward, right, up, motion, shift, layer, source, eye, eye_rest }
+    );
     assert_mirrors!(
         surface,
         Lighting {

@@ -9,6 +9,8 @@ struct View {
     shift: vec4<f32>,
     layer: vec4<f32>,
     source: vec4<f32>,
+    eye: vec4<f32>,
+    eye_rest: vec4<f32>,
 }
 
 struct Lighting {

@@ -20,7 +20,11 @@ override SPLIT: bool = false;
 override BLENDED: bool = false;
 // Weights for the map instead of the light that an observer sees.
 override MAP: bool = false;
-// Where the surface is, instead of any light.
+// Vertices are bent here, but for those that the CPU has bent.
+override BENDS: bool = false;
+// Every vertex brings its own Doppler factor, that of its own motion.
+override ANIMATED: bool = false;
+// Where the surface is, instead of any light, and what it belongs to: 1 for what rests, and so many more for what moves.
 override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
@@ -51,8 +55,28 @@ struct Fragment {
 
 @vertex
 fn vertex(in: Vertex) -> Fragment {
-    let clip = view.clip_from_observer * vec4(in.x, in.y, in.z, 1.0);
+    var seen = vec3(in.x, in.y, in.z);
+    if (BENDS) {
+        seen = select(apparent_position(in.world), seen, in.x < NOT_BENT);
+    }
+    let clip = view.clip_from_observer * vec4(seen, 1.0);
     return Fragment(clip, in.world, in.normal, in.uv, in.colour);
+}
+
+// The same of what is animated: log2 D of each vertex in a stream of its own.
+struct AnimatedFragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) colour: vec4<f32>,
+    @location(4) log2_doppler: f32,
+}
+
+@vertex
+fn vertex_animated(in: Vertex, @location(7) log2_doppler: f32) -> AnimatedFragment {
+    let clip = view.clip_from_observer * vec4(in.x, in.y, in.z, 1.0);
+    return AnimatedFragment(clip, in.world, in.normal, in.uv, in.colour, log2_doppler);
 }
 
 // Share of the sun that reaches a point: four filtered looks into the sun's depth map.
@@ -90,6 +114,16 @@ fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    return seen(in, front, 0.0);
+}
+
+@fragment
+fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    return seen(Fragment(in.clip, in.world, in.normal, in.uv, in.colour), front, in.log2_doppler);
+}
+
+// What a fragment shows.
+fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
     let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
     var emitted = vec3(0.0);
     if (EMISSIVE) {
@@ -101,7 +135,7 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     }
 
     if (PLACES) {
-        return vec4(in.world, 1.0);
+        return vec4(in.world, 1.0 + view.layer.x);
     }
 
     // Weights that leave the surface: on its own carrier, and what it emits besides.
@@ -129,7 +163,9 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     }
 
     var doppler = 1.0;
-    if (DOPPLER || SEARCHLIGHT) {
+    if (ANIMATED) {
+        doppler = exp2(log2_doppler);
+    } else if (DOPPLER || SEARCHLIGHT) {
         doppler = pixel_doppler(in.clip.xy);
     }
     var light = observed_light(weights, u32(material.carriers.x), doppler);

@@ -24,6 +24,8 @@ override PLACES: bool = false;
 @group(1) @binding(2) var panes: texture_2d<f32>;
 @group(1) @binding(3) var atlas: texture_2d_array<f32>;
 @group(1) @binding(4) var atlas_sampler: sampler;
+// Of the map, reversed; only where something is drawn over the picture.
+@group(1) @binding(5) var depths: texture_depth_2d;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
@@ -68,34 +70,69 @@ fn pane_at(place: OnCube) -> Pane {
     return Pane(first.xy, first.zw, last.xy, last.zw);
 }
 
+fn nearest_texel(place: vec2<f32>, pane: Pane) -> vec2<i32> {
+    return vec2<i32>(clamp(floor(place), pane.low, pane.high - 1.0));
+}
+
 // Weights of one carrier at a place in the atlas, within a pane.
 fn weights_at(place: vec2<f32>, pane: Pane, layer: u32) -> vec3<f32> {
     if (!SMOOTH) {
-        let texel = clamp(floor(place), pane.low, pane.high - 1.0);
-        return textureLoad(atlas, vec2<i32>(texel), layer, 0).rgb;
+        return textureLoad(atlas, nearest_texel(place, pane), layer, 0).rgb;
     }
     // Panes are drawn one texel beyond their edges, so that there is always a neighbour.
     let within = clamp(place, pane.low, pane.high) / vec2<f32>(textureDimensions(atlas));
     return textureSampleLevel(atlas, atlas_sampler, within, layer, 0.0).rgb;
 }
 
-@fragment
-fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+// Where a pixel looks into the map.
+struct Look {
+    pane: Pane,
+    // In the atlas, texels.
+    place: vec2<f32>,
+    doppler: f32,
+    // Length of the pixel's direction, the picture's middle being one away, and of that on the cube.
+    observed_length: f32,
+    cube_length: f32,
+}
+
+fn look(at: vec2<f32>) -> Look {
     // In the cube's axes the motion is along z: a boost changes z alone, and x and y keep every digit beside the stern.
-    let observed = (map.cube_from_observer * vec4(pixel_direction(at.xy), 0.0)).xyz;
+    let direction = pixel_direction(at);
+    let observed = (map.cube_from_observer * vec4(direction, 0.0)).xyz;
     let seen = world_from_observer(observed, vec4(0.0, 0.0, 1.0, view.motion.w));
 
     let on_cube = on_cube(seen.direction);
     let pane = pane_at(on_cube);
     let place = pane.low + pane.scale * (on_cube.tangent - pane.corner);
+    return Look(pane, place, seen.doppler, length(direction), length(vec3(on_cube.tangent, 1.0)));
+}
 
+fn shown(look: Look) -> vec4<f32> {
     if (PLACES) {
-        let texel = clamp(floor(place), pane.low, pane.high - 1.0);
-        return textureLoad(atlas, vec2<i32>(texel), 0, 0);
+        return textureLoad(atlas, nearest_texel(look.place, look.pane), 0, 0);
     }
     var light = vec4(0.0);
     for (var layer = 0u; layer < LAYERS; layer++) {
-        light += observed_light(weights_at(place, pane, layer), layer, seen.doppler);
+        light += observed_light(weights_at(look.place, look.pane, layer), layer, look.doppler);
     }
     return light;
+}
+
+@fragment
+fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+    return shown(look(at.xy));
+}
+
+struct Shown {
+    @location(0) light: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// The same with the depth that a photo-surface would have there. At a distance r the map's is near / (r / cube_length), the picture's
+// (near / kappa) / (r D / observed_length), since r D is the apparent distance; where nothing is, both are zero.
+@fragment
+fn fragment_with_depth(@builtin(position) at: vec4<f32>) -> Shown {
+    let look = look(at.xy);
+    let stretch = look.observed_length / (look.cube_length * view.motion.w * look.doppler);
+    return Shown(shown(look), textureLoad(depths, nearest_texel(look.place, look.pane), 0) * stretch);
 }

@@ -7,11 +7,13 @@ use physics::photo_surface::Eye;
 use rapidity::gpu::{Gpu, GpuError};
 use rapidity::renderers::display::{Development, Gamut};
 use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::picture::Studio;
+use rapidity::renderers::picture::{Shown, Studio};
+use rapidity::renderers::raytrace::{Place, RayTracer};
 use rapidity::renderers::target::Format;
 use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
 use rapidity::scene::Scene;
 use std::sync::LazyLock;
+use std::sync::atomic::AtomicBool;
 
 use crate::view::View;
 
@@ -26,11 +28,26 @@ pub fn gpu() -> &'static Gpu {
     GPU.as_ref().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Draws one scene by one method.
+/// How pictures come about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum By {
+    /// Drawn.
+    Method(Method),
+    /// Ray by ray.
+    Rays,
+}
+
+enum Way {
+    Drawn(Box<SceneRenderer>),
+    Traced(Box<RayTracer>),
+}
+
+/// Takes pictures of one scene by one method.
 pub struct Photographer {
-    renderer: SceneRenderer,
+    way: Way,
     studio: Studio,
     size: [u32; 2],
+    samples: u32,
 }
 
 impl Photographer {
@@ -44,7 +61,18 @@ impl Photographer {
     pub fn with(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, method: Method) -> Self {
         let renderer = SceneRenderer::new(gpu(), scene, Studio::format(gpu()), background, method)
             .expect("scenes of tests have a finite origin");
-        Self { renderer, studio: Studio::new(gpu(), size, samples), size }
+        Self { way: Way::Drawn(Box::new(renderer)), studio: Studio::new(gpu(), size, samples), size, samples }
+    }
+
+    /// The same by any method, rays among them.
+    pub fn by(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, by: By) -> Self {
+        match by {
+            By::Method(method) => Self::with(scene, size, samples, background, method),
+            By::Rays => {
+                let tracer = RayTracer::new(scene.clone(), background, false).expect("scenes of tests are whole");
+                Self { way: Way::Traced(Box::new(tracer)), studio: Studio::new(gpu(), size, samples), size, samples }
+            }
+        }
     }
 
     /// Where things are seen by an eye that moves.
@@ -62,7 +90,8 @@ impl Photographer {
         let format = Format::fast(1);
         let renderer =
             SceneRenderer::new(gpu(), scene, format, None, method).expect("scenes of tests have a finite origin");
-        Self { renderer, studio: Studio::with_format(gpu(), size, 1, format), size }
+        let studio = Studio::with_format(gpu(), size, 1, format);
+        Self { way: Way::Drawn(Box::new(renderer)), studio, size, samples: 1 }
     }
 
     /// What an eye that moves sees, with these effects.
@@ -70,26 +99,47 @@ impl Photographer {
         let shot = self.aim(view, eye, celerity, effects);
         // Channels are cut off one by one, as `colour` does.
         let development = Development { gamut: Gamut::Clamp, ..Default::default() };
-        self.studio.photograph(gpu(), &mut self.renderer, &shot, &development, None).expect("the device is there")
+        let taken = match &mut self.way {
+            Way::Drawn(renderer) => self.studio.photograph(gpu(), renderer, &shot, &development, None),
+            Way::Traced(tracer) => {
+                let traced = tracer.trace(&shot, self.size, self.samples, &AtomicBool::new(false), || {});
+                self.studio.develop(gpu(), &traced.texels(), traced.stored, &development, None)
+            }
+        };
+        taken.expect("the device is there")
     }
 
     /// The light that an eye sees that moves: linear sRGB in cd/m².
     pub fn light(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Rgb32FImage {
         let shot = self.aim(view, eye, celerity, effects);
-        self.studio.expose(gpu(), &mut self.renderer, &shot).expect("the device is there")
+        match &mut self.way {
+            Way::Drawn(renderer) => self.studio.expose(gpu(), renderer, &shot).expect("the device is there"),
+            Way::Traced(tracer) => tracer.trace(&shot, self.size, self.samples, &AtomicBool::new(false), || {}).image(),
+        }
     }
 
-    /// Where in the scene is what each pixel's centre shows to an eye that moves: metres relative to the scene's origin, row by row.
-    pub fn places(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> Vec<Option<DVec3>> {
+    /// Where in the scene is what each pixel's centre shows to an eye that moves, row by row.
+    pub fn places(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> Vec<Option<Shown>> {
         let shot = self.aim(view, eye, celerity, Effects::GEOMETRY);
-        self.studio.places(gpu(), &mut self.renderer, &shot).expect("the device is there")
+        match &mut self.way {
+            Way::Drawn(renderer) => self.studio.places(gpu(), renderer, &shot).expect("the device is there"),
+            Way::Traced(tracer) => {
+                let shown = |place: Option<Place>| {
+                    let Place { position, motion, apparent, .. } = place?;
+                    Some(Shown { position, motion, apparent })
+                };
+                tracer.places(&shot, self.size).into_iter().map(shown).collect()
+            }
+        }
     }
 
     fn aim(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
         let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
-        if self.renderer.transforms(effects) {
-            self.renderer.submit(gpu(), eye, 0.0).expect("the device is there");
+        if let Way::Drawn(renderer) = &mut self.way
+            && renderer.transforms(effects)
+        {
+            renderer.submit(gpu(), eye, 0.0).expect("the device is there");
         }
         Shot { camera: view.camera(), eye, ct: 0.0, effects }
     }

@@ -41,8 +41,9 @@ fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec
     let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
     let places = photographer.places(&view, eye, celerity);
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
-    let shown =
-        pixels.zip(places).filter_map(|(pixel, place)| Some((view.direction(middle(pixel)), place? + scene.origin)));
+    let shown = pixels
+        .zip(places)
+        .filter_map(|(pixel, shown)| Some((view.direction(middle(pixel)), shown?.position + scene.origin)));
     let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
     direction::errors(&observer, shown)
 }

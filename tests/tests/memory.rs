@@ -8,7 +8,9 @@ use glam::DVec3;
 use physics::Beta;
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::renderers::{Effects, Method};
+use rapidity::scene::motion::Motion;
 use rapidity::scene::town;
+use system_tests::bodies::{passing, sphere};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::view::View;
 
@@ -30,8 +32,15 @@ fn resident() -> f64 {
 
 #[test]
 fn a_film_needs_no_more_memory_the_longer_it_is() {
-    let scene = town::build(1);
+    let mut scene = town::build(1);
     let (start, look) = (scene.start.position + DVec3::Y * 1.6, scene.start.look);
+    // Something that moves as well, which the map's method draws another way.
+    let place = start + 6.0 * look.normalize();
+    let mut ball = sphere(place, 0.3).meshes.remove(0);
+    ball.positions.iter_mut().for_each(|position| *position += (place - scene.origin).as_vec3());
+    ball.motion = Some(0);
+    scene.meshes.push(ball);
+    scene.motions = vec![Motion::Uniform(passing(DVec3::Y * 0.5, place, start))];
     let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
     let cut = Method::Adaptive(Tolerance { pixels: 2.0, pace: Pace::Still });
     for (method, background) in [(cut, None), (Method::Polygon, Some([0.1, 0.2, 0.3])), (DEFAULT_MAP, None)] {

@@ -5,19 +5,19 @@
 //! bends or lights differently, more than outlines that differ.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
 use physics::photo_surface::Eye;
-use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, Source, apparent};
+use physics::{Aberration, Celerity, Event};
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::renderers::raytrace::{RayTracer, Traced};
 use rapidity::renderers::{Effects, Method, Shot};
 use rapidity::scene::lattice::Lattice;
 use rapidity::scene::mipmap::mipmap;
 use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Material, Mesh, Scene, town};
+use rapidity::scene::{Material, Scene, town};
 use std::sync::atomic::AtomicBool;
+use system_tests::bodies::{Cone, celerity, exact, observer, outline, sphere};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::view::{View, middle};
 
@@ -43,10 +43,6 @@ fn trace(tracer: &RayTracer, shot: &Shot) -> Traced {
     tracer.trace(shot, SIZE, 1, &AtomicBool::new(false), || {})
 }
 
-fn at(beta: DVec3) -> Celerity {
-    Beta::new(beta).unwrap().celerity()
-}
-
 /// The walls of a room around the eye, all of one colour that they send out themselves.
 fn room(colour: [f32; 3]) -> Scene {
     let mut room = Lattice { count: [1; 3], spacing: 1.0, side: 8.0 }.build();
@@ -68,7 +64,7 @@ fn a_wall_is_brighter_by_the_fourth_power_of_d() {
     let view = View { look: DVec3::new(0.3, 0.1, -1.0), up: DVec3::Y, fov_degrees: 90.0, size: SIZE };
     let effects = Effects { searchlight: true, ..Effects::GEOMETRY };
     for beta in [0.0, 0.6, 0.9] {
-        let motion = at(DVec3::NEG_Z * beta);
+        let motion = celerity(DVec3::NEG_Z * beta);
         let traced = trace(&tracer, &shot(&view, DVec3::new(0.4, 0.2, 0.1), motion, effects));
         assert_eq!(traced.done, traced.tiles);
         let mut pixels = traced.light.iter();
@@ -86,7 +82,7 @@ fn looked_up_light_is_integrated_light() {
     let colour = [0.5, 0.25, 0.125];
     let [looked_up, integrated] = [false, true].map(|exact| RayTracer::new(room(colour), None, exact).unwrap());
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 90.0, size: SIZE };
-    let shot = shot(&view, DVec3::ZERO, at(DVec3::NEG_Z * 0.8), Effects::ALL);
+    let shot = shot(&view, DVec3::ZERO, celerity(DVec3::NEG_Z * 0.8), Effects::ALL);
     let (one, other) = (trace(&looked_up, &shot), trace(&integrated, &shot));
     // The table's own promise, of which this is a tenth in luminance.
     for (one, other) in one.light.iter().zip(&other.light) {
@@ -94,72 +90,30 @@ fn looked_up_light_is_integrated_light() {
     }
 }
 
-/// Closed, white and unlit, of radius one about `centre`.
-fn sphere(centre: DVec3) -> Scene {
-    let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
-    let octahedron = Mesh {
-        positions: positions.to_vec(),
-        normals: positions.to_vec(),
-        uvs: vec![Vec2::ZERO; 6],
-        colours: vec![[1.0; 4]; 6],
-        indices: vec![0, 1, 2, 1, 3, 2, 3, 4, 2, 4, 0, 2, 1, 0, 5, 3, 1, 5, 4, 3, 5, 0, 4, 5],
-        ..Default::default()
-    };
-    let materials = vec![Material { unlit: true, ..Default::default() }];
-    let coarse = Scene { origin: centre, materials, meshes: vec![octahedron], ..Default::default() };
-    let mut fine = refine(&coarse, 0.03).unwrap();
-    fine.meshes[0].positions.iter_mut().for_each(|position| *position = position.normalize());
-    fine
-}
-
 /// A sphere that flies past at nine tenths of the speed of light, and what is seen of it by an observer with this celerity.
 fn hold_flying_sphere(observer_celerity: Celerity) {
     let centre = DVec3::new(0.3, 0.8, -2.2);
-    let mut scene = sphere(centre);
-    let uniform = Uniform { celerity: at(DVec3::X * 0.9), anchor: Event { ct: -2.4, position: centre } };
+    let mut scene = sphere(centre, 0.03);
+    let uniform = Uniform { celerity: celerity(DVec3::X * 0.9), anchor: Event { ct: -2.4, position: centre } };
     scene.motions = vec![Motion::Uniform(uniform)];
     scene.meshes[0].motion = Some(0);
-    let observer = Observer { event: Event::default(), celerity: observer_celerity };
+    let observer = observer(DVec3::ZERO, observer_celerity);
 
     // The circle where it must be: tangents in the sphere's own frame, boosted.
     let seen_by = uniform.seen_by(&observer);
-    let away = centre - seen_by.position;
-    let cosine = (1.0 - away.length_squared().recip()).sqrt();
-    let boosted = Boost::observer_from_world(seen_by.celerity).apply(FourVector { t: -cosine, r: away.normalize() });
-    let axis = (seen_by.observer_from_group * boosted.r).normalize();
-    let half_angle = (-boosted.t / boosted.r.length()).acos();
-
-    let size = [320, 240];
-    let fov_degrees = (3.0 * half_angle).to_degrees().min(120.0);
-    let view = View { look: axis, up: DVec3::new(0.3, 0.9, 0.2), fov_degrees, size };
+    let circle = Cone::around(centre - seen_by.position).seen_at(seen_by.celerity).turned(seen_by.observer_from_group);
+    let view = circle.view([320, 240]);
     let tracer = RayTracer::new(scene, None, false).unwrap();
-    let places = tracer.places(&shot(&view, DVec3::ZERO, observer_celerity, Effects::ALL), size);
-    let there = |column: u32, row: u32| places[(row * size[0] + column) as usize].is_some();
-
-    let mut outline = Vec::new();
-    for (column, row) in (0..size[1] - 1).flat_map(|row| (0..size[0] - 1).map(move |column| (column, row))) {
-        let [x, y] = middle([column, row]);
-        if there(column, row) != there(column + 1, row) {
-            outline.push(view.direction([x + 0.5, y]));
-        }
-        if there(column, row) != there(column, row + 1) {
-            outline.push(view.direction([x, y + 0.5]));
-        }
-    }
+    let places = tracer.places(&shot(&view, DVec3::ZERO, observer_celerity, Effects::ALL), view.size);
+    let outline = outline(&view, |column, row| places[(row * view.size[0] + column) as usize].is_some());
     assert!(outline.len() > 200, "{} pixels of outline", outline.len());
-    let off = outline.iter().map(|direction| (direction.angle_between(axis) - half_angle).abs()).fold(0.0, f64::max);
-    let pixels = off * view.focal_length();
+    let pixels = circle.furthest(&outline, &view);
     assert!(pixels < OUTLINE_TOLERANCE, "{pixels} pixels off the exact circle");
 
     // Each point is where a moving point appears.
-    let world_from_object = Boost::observer_from_world(uniform.celerity).inverse();
     let mut compared = 0;
     for place in places.iter().flatten() {
-        let event =
-            world_from_object.apply(FourVector { t: 0.0, r: place.position + centre - uniform.anchor.position });
-        let beta = uniform.celerity.beta().vector();
-        let at_zero = uniform.anchor.position + event.r - beta * (uniform.anchor.ct + event.t);
-        let direct = apparent::moving(&observer, &Source { position: at_zero, celerity: uniform.celerity });
+        let direct = exact(&observer, &uniform, place.position + centre);
         let off = place.apparent.distance(direct.position) / direct.position.length();
         assert!(off < PLACE_TOLERANCE, "{} {}", place.apparent, direct.position);
         assert!((place.doppler / direct.doppler - 1.0).abs() < PLACE_TOLERANCE);
@@ -171,7 +125,7 @@ fn hold_flying_sphere(observer_celerity: Celerity) {
 #[test]
 fn a_sphere_that_flies_past_is_round_and_where_it_appears() {
     hold_flying_sphere(Celerity::ZERO);
-    hold_flying_sphere(at(DVec3::new(0.1, 0.3, -0.5)));
+    hold_flying_sphere(celerity(DVec3::new(0.1, 0.3, -0.5)));
 }
 
 /// Share of pixels whose channels differ by no more than a part of the brighter one's largest channel.
@@ -192,7 +146,7 @@ fn hold(scene: &Scene, eye: DVec3, look: DVec3, part: f64, shares: [f64; 2]) {
     for (method, share) in [POLYGON, DEFAULT_MAP].into_iter().zip(shares) {
         let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
         for beta in [0.0, 0.5, 0.9] {
-            let motion = at(look.normalize() * beta);
+            let motion = celerity(look.normalize() * beta);
             let light = photographer.light(&view, eye, motion, Effects::ALL);
             let traced = trace(&tracer, &shot(&view, eye, motion, Effects::ALL));
             let of = |part| alike(&light, &traced, part);
@@ -230,7 +184,7 @@ fn any_number_of_threads_traces_the_same_bits() {
     let scene = Lattice::default().build();
     let tracer = RayTracer::new(scene, None, false).unwrap();
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
-    let shot = shot(&view, DVec3::new(0.3, 0.4, 2.0), at(DVec3::NEG_Z * 0.5), Effects::ALL);
+    let shot = shot(&view, DVec3::new(0.3, 0.4, 2.0), celerity(DVec3::NEG_Z * 0.5), Effects::ALL);
     let traced = [1, 2, 8].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| trace(&tracer, &shot))

@@ -12,7 +12,7 @@ use super::{SceneChoice, values, world};
 #[command(allow_negative_numbers = true)]
 pub struct MeasureOptions {
     /// Print instead, as ACCURACY.md, how far the physics is off at extreme speeds, distances and steps, against 180 digits: takes minutes.
-    #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "replay", "budget", "tolerance"])]
+    #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "speed_of_light", "replay", "budget", "tolerance"])]
     pub extremes: bool,
     /// Measure frames of a ride, and have rides drawn from now on with the least error that this time a frame allows in 95 of 100, as in 16.7ms.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = values::milliseconds, conflicts_with = "tolerance")]
@@ -38,8 +38,11 @@ pub struct MeasureOptions {
     /// `town`, `spectra` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = world::scene())]
     pub scene: SceneChoice,
-    /// Take the poses from a recorded ride, evenly along it, in its scene [default: along the scene's circuit, at 0.5 to 0.99 c].
-    #[arg(long, value_name = "R.mcap", value_parser = values::recording())]
+    /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).
+    #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
+    pub speed_of_light: f64,
+    /// Take the poses from a recorded ride, evenly along it, in its scene and with its speed of light [default: along the scene's circuit, at 0.5 to 0.99 c].
+    #[arg(long, value_name = "R.mcap", value_parser = values::recording(), conflicts_with = "speed_of_light")]
     pub replay: Option<PathBuf>,
 }
 

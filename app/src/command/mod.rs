@@ -32,7 +32,7 @@ pub use picture::{PictureOptions, Renderer};
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
 pub use values::{Output, ValueError};
-pub use world::{SceneChoice, WorldOptions};
+pub use world::{SceneChoice, Transform, WorldOptions};
 
 /// Move through a world in which light is slow, and see it as that observer would.
 #[derive(Debug, Parser)]
@@ -47,7 +47,7 @@ struct Cli {
 pub enum Command {
     /// Ride a bicycle, or fly, through the scene in a window.
     ///
-    /// Where none of --renderer, --tolerance, --edge and --map-scale is given, rides are drawn as rapidity.toml in the user's configuration directory says
+    /// Where none of --renderer, --tolerance, --edge, --transform and --map-scale is given, rides are drawn as rapidity.toml in the user's configuration directory says
     /// (~/.config/rapidity on Linux, or rapidity in XDG_CONFIG_HOME), if there is one: `rapidity measure --budget` and `--tolerance` write it.
     Ride(Box<RideOptions>),
     /// Draw a still or a film, without a window.
@@ -145,7 +145,7 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
     let Cli { mut command } = Cli::from_arg_matches(&matches).map_err(stop)?;
     if let (Command::Ride(options), Some(matches)) = (&mut command, matches.subcommand_matches("ride")) {
         let given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
-        options.drawing_is_given = ["renderer", "tolerance", "edge", "map_scale"].into_iter().any(given);
+        options.drawing_is_given = ["renderer", "tolerance", "edge", "transform", "map_scale"].into_iter().any(given);
     }
     match &command {
         Command::Ride(options) => options.check(),

@@ -31,7 +31,7 @@ pub enum Latency {
 
 /// What to ride through, in what, and for how long.
 ///
-/// Where none of --renderer, --tolerance, --edge and --map-scale is given, they are those that rapidity.toml in the user's configuration directory
+/// Where none of --renderer, --tolerance, --edge, --transform and --map-scale is given, they are those that rapidity.toml in the user's configuration directory
 /// names (on Linux ~/.config/rapidity, or rapidity in XDG_CONFIG_HOME), if there is one; `rapidity measure --budget` and `--tolerance` write it.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]

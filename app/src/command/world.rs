@@ -3,8 +3,9 @@
 use std::convert::Infallible;
 use std::path::PathBuf;
 
-use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use serde::{Deserialize, Serialize};
 
 use super::values;
 use crate::renderers::choice::Bending;
@@ -71,6 +72,20 @@ pub struct WorldOptions {
     /// that [default: 0.5, in a window 1.5].
     #[arg(long, value_name = "PIXELS", value_parser = values::within(0.01, 100.0))]
     pub tolerance: Option<f64>,
+    /// Who bends vertices that are cut once: cpu, beside the drawing, or gpu, in its vertex stage, but for those astern; needs --edge.
+    #[arg(long, value_enum, default_value = "cpu", requires_if("gpu", "edge"))]
+    pub transform: Transform,
+}
+
+/// Who works out where vertices appear.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Transform {
+    /// All cores, beside the drawing.
+    #[default]
+    Cpu,
+    /// The GPU's vertex stage; what lies astern is left to the CPU.
+    Gpu,
 }
 
 impl WorldOptions {
@@ -81,7 +96,7 @@ impl WorldOptions {
             Pace::Ride => RIDE_PX,
         };
         match self.edge {
-            Some(edge) => Bending::Fixed { edge_m: edge },
+            Some(edge) => Bending::Fixed { edge_m: edge, vertex_stage: self.transform == Transform::Gpu },
             None => Bending::Adaptive(Tolerance { pixels: self.tolerance.unwrap_or(usual), pace }),
         }
     }

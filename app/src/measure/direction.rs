@@ -16,12 +16,16 @@ pub const ARCMIN_PER_RAD: f64 = 180.0 * 60.0 / std::f64::consts::PI;
 ///
 /// *Frames:* `shown` pairs the unit direction of each pixel, observer's axes, with the world place it shows, metres.
 pub fn errors(observer: &Observer, shown: impl IntoIterator<Item = (DVec3, DVec3)>) -> Sorted {
-    let error = |(direction, place): (DVec3, DVec3)| {
-        let true_direction = apparent::at_rest(observer, place).position.normalize_or_zero();
+    between(shown.into_iter().map(|(direction, place)| (direction, apparent::at_rest(observer, place).position)))
+}
+
+/// The same of pixels' unit directions and the apparent positions of what they show, observer's axes.
+pub fn between(pairs: impl IntoIterator<Item = (DVec3, DVec3)>) -> Sorted {
+    let error = |(direction, apparent): (DVec3, DVec3)| {
         // By the chord: the arc cosine of a product next to 1 would lose half the digits.
-        2.0 * (0.5 * direction.distance(true_direction)).min(1.0).asin() * ARCMIN_PER_RAD
+        2.0 * (0.5 * direction.distance(apparent.normalize_or_zero())).min(1.0).asin() * ARCMIN_PER_RAD
     };
-    Sorted::of(shown.into_iter().map(error))
+    Sorted::of(pairs.into_iter().map(error))
 }
 
 #[cfg(test)]

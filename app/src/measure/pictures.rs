@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::progress;
 use crate::renderers::image::MapQuality;
-use crate::renderers::picture::Studio;
+use crate::renderers::picture::{Shown, Studio};
 use crate::renderers::polygon::Pace;
 use crate::renderers::raytrace::RayTracer;
 use crate::renderers::target::{Format, Radiance};
@@ -241,7 +241,7 @@ impl Candidate {
             clock::submit(gpu, &mut self.renderer, shot)?;
         }
         let places = studio.places(gpu, &mut self.renderer, shot)?;
-        self.directions.push(of_picture(shot, measurement.size, &places, measurement.scene.origin));
+        self.directions.push(of_picture(shot, measurement.size, &places));
         Ok(())
     }
 
@@ -291,7 +291,7 @@ impl Candidate {
 }
 
 /// Errors of all pixels that show a surface.
-fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<DVec3>], origin: DVec3) -> Sorted {
+fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> Sorted {
     let [width, height] = size.map(f64::from);
     let tangent = (0.5 * shot.camera.fov_y_rad).tan();
     let shown = places.iter().enumerate().filter_map(|(number, place)| {
@@ -299,9 +299,9 @@ fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<DVec3>], origin: DVe
         let x = (2.0 * (column as f64 + 0.5) - width) / height * tangent;
         let y = (1.0 - 2.0 * (row as f64 + 0.5) / height) * tangent;
         let direction = shot.camera.observer_from_eye * DVec3::new(x, y, -1.0).normalize();
-        Some((direction, (*place)? + origin))
+        Some((direction, place.as_ref()?.apparent))
     });
-    direction::errors(&shot.observer(), shown)
+    direction::between(shown)
 }
 
 /// Marks the rows of the Pareto front: no other is at once as fast and as close, and better in one of the two.

@@ -14,8 +14,9 @@ const FONT: &str = "sans-serif";
 const FRONT: RGBColor = RGBColor(120, 120, 120);
 
 /// What a renderer's points look like.
-const KINDS: [(&str, &str, RGBColor); 3] = [
+const KINDS: [(&str, &str, RGBColor); 4] = [
     ("edge", "polygon, cut once (--edge, metres)", RGBColor(214, 96, 36)),
+    ("transform", "polygon, cut once, bent by the GPU (--transform gpu)", RGBColor(140, 70, 160)),
     ("tolerance", "polygon, cut for the picture (--tolerance, pixels)", RGBColor(20, 110, 180)),
     ("map-scale", "image (--map-scale, texels a pixel)", RGBColor(40, 140, 60)),
 ];

@@ -9,9 +9,8 @@ use rayon::prelude::*;
 
 use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
+use super::views::Views;
 use crate::error::Error;
-use crate::renderers::Shot;
-use crate::scene::Scene;
 use crate::scene::cut::Sight;
 
 /// How often each is timed.
@@ -28,7 +27,7 @@ struct Found {
 ///
 /// # Errors
 /// A scene that is nowhere.
-pub fn measure(scene: &Scene, shots: &[Shot]) -> Result<(String, Vec<Line>), Error> {
+pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
     let meshes = scene.meshes.iter().filter(|mesh| mesh.motion.is_none());
     let offsets: Vec<Vec3> = meshes.flat_map(|mesh| mesh.positions.iter().copied()).collect();
     let vertices = Vertices::from_offsets(scene.origin, offsets.iter().copied())?;
@@ -100,12 +99,13 @@ mod tests {
 
     use super::*;
     use crate::command::SceneChoice;
-    use crate::measure::views;
+    use crate::measure::views::views;
+    use crate::vehicle::World;
 
     #[test]
     fn both_keep_what_they_promise() {
-        let (scene, shots) = views::scene_and_shots(&SceneChoice::Lattice, None, 2).unwrap();
-        let (_, lines) = measure(&scene, &shots).unwrap();
+        let views = views(&SceneChoice::Lattice, World::OLD_TOWN.speed_of_light_m_s(), None, 2).unwrap();
+        let (_, lines) = measure(&views).unwrap();
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "direction_rad_most").unwrap().1;
         assert!(most(&lines[0]) < 7e-7, "{lines:?}");
         assert!(most(&lines[1]) < 6e-8 && most(&lines[1]) > 0.0, "{lines:?}");

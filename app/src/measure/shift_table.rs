@@ -9,10 +9,9 @@ use rayon::prelude::*;
 
 use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
+use super::views::Views;
 use crate::error::Error;
-use crate::renderers::Shot;
 use crate::renderers::world::Spectra;
-use crate::scene::Scene;
 
 const NODES: [usize; 6] = [255, 511, 1023, 2047, 4095, ShiftTable::NODES];
 /// Doppler factors looked up, from 1/20 to 20.
@@ -25,7 +24,7 @@ const WEIGHTS: [DVec3; 4] = [DVec3::ONE, DVec3::X, DVec3::Y, DVec3::Z];
 ///
 /// # Errors
 /// None.
-pub fn measure(scene: &Scene, _: &[Shot]) -> Result<(String, Vec<Line>), Error> {
+pub fn measure(Views { scene, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
     let carriers = Spectra::of(scene).carriers;
     // Evenly over ln D, by a step that no table's nodes are a multiple of.
     let doppler = |number: u32| FARTHEST.powf(2.0 * (f64::from(number) + 0.381_966) / f64::from(DOPPLERS) - 1.0);
@@ -74,10 +73,12 @@ mod tests {
 
     use super::*;
     use crate::scene::spectra;
+    use crate::vehicle::World;
 
     #[test]
     fn twice_as_many_nodes_are_four_times_as_close() {
-        let (_, lines) = measure(&spectra::build(), &[]).unwrap();
+        let views = Views { scene: spectra::build(), world: World::OLD_TOWN, shots: Vec::new() };
+        let (_, lines) = measure(&views).unwrap();
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "delta_e_99").unwrap().1;
         let errors: Vec<f64> = lines.iter().map(most).collect();
         // From 511 nodes on: with fewer, a node is further from the next than the spectra's own features are.

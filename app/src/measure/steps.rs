@@ -18,9 +18,8 @@ use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, State, Thrust};
 use physics::{Celerity, Event};
 
 use super::table::{Line, Markdown};
+use super::views::Views;
 use crate::error::Error;
-use crate::renderers::Shot;
-use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation, Start, Tour};
 use crate::vehicle::{OpenPlane, VehicleSettings, World};
 
@@ -40,9 +39,8 @@ const RADIUS_M: f64 = 15.0;
 ///
 /// # Errors
 /// A worldline that cannot be integrated.
-pub fn measure(scene: &Scene, _: &[Shot]) -> Result<(String, Vec<Line>), Error> {
-    let world = World::OLD_TOWN;
-    let ride = Ride::of(&scene.circuit, world)?;
+pub fn measure(Views { scene, world, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
+    let ride = Ride::of(&scene.circuit, *world)?;
     let strict = DormandPrince::default();
     let integrators: [(&str, &dyn Integrator); 3] = [("rk4", &Rk4), ("exact", &Exact), ("dopri5", &strict)];
     let mut table = Markdown::new(&["integrator", "step", "ns a step", "off by, m", "rapidity"]);
@@ -196,10 +194,12 @@ mod tests {
     //! polynomials are smooth. A wrong thrust or a wrong integral leaves an error that no step removes.
 
     use super::*;
+    use crate::scene::Scene;
 
     #[test]
     fn finer_steps_come_closer_to_the_ride() {
-        let (_, lines) = measure(&Scene::default(), &[]).unwrap();
+        let views = Views { scene: Scene::default(), world: World::OLD_TOWN, shots: Vec::new() };
+        let (_, lines) = measure(&views).unwrap();
         let error = |name: &str, rate: u32| {
             let setting = format!("--integrator {name} in steps of 1/{rate} s");
             let line = lines.iter().find(|line| line.setting == setting).unwrap();

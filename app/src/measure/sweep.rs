@@ -6,7 +6,7 @@ use super::dials::{OF_RIDES, OF_STILLS};
 use super::pictures::{Kind, Measurement, Row, measure};
 use super::plot::plot;
 use super::table::{self, Line};
-use super::views::{FOV_DEGREES, scene_and_shots};
+use super::views::{FOV_DEGREES, views};
 use super::{choice, precision, samples, shift_table, steps};
 use crate::command::{Goal, MeasureOptions};
 use crate::error::Error;
@@ -14,7 +14,6 @@ use crate::gpu::Gpu;
 use crate::render::{interrupted, writable};
 use crate::renderers::picture::largest_side;
 use crate::renderers::raytrace::RayTracer;
-use crate::vehicle::World;
 
 /// Pixels of pictures that are compared, and of a ride's window.
 const STILL_SIZE: [u32; 2] = [640, 360];
@@ -41,13 +40,14 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     if size.iter().any(|side| *side > limit) {
         return Err(Error::TooLarge { size, limit });
     }
-    let (scene, shots) = scene_and_shots(&options.scene, options.replay.as_deref(), options.poses)?;
+    let views = views(&options.scene, options.speed_of_light, options.replay.as_deref(), options.poses)?;
+    let (scene, shots) = (&views.scene, &views.shots);
     let pixel_arcmin = (2.0 * (0.5 * FOV_DEGREES).to_radians().tan() / f64::from(size[1])).to_degrees() * 60.0;
     let kind = match goal {
         None => Kind::Stills,
         Some(goal) => {
             let frame_s = if let Goal::Budget { ms } = goal { 1e-3 * ms } else { FRAME_S };
-            Kind::Rides { own_m: World::OLD_TOWN.metres(frame_s.min(LONGEST_FRAME_S)) }
+            Kind::Rides { own_m: views.world.metres(frame_s.min(LONGEST_FRAME_S)) }
         }
     };
     eprintln!(
@@ -61,7 +61,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     );
 
     let tracer = if kind == Kind::Stills { Some(RayTracer::new(scene.clone(), None, false)?) } else { None };
-    let measurement = Measurement { gpu: &gpu, scene: &scene, shots: &shots, size, kind, rounds: options.rounds };
+    let measurement = Measurement { gpu: &gpu, scene, shots, size, kind, rounds: options.rounds };
     let settings: &[_] = if kind == Kind::Stills { &OF_STILLS } else { &OF_RIDES };
     let rows = measure(&measurement, settings, tracer.as_ref(), &stop)?;
     print!("{}", table::of_pictures(&rows));
@@ -74,7 +74,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         }
         for measure in [shift_table::measure, steps::measure, precision::measure] {
             if !stop.load(Ordering::Relaxed) {
-                others.push(measure(&scene, &shots)?);
+                others.push(measure(&views)?);
             }
         }
         for (text, of_dial) in others {

@@ -8,10 +8,11 @@ use physics::{Beta, Celerity};
 
 use crate::command::SceneChoice;
 use crate::error::Error;
-use crate::film_ride;
+use crate::film_ride::{self, Ridden};
 use crate::render::shot;
 use crate::renderers::{Effects, Shot};
 use crate::scene::{Scene, source};
+use crate::vehicle::World;
 use crate::views::{Camera, Gaze};
 
 /// Metres from the ground to the eye.
@@ -23,22 +24,35 @@ const SPEEDS: [f64; 5] = [0.5, 0.8, 0.9, 0.95, 0.99];
 /// Pictures a second at which a recording is looked through.
 const LOOKED_THROUGH: f64 = 10.0;
 
-/// The scene, and the shots in it.
+/// What is looked at, and from where.
+#[derive(Debug)]
+pub struct Views {
+    /// The scene.
+    pub scene: Scene,
+    /// How fast light is in it.
+    pub world: World,
+    /// The pictures' eyes.
+    pub shots: Vec<Shot>,
+}
+
+/// The views of a scene, or of a recorded ride with its own speed of light.
 ///
 /// # Errors
 /// A scene or a recording that cannot be read, or is empty.
-pub fn scene_and_shots(choice: &SceneChoice, replay: Option<&Path>, count: u32) -> Result<(Scene, Vec<Shot>), Error> {
+pub fn views(choice: &SceneChoice, speed_of_light_m_s: f64, replay: Option<&Path>, count: u32) -> Result<Views, Error> {
     let Some(recording) = replay else {
-        let scene = source::load(choice)?;
+        let world = World::new(speed_of_light_m_s)?;
+        let scene = source::load(choice, speed_of_light_m_s)?;
         let shots = built_in(&scene, count)?;
-        return Ok((scene, shots));
+        return Ok(Views { scene, world, shots });
     };
-    let (scene, moments) = film_ride::reel(recording, choice, LOOKED_THROUGH, None)?;
+    let Ridden { scene, world, moments } = film_ride::reel(recording, choice, LOOKED_THROUGH, None)?;
     let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
     if gazes.is_empty() {
         return Err(Error::NothingRidden);
     }
-    Ok((scene, evenly(&gazes, count as usize).map(|gaze| shot(gaze, FOV_DEGREES, Effects::ALL)).collect()))
+    let shots = evenly(&gazes, count as usize).map(|gaze| shot(gaze, FOV_DEGREES, Effects::ALL)).collect();
+    Ok(Views { scene, world, shots })
 }
 
 /// So many of them, evenly spread, each from the middle of its part.

@@ -9,7 +9,7 @@ use physics::bend::Bend;
 
 use super::Shot;
 use crate::scene::Scene;
-use crate::scene::cut::{Cut, Sight};
+use crate::scene::cut::{Chord, Cut, Sight};
 
 /// Edges that are looked at.
 const SAMPLES: usize = 512;
@@ -85,6 +85,13 @@ impl Edges {
         Self::sampled(meshes, |mesh, corner: u32| scene.meshes[mesh].positions[corner as usize].as_dvec3())
     }
 
+    /// Of what rests in a scene.
+    pub fn of_resting(scene: &Scene) -> Self {
+        let resting: Vec<_> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
+        let meshes = resting.iter().map(|mesh| (mesh.indices.as_slice(), None));
+        Self::sampled(meshes, |mesh, corner: u32| resting[mesh].positions[corner as usize].as_dvec3())
+    }
+
     /// Of a scene that was cut.
     pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
         let motions = scene.meshes.iter().map(|mesh| mesh.motion);
@@ -144,8 +151,11 @@ impl Certainty {
                 sights.len() - 1
             });
             let sight: &Sight = &sights[index].1;
-            let [from, to] = [a, b].map(|end| *end - sight.place);
+            let [from, to] = [a, b].map(|end| sight.towards(*end));
             let (middle, seen) = (0.5 * (from + to), sight.bend.apparent(0.5 * (from + to)));
+            if !seen.is_finite() {
+                continue;
+            }
             // Positions about the scene's origin are turned and shifted in f32.
             let about = (0.5 * (*a + *b)).abs().max_element().max(sight.place.abs().max_element());
             usual.add(from.distance(to) / middle.length(), about / middle.length());
@@ -157,7 +167,12 @@ impl Certainty {
                 let rounded = 2.0 * STEP * about / seen.length();
                 certainty.rounded_rad = certainty.rounded_rad.max(rounded);
             } else {
-                let error = sight.bend.error(middle, 0.5 * (from.length() + to.length()));
+                let error = match &sight.course {
+                    None => sight.bend.error(middle, 0.5 * (from.length() + to.length())),
+                    Some(course) => {
+                        Chord::of(|place| course.seen(place), [*a, *b], 0.0).map_or(0.0, |chord| chord.error_rad)
+                    }
+                };
                 certainty.drawn_rad = certainty.drawn_rad.max(error);
             }
         }
@@ -178,6 +193,15 @@ impl Certainty {
             }
         }
         certainty
+    }
+
+    /// The larger of each error of two parts of a picture.
+    pub fn or_worse(self, other: Self) -> Self {
+        Self {
+            drawn_rad: self.drawn_rad.max(other.drawn_rad),
+            rounded_rad: self.rounded_rad.max(other.rounded_rad),
+            pixel_rad: self.pixel_rad,
+        }
     }
 
     /// Both together, radians.

@@ -25,6 +25,8 @@ pub enum Bending {
     Fixed {
         /// Metres.
         edge_m: f64,
+        /// Whether vertices are bent by the GPU's vertex stage.
+        vertex_stage: bool,
     },
     /// They are cut for every picture.
     Adaptive(Tolerance),
@@ -49,18 +51,15 @@ impl Choice {
     pub fn of(scene: Scene, wanted: Renderer, bending: Bending, quality: MapQuality) -> Result<Self, RefineError> {
         scene.validate()?;
         let triangles = scene.triangle_count();
-        let moves = scene.meshes.iter().any(|mesh| mesh.motion.is_some());
         let edge = match bending {
-            Bending::Fixed { edge_m } => edge_m,
+            Bending::Fixed { edge_m, .. } => edge_m,
             Bending::Adaptive(_) => USUAL_EDGE_M,
         };
         let (image, why): (bool, Cow<'_, str>) = match wanted {
-            Renderer::Image if moves => (true, "as asked, which leaves out what moves".into()),
             Renderer::Image => (true, "as asked".into()),
             // The ray tracer takes scenes as they are; whoever asks this for it gets the one that comes closest.
             Renderer::Polygon | Renderer::Raytrace => (false, "as asked".into()),
             Renderer::Auto if triangles == 0 => (false, "there is only sky, which needs no map".into()),
-            Renderer::Auto if moves => (false, "some of it moves".into()),
             // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too. In a window they
             // share the time with drawing, and the map of a coarse scene is faster.
             Renderer::Auto if matches!(bending, Bending::Adaptive(Tolerance { pace: Pace::Still, .. })) => {
@@ -88,7 +87,11 @@ impl Choice {
         let spinner = progress::spinner(format!("cutting triangles to {edge} m"));
         let scene = refine(&scene, edge as f32)?;
         spinner.finish_and_clear();
-        Ok(Self { scene, method: Method::Polygon, because })
+        let method = match bending {
+            Bending::Fixed { vertex_stage: true, .. } => Method::VertexStage,
+            _ => Method::Polygon,
+        };
+        Ok(Self { scene, method, because })
     }
 }
 
@@ -98,6 +101,8 @@ mod tests {
 
     use super::*;
     use crate::scene::lattice::Lattice;
+    use crate::scene::motion::{Motion, Uniform};
+    use physics::{Celerity, Event};
 
     #[test]
     fn a_fixed_edge_cuts_once_and_a_tolerance_for_every_picture() {
@@ -107,12 +112,25 @@ mod tests {
             (choice.method, choice.scene.triangle_count())
         };
         let whole = Lattice::default().build().triangle_count();
-        let fixed = Bending::Fixed { edge_m: 0.3 };
+        let fixed = Bending::Fixed { edge_m: 0.3, vertex_stage: false };
         assert!(matches!(choose(Renderer::Polygon, fixed), (Method::Polygon, cut) if cut > 10 * whole));
+        let staged = Bending::Fixed { edge_m: 0.3, vertex_stage: true };
+        assert!(matches!(choose(Renderer::Polygon, staged), (Method::VertexStage, cut) if cut > 10 * whole));
         let still = Tolerance { pixels: 0.5, pace: Pace::Still };
         assert_eq!(choose(Renderer::Auto, Bending::Adaptive(still)), (Method::Adaptive(still), whole));
         let ride = Tolerance { pixels: 1.5, pace: Pace::Ride };
         assert_eq!(choose(Renderer::Polygon, Bending::Adaptive(ride)), (Method::Adaptive(ride), whole));
         assert_eq!(choose(Renderer::Auto, Bending::Adaptive(ride)), (Method::Image(quality), whole));
+    }
+
+    #[test]
+    fn motion_changes_nothing_of_the_choice() {
+        let mut scene = Lattice::default().build();
+        scene.meshes[0].motion = Some(0);
+        scene.motions = vec![Motion::Uniform(Uniform { celerity: Celerity::ZERO, anchor: Event::default() })];
+        let quality = MapQuality { texels_per_pixel: 1.0, smooth: true };
+        let ride = Bending::Adaptive(Tolerance { pixels: 1.5, pace: Pace::Ride });
+        let choice = Choice::of(scene, Renderer::Auto, ride, quality).unwrap();
+        assert_eq!(choice.method, Method::Image(quality));
     }
 }

@@ -1,10 +1,11 @@
-//! What moves uniformly, drawn as a world of its own.
+//! What moves, drawn as a world of its own.
 //!
 //! An observer is to a moving body what he is to the world, with another place and another celerity, in axes that Wigner's rotation turns into
 //! his own. So each motion has a view of its own of the same picture: light is shifted by the relative motion, and a pixel's direction is
-//! taken in the body's axes (W 5.1.2). Depth is common to all: along one line of sight the nearer apparent position is the later emission.
+//! taken in the body's axes (W 5.1.2). What is animated is seen in the observer's own axes, since its places are solved for one by one, with
+//! their Doppler factors. Depth is common to all: along one line of sight the nearer apparent position is the later emission.
 
-use crate::scene::motion::{Motion, SeenBy};
+use crate::scene::motion::{Animated, Motion, SeenBy};
 use crate::views::matrix;
 use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
 use physics::photo_surface::Eye;
@@ -51,7 +52,10 @@ pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes:
 ///
 /// *Equation:* r = a + q − (1 − 1/γ)(q·n) n + β (ct − ct_a), q from the anchor in the body's frame.
 pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::View {
-    let Motion::Uniform(uniform) = motion;
+    let uniform = match motion {
+        Motion::Uniform(uniform) => uniform,
+        Motion::Animated(animated) => return plain_pose(at_eye, animated, observer),
+    };
     let celerity = uniform.celerity;
     let n = celerity.direction().unwrap_or(DVec3::ZERO);
     let gamma = celerity.gamma();
@@ -74,9 +78,27 @@ pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, 
     }
 }
 
+/// The same of an animated body: where it is at the observer's time. One velocity, its middle's, shifts the light of all of it.
+fn plain_pose(at_eye: &shaders::View, animated: &Animated, observer: &Observer) -> shaders::View {
+    let pose = animated.as_seen(observer, false);
+    let eye_from_world = DMat4::from_translation(-observer.event.position);
+    shaders::View {
+        clip_from_observer: at_eye.clip_from_observer * matrix(&(eye_from_world * DMat4::from(pose.world_from_body))),
+        source: along(animated.celerity(&pose)),
+        ..*at_eye
+    }
+}
+
+/// What is animated is solved for in the world, and appears in the observer's own axes.
 fn seen_by(motion: &Motion, observer: &Observer) -> SeenBy {
-    let Motion::Uniform(uniform) = motion;
-    uniform.seen_by(observer)
+    match motion {
+        Motion::Uniform(uniform) => uniform.seen_by(observer),
+        Motion::Animated(_) => SeenBy {
+            position: observer.event.position,
+            celerity: observer.celerity,
+            observer_from_group: DQuat::IDENTITY,
+        },
+    }
 }
 
 /// Unit vector along a motion, and κ = γ + |u|.

@@ -15,6 +15,17 @@ const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// What light is fetched as.
 const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
+/// What a pixel's centre shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown {
+    /// Metres relative to the scene's origin; of what moves, in its own frame.
+    pub position: DVec3,
+    /// Index into the scene's motions.
+    pub motion: Option<usize>,
+    /// Where that place is seen, relative to the observer in his own axes, metres: not where it was drawn.
+    pub apparent: DVec3,
+}
+
 /// Turns radiance into pictures in memory.
 pub struct Darkroom {
     display: Display,
@@ -191,8 +202,8 @@ impl Studio {
         self.darkroom.develop(gpu, &radiance, &self.adaptation, development)
     }
 
-    /// Where in the scene is what each pixel's centre shows: metres relative to the scene's origin, row by row; `None` where it shows no
-    /// surface. Only where the device draws 32-bit floats are these true.
+    /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface. Only where the device draws
+    /// 32-bit floats is this true.
     ///
     /// # Errors
     /// As [`Studio::photograph`].
@@ -201,13 +212,18 @@ impl Studio {
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         shot: &Shot,
-    ) -> Result<Vec<Option<DVec3>>, GpuError> {
+    ) -> Result<Vec<Option<Shown>>, GpuError> {
         renderer.subject = Subject::Places;
         let drawn = self.draw_samples(gpu, renderer, shot, 1);
         renderer.subject = Subject::Light;
         drawn?;
-        let place = |[x, y, z, there]: [f32; 4]| (there > 0.5).then(|| Vec3::new(x, y, z).as_dvec3());
-        Ok(texels(gpu, self.radiance.result())?.into_iter().map(place).collect())
+        let sights = renderer.sights(shot);
+        let shown = |[x, y, z, whose]: [f32; 4]| {
+            let position = Vec3::new(x, y, z).as_dvec3();
+            let index = (whose.round() as usize).checked_sub(1)?;
+            Some(Shown { position, motion: index.checked_sub(1), apparent: sights.get(index)?.apparent(position) })
+        };
+        Ok(texels(gpu, self.radiance.result())?.into_iter().map(shown).collect())
     }
 
     /// Draws each sample, and adds it up.

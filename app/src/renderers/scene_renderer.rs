@@ -2,9 +2,9 @@
 
 use super::certainty::{Certainty, Drawn, Edges};
 use super::display::Stored;
-use super::image::{ImageRenderer, MapQuality, MapStats};
+use super::image::{ImageRenderer, MapQuality, MapStats, Movers};
 use super::moving::{self, Axes};
-use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed};
+use super::polygon::{Adaptive, CutStats, PhotoSurface, Tolerance, Transformed, VertexStage};
 use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::scene::cut::Sight;
 use crate::scene::motion::Motion;
 use crate::views::{Camera, matrix};
-use glam::{DMat4, DVec2};
+use glam::{DMat4, DVec2, Vec4};
 use physics::photo_surface::{Eye, PhotoSurfaceError};
 use physics::{Celerity, Event, Observer};
 
@@ -63,18 +63,21 @@ pub enum Subject {
     /// Their light.
     #[default]
     Light,
-    /// Their places: x, y and z in metres, relative to the scene's origin, and 1; zeros where no surface is. Of what moves, in its own frame.
+    /// Their places: x, y and z in metres, relative to the scene's origin, and 1; zeros where no surface is. Of what has motion i, in its own
+    /// frame, and 2 + i.
     Places,
 }
 
 /// How a scene is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// The photo-surface of every vertex.
+    /// The photo-surface of every vertex, worked out beside the drawing.
     Polygon,
+    /// The same, worked out by the GPU's vertex stage but for what lies astern.
+    VertexStage,
     /// The same, of a scene that is cut for every picture.
     Adaptive(Tolerance),
-    /// A map of the world around the eye, of this quality.
+    /// A map of the world around the eye, of this quality; what moves is drawn over it as polygons.
     Image(MapQuality),
 }
 
@@ -96,8 +99,9 @@ pub struct SceneRenderer {
 
 enum Way {
     Polygon(Box<PhotoSurface>),
+    VertexStage(Box<VertexStage>),
     Adaptive(Box<Adaptive>),
-    Image(Box<ImageRenderer>),
+    Image(Box<ImageRenderer>, Option<Box<Movers>>),
 }
 
 impl SceneRenderer {
@@ -114,10 +118,19 @@ impl SceneRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let way = match method {
             Method::Polygon => Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?)),
+            // What is animated is solved on the CPU, and the rest goes with it.
+            Method::VertexStage if scene.motions.iter().any(|motion| motion.animated().is_some()) => {
+                Way::Polygon(Box::new(PhotoSurface::new(gpu, scene)?))
+            }
+            Method::VertexStage => Way::VertexStage(Box::new(VertexStage::new(gpu, scene)?)),
             Method::Adaptive(tolerance) => Way::Adaptive(Box::new(Adaptive::new(scene, tolerance))),
-            Method::Image(quality) => Way::Image(Box::new(ImageRenderer::new(gpu, format, quality))),
+            Method::Image(quality) => {
+                let movers = Movers::of(gpu, scene, quality).map(Box::new);
+                Way::Image(Box::new(ImageRenderer::new(gpu, format, quality, movers.is_some())), movers)
+            }
         };
-        let (edges, motions) = (Edges::of(scene), scene.motions.clone());
+        let edges = if matches!(way, Way::Image(..)) { Edges::of_resting(scene) } else { Edges::of(scene) };
+        let motions = scene.motions.clone();
         Ok(Self { world: World::new(gpu, scene, background), way, edges, motions, format, subject: Subject::Light })
     }
 
@@ -129,8 +142,8 @@ impl SceneRenderer {
     /// Name of the method.
     pub fn name(&self) -> &'static str {
         match self.way {
-            Way::Polygon(_) | Way::Adaptive(_) => "polygon",
-            Way::Image(_) => "image",
+            Way::Polygon(_) | Way::VertexStage(_) | Way::Adaptive(_) => "polygon",
+            Way::Image(..) => "image",
         }
     }
 
@@ -151,8 +164,8 @@ impl SceneRenderer {
     /// What the newest map cost, where the method has one.
     pub fn map_stats(&self) -> Option<MapStats> {
         match &self.way {
-            Way::Image(image) => Some(image.stats()),
-            Way::Polygon(_) | Way::Adaptive(_) => None,
+            Way::Image(image, _) => Some(image.stats()),
+            Way::Polygon(_) | Way::VertexStage(_) | Way::Adaptive(_) => None,
         }
     }
 
@@ -167,13 +180,26 @@ impl SceneRenderer {
             return Certainty::default();
         }
         let (edges, drawn) = match &self.way {
-            Way::Polygon(_) => (&self.edges, Drawn::ByKernel),
+            Way::Polygon(_) | Way::VertexStage(_) => (&self.edges, Drawn::ByKernel),
             Way::Adaptive(adaptive) => (adaptive.edges().unwrap_or(&self.edges), Drawn::InFull),
-            Way::Image(image) => (&self.edges, Drawn::FromMap { texels_per_pixel: image.stats().texels_per_pixel }),
+            Way::Image(image, _) => (&self.edges, Drawn::FromMap { texels_per_pixel: image.stats().texels_per_pixel }),
         };
         let observer = shot.observer();
         let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, motion);
-        Certainty::of(edges, sight, shot, size, drawn)
+        let certainty = Certainty::of(edges, sight, shot, size, drawn);
+        match &self.way {
+            Way::Image(_, Some(movers)) => movers
+                .edges()
+                .map_or(certainty, |edges| certainty.or_worse(Certainty::of(edges, sight, shot, size, Drawn::InFull))),
+            _ => certainty,
+        }
+    }
+
+    /// How the observer of a shot sees what rests, then each motion.
+    pub fn sights(&self, shot: &Shot) -> Vec<Sight> {
+        let observer = shot.observer();
+        let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, motion);
+        std::iter::once(None).chain((0..self.motions.len()).map(Some)).map(sight).collect()
     }
 
     /// Whether pictures with these effects need a photo-surface.
@@ -186,11 +212,8 @@ impl SceneRenderer {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, eye: Eye, ct: f64) -> Result<(), GpuError> {
-        let event = Event { ct, position: eye.position() };
-        let observer = Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() };
-        let moving = self.motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
-        let eyes = std::iter::once(eye).chain(moving).collect();
-        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, eyes))
+        let (observer, eyes) = (observer(eye, ct), eyes(&self.motions, eye, ct));
+        self.photo_surface_mut().map_or(Ok(()), |surface| surface.submit(gpu, observer, eyes))
     }
 
     /// Photo-surfaces begun and not yet received.
@@ -242,16 +265,23 @@ impl SceneRenderer {
     /// Draws into targets of another format from now on; a map, if there is one, is then made anew in this quality.
     pub fn draw_in(&mut self, gpu: &Gpu, format: Format, quality: Option<MapQuality>) {
         self.format = format;
-        if let (Way::Image(image), Some(quality)) = (&mut self.way, quality) {
-            **image = ImageRenderer::new(gpu, format, quality);
+        if let (Way::Image(image, movers), Some(quality)) = (&mut self.way, quality) {
+            **image = ImageRenderer::new(gpu, format, quality, movers.is_some());
         }
     }
 
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         match &mut self.way {
-            Way::Image(image) if shot.effects.geometry => {
+            Way::Image(image, movers) if shot.effects.geometry => {
                 image.draw_map(gpu, &mut self.world, shot, size, self.subject);
+                if let Some(movers) = movers {
+                    movers.cut(gpu, shot, size);
+                }
+            }
+            Way::VertexStage(stage) if shot.effects.geometry => {
+                stage.bend(gpu, &eyes(&self.motions, shot.eye, shot.ct));
             }
             Way::Adaptive(adaptive) if shot.effects.geometry => adaptive.cut(gpu, &mut self.world, shot, size),
             _ => {}
@@ -271,20 +301,32 @@ impl SceneRenderer {
         let mut view = shot.camera.view(target.size, offset, celerity, geometry, shot.scale());
         let observer = shot.observer();
         let mut moving = Vec::with_capacity(self.motions.len());
-        let streams = match &mut self.way {
-            Way::Image(image) if geometry => {
-                self.world.write_views(gpu, &[view]);
-                return image.draw(gpu, &self.world, encoder, target, shot.effects, self.subject);
+        let mut bends = false;
+        let streams = match &self.way {
+            Way::Image(..) if geometry => {
+                let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Observer);
+                moving.extend(self.motions.iter().map(of_motion));
+                None
             }
             Way::Polygon(surface) if geometry => {
                 let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Group);
                 moving.extend(self.motions.iter().map(of_motion));
-                Some(&surface.streams)
+                Some(surface.streams.clone())
+            }
+            Way::VertexStage(stage) if geometry => {
+                let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Group);
+                moving.extend(self.motions.iter().map(of_motion));
+                let eyes = eyes(&self.motions, shot.eye, shot.ct);
+                for (view, eye) in std::iter::once(&mut view).chain(&mut moving).zip(&eyes) {
+                    *view = stage.view(*view, eye);
+                }
+                bends = true;
+                Some(stage.streams.clone())
             }
             Way::Adaptive(adaptive) if geometry && adaptive.streams().is_some() => {
                 let of_motion = |motion| moving::view(&view, motion, &observer, Axes::Observer);
                 moving.extend(self.motions.iter().map(of_motion));
-                adaptive.streams()
+                adaptive.streams().cloned()
             }
             _ => {
                 // The plain world: positions are relative to its origin, not to the eye.
@@ -299,12 +341,48 @@ impl SceneRenderer {
             Subject::Light => Mode::Light(shot.effects),
             Subject::Places => Mode::Places,
         };
-        self.world.prepare(gpu, mode, self.format);
-        let sight = |motion| Sight::of(self.world.origin, &self.motions, &observer, Some(motion));
-        let sights: Vec<Sight> = (0..self.motions.len()).map(sight).collect();
-        let views: Vec<shaders::View> = std::iter::once(view).chain(moving).collect();
+        let sights = &self.sights(shot)[1..];
+        // Places say whose they are.
+        let of =
+            |(number, view): (usize, shaders::View)| shaders::View { layer: Vec4::X * (1 + number) as f32, ..view };
+        let views: Vec<shaders::View> = std::iter::once(view).chain(moving.into_iter().enumerate().map(of)).collect();
+
+        if let (Way::Image(image, movers), true) = (&mut self.way, geometry) {
+            self.world.write_views(gpu, &views[..1]);
+            if let Some(movers) = movers {
+                movers.prepare(gpu, &views, mode, self.format);
+            }
+            let mut pass = target.begin(encoder);
+            image.draw(gpu, &self.world, &mut pass, shot.effects, self.subject);
+            if let Some(movers) = movers {
+                movers.draw(gpu, &mut pass, shot, sights, mode, self.format);
+            }
+            return;
+        }
+        self.world.prepare(gpu, mode, bends, self.format);
         self.world.write_views(gpu, &views);
-        let draws = Draws { streams, mode, format: self.format, eye: shot.eye.position(), moving: &sights };
+        let draws = Draws {
+            streams: streams.as_ref(),
+            bends,
+            mode,
+            format: self.format,
+            eye: shot.eye.position(),
+            moving: sights,
+            sky: true,
+        };
         self.world.draw(gpu, &mut target.begin(encoder), &draws, &[Part::WHOLE]);
     }
+}
+
+/// An eye as what rests has it, then as each motion has it.
+fn eyes(motions: &[Motion], eye: Eye, ct: f64) -> Vec<Eye> {
+    let observer = observer(eye, ct);
+    let moving = motions.iter().map(|motion| moving::eye(motion, &observer).unwrap_or(eye));
+    std::iter::once(eye).chain(moving).collect()
+}
+
+/// Who looks through an eye at world time `ct`.
+fn observer(eye: Eye, ct: f64) -> Observer {
+    let event = Event { ct, position: eye.position() };
+    Observer { event, celerity: Celerity::new(eye.celerity()).unwrap_or_default() }
 }

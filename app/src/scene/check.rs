@@ -10,6 +10,7 @@ use glam::DVec3;
 use physics::colour::Spectrum;
 
 use super::collision::Collision;
+use super::motion::Motion;
 use super::source::{LoadError, read};
 use super::{Material, Scene, SceneFault};
 use crate::vehicle::Surroundings;
@@ -57,6 +58,8 @@ pub struct Report {
     pub white: Option<f64>,
     /// Width and height of the panorama, in pixels, if there is one.
     pub panorama: Option<[u32; 2]>,
+    /// What moves, how, and how fast at most: a line each.
+    pub moving: Vec<String>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
     pub bounds: Option<[DVec3; 2]>,
     /// Length of the longest finite edge, in metres: what `refine` would split first.
@@ -95,6 +98,7 @@ impl Report {
             spectra: spectra(scene),
             white: scene.white,
             panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
+            moving: moving(scene),
             bounds,
             longest_edge: survey.longest_edge,
             notices: scene.notices.clone(),
@@ -118,8 +122,12 @@ impl Survey {
     fn of(scene: &Scene) -> Self {
         let mut survey = Self::default();
         for mesh in &scene.meshes {
+            // What is animated is where its keys have it at first.
+            let animated = mesh.motion.and_then(|motion| scene.motions[motion].animated());
+            let pose = animated.map(|animated| animated.at(0.0));
             for &position in mesh.positions.iter().filter(|position| position.is_finite()) {
                 let position = position.as_dvec3();
+                let position = pose.map_or(position, |pose| pose.position(position) - scene.origin);
                 let [least, most] = survey.bounds.unwrap_or([position; 2]);
                 survey.bounds = Some([least.min(position), most.max(position)]);
             }
@@ -140,6 +148,25 @@ impl Survey {
         }
         survey
     }
+}
+
+/// What moves, in the order of the scene's motions.
+fn moving(scene: &Scene) -> Vec<String> {
+    let said = |(number, motion): (usize, &Motion)| {
+        let beta = scene.fastest(number).beta;
+        match motion {
+            Motion::Uniform(uniform) => {
+                let mesh = scene.meshes.iter().find(|mesh| mesh.motion == Some(number));
+                let name = mesh.map_or("nothing", |mesh| mesh.name.as_str());
+                format!("\"{name}\" at {beta:.6} c, a celerity of {:.6}", uniform.celerity.magnitude())
+            }
+            Motion::Animated(animated) => {
+                let speed = beta * animated.speed_of_light_m_s();
+                format!("\"{}\" by its animation, at up to {speed:.6} m/s: light has to be faster", animated.name)
+            }
+        }
+    };
+    scene.motions.iter().enumerate().map(said).collect()
 }
 
 /// The spectra of light and materials, those that are the same in one line.
@@ -261,6 +288,9 @@ impl fmt::Display for Report {
             writeln!(f, "size        {:.3} × {:.3} × {:.3} m (x, y, z)", size.x, size.y, size.z)?;
             writeln!(f, "from        {:.3}, {:.3}, {:.3} m", least.x, least.y, least.z)?;
             writeln!(f, "to          {:.3}, {:.3}, {:.3} m", most.x, most.y, most.z)?;
+        }
+        for moving in &self.moving {
+            writeln!(f, "moves       {moving}")?;
         }
         writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
         for notice in &self.notices {

@@ -8,7 +8,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use glam::{Vec2, Vec3};
+use glam::{DMat4, Vec2, Vec3};
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -72,7 +72,7 @@ pub enum ExportError {
 
 /// Writes a scene as `.glb`.
 ///
-/// The file appears at once and whole, or not at all. Meshes without triangles and [`Scene::notices`] are left out.
+/// The file appears at once and whole, or not at all. Meshes without triangles, [`Scene::notices`] and the keys of animations are left out.
 ///
 /// # Errors
 /// [`ExportError`]; values that are not finite, or base colours outside 0…1, are among them.
@@ -97,13 +97,24 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
         // What moves hangs on a node that stands where its motion is anchored.
         roots.push(nodes.len());
         if let Some(motion) = mesh.motion {
-            let Motion::Uniform(Uniform { celerity, anchor }) = scene.motions[motion];
-            nodes.push(json!({
-                "children": [nodes.len() + 1],
-                "translation": anchor.position.to_array(),
-                "extras": { "celerity": celerity.vector().to_array(), "at": anchor.ct },
-            }));
-            node["translation"] = json!((scene.origin - anchor.position).to_array());
+            let above = match &scene.motions[motion] {
+                Motion::Uniform(Uniform { celerity, anchor }) => {
+                    node["translation"] = json!((scene.origin - anchor.position).to_array());
+                    json!({
+                        "translation": anchor.position.to_array(),
+                        "extras": { "celerity": celerity.vector().to_array(), "at": anchor.ct },
+                    })
+                }
+                // Keys are left out: it stands where they have it at first.
+                Motion::Animated(animated) => {
+                    node["translation"] = json!([0.0, 0.0, 0.0]);
+                    let pose = DMat4::from(animated.at(0.0).world_from_body);
+                    json!({ "matrix": pose.to_cols_array() })
+                }
+            };
+            nodes.push(above);
+            let (last, child) = (nodes.len() - 1, nodes.len());
+            nodes[last]["children"] = json!([child]);
         }
         nodes.push(node);
         meshes.push(file.mesh(mesh));

@@ -2,13 +2,15 @@
 //!
 //! On what rests in the world it is the scene's sun and its hemisphere of sky and ground. On what moves uniformly the sun comes from the
 //! aberrated direction, with shifted colour and D² times the flux (a parallel beam: D⁴ of radiance over D² of solid angle), and the
-//! hemisphere is the world's, boosted, to first order in the normal (W 5.1.4). Colours stay weights on the sky's carrier: after a shift, those
+//! hemisphere is the world's, boosted, to first order in the normal (W 5.1.4). On what is animated it is the same at the moment at which it is
+//! seen, along its axes. Colours stay weights on the sky's carrier: after a shift, those
 //! that look the same to the standard observer.
 
 use super::Lighting;
+use super::motion::Animated;
 use glam::{DMat3, DVec3, DVec4, Vec3};
 use physics::colour::Carrier;
-use physics::{Aberration, Celerity};
+use physics::{Aberration, Celerity, Observer};
 
 /// Light on a diffuse surface, by its normal: weights on the sky's carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +73,23 @@ impl Falling {
         }
         let ambient = [0, 1, 2].map(|channel| (2.0 * sums.row(channel)).extend(mean[channel]));
         Self { sun_direction, sun, ambient }
+    }
+
+    /// On an animated body, along its own axes, as it is when it is seen (`delayed`) or at the observer's time. `carrier`: the sky's.
+    ///
+    /// One velocity, its middle's, stands for all of it; D of the light that it sends out is each point's own.
+    pub fn on_animated(
+        light: &Lighting,
+        animated: &Animated,
+        observer: &Observer,
+        delayed: bool,
+        carrier: &Carrier,
+    ) -> Self {
+        let pose = animated.as_seen(observer, delayed);
+        let Self { sun_direction, sun, ambient } = Self::on_moving(light, animated.celerity(&pose), carrier);
+        let body_from_world = pose.axes().transpose();
+        let turned = |channel: DVec4| (body_from_world * channel.truncate()).extend(channel.w);
+        Self { sun_direction: body_from_world * sun_direction, sun, ambient: ambient.map(turned) }
     }
 
     /// Light on a surface with this unit normal of which the sun sees a share (0 to 1).

@@ -89,7 +89,7 @@ pub struct Mesh {
     pub name: String,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Metres, relative to [`Scene::origin`]; of what moves, in its own frame (see [`motion`]).
+    /// Metres, relative to [`Scene::origin`]; of what moves, in its own frame, and of what is animated without that origin (see [`motion`]).
     pub positions: Vec<Vec3>,
     /// Unit vectors, world axes.
     pub normals: Vec<Vec3>,
@@ -364,7 +364,7 @@ impl Scene {
             Some(format!("mesh \"{name}\" uses vertex {beyond} of {count}"))
         };
         let motion = |(number, motion): (usize, &motion::Motion)| {
-            let motion::Motion::Uniform(motion::Uniform { anchor, .. }) = motion;
+            let motion::Motion::Uniform(motion::Uniform { anchor, .. }) = motion else { return None };
             let finite = anchor.position.is_finite() && anchor.ct.is_finite();
             (!finite)
                 .then(|| format!("motion {number} passes {} at {} m, which is not finite", anchor.position, anchor.ct))

@@ -1,8 +1,9 @@
 //! Where a scene comes from: built in, or a file; refined so that straight edges may bend.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::gltf::{self, GltfError, Stage};
+use super::motion::TooFast;
 use super::panorama::{self, PanoramaError};
 use super::{Scene, lattice::Lattice, spectra, town};
 use crate::command::SceneChoice;
@@ -20,13 +21,21 @@ pub enum LoadError {
     /// A picture.
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
+    /// An animation faster than light.
+    #[error("{}: {fault}", path.display())]
+    TooFast {
+        /// The scene.
+        path: PathBuf,
+        /// Which.
+        fault: TooFast,
+    },
 }
 
-/// Builds or reads a scene, as it was modelled.
+/// Builds or reads a scene, as it was modelled, for a world in which light is so fast (m/s).
 ///
 /// # Errors
-/// What is wrong with the file, and where.
-pub fn load(choice: &SceneChoice) -> Result<Scene, LoadError> {
+/// What is wrong with the file, and where; or what of it would be faster than light.
+pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, LoadError> {
     match choice {
         SceneChoice::Town => {
             let spinner = progress::spinner("building the old town");
@@ -38,7 +47,7 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, LoadError> {
         SceneChoice::Lattice => Ok(Lattice::default().build()),
         SceneChoice::File(path) => {
             let bar = progress::bar(path.display().to_string(), 0);
-            let scene = read(path, |progress| {
+            let mut scene = read(path, |progress| {
                 let stage = match progress.stage {
                     Stage::Pictures => "pictures",
                     Stage::Meshes => "meshes",
@@ -51,6 +60,8 @@ pub fn load(choice: &SceneChoice) -> Result<Scene, LoadError> {
             for notice in &scene.notices {
                 eprintln!("{}: {notice}", path.display());
             }
+            let checked = scene.set_speed_of_light(speed_of_light_m_s);
+            checked.map_err(|fault| LoadError::TooFast { path: path.clone(), fault })?;
             Ok(scene)
         }
     }

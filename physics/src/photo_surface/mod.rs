@@ -179,9 +179,14 @@ impl Kernel {
     /// world's axes after a pure boost; metres. *Equation*: the light-cone form of x' = d + u (r + u·d/(1+γ)), D = γ + u·n
     /// (Weiskopf 2001, 5.1), with d the displacement from the eye to the vertex.
     pub fn transform(&self, eye: &Eye, surfaces: Vec<Surface<'_>>) -> Stats {
-        let vertices: usize = surfaces.iter().map(|surface| surface.vertices().len()).sum();
-        let not_finite_inputs = surfaces.iter().map(|surface| surface.vertices().not_finite().len()).sum();
-        let bytes: usize = surfaces.iter().map(Surface::output_bytes).sum();
+        self.transform_each(surfaces.into_iter().map(|surface| (*eye, surface)).collect())
+    }
+
+    /// The same for surfaces that are seen by an eye each: what moves uniformly has the observer in its own frame (W 5.1.2).
+    pub fn transform_each(&self, surfaces: Vec<(Eye, Surface<'_>)>) -> Stats {
+        let vertices: usize = surfaces.iter().map(|(_, surface)| surface.vertices().len()).sum();
+        let not_finite_inputs = surfaces.iter().map(|(_, surface)| surface.vertices().not_finite().len()).sum();
+        let bytes: usize = surfaces.iter().map(|(_, surface)| surface.output_bytes()).sum();
         let streaming = match self.stores {
             Stores::Automatic => bytes > STREAMED_ABOVE_BYTES,
             Stores::Cached => false,
@@ -194,7 +199,7 @@ impl Kernel {
         };
 
         // The calling thread begins at once. Others take chunks from the same queue as soon as they are awake.
-        let queue = Mutex::new(surfaces.into_iter().flat_map(|surface| surface.into_chunks(eye, streaming)));
+        let queue = Mutex::new(surfaces.into_iter().flat_map(|(eye, surface)| surface.into_chunks(&eye, streaming)));
         let not_finite = AtomicUsize::new(0);
         let work = || {
             while let Some(chunk) = next(&queue) {

@@ -70,7 +70,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Cuts the work into chunks, each with the formula it needs.
-    pub(super) fn into_chunks(self, eye: &Eye, streaming: bool) -> impl Iterator<Item = Chunk<'a>> {
+    pub(super) fn into_chunks(self, eye: &Eye, streaming: bool) -> impl Iterator<Item = Chunk<'a>> + use<'a> {
         let Self { vertices, position: [x, y, z], doppler } = self;
         let plan = Plan::new(eye, vertices.origin());
         let [in_x, in_y, in_z] = vertices.streams().map(|stream| stream.chunks(CHUNK / LINE));

@@ -9,6 +9,7 @@
 use glam::{DVec3, Vec3};
 
 use super::PhotoSurfaceError;
+use super::plan::{Eye, Form, Plan};
 
 /// Vertices in a chunk: the unit of work of a thread. The speed is the same from 2,000 to 32,000.
 pub const CHUNK: usize = 8192;
@@ -115,6 +116,14 @@ impl Vertices {
     /// Position of a vertex relative to the origin, in metres.
     fn offset(&self, index: usize) -> DVec3 {
         DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])))
+    }
+
+    /// Whether any of them may lie where f32 alone loses its direction: within 14.5° of dead astern of an eye that is fast enough to matter.
+    ///
+    /// A program that transforms with f32 only, as a GPU does, leaves such vertices to the kernel.
+    pub fn reach_astern(&self, eye: &Eye) -> bool {
+        let plan = Plan::new(eye, self.origin);
+        self.spheres.iter().any(|sphere| plan.form(sphere) == Form::ExactAstern)
     }
 
     /// Number of vertices, those that are not finite included.

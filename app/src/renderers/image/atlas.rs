@@ -14,7 +14,10 @@ pub struct Atlas {
     layers: Vec<wgpu::TextureView>,
     /// For looking up.
     pub all_layers: wgpu::TextureView,
-    depth: wgpu::TextureView,
+    /// Reversed, of all layers alike.
+    pub depth: wgpu::TextureView,
+    /// Whether it is looked up.
+    keeps_depth: bool,
 }
 
 /// Of an atlas for pictures of `picture` format: as exact, one sample a texel.
@@ -29,8 +32,8 @@ pub fn texel_bytes(format: Format, layers: u32) -> u64 {
 }
 
 impl Atlas {
-    /// Makes textures of at least `size` texels.
-    pub fn new(gpu: &Gpu, size: [u32; 2], format: Format, layers: u32) -> Self {
+    /// Makes textures of at least `size` texels. `keeps_depth`: whether the depth is to be looked up as well.
+    pub fn new(gpu: &Gpu, size: [u32; 2], format: Format, layers: u32, keeps_depth: bool) -> Self {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let size = size.map(|side| (side + side / SPARE).next_multiple_of(64).min(limit));
         let texture_of_layers = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -52,6 +55,8 @@ impl Atlas {
                 ..Default::default()
             })
         };
+        let looked_up = if keeps_depth { wgpu::TextureUsages::TEXTURE_BINDING } else { wgpu::TextureUsages::empty() };
+        let depth_usage = wgpu::TextureUsages::RENDER_ATTACHMENT | looked_up;
         Self {
             size,
             layers: (0..layers).map(layer).collect(),
@@ -59,7 +64,8 @@ impl Atlas {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..Default::default()
             }),
-            depth: texture(gpu, "map's depth", size, DEPTH_FORMAT, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
+            depth: texture(gpu, "map's depth", size, DEPTH_FORMAT, 1, depth_usage),
+            keeps_depth,
         }
     }
 
@@ -80,6 +86,9 @@ impl Atlas {
         encoder: &'encoder mut wgpu::CommandEncoder,
         layer: u32,
     ) -> wgpu::RenderPass<'encoder> {
+        // The same surfaces are drawn into each layer: the last one's depth is that of all.
+        let last = layer as usize + 1 == self.layers.len();
+        let store = if self.keeps_depth && last { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("map"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -90,7 +99,7 @@ impl Atlas {
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }),
                 stencil_ops: None,
             }),
             ..Default::default()

@@ -6,13 +6,15 @@
 //! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut. The texels do
 //! not grow with the speed, but the panes do, slowly.
 //!
-//! What moves in the world is not in the map, and not drawn.
+//! What moves is not in the map, since light left it at other times than light that arrives from behind it along the same line. It is drawn over the bent map as
+//! polygons ([`Movers`]), and the map's depth, bent as well, says what hides what. Glass at rest has no depth: what moves behind it is drawn over it.
 
 mod atlas;
+mod movers;
 mod panes;
 mod sight;
 
-use super::target::{Format, Radiance};
+use super::target::Format;
 use super::world::{Draws, Mode, Part, World, bind_group, effect_constants, layout};
 use super::{Effects, Shot, Subject};
 use crate::gpu::Gpu;
@@ -20,6 +22,7 @@ use crate::views::NEAR_M;
 use atlas::Atlas;
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};
+pub use movers::Movers;
 use panes::{Fineness, Placed, Plan};
 use sight::Sight;
 use std::time::Instant;
@@ -65,6 +68,8 @@ pub struct ImageRenderer {
     sampler: wgpu::Sampler,
     format: Format,
     quality: MapQuality,
+    /// Whether pictures get their depth.
+    with_depth: bool,
     atlas: Option<Atlas>,
     group: Option<wgpu::BindGroup>,
     pipelines: Vec<(Effects, Subject, wgpu::RenderPipeline)>,
@@ -72,8 +77,8 @@ pub struct ImageRenderer {
 }
 
 impl ImageRenderer {
-    /// For pictures in targets of `format`.
-    pub fn new(gpu: &Gpu, format: Format, quality: MapQuality) -> Self {
+    /// For pictures in targets of `format`. `with_depth`: whether anything is drawn over them.
+    pub fn new(gpu: &Gpu, format: Format, quality: MapQuality, with_depth: bool) -> Self {
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(shaders::WARP.name),
             source: wgpu::ShaderSource::Wgsl(shaders::WARP.source().into()),
@@ -85,13 +90,16 @@ impl ImageRenderer {
             multisampled: false,
         };
         let float = |filterable| wgpu::TextureSampleType::Float { filterable };
-        let types = [
+        let mut types = vec![
             buffer(wgpu::BufferBindingType::Uniform),
             texture(wgpu::TextureSampleType::Sint, wgpu::TextureViewDimension::D2Array),
             texture(float(false), wgpu::TextureViewDimension::D2),
             texture(float(true), wgpu::TextureViewDimension::D2Array),
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         ];
+        if with_depth {
+            types.push(texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2));
+        }
         let group_layout = layout(gpu, "map", &types);
         Self {
             module,
@@ -104,6 +112,7 @@ impl ImageRenderer {
             }),
             format,
             quality,
+            with_depth,
             atlas: None,
             group: None,
             pipelines: Vec::new(),
@@ -148,19 +157,20 @@ impl ImageRenderer {
             views.iter().map(move |(view, _)| shaders::View { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
-        world.prepare(gpu, mode, format);
+        world.prepare(gpu, mode, false, format);
 
         let atlas = match self.atlas.take() {
             Some(atlas) if atlas.holds(plan.size, layers) => atlas,
             old => {
                 // Let go of the old one first: two may not fit.
                 drop((old, self.group.take()));
-                Atlas::new(gpu, plan.size, format, layers)
+                Atlas::new(gpu, plan.size, format, layers, self.with_depth)
             }
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws = Draws { streams: None, mode, format, eye: shot.eye.position(), moving: &[] };
+        let draws =
+            Draws { streams: None, bends: false, mode, format, eye: shot.eye.position(), moving: &[], sky: true };
         for layer in 0..layers {
             let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
@@ -205,16 +215,21 @@ impl ImageRenderer {
         let cells = small_texture(gpu, "cells", cells, wgpu::TextureFormat::R32Sint, cast_slice(&plan.cells));
         let size = [PANE_TEXELS, panes.len() as u32, 1];
         let panes = small_texture(gpu, "panes", size, wgpu::TextureFormat::Rgba32Float, cast_slice(panes));
-        let resources = [
+        let cells = cells.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let panes = panes.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut resources = vec![
             map.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&cells.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2Array),
-                ..Default::default()
-            })),
-            wgpu::BindingResource::TextureView(&panes.create_view(&wgpu::TextureViewDescriptor::default())),
+            wgpu::BindingResource::TextureView(&cells),
+            wgpu::BindingResource::TextureView(&panes),
             wgpu::BindingResource::TextureView(&atlas.all_layers),
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
+        if self.with_depth {
+            resources.push(wgpu::BindingResource::TextureView(&atlas.depth));
+        }
         bind_group(gpu, "map", &self.group_layout, resources)
     }
 
@@ -223,16 +238,14 @@ impl ImageRenderer {
         &mut self,
         gpu: &Gpu,
         world: &World,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &Radiance,
+        pass: &mut wgpu::RenderPass<'_>,
         effects: Effects,
         subject: Subject,
     ) {
         let pipeline = self.pipeline(gpu, world, effects, subject);
         let Some(group) = &self.group else { return };
-        let mut pass = target.begin(encoder);
         pass.set_pipeline(&pipeline);
-        world.bind_view(gpu, &mut pass, 0, None);
+        world.bind_view(gpu, pass, 0, None);
         pass.set_bind_group(1, group, &[]);
         pass.draw(0..3, 0..1);
     }
@@ -265,7 +278,7 @@ impl ImageRenderer {
             primitive: Default::default(),
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: super::target::DEPTH_FORMAT,
-                depth_write_enabled: Some(false),
+                depth_write_enabled: Some(self.with_depth),
                 depth_compare: Some(wgpu::CompareFunction::Always),
                 stencil: Default::default(),
                 bias: Default::default(),
@@ -273,7 +286,7 @@ impl ImageRenderer {
             multisample: wgpu::MultisampleState { count: self.format.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
-                entry_point: Some("fragment"),
+                entry_point: Some(if self.with_depth { "fragment_with_depth" } else { "fragment" }),
                 compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
                 targets: &[Some(wgpu::ColorTargetState {
                     format: self.format.colour,

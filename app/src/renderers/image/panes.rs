@@ -238,6 +238,8 @@ impl Placed {
             shift: Vec4::new(1.0, 1.0, pixel.x, pixel.y),
             layer: Vec4::ZERO,
             source: Vec4::new(0.0, 0.0, -1.0, 1.0),
+            eye: Vec4::ZERO,
+            eye_rest: Vec4::ZERO,
         };
         let planes = [forward, row_x + forward, forward - row_x, row_y + forward, forward - row_y];
         (view, planes.map(DVec3::normalize))

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::gpu::Gpu;
 use crate::renderers::Shot;
 use crate::renderers::certainty::Edges;
-use crate::renderers::world::{Prepared, World, stream_stride};
+use crate::renderers::world::{Prepared, World, stream_count, stream_stride};
 use crate::scene::Scene;
 use crate::scene::cut::{Cut, Fineness, Sight, Viewpoint};
 
@@ -80,7 +80,7 @@ struct Shown {
     stats: CutStats,
     /// Some of its edges.
     edges: Edges,
-    /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart.
+    /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart; of what is animated also log2 D.
     streams: wgpu::Buffer,
 }
 
@@ -116,7 +116,7 @@ impl Adaptive {
             world.replace(gpu, prepared);
             let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("photo-surface of a cut"),
-                size: 3 * stream_stride(cut.vertex_count()),
+                size: stream_count(&self.scene.motions) * stream_stride(cut.vertex_count()),
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
@@ -170,24 +170,34 @@ fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Opti
     Made { cut: Arc::new(cut), prepared, stats }
 }
 
-/// Where the vertices of a cut appear: x, y and z streams. What appears nowhere is put at the eye.
+/// Where the vertices of a cut appear: x, y and z streams, and one of log2 D if anything is animated. What appears nowhere is put at the eye.
 fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
     let stride = stream_stride(cut.vertex_count()) as usize / 4;
-    let mut streams = vec![0.0_f32; 3 * stride];
+    let mut streams = vec![0.0_f32; stream_count(&scene.motions) as usize * stride];
     let (mut x, rest) = streams.split_at_mut(stride);
-    let (mut y, mut z) = rest.split_at_mut(stride);
+    let (mut y, rest) = rest.split_at_mut(stride);
+    let (mut z, mut log2_doppler) = rest.split_at_mut(stride);
+    let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
+    let sights: Vec<Sight> = motions.map(|motion| Sight::new(scene, &viewpoint.observer, motion)).collect();
     let mut jobs = Vec::new();
     for (mesh, source) in cut.meshes.iter().zip(&scene.meshes) {
-        let sight = Sight::new(scene, &viewpoint.observer, source.motion);
+        let sight = &sights[source.motion.map_or(0, |motion| 1 + motion)];
         for vertices in mesh.vertices.chunks(CHUNK) {
             let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..vertices.len()));
-            jobs.push((sight, vertices, streams));
+            let log2_doppler = log2_doppler.split_off_mut(..vertices.len()).unwrap_or_default();
+            jobs.push((sight, vertices, streams, log2_doppler));
         }
     }
-    jobs.into_par_iter().for_each(|(sight, vertices, [x, y, z])| {
+    jobs.into_par_iter().for_each(|(sight, vertices, [x, y, z], log2_doppler)| {
         let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
         for (place, vertex) in vertices.iter().enumerate() {
-            let seen = sight.observer_from_group * sight.bend.apparent(vertex.place - sight.place);
+            let seen = match &sight.course {
+                None => sight.apparent(vertex.place),
+                Some(course) => course.seen(vertex.place).map_or(glam::DVec3::ZERO, |seen| {
+                    log2_doppler[place] = seen.doppler.log2() as f32;
+                    seen.apparent
+                }),
+            };
             let seen = seen.as_vec3();
             let seen = if seen.is_finite() { seen } else { glam::Vec3::ZERO };
             (x[place], y[place], z[place]) = (seen.x, seen.y, seen.z);

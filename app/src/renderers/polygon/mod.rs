@@ -10,6 +10,8 @@
 
 mod adaptive;
 mod photo_surface;
+mod vertex_stage;
 
 pub use adaptive::{Adaptive, CutStats, Pace, Tolerance};
 pub use photo_surface::{PhotoSurface, Transformed};
+pub use vertex_stage::VertexStage;

@@ -10,13 +10,20 @@
 //!
 //! and a whole photo-surface is handed over or nothing. [`PhotoSurface::submit`] for frame n + 1 before
 //! [`PhotoSurface::receive`]'s frame n is drawn makes the two overlap.
+//!
+//! What is animated is no matter of the kernel: its vertices are solved for one by one, and written into the same streams and one of log2 D.
 
 use crate::gpu::{Gpu, GpuError};
-use crate::renderers::world::stream_stride;
+use crate::renderers::world::{stream_count, stream_stride};
 use crate::scene::Scene;
+use crate::scene::motion::{Animated, Course};
 use crossbeam_channel::{Receiver, Sender, bounded};
+use glam::DVec3;
+use physics::Observer;
 use physics::photo_surface::{Eye, Kernel, PhotoSurfaceError, Stats, Surface, Vertices};
+use rayon::prelude::*;
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Buffers in circulation.
@@ -29,7 +36,7 @@ pub struct PhotoSurface {
     free: Receiver<wgpu::Buffer>,
     freed: Sender<wgpu::Buffer>,
     pending: usize,
-    /// The apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart.
+    /// The apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart; a fourth, of log2 D, where anything is animated.
     pub streams: wgpu::Buffer,
 }
 
@@ -37,14 +44,23 @@ struct Job {
     staging: wgpu::Buffer,
     /// As what rests has it, then as each motion has it.
     eyes: Vec<Eye>,
+    observer: Observer,
 }
 
 /// Vertices that have the eye in common.
-struct Run {
-    /// Which of a job's eyes.
-    eye: usize,
-    vertices: Vertices,
+enum Run {
+    /// They rest in a frame.
+    Still {
+        /// Which of a job's eyes.
+        eye: usize,
+        vertices: Vertices,
+    },
+    /// Keys move them; in their own frame.
+    Animated { animated: Arc<Animated>, places: Vec<DVec3> },
 }
+
+/// Animated vertices that a thread solves at a time.
+const CHUNK: usize = 256;
 
 /// A photo-surface ready to draw.
 pub struct Transformed {
@@ -65,15 +81,20 @@ impl PhotoSurface {
         // Meshes that follow each other and move alike go together: all of them, where nothing moves.
         let runs = scene.meshes.chunk_by(|a, b| a.motion == b.motion).map(|meshes| {
             let positions = meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
-            let eye = meshes[0].motion.map_or(0, |motion| 1 + motion);
-            Ok(Run { eye, vertices: Vertices::from_offsets(scene.origin, positions)? })
+            let motion = meshes[0].motion;
+            if let Some(animated) = motion.and_then(|motion| scene.motions[motion].animated()) {
+                let places = positions.map(|place| place.as_dvec3()).collect();
+                return Ok(Run::Animated { animated: Arc::clone(animated), places });
+            }
+            let eye = motion.map_or(0, |motion| 1 + motion);
+            Ok(Run::Still { eye, vertices: Vertices::from_offsets(scene.origin, positions)? })
         });
         let runs: Vec<Run> = runs.collect::<Result<_, PhotoSurfaceError>>()?;
         let (freed, free) = bounded(STAGING_BUFFERS);
         for _ in 0..STAGING_BUFFERS {
             let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("photo-surface staging"),
-                size: 3 * stride,
+                size: stream_count(&scene.motions) * stride,
                 usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
                 mapped_at_creation: true,
             });
@@ -93,18 +114,19 @@ impl PhotoSurface {
             .expect("the system can start a thread");
         let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("photo-surface"),
-            size: 3 * stride,
+            size: stream_count(&scene.motions) * stride,
             usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
         Ok(Self { jobs, finished, free, freed, pending: 0, streams })
     }
 
-    /// Begins the transform for an eye: as what rests has it, then as each of the scene's motions has it. Waits if all buffers are under way.
+    /// Begins the transform for an observer: his eye as what rests has it, then as each of the scene's motions has it. Waits if all buffers
+    /// are under way.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
-    pub fn submit(&mut self, gpu: &Gpu, eyes: Vec<Eye>) -> Result<(), GpuError> {
+    pub fn submit(&mut self, gpu: &Gpu, observer: Observer, eyes: Vec<Eye>) -> Result<(), GpuError> {
         // Buffers come back by callbacks, which run when the device is polled.
         let _ = gpu.device.poll(wgpu::PollType::Poll);
         let staging = match self.free.try_recv() {
@@ -115,7 +137,7 @@ impl PhotoSurface {
             }
         };
         self.jobs
-            .send(Job { staging, eyes })
+            .send(Job { staging, eyes, observer })
             .map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))?;
         self.pending += 1;
         Ok(())
@@ -172,17 +194,60 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
     // exclusively ours until `mapped` is dropped. As MaybeUninit it need not be readable, and the kernel only writes.
     let floats = unsafe { std::slice::from_raw_parts_mut(start.as_ptr(), length) };
     let (mut x, rest) = floats.split_at_mut(stride as usize / 4);
-    let (mut y, mut z) = rest.split_at_mut(stride as usize / 4);
+    let (mut y, rest) = rest.split_at_mut(stride as usize / 4);
+    let (mut z, mut log2_doppler) = rest.split_at_mut(stride as usize / 4);
     let mut stats = Stats::default();
-    for Run { eye, vertices } in runs {
+    let mut seen = Vec::with_capacity(runs.len());
+    for run in runs {
+        let count = match run {
+            Run::Still { vertices, .. } => vertices.len(),
+            Run::Animated { places, .. } => places.len(),
+        };
         let streams = [&mut x, &mut y, &mut z]
-            .map(|stream| stream.split_off_mut(..vertices.len()).expect("streams have room for all vertices"));
+            .map(|stream| stream.split_off_mut(..count).expect("streams have room for all vertices"));
+        // Without anything animated there is no such stream.
+        let log2_doppler = log2_doppler.split_off_mut(..count).unwrap_or_default();
+        let (eye, vertices) = match run {
+            Run::Still { eye, vertices } => (eye, vertices),
+            Run::Animated { animated, places } => {
+                stats.vertices += count;
+                stats.not_finite_results += solve(&Course::new(animated, &job.observer), places, streams, log2_doppler);
+                continue;
+            }
+        };
         let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
-        let of_run = Kernel::default().transform(&job.eyes[*eye], vec![surface]);
-        stats.vertices += of_run.vertices;
-        stats.not_finite_inputs += of_run.not_finite_inputs;
-        stats.not_finite_results += of_run.not_finite_results;
+        seen.push((job.eyes[*eye], surface));
     }
+    let of_kernel = Kernel::default().transform_each(seen);
+    stats.vertices += of_kernel.vertices;
+    stats.not_finite_inputs += of_kernel.not_finite_inputs;
+    stats.not_finite_results += of_kernel.not_finite_results;
     drop(mapped);
     Transformed { staging: job.staging, stats, duration: started.elapsed() }
+}
+
+/// Writes where the vertices of an animated body appear, and log2 D; those that appear nowhere at the eye. How many those are.
+fn solve(
+    course: &Course,
+    places: &[DVec3],
+    [x, y, z]: [&mut [MaybeUninit<f32>]; 3],
+    log2_doppler: &mut [MaybeUninit<f32>],
+) -> usize {
+    let streams = x.par_chunks_mut(CHUNK).zip(y.par_chunks_mut(CHUNK)).zip(z.par_chunks_mut(CHUNK));
+    let chunks = places.par_chunks(CHUNK).zip(streams.zip(log2_doppler.par_chunks_mut(CHUNK)));
+    let solved = chunks.map(|(places, (((x, y), z), log2_doppler))| {
+        let mut nowhere = 0;
+        for (index, place) in places.iter().enumerate() {
+            let seen = course.seen(*place);
+            let apparent = seen.map_or(DVec3::ZERO, |seen| seen.apparent).as_vec3();
+            let apparent = if apparent.is_finite() { apparent } else { glam::Vec3::ZERO };
+            nowhere += usize::from(seen.is_none());
+            x[index].write(apparent.x);
+            y[index].write(apparent.y);
+            z[index].write(apparent.z);
+            log2_doppler[index].write(seen.map_or(0.0, |seen| seen.doppler.log2()) as f32);
+        }
+        nowhere
+    });
+    solved.sum()
 }

@@ -4,15 +4,18 @@
 //! taken there once for a picture, a pixel's direction once for a ray. Along one sight line the apparent distance |x'| = r D (r in the body's frame, D from it to
 //! the observer) is how long ago by the observer's clock the light left, in every body's case: the smallest is seen.
 
+use super::curve::{Chord, Curve, SLACK};
 use crate::renderers::Shot;
-use crate::scene::motion::{Motion, SeenBy};
+use crate::scene::falling::Falling;
+use crate::scene::motion::{Animated, Ball, Motion, SeenBy};
 use crate::scene::{Alpha, Scene};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
-use physics::{Aberration, Boost, Celerity, FourVector};
+use physics::{Aberration, Beta, Boost, Celerity, FourVector, Observer};
+use std::sync::Arc;
 
 /// By how much boxes are larger than what is in them, relative to its coordinates, so that rounding misses nothing.
 const MARGIN: f64 = 1e-9;
@@ -67,6 +70,19 @@ struct Triangle {
 struct Body {
     motion: Option<usize>,
     surfaces: Hierarchy,
+    /// Of what is animated.
+    swept: Option<Swept>,
+}
+
+/// What has to be known of an animated body to follow rays through it.
+struct Swept {
+    animated: Arc<Animated>,
+    /// Around its triangles, in its own frame.
+    ball: Ball,
+    /// Of the same in the world, at most.
+    world_radius: f64,
+    /// A ball of the world that it never leaves.
+    reach: Ball,
 }
 
 struct Hierarchy {
@@ -85,6 +101,9 @@ pub struct Bodies {
 pub struct Sight {
     bodies: Vec<Seer>,
     world: Seer,
+    observer: Observer,
+    /// Light on each of the scene's motions.
+    pub falling: Vec<Falling>,
 }
 
 /// An observer as one body has him.
@@ -97,6 +116,8 @@ struct Seer {
 enum Bend {
     /// Light takes its time.
     Light(Aberration),
+    /// It takes none, and what is animated is as its keys have it at that moment, all of it moving like its middle.
+    Pose { observer: Aberration, object: Aberration, body_from_world: DMat3 },
     /// It takes none: the world at one moment, seen by an observer whose light is shifted nevertheless.
     Moment { observer: Aberration, object: Aberration, object_from_world: Boost },
 }
@@ -109,6 +130,14 @@ struct Line {
     apparent: f64,
 }
 
+impl Line {
+    /// Along a vector of the body's frame that is an apparent metre.
+    fn stretched(vector: DVec3, doppler: f64) -> Self {
+        let length = vector.length();
+        Self { direction: vector / length, doppler, apparent: 1.0 / length }
+    }
+}
+
 impl Seer {
     fn line(&self, seen: DVec3) -> Line {
         match &self.bend {
@@ -118,9 +147,11 @@ impl Seer {
             }
             Bend::Moment { observer, object, object_from_world } => {
                 let doppler = observer.observer_from_world(seen).1 / object.observer_from_world(seen).1;
-                let stretched = object_from_world.apply(FourVector { t: 0.0, r: seen }).r;
-                let length = stretched.length();
-                Line { direction: stretched / length, doppler, apparent: 1.0 / length }
+                Line::stretched(object_from_world.apply(FourVector { t: 0.0, r: seen }).r, doppler)
+            }
+            Bend::Pose { observer, object, body_from_world } => {
+                let doppler = observer.observer_from_world(seen).1 / object.observer_from_world(seen).1;
+                Line::stretched(*body_from_world * seen, doppler)
             }
         }
     }
@@ -143,20 +174,27 @@ impl Bodies {
     /// Sorts a scene's triangles. Those with a vertex that is not finite are left out.
     pub fn of(scene: &Scene) -> Self {
         let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
-        let body = |motion| Body { motion, surfaces: Hierarchy::of(scene, |mesh| scene.meshes[mesh].motion == motion) };
+        let body = |motion: Option<usize>| {
+            let animated = motion.and_then(|motion| scene.motions[motion].animated());
+            let swept = animated.map(|animated| Swept::of(scene, motion, animated));
+            let margin = swept.as_ref().map_or(0.0, |swept| SLACK * swept.ball.radius);
+            let surfaces = Hierarchy::of(scene, margin, |mesh| scene.meshes[mesh].motion == motion);
+            Body { motion, surfaces, swept }
+        };
         let bodies = motions.map(body).filter(|body| !body.surfaces.triangles.is_empty()).collect();
         let casts = |mesh: usize| {
             let material = &scene.materials[scene.meshes[mesh].material];
             scene.meshes[mesh].motion.is_none() && !material.unlit && material.alpha != Alpha::Blend
         };
-        let casters = Hierarchy::of(scene, |mesh| scene.light.shadows && casts(mesh));
+        let casters = Hierarchy::of(scene, 0.0, |mesh| scene.light.shadows && casts(mesh));
         Self { bodies, casters }
     }
 
-    /// The observer of a shot.
-    pub fn sight(&self, scene: &Scene, shot: &Shot) -> Sight {
+    /// The observer of a shot, and the light that falls on each of the scene's motions.
+    pub fn sight(&self, scene: &Scene, shot: &Shot, falling: Vec<Falling>) -> Sight {
         let seer = |motion| seer(scene, shot, motion);
-        Sight { bodies: self.bodies.iter().map(|body| seer(body.motion)).collect(), world: seer(None) }
+        let bodies = self.bodies.iter().map(|body| seer(body.motion)).collect();
+        Sight { bodies, world: seer(None), observer: shot.observer(), falling }
     }
 
     /// What is seen first in a direction, beyond the given distance in each body's frame, of what `is_there`.
@@ -164,10 +202,16 @@ impl Bodies {
         let mut first: Option<Found> = None;
         for (index, ((body, seer), &after)) in self.bodies.iter().zip(&sight.bodies).zip(beyond).enumerate() {
             let line = seer.line(seen);
-            let Some(hit) = body.surfaces.first(seer.position, line.direction, after, &is_there) else { continue };
+            let found = match (&body.swept, &seer.bend) {
+                (Some(swept), Bend::Light(_)) => body.surfaces.first_on_curve(swept, sight, &line, after, &is_there),
+                _ => {
+                    body.surfaces.first(seer.position, line.direction, after, &is_there).map(|hit| (hit, line.doppler))
+                }
+            };
+            let Some((hit, doppler)) = found else { continue };
             let apparent = hit.distance * line.apparent;
             if first.as_ref().is_none_or(|first| apparent < first.apparent) {
-                first = Some(Found { hit, doppler: line.doppler, body: index, apparent });
+                first = Some(Found { hit, doppler, body: index, apparent });
             }
         }
         first
@@ -205,10 +249,11 @@ fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
     let observer = shot.observer();
     let rest =
         SeenBy { position: observer.event.position, celerity: observer.celerity, observer_from_group: DQuat::IDENTITY };
-    let uniform = motion.map(|motion| {
-        let Motion::Uniform(uniform) = &scene.motions[motion];
-        *uniform
-    });
+    let uniform = match motion.map(|motion| &scene.motions[motion]) {
+        None => None,
+        Some(Motion::Uniform(uniform)) => Some(*uniform),
+        Some(Motion::Animated(animated)) => return seer_of_animated(shot, animated),
+    };
     let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(&observer));
     let bend = if shot.effects.geometry {
         Bend::Light(Aberration::new(seen_by.celerity))
@@ -224,8 +269,41 @@ fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
     Seer { position: seen_by.position - scene.origin, group_from_observer, bend }
 }
 
+/// Of what is animated light is followed in the world; without light's delay it is in one pose.
+fn seer_of_animated(shot: &Shot, animated: &Animated) -> Seer {
+    let observer = shot.observer();
+    let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
+    let of_observer = Aberration::new(observer.celerity);
+    if shot.effects.geometry {
+        return Seer { position, group_from_observer, bend: Bend::Light(of_observer) };
+    }
+    let pose = animated.as_seen(&observer, false);
+    let body_from_world = pose.world_from_body.inverse();
+    let object = Aberration::new(animated.celerity(&pose));
+    let bend = Bend::Pose { observer: of_observer, object, body_from_world: body_from_world.matrix3 };
+    Seer { position: body_from_world.transform_point3(position), group_from_observer, bend }
+}
+
+impl Swept {
+    fn of(scene: &Scene, motion: Option<usize>, animated: &Arc<Animated>) -> Self {
+        let places = || {
+            let meshes = scene.meshes.iter().filter(|mesh| mesh.motion == motion);
+            meshes.flat_map(|mesh| &mesh.positions).filter(|place| place.is_finite()).map(|place| place.as_dvec3())
+        };
+        let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = places().fold(bounds, |(low, high), place| (low.min(place), high.max(place)));
+        let centre = if low.is_finite() { 0.5 * (low + high) } else { DVec3::ZERO };
+        let radius = places().map(|place| place.distance(centre)).fold(0.0, f64::max);
+        let ball = Ball { centre, radius };
+        // Only the size: moved to the body's own origin.
+        let world_radius = animated.stretch() * radius;
+        Self { animated: Arc::clone(animated), ball, world_radius, reach: animated.reach(ball) }
+    }
+}
+
 impl Hierarchy {
-    fn of(scene: &Scene, wanted: impl Fn(usize) -> bool) -> Self {
+    /// `margin`: by how much boxes are wide of what is in them, metres.
+    fn of(scene: &Scene, margin: f64, wanted: impl Fn(usize) -> bool) -> Self {
         let mut triangles = Vec::new();
         for (number, mesh) in scene.meshes.iter().enumerate().filter(|(number, _)| wanted(*number)) {
             let double_sided = scene.materials[mesh.material].double_sided;
@@ -237,7 +315,7 @@ impl Hierarchy {
                 }
             }
         }
-        let boxes: Vec<Aabb> = triangles.iter().map(|triangle| around(triangle.points)).collect();
+        let boxes: Vec<Aabb> = triangles.iter().map(|triangle| around(triangle.points, margin)).collect();
         Self { triangles, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
@@ -250,6 +328,37 @@ impl Hierarchy {
         };
         let (index, _) = self.cast(from, direction, |index| meet(index).map(|hit| hit.distance))?;
         meet(index)
+    }
+
+    /// The nearest hit further than `after` of the curve that a ray is in an animated body's frame, and D from there. Its distance is the world's.
+    fn first_on_curve(
+        &self,
+        swept: &Swept,
+        sight: &Sight,
+        line: &Line,
+        after: f64,
+        is_there: impl Fn(&Hit) -> bool,
+    ) -> Option<(Hit, f64)> {
+        let Swept { animated, ball, world_radius, reach } = swept;
+        let curve = Curve { animated, observer: &sight.observer, direction: line.direction };
+        let hit = curve.first(after, ball, *world_radius, reach, |chord| {
+            let [from, to] = chord.ends;
+            let [first, last] = chord.span;
+            let share = (to - from).length() / (last - first);
+            let meet = |index: u32| {
+                let triangle = &self.triangles[index as usize];
+                let hit = triangle.meet_curve(&curve, chord)?;
+                (hit.distance > after && (hit.front || triangle.double_sided) && is_there(&hit)).then_some(hit)
+            };
+            let direction = (to - from).try_normalize()?;
+            let (index, _) =
+                self.cast(from, direction, |index| meet(index).map(|hit| ((hit.distance - first) * share).max(0.0)))?;
+            meet(index)
+        })?;
+        let pose = animated.at(sight.observer.event.ct - hit.distance);
+        let sent = Beta::new(pose.beta(hit.position)).map(Beta::celerity).unwrap_or_default();
+        let doppler = line.doppler / Aberration::new(sent).observer_from_world(line.direction).1;
+        Some((hit, doppler))
     }
 
     /// Whether there is anything further than `after`, seen from whichever side.
@@ -276,6 +385,24 @@ impl Triangle {
     /// *Equation:* signed volumes of the direction with each edge seen from the ray's beginning, d·(b × c) and so on, are the shares of the
     /// corners.
     fn meet(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
+        let (weights, away, front) = self.shares(from, direction)?;
+        let distance = away.dot(direction);
+        let hit = Hit { mesh: self.mesh, corners: self.corners, weights, position: from + away, distance, front };
+        (distance > 0.0).then_some(hit)
+    }
+
+    /// Where a piece of a curve meets the triangle: as the straight line does that touches it there.
+    fn meet_curve(&self, curve: &Curve<'_>, chord: &Chord) -> Option<Hit> {
+        let distance = curve.crosses(chord, self.points)?;
+        let (position, rate) = curve.at(distance);
+        let direction = rate.normalize_or_zero();
+        let size = self.points[0].distance(self.points[1]).max(self.points[0].distance(self.points[2]));
+        let (weights, _, front) = self.shares(position - direction * size, direction)?;
+        Some(Hit { mesh: self.mesh, corners: self.corners, weights, position, distance, front })
+    }
+
+    /// The shares of the corners where a line passes, the way there from its beginning, and whether that comes from the front.
+    fn shares(&self, from: DVec3, direction: DVec3) -> Option<([f64; 3], DVec3, bool)> {
         let [a, b, c] = self.points.map(|point| point - from);
         let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|area| area.dot(direction));
         let within = volumes.iter().all(|&volume| volume >= 0.0) || volumes.iter().all(|&volume| volume <= 0.0);
@@ -285,16 +412,13 @@ impl Triangle {
         }
         let weights = volumes.map(|volume| volume / sum);
         let away = a * weights[0] + b * weights[1] + c * weights[2];
-        let distance = away.dot(direction);
-        let hit =
-            Hit { mesh: self.mesh, corners: self.corners, weights, position: from + away, distance, front: sum < 0.0 };
-        (distance > 0.0).then_some(hit)
+        Some((weights, away, sum < 0.0))
     }
 }
 
-fn around([a, b, c]: [DVec3; 3]) -> Aabb {
+fn around([a, b, c]: [DVec3; 3], margin: f64) -> Aabb {
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    let margin = DVec3::splat(MARGIN * (1.0 + low.abs().max(high.abs()).max_element()));
+    let margin = DVec3::splat(margin + MARGIN * (1.0 + low.abs().max(high.abs()).max_element()));
     Aabb::new(vector(low - margin), vector(high + margin))
 }
 

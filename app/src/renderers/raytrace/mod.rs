@@ -7,8 +7,11 @@
 //! times at which the light left. The surface there sends out what its material, sun and sky make it send out in its own frame
 //! (`surface`); the observer sees it shifted and brightened (`light`).
 //!
+//! What is animated rests in no frame: in its own a ray is a curve, which is followed where the body is (`curve`).
+//!
 //! Edges bend by themselves, and no triangle is cut. It is slow, and right: what the other renderers draw is held against it.
 
+mod curve;
 mod hits;
 mod light;
 mod surface;
@@ -106,7 +109,7 @@ impl RayTracer {
         finished: impl Fn() + Sync,
     ) -> Traced {
         let tiles = tiles(size);
-        let sight = self.bodies.sight(&self.surfaces.scene, shot);
+        let sight = self.sight(shot);
         let traced: Vec<_> = tiles
             .par_iter()
             .map(|tile| {
@@ -143,7 +146,7 @@ impl RayTracer {
 
     /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
-        let sight = self.bodies.sight(&self.surfaces.scene, shot);
+        let sight = self.sight(shot);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
             let seen = direction(shot, size, *pixel, DVec2::ZERO);
@@ -151,6 +154,11 @@ impl RayTracer {
             Some(self.bodies.place(&sight, seen, &hit))
         };
         pixels.par_iter().map(place).collect()
+    }
+
+    /// The observer of a shot, and the light that falls on what moves as he sees it.
+    fn sight(&self, shot: &Shot) -> Sight {
+        self.bodies.sight(&self.surfaces.scene, shot, self.surfaces.falling(shot))
     }
 
     /// The light of a pixel, and its luminance at rest.
@@ -172,7 +180,7 @@ impl RayTracer {
         let mut start = sight.start();
         while shines_through > HIDDEN {
             let Some(found) = self.bodies.first(sight, seen, &start, |hit| self.surfaces.is_there(hit)) else { break };
-            let (opacity, sent) = self.surfaces.light(&found.hit, &self.bodies);
+            let (opacity, sent) = self.surfaces.light(&found.hit, &self.bodies, &sight.falling);
             let (colour, at_rest) = self.light.observed(&sent, effects, found.doppler);
             // As in the renderers' targets, the luminance at rest is that of what is not mixed with anything behind it.
             if opacity >= 1.0 {

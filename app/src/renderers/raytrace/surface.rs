@@ -4,6 +4,7 @@
 
 use super::hits::{Bodies, Hit};
 use super::light::Sent;
+use crate::renderers::Shot;
 use crate::renderers::world::{Spectra, WHITE};
 use crate::scene::falling::Falling;
 use crate::scene::mipmap::linear_from_srgb;
@@ -28,9 +29,10 @@ impl Surfaces {
     /// Works out the light that falls on what rests and on what moves.
     pub fn new(scene: Scene, spectra: Spectra) -> Self {
         let sky = &spectra.carriers[spectra.sky];
-        let on_moving = |motion: &Motion| {
-            let Motion::Uniform(uniform) = motion;
-            Falling::on_moving(&scene.light, uniform.celerity, sky)
+        let on_moving = |motion: &Motion| match motion {
+            Motion::Uniform(uniform) => Falling::on_moving(&scene.light, uniform.celerity, sky),
+            // Worked out for every picture.
+            Motion::Animated(_) => Falling::at_rest(&scene.light),
         };
         let falling = (Falling::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
         let linear = std::array::from_fn(|code| f64::from(linear_from_srgb(code as f32 / 255.0)));
@@ -45,8 +47,20 @@ impl Surfaces {
         }
     }
 
-    /// Opacity, and the weights that a point sends out.
-    pub fn light(&self, hit: &Hit, bodies: &Bodies) -> (f64, Sent) {
+    /// The light that falls on each of what moves, as the observer of a shot sees it.
+    pub fn falling(&self, shot: &Shot) -> Vec<Falling> {
+        let sky = &self.spectra.carriers[self.spectra.sky];
+        let falling = |(motion, falling): (&Motion, &Falling)| match motion {
+            Motion::Uniform(_) => *falling,
+            Motion::Animated(animated) => {
+                Falling::on_animated(&self.scene.light, animated, &shot.observer(), shot.effects.geometry, sky)
+            }
+        };
+        self.scene.motions.iter().zip(&self.falling.1).map(falling).collect()
+    }
+
+    /// Opacity, and the weights that a point sends out. `falling`: light on each of what moves.
+    pub fn light(&self, hit: &Hit, bodies: &Bodies, falling: &[Falling]) -> (f64, Sent) {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
         let base = self.base(hit);
@@ -57,7 +71,7 @@ impl Surfaces {
         // A spectrum on an emissive material is all that it sends out.
         let source = material.unlit || (material.spectrum.is_some() && material.is_source());
         if !source {
-            weights *= self.falling_on(hit, bodies);
+            weights *= self.falling_on(hit, bodies, falling);
         }
         let mut emitted = if source { DVec3::ZERO } else { rgb(material.emissive) };
         if emitted != DVec3::ZERO {
@@ -89,12 +103,12 @@ impl Surfaces {
     }
 
     /// Light on a point, by its interpolated normal, turned to the side that is seen.
-    fn falling_on(&self, hit: &Hit, bodies: &Bodies) -> DVec3 {
+    fn falling_on(&self, hit: &Hit, bodies: &Bodies, moving: &[Falling]) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
         let normal = (a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]).normalize_or_zero();
         let normal = if hit.front { normal } else { -normal };
-        if let Some(falling) = mesh.motion.and_then(|motion| self.falling.1.get(motion)) {
+        if let Some(falling) = mesh.motion.and_then(|motion| moving.get(motion)) {
             return falling.on(normal, 1.0);
         }
         let falling = &self.falling.0;

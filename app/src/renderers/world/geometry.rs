@@ -2,6 +2,7 @@
 
 use crate::gpu::Gpu;
 use crate::scene::cut::Cut;
+use crate::scene::motion::Motion;
 use crate::scene::{Alpha, Scene};
 use bytemuck::{Pod, Zeroable, cast_slice};
 use glam::{DVec3, Vec3};
@@ -70,6 +71,11 @@ pub struct Geometry {
 /// Bytes of one f32 stream of `count` vertices, rounded up so that streams stay aligned for copies and wide stores.
 pub fn stream_stride(count: usize) -> u64 {
     (count as u64 * 4).next_multiple_of(256).max(256)
+}
+
+/// How many streams say where vertices appear: x, y and z, and log2 D if anything is animated.
+pub fn stream_count(motions: &[Motion]) -> u64 {
+    if motions.iter().any(|motion| motion.animated().is_some()) { 4 } else { 3 }
 }
 
 /// What a `Geometry` is made of, in memory.

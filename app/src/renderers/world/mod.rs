@@ -10,21 +10,25 @@ mod pipelines;
 mod spectra;
 mod sun;
 
-pub use geometry::{Prepared, stream_stride};
+pub use geometry::{Prepared, stream_count, stream_stride};
 pub use pipelines::{Mode, effect_constants, layout};
 pub use spectra::{Spectra, WHITE};
 
 use super::target::Format;
 use crate::gpu::Gpu;
-use crate::scene::Scene;
 use crate::scene::cut::Sight;
+use crate::scene::falling::Falling;
+use crate::scene::motion::Animated;
+use crate::scene::{Lighting, Scene};
 use bytemuck::bytes_of;
 use geometry::{Draw, Geometry, Group};
 use glam::DVec3;
 use materials::Materials;
+use physics::Observer;
 use pipelines::Pipelines;
 use std::ops::Range;
-use sun::Light;
+use std::sync::Arc;
+use sun::{Light, with_falling};
 
 /// Views that one submission may draw at first; more are made room for when they are needed.
 const VIEWS: u64 = 64;
@@ -40,6 +44,11 @@ pub struct World {
     pub origin: DVec3,
     /// Of what rests, then of each motion; so are the groups of views.
     lightings: Vec<wgpu::Buffer>,
+    /// What of the light every picture needs: it falls on what is animated in another way each time.
+    light: Lighting,
+    lit_at_rest: shaders::Lighting,
+    /// Which of the motions are.
+    animated: Vec<Option<Arc<Animated>>>,
     bindings: Bindings,
     views: wgpu::Buffer,
     view_groups: Vec<wgpu::BindGroup>,
@@ -55,8 +64,10 @@ struct Bindings {
 
 /// What a draw shows.
 pub struct Draws<'a> {
-    /// x, y and z streams, [`stream_stride`] bytes apart; `None`: the world's own positions, relative to its origin.
+    /// x, y and z streams, and one of log2 D if anything is animated, [`stream_stride`] bytes apart; `None`: the world's own positions, relative to its origin.
     pub streams: Option<&'a wgpu::Buffer>,
+    /// Whether the vertex stage bends what the streams do not hold.
+    pub bends: bool,
     /// Light or weights.
     pub mode: Mode,
     /// Of the target.
@@ -65,6 +76,8 @@ pub struct Draws<'a> {
     pub eye: DVec3,
     /// How each of the scene's motions is seen, by the views that follow each part's own; empty: what moves is not drawn.
     pub moving: &'a [Sight],
+    /// Whether the sky is drawn where no opaque surface is, and not what is there already.
+    pub sky: bool,
 }
 
 /// A part of a target, with a view of its own.
@@ -89,7 +102,7 @@ impl World {
         let geometry = Geometry::new(gpu, scene);
         let materials = Materials::new(gpu, scene, &spectra);
         let pipelines = Pipelines::new(gpu, scene, &spectra, background.is_some());
-        let Light { uniforms: lightings, map, sampler } =
+        let Light { at_rest: lit_at_rest, uniforms: lightings, map, sampler } =
             Light::new(gpu, scene, &geometry, &pipelines, &spectra, background);
         let bindings = Bindings {
             shadow_map: map,
@@ -99,7 +112,21 @@ impl World {
         };
         let views = views(gpu, VIEWS);
         let view_groups = bindings.groups(gpu, &pipelines.view_layout, &views, &lightings);
-        Self { geometry, materials, pipelines, spectra, origin: scene.origin, lightings, bindings, views, view_groups }
+        let animated = scene.motions.iter().map(|motion| motion.animated().map(Arc::clone)).collect();
+        Self {
+            geometry,
+            materials,
+            pipelines,
+            spectra,
+            origin: scene.origin,
+            lightings,
+            light: scene.light,
+            lit_at_rest,
+            animated,
+            bindings,
+            views,
+            view_groups,
+        }
     }
 
     /// Triangles that a draw of everything takes.
@@ -113,14 +140,27 @@ impl World {
         self.geometry = Geometry::upload(gpu, prepared);
     }
 
+    /// Writes the light that falls on what is animated, for the pictures of the next submissions. `delayed`: light takes its time.
+    pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, delayed: bool) {
+        let sky = &self.spectra.carriers[self.spectra.sky];
+        // No shadow falls on what moves.
+        let sun_direction = self.lit_at_rest.sun_direction.with_w(0.0);
+        let lighting = shaders::Lighting { sun_direction, ..self.lit_at_rest };
+        for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
+            let Some(animated) = animated else { continue };
+            let falling = Falling::on_animated(&self.light, animated, observer, delayed, sky);
+            gpu.queue.write_buffer(uniform, 0, bytes_of(&with_falling(&lighting, &falling)));
+        }
+    }
+
     /// Layout of the group that holds view, light and spectra.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
         &self.pipelines.view_layout
     }
 
     /// Compiles what a mode needs. A draw in a mode that was not prepared shows nothing.
-    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, format: Format) {
-        self.pipelines.prepare(gpu, &self.materials, mode, format);
+    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, bends: bool, format: Format) {
+        self.pipelines.prepare(gpu, &self.materials, mode, bends, format);
     }
 
     /// Writes what the views of the next submission show, numbered as they come. One submission sees one writing.
@@ -146,12 +186,12 @@ impl World {
 
     /// Draws surfaces and sky into each part of a target.
     pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[Part]) {
-        let Some(pipelines) = self.pipelines.get(draws.mode, draws.format) else { return };
+        let Some(pipelines) = self.pipelines.get(draws.mode, draws.bends, draws.format) else { return };
         let drawn = |draw: &&Draw| draw.motion.is_none_or(|motion| motion < draws.moving.len());
         let mut blended: Vec<&Draw> = self.geometry.blended.iter().filter(drawn).collect();
         // What moves is as far as it appears; what rests beside it goes by its place, as everything does in a scene at rest.
         let distance = |draw: &Draw| match draw.motion.map(|motion| &draws.moving[motion]) {
-            Some(sight) => sight.bend.apparent(draw.centre - self.origin - sight.place).length(),
+            Some(sight) => sight.apparent(draw.centre - self.origin).length(),
             None => draw.centre.distance(draws.eye),
         };
         blended.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
@@ -163,6 +203,10 @@ impl World {
             pass.set_vertex_buffer(axis, streams.slice(start..start + self.geometry.stream_stride));
         }
         pass.set_vertex_buffer(3, self.geometry.attributes.slice(..));
+        let is_animated = |motion: usize| self.animated[motion].is_some();
+        if draws.streams.is_some() && (0..draws.moving.len()).any(is_animated) {
+            pass.set_vertex_buffer(4, streams.slice(3 * self.geometry.stream_stride..));
+        }
 
         // Material by material, all parts each: going on to another part is cheap, another material is not.
         let draw_all = |pass: &mut wgpu::RenderPass<'_>, draw: &Draw| {
@@ -174,7 +218,8 @@ impl World {
                 }
                 if !bound {
                     bound = true;
-                    pass.set_pipeline(&pipelines.surface[draw.material]);
+                    let animated = pipelines.animated.as_ref().filter(|_| draw.motion.is_some_and(is_animated));
+                    pass.set_pipeline(&animated.unwrap_or(&pipelines.surface)[draw.material]);
                     pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
                 }
                 self.go_to(gpu, pass, part, draw.motion);
@@ -182,10 +227,12 @@ impl World {
             }
         };
         self.geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
-        pass.set_pipeline(&pipelines.sky);
-        for part in parts {
-            self.go_to(gpu, pass, part, None);
-            pass.draw(0..3, 0..1);
+        if draws.sky {
+            pass.set_pipeline(&pipelines.sky);
+            for part in parts {
+                self.go_to(gpu, pass, part, None);
+                pass.draw(0..3, 0..1);
+            }
         }
         blended.into_iter().for_each(|draw| draw_all(pass, draw));
     }
@@ -268,13 +315,13 @@ impl Bindings {
 }
 
 /// A bind group of bindings 0, 1, 2….
-pub fn bind_group<const COUNT: usize>(
+pub fn bind_group<'a>(
     gpu: &Gpu,
     label: &str,
     layout: &wgpu::BindGroupLayout,
-    resources: [wgpu::BindingResource<'_>; COUNT],
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
 ) -> wgpu::BindGroup {
-    let mut binding = 0..;
-    let entries = resources.map(|resource| wgpu::BindGroupEntry { binding: binding.next().unwrap_or(0), resource });
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }

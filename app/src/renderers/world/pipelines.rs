@@ -19,16 +19,20 @@ pub enum Mode {
     Light(Effects),
     /// The weights of one carrier after another, for the image renderer's map.
     Weights,
-    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1; zeros where there is none.
+    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1 for what rests, 2 + i for what has
+    /// motion i; zeros where there is none.
     Places,
 }
 
 /// Pipelines for every material and the sky, in one mode, for targets of one format.
 pub struct ModePipelines {
     mode: Mode,
+    bends: bool,
     format: Format,
     /// One for each material, in the scene's order; those that look alike share one.
     pub surface: Vec<wgpu::RenderPipeline>,
+    /// The same for vertices that bring their own Doppler factors, where such are drawn and it matters.
+    pub animated: Option<Vec<wgpu::RenderPipeline>>,
     /// Behind everything.
     pub sky: wgpu::RenderPipeline,
 }
@@ -42,6 +46,8 @@ pub struct Pipelines {
     panorama: bool,
     background: bool,
     shadows: bool,
+    /// Whether anything is animated.
+    animates: bool,
     made: Vec<ModePipelines>,
     /// The sun's depth map.
     pub shadow: wgpu::RenderPipeline,
@@ -65,12 +71,14 @@ impl Pipelines {
         let shadow = Description {
             label: "shadow",
             module: &shadow_module,
+            entry_points: USUAL,
             groups: &[Some(&light_layout)],
             buffers: &[Some(world_only())],
             cull: false,
             depth_write: true,
             depth_compare: wgpu::CompareFunction::Greater,
             target: None,
+            vertex_constants: &[],
             constants: &[],
         }
         .build(gpu);
@@ -83,6 +91,7 @@ impl Pipelines {
             panorama: scene.panorama.is_some(),
             background,
             shadows: scene.light.shadows,
+            animates: scene.motions.iter().any(|motion| motion.animated().is_some()),
             made: Vec::new(),
             shadow,
             view_layout: view_layout(gpu),
@@ -90,13 +99,47 @@ impl Pipelines {
         }
     }
 
-    /// Compiles what a mode needs, if it was never needed before.
-    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, format: Format) {
-        if self.get(mode, format).is_some() {
+    /// Compiles what a mode needs, if it was never needed before. `bends`: whether the vertex stage bends.
+    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, bends: bool, format: Format) {
+        if self.get(mode, bends, format).is_some() {
             return;
         }
+        let surface = self.surfaces(gpu, materials, mode, format, [false, bends]);
+        let shifted = matches!(mode, Mode::Light(effects) if effects.geometry && effects.shift_light());
+        let animated = (self.animates && shifted).then(|| self.surfaces(gpu, materials, mode, format, [true, false]));
+        let sky = Description {
+            label: "sky",
+            module: &self.sky_module,
+            entry_points: USUAL,
+            groups: &[Some(&self.view_layout)],
+            buffers: &[],
+            cull: false,
+            depth_write: false,
+            depth_compare: wgpu::CompareFunction::GreaterEqual,
+            target: Some((format, None)),
+            vertex_constants: &[],
+            constants: &[
+                [("PANORAMA", flag(self.panorama)), ("BACKGROUND", flag(self.background))].as_slice(),
+                &mode.constants(self.sky_identity, format),
+            ]
+            .concat(),
+        }
+        .build(gpu);
+        self.made.push(ModePipelines { mode, bends, format, surface, animated, sky });
+    }
+
+    /// A pipeline for each material. `animated`: for vertices that bring their own Doppler factors; `bends`: for those that the stage bends.
+    fn surfaces(
+        &self,
+        gpu: &Gpu,
+        materials: &Materials,
+        mode: Mode,
+        format: Format,
+        [animated, bends]: [bool; 2],
+    ) -> Vec<wgpu::RenderPipeline> {
         let mut made: Vec<(Look, wgpu::RenderPipeline)> = Vec::new();
         let mut surface = Vec::with_capacity(self.looks.len());
+        let buffers = surface_buffers();
         for &look in &self.looks {
             let pipeline = match made.iter().find(|(known, _)| *known == look) {
                 Some((_, pipeline)) => pipeline.clone(),
@@ -104,14 +147,20 @@ impl Pipelines {
                     let description = Description {
                         label: "surface",
                         module: &self.surface_module,
+                        entry_points: if animated { ANIMATED } else { USUAL },
                         groups: &[Some(&self.view_layout), Some(&materials.layout)],
-                        buffers: &surface_buffers(),
+                        buffers: if animated { &buffers } else { &buffers[..4] },
                         cull: !look.double_sided,
                         depth_write: !look.blended,
                         depth_compare: wgpu::CompareFunction::Greater,
                         target: Some((format, look.blended.then(|| blending(mode)))),
-                        constants: &[look.constants(self.shadows).as_slice(), &mode.constants(look.identity, format)]
-                            .concat(),
+                        vertex_constants: &[("BENDS", flag(bends))],
+                        constants: &[
+                            look.constants(self.shadows).as_slice(),
+                            &[("ANIMATED", flag(animated))],
+                            &mode.constants(look.identity, format),
+                        ]
+                        .concat(),
                     };
                     let pipeline = description.build(gpu);
                     made.push((look, pipeline.clone()));
@@ -120,32 +169,22 @@ impl Pipelines {
             };
             surface.push(pipeline);
         }
-        let sky = Description {
-            label: "sky",
-            module: &self.sky_module,
-            groups: &[Some(&self.view_layout)],
-            buffers: &[],
-            cull: false,
-            depth_write: false,
-            depth_compare: wgpu::CompareFunction::GreaterEqual,
-            target: Some((format, None)),
-            constants: &[
-                [("PANORAMA", flag(self.panorama)), ("BACKGROUND", flag(self.background))].as_slice(),
-                &mode.constants(self.sky_identity, format),
-            ]
-            .concat(),
-        }
-        .build(gpu);
-        self.made.push(ModePipelines { mode, format, surface, sky });
+        surface
     }
 
     /// The pipelines of a mode that was prepared.
-    pub fn get(&self, mode: Mode, format: Format) -> Option<&ModePipelines> {
-        self.made.iter().find(|made| made.mode == mode && made.format == format)
+    pub fn get(&self, mode: Mode, bends: bool, format: Format) -> Option<&ModePipelines> {
+        self.made.iter().find(|made| (made.mode, made.bends, made.format) == (mode, bends, format))
     }
 }
 
 type Constant = (&'static str, f64);
+
+/// Of the vertex shader and of the fragment shader.
+type EntryPoints = [&'static str; 2];
+
+const USUAL: EntryPoints = ["vertex", "fragment"];
+const ANIMATED: EntryPoints = ["vertex_animated", "fragment_animated"];
 
 impl Mode {
     /// The shaders' overrides. `identity`: weights are linear sRGB at D = 1.
@@ -177,7 +216,9 @@ fn flag(value: bool) -> f64 {
 /// Over what is there by opacity. The light that an observer sees has its luminance at rest where opacity would be: it stays.
 fn blending(mode: Mode) -> wgpu::BlendState {
     match mode {
-        Mode::Weights | Mode::Places => wgpu::BlendState::ALPHA_BLENDING,
+        Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
+        // Places do not mix.
+        Mode::Places => wgpu::BlendState::REPLACE,
         Mode::Light(_) => wgpu::BlendState {
             alpha: wgpu::BlendComponent {
                 src_factor: wgpu::BlendFactor::Zero,
@@ -193,6 +234,7 @@ fn blending(mode: Mode) -> wgpu::BlendState {
 struct Description<'a> {
     label: &'a str,
     module: &'a wgpu::ShaderModule,
+    entry_points: EntryPoints,
     groups: &'a [Option<&'a wgpu::BindGroupLayout>],
     buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     cull: bool,
@@ -200,6 +242,8 @@ struct Description<'a> {
     depth_compare: wgpu::CompareFunction,
     /// None: depth alone is drawn. How it mixes with what is there.
     target: Option<(Format, Option<wgpu::BlendState>)>,
+    /// The vertex shader's overrides.
+    vertex_constants: &'a [Constant],
     /// The fragment shader's overrides.
     constants: &'a [Constant],
 }
@@ -265,8 +309,11 @@ impl Description<'_> {
             layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: self.module,
-                entry_point: Some("vertex"),
-                compilation_options: Default::default(),
+                entry_point: Some(self.entry_points[0]),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.vertex_constants,
+                    ..Default::default()
+                },
                 buffers: self.buffers,
             },
             primitive: wgpu::PrimitiveState { cull_mode: self.cull.then_some(wgpu::Face::Back), ..Default::default() },
@@ -283,7 +330,7 @@ impl Description<'_> {
             },
             fragment: targets.as_ref().map(|targets| wgpu::FragmentState {
                 module: self.module,
-                entry_point: Some("fragment"),
+                entry_point: Some(self.entry_points[1]),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants: self.constants,
                     ..Default::default()
@@ -301,6 +348,7 @@ const POSITION: [[wgpu::VertexAttribute; 1]; 3] = [
     wgpu::vertex_attr_array![1 => Float32],
     wgpu::vertex_attr_array![2 => Float32],
 ];
+const LOG2_DOPPLER: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32];
 const ATTRIBUTES: [wgpu::VertexAttribute; 4] = [
     attribute(3, offset_of!(Attributes, world), wgpu::VertexFormat::Float32x3),
     attribute(4, offset_of!(Attributes, normal), wgpu::VertexFormat::Float32x3),
@@ -312,15 +360,13 @@ const fn attribute(shader_location: u32, offset: usize, format: wgpu::VertexForm
     wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
-fn surface_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 4] {
-    let stream = |axis: usize| {
-        Some(wgpu::VertexBufferLayout {
-            array_stride: 4,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &POSITION[axis],
-        })
+/// Three streams, the attributes, and a stream of log2 D for what brings it.
+fn surface_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 5] {
+    let stream = |attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride: 4, step_mode: wgpu::VertexStepMode::Vertex, attributes })
     };
-    [stream(0), stream(1), stream(2), Some(with_attributes(&ATTRIBUTES))]
+    let [x, y, z] = &POSITION;
+    [stream(x), stream(y), stream(z), Some(with_attributes(&ATTRIBUTES)), stream(&LOG2_DOPPLER)]
 }
 
 fn world_only() -> wgpu::VertexBufferLayout<'static> {

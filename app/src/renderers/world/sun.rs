@@ -23,6 +23,8 @@ const MAP_SIZE: u32 = 4096;
 
 /// What the shaders need to know of light.
 pub struct Light {
+    /// On what rests.
+    pub at_rest: shaders::Lighting,
     /// A uniform [`shaders::Lighting`] for what rests, then one for each of the scene's motions.
     pub uniforms: Vec<wgpu::Buffer>,
     /// Reversed depth as the sun sees it.
@@ -43,9 +45,12 @@ impl Light {
         spectra: &Spectra,
         background: Option<[f32; 3]>,
     ) -> Self {
-        let moving = scene.motions.iter().map(|motion| {
-            let Motion::Uniform(uniform) = motion;
-            Falling::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
+        let moving = scene.motions.iter().map(|motion| match motion {
+            Motion::Uniform(uniform) => {
+                Falling::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
+            }
+            // Written for every picture.
+            Motion::Animated(_) => Falling::at_rest(&scene.light),
         });
         let at_rest = lighting(scene, &Falling::at_rest(&scene.light), true, spectra, background);
         let moving = moving.map(|falling| lighting(scene, &falling, false, spectra, background));
@@ -53,7 +58,7 @@ impl Light {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("lighting"),
                 contents: bytes_of(&lighting),
-                usage: wgpu::BufferUsages::UNIFORM,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             })
         };
         let uniforms: Vec<_> = std::iter::once(at_rest).chain(moving).map(upload).collect();
@@ -67,7 +72,7 @@ impl Light {
             compare: Some(wgpu::CompareFunction::GreaterEqual),
             ..Default::default()
         });
-        let light = Self { uniforms, map, sampler };
+        let light = Self { at_rest, uniforms, map, sampler };
         light.draw_map(gpu, scene, geometry, pipelines);
         light
     }
@@ -125,18 +130,31 @@ fn lighting(
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
     let (shadow_from_world, depth_m) = shadow_from_world(scene);
-    let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
-    shaders::Lighting {
+    let of_scene = shaders::Lighting {
         shadow_from_world: matrix(&shadow_from_world),
-        sun_direction: falling.sun_direction.as_vec3().extend(f32::from(u8::from(shadowed))),
-        sun: falling.sun.as_vec3().extend(shaders::SHADOW_BIAS_M / depth_m as f32),
-        ambient_red,
-        ambient_green,
-        ambient_blue,
+        sun_direction: Vec4::W * f32::from(u8::from(shadowed)),
+        sun: Vec4::W * (shaders::SHADOW_BIAS_M / depth_m as f32),
+        ambient_red: Vec4::ZERO,
+        ambient_green: Vec4::ZERO,
+        ambient_blue: Vec4::ZERO,
         ground: colour(light.ground),
         zenith: colour(light.zenith).with_w(spectra.sky as f32),
         horizon: colour(light.horizon).with_w(spectra.factor(spectra.sky)),
         background: background.map_or(Vec4::ZERO, colour),
+    };
+    with_falling(&of_scene, falling)
+}
+
+/// The same with other light that falls.
+pub fn with_falling(lighting: &shaders::Lighting, falling: &Falling) -> shaders::Lighting {
+    let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
+    shaders::Lighting {
+        sun_direction: falling.sun_direction.as_vec3().extend(lighting.sun_direction.w),
+        sun: falling.sun.as_vec3().extend(lighting.sun.w),
+        ambient_red,
+        ambient_green,
+        ambient_blue,
+        ..*lighting
     }
 }
 

@@ -1,7 +1,7 @@
 //! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
 //!
 //! A file passes several doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
-//! (numbers in buffers), `primitive` (triangles), `nodes` (where they stand), `picture`, `material`, `light` and `spectrum`. The `gltf` crate only reads
+//! (numbers in buffers), `animation` (keys), `primitive` (triangles), `nodes` (where they stand), `picture`, `material`, `light` and `spectrum`. The `gltf` crate only reads
 //! the JSON; every index, offset and length in it is looked up with a check here, because a file may come from
 //! anywhere and none may bring the program down or make it ask for more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
 //!
@@ -9,6 +9,7 @@
 //! [`Scene::origin`] becomes f32: a street 1000 km from the file's origin keeps its millimetres.
 
 mod accessor;
+mod animation;
 mod container;
 pub(super) mod extras;
 mod light;
@@ -21,6 +22,7 @@ pub(super) mod spectrum;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DVec3};
@@ -28,7 +30,7 @@ use rayon::prelude::*;
 
 use self::container::Document;
 use self::extras::SceneExtras;
-use self::nodes::{Bounds, Placement};
+use self::nodes::{Bounds, Moves, Placement};
 use self::primitive::Primitive;
 use self::spectrum::Spectra;
 pub use self::spectrum::SpectrumFault;
@@ -206,7 +208,16 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         .par_iter()
         .map(|instance| {
             let primitive = &primitives[&(instance.mesh, instance.primitive)];
-            let placed = primitive.place(instance.name.clone(), instance.placement.transform, origin);
+            let placed = match &instance.placement.motion {
+                Some(Moves::Animated { animated, body_from_node }) => {
+                    let (mut mesh, not_finite) = primitive.place(instance.name.clone(), *body_from_node, DVec3::ZERO);
+                    if animated.at(0.0).world_from_body.matrix3.determinant() < 0.0 {
+                        mesh.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+                    }
+                    (mesh, not_finite)
+                }
+                _ => primitive.place(instance.name.clone(), instance.placement.transform, origin),
+            };
             progress(Progress { stage: Stage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
             placed
         })
@@ -217,8 +228,11 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
             notices.add(format!("mesh \"{}\" has vertices that are nowhere (not finite): {not_finite}", mesh.name));
         }
         let opaque = materials[mesh.material].alpha == super::Alpha::Opaque;
-        mesh.motion = instance.placement.motion.map(|uniform| {
-            let motion = Motion::Uniform(uniform);
+        mesh.motion = instance.placement.motion.as_ref().map(|moves| {
+            let motion = match moves {
+                Moves::Uniform(uniform) => Motion::Uniform(*uniform),
+                Moves::Animated { animated, .. } => Motion::Animated(Arc::clone(animated)),
+            };
             motions.iter().position(|known| *known == motion).unwrap_or_else(|| {
                 motions.push(motion);
                 motions.len() - 1
@@ -350,7 +364,6 @@ fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
         notices.add(format!("the extension {name} is not drawn"));
     }
     let mut count = |number: usize, sentence: &str| (0..number).for_each(|_| notices.add(sentence.into()));
-    count(json.animations.len(), "animations stand still");
     count(json.skins.len(), "skins stay in their rest position");
     count(json.cameras.len(), "cameras only say where to start: lenses are not used");
     let morphs = json.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|primitive| primitive.targets.is_some());

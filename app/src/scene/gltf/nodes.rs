@@ -4,13 +4,15 @@
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
+use super::animation::{self, Moved};
 use super::container::{Document, Transform};
 use super::extras::{NodeExtras, celerity};
 use super::primitive::Primitive;
 use super::{GltfError, NEAR, Notices};
 use crate::scene::Start;
-use crate::scene::motion::Uniform;
+use crate::scene::motion::{Animated, Keyed, Link, Track, Uniform};
 use physics::Event;
+use std::sync::Arc;
 
 /// A node that bears something.
 pub(super) struct Placement {
@@ -27,7 +29,30 @@ pub(super) struct Placement {
     /// What `extras.rapidity.solid` says.
     pub(super) solid: Option<bool>,
     /// Its own motion, or that of the nearest ancestor that has one, with that one's anchor: what hangs together moves together.
-    pub(super) motion: Option<Uniform>,
+    pub(super) motion: Option<Moves>,
+}
+
+/// How a node moves.
+#[derive(Clone)]
+pub(super) enum Moves {
+    Uniform(Uniform),
+    /// `body_from_node`: from the frame of the last node of the chain.
+    Animated {
+        animated: Arc<Animated>,
+        body_from_node: DAffine3,
+    },
+}
+
+impl Moves {
+    /// The same of a child.
+    fn of_child(&self, local: DAffine3) -> Self {
+        match self {
+            Self::Uniform(uniform) => Self::Uniform(*uniform),
+            Self::Animated { animated, body_from_node } => {
+                Self::Animated { animated: Arc::clone(animated), body_from_node: *body_from_node * local }
+            }
+        }
+    }
 }
 
 /// All nodes of a scene that bear a mesh, a light or a camera, parents before children, in the file's order.
@@ -41,21 +66,36 @@ pub(super) fn placements(
         Some(scene) => document.json.scenes[scene].nodes.iter().map(|node| node.value()).collect(),
         None => orphans(document),
     };
+    let moved = animation::moved(document, notices)?;
     let mut reached = vec![false; nodes.len()];
     let mut placements = Vec::new();
-    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None)).collect();
+    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None::<Moves>)).collect();
     while let Some((index, parent, inherited)) = stack.pop() {
         let place = format!("nodes[{index}]");
         let node = document.item(nodes, index, &place)?;
         if std::mem::replace(&mut reached[index], true) {
             return Err(document.damaged(&place, "it has two parents or is its own ancestor"));
         }
-        let transform = parent * local(&document.transforms[index], &place, notices);
+        let local = local(&document.transforms[index], &place, notices);
+        let transform = parent * local;
         let own =
             celerity(&node.extras).map_err(|(key, fault)| document.damaged(&format!("{place}.extras.{key}"), fault))?;
-        let motion = own
-            .map(|(celerity, ct)| Uniform { celerity, anchor: Event { ct, position: transform.translation } })
-            .or(inherited);
+        let uniform = own.map(|(celerity, ct)| {
+            Moves::Uniform(Uniform { celerity, anchor: Event { ct, position: transform.translation } })
+        });
+        let motion = match (uniform, moved.get(&index), inherited) {
+            (None, Some(moved), inherited @ (None | Some(Moves::Animated { .. }))) => {
+                let keyed = keyed(&document.transforms[index], moved);
+                let name = node.name.clone().unwrap_or(place.clone());
+                Some(animated(name, parent, inherited, keyed))
+            }
+            (uniform, moved, inherited) => {
+                if moved.is_some() {
+                    notices.add(format!("{place} has a celerity, or hangs on what has: its animation stands still"));
+                }
+                uniform.or_else(|| inherited.map(|moves| moves.of_child(local)))
+            }
+        };
         let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
         if node.mesh.is_some() || node.camera.is_some() || light.is_some() {
             let extras = NodeExtras::read(&node.extras);
@@ -68,13 +108,40 @@ pub(super) fn placements(
                 camera: node.camera.is_some(),
                 transform,
                 solid: extras.solid,
-                motion,
+                motion: motion.clone(),
             });
         }
         let children = node.children.iter().flatten().rev();
-        stack.extend(children.map(|child| (child.value(), transform, motion)));
+        stack.extend(children.map(|child| (child.value(), transform, motion.clone())));
     }
     Ok(placements)
+}
+
+/// What hangs on a chain that ends in a node which keys move. `parent`: the file's frame from that of its parent, if nothing above moves.
+fn animated(name: String, parent: DAffine3, inherited: Option<Moves>, keyed: Keyed) -> Moves {
+    let mut links = match inherited {
+        Some(Moves::Animated { animated, body_from_node }) => {
+            let mut links = animated.links().to_vec();
+            links.push(Link::Fixed(body_from_node));
+            links
+        }
+        _ => vec![Link::Fixed(parent)],
+    };
+    links.retain(|link| *link != Link::Fixed(DAffine3::IDENTITY));
+    links.push(Link::Keyed(keyed));
+    Moves::Animated { animated: Arc::new(Animated::new(name, links)), body_from_node: DAffine3::IDENTITY }
+}
+
+/// A node that keys move; what they do not mention is as the node has it.
+fn keyed(transform: &Transform, moved: &Moved) -> Keyed {
+    let rotation = transform.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+    let rotation = if rotation.length().is_normal() { rotation.normalize() } else { DQuat::IDENTITY };
+    let translation = DVec3::from_array(transform.translation.unwrap_or_default());
+    Keyed {
+        translation: moved.translation.clone().map_or(Track::Fixed(translation), Track::Keyed),
+        rotation: moved.rotation.clone().map_or(Track::Fixed(rotation), Track::Keyed),
+        scale: DVec3::from_array(transform.scale.unwrap_or([1.0; 3])),
+    }
 }
 
 /// Nodes without a parent. If there are none but nodes, the tree is a circle, which the first node will show.

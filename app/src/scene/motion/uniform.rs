@@ -1,4 +1,4 @@
-//! What of a scene moves, and how: uniformly, so far.
+//! Uniform motion: a frame of its own.
 //!
 //! A uniformly moving body is modelled at rest: the file places it as it would stand in its own frame, whose axes are a pure boost of the
 //! world's and whose origin event is the node's own place at world time `at`. In the world it is therefore shorter along its motion, and all
@@ -7,13 +7,6 @@
 
 use glam::{DQuat, DVec3};
 use physics::{Boost, Celerity, Event, FourVector, Observer, compose};
-
-/// How meshes move.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
-    /// Always at one celerity.
-    Uniform(Uniform),
-}
 
 /// Uniform motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

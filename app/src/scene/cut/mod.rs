@@ -1,25 +1,33 @@
 //! A scene cut for one observer: as finely as his picture needs, and no finer.
 //!
 //! [`super::refine`] cuts every edge to one length; here an edge is cut where straight lines would leave the light's by more than a part of a
-//! pixel (W 7.2 left this as future work). What decides is the edge alone, seen by one observer: [`Bend::bound`] of it bounds every triangle
+//! pixel (W 7.2 left this as future work). What decides is the edge alone, seen by one observer: [`physics::bend::Bend::bound`] of it bounds every triangle
 //! of which it is the longest edge, inside too. So two triangles that share an edge cut it alike, whatever mesh they belong to, and a
 //! triangle with no edge left to cut is good everywhere.
 //!
 //! Beside the picture more error is allowed: as much as its distance from the picture, so that nothing drawn wrongly strays into it.
 //!
+//! Of what is animated no such bound is known. Its edges are cut where looks at their middles and quarters ([`Chord`]) find them off, each look a
+//! solution for that place's own retarded event; still by the edge alone.
+//!
 //! Midpoints are formed in f64, where halving is exact, and new vertices are kept relative to the observer: an edge of a micrometre astern,
 //! which at γ = 10⁶ is as wide as the picture, needs that.
 
+mod sight;
+
+pub use sight::{Chord, Sight};
+
+use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DVec3, Vec2, Vec3};
-use physics::bend::{Bend, Bound};
-use physics::{Celerity, Observer};
+use physics::Observer;
+use physics::bend::Bound;
 use rayon::prelude::*;
 
-use super::motion::Motion;
+use super::motion::{Course, Seen};
 use super::refine::divide;
 use super::{Mesh, Scene};
 use crate::views::Camera;
@@ -29,6 +37,12 @@ const SHORTEST_M: f64 = 1e-9;
 
 /// However far beside the picture, radians: what is drawn further from its place than this could be anywhere.
 const LARGEST_ERROR_RAD: f64 = 0.5;
+
+/// By how much log2 D of what is animated may be interpolated wrongly: 1 % of D⁴.
+const LOG2_DOPPLER: f64 = 0.0035;
+
+/// Chords that are no longer than so many times what is allowed are not cut for their Doppler factor's sake: at a key it may jump.
+const DOPPLER_LENGTH: f64 = 8.0;
 
 /// Triangles that are cut together, and share the vertices that this makes.
 const BATCH: usize = 1024;
@@ -121,40 +135,6 @@ pub fn edge_key(a: DVec3, b: DVec3) -> u64 {
     end(a).wrapping_add(end(b))
 }
 
-/// How an observer sees what rests in one frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Sight {
-    /// Which directions bend.
-    pub bend: Bend,
-    /// The observer, relative to the scene's origin.
-    pub place: DVec3,
-    /// From the axes in which apparent positions are to the observer's own.
-    pub observer_from_group: glam::DQuat,
-}
-
-impl Sight {
-    /// Of what rests in the world, or moves as said.
-    pub fn new(scene: &Scene, observer: &Observer, motion: Option<usize>) -> Self {
-        Self::of(scene.origin, &scene.motions, observer, motion)
-    }
-
-    /// The same by what of the scene counts.
-    pub fn of(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
-        let rest = |position: DVec3, celerity: Celerity, turn| Self {
-            bend: Bend::new(celerity),
-            place: position - origin,
-            observer_from_group: turn,
-        };
-        match motion.map(|motion| &motions[motion]) {
-            Some(Motion::Uniform(uniform)) => {
-                let seen = uniform.seen_by(observer);
-                rest(seen.position, seen.celerity, seen.observer_from_group)
-            }
-            _ => rest(observer.event.position, observer.celerity, glam::DQuat::IDENTITY),
-        }
-    }
-}
-
 /// Which edges are cut.
 struct Rule<'a> {
     sights: Vec<Sight>,
@@ -223,11 +203,14 @@ impl<'a> Rule<'a> {
     }
 
     /// The middle of an edge that is to be cut; the same from either end.
-    fn middle(&self, sight: &Sight, a: DVec3, b: DVec3) -> Option<DVec3> {
+    fn middle(&self, sight: &Sight, known: &Known, a: DVec3, b: DVec3) -> Option<DVec3> {
         let (middle, length) = (0.5 * a + 0.5 * b, a.distance(b));
         // Also where an end is nowhere, and where f64 has no place between.
         if !(length > SHORTEST_M && length.is_finite()) || middle == a || middle == b {
             return None;
+        }
+        if let Some(course) = &sight.course {
+            return self.is_cut(course, known, [a, b]).then_some(middle);
         }
         // Most edges are so small beside their distance that nothing more need be asked.
         let seen = middle - sight.place;
@@ -241,6 +224,18 @@ impl<'a> Rule<'a> {
         let allowed = self.frame.allowed(sight.observer_from_group * direction, radius_rad, &self.fineness);
         let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(a, b)));
         (error_rad > allowed || error_rad > 0.5 * allowed && stays()).then_some(middle)
+    }
+
+    /// Whether an edge of what is animated is to be cut.
+    fn is_cut(&self, course: &Course, known: &Known, ends: [DVec3; 2]) -> bool {
+        let seen = |place| known.seen(course, place);
+        let Some(chord) = Chord::of(seen, ends, self.frame.least_allowed(&self.fineness)) else { return false };
+        let allowed = self.frame.allowed(chord.direction, chord.radius_rad, &self.fineness);
+        let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;
+        let error =
+            if chord.length_rad > DOPPLER_LENGTH * allowed { chord.error_rad.max(doppler) } else { chord.error_rad };
+        let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(ends[0], ends[1])));
+        error > allowed || error > 0.5 * allowed && stays()
     }
 
     /// Cuts everything, unless that makes more triangles than `limit`.
@@ -270,6 +265,7 @@ impl<'a> Rule<'a> {
     fn cut_batch(&self, mesh: &Mesh, corners: &[u32], total: &AtomicUsize, limit: usize) -> Option<Batch> {
         let sight = self.sight(mesh);
         let mut batch = Batch::default();
+        let known = Known::default();
         let mut vertex_of_mesh = HashMap::<u32, u32>::new();
         // None: the edge is whole.
         let mut middles = HashMap::<(u32, u32), Option<u32>>::new();
@@ -284,7 +280,7 @@ impl<'a> Rule<'a> {
                 let midpoints = [(a, b), (b, c), (c, a)].map(|(a, b)| {
                     *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
                         let [from, to] = [a, b].map(|end| batch.mesh.vertices[end as usize]);
-                        let middle = self.middle(sight, from.place, to.place)?;
+                        let middle = self.middle(sight, &known, from.place, to.place)?;
                         batch.split.push(edge_key(from.place, to.place));
                         Some(batch.push(between(&from, &to, middle)))
                     })
@@ -306,6 +302,17 @@ impl<'a> Rule<'a> {
             }
         }
         Some(batch)
+    }
+}
+
+/// Places of an animated body of which it is known how they are seen.
+#[derive(Default)]
+struct Known(RefCell<HashMap<[u64; 3], Option<Seen>, Plain>>);
+
+impl Known {
+    fn seen(&self, course: &Course, place: DVec3) -> Option<Seen> {
+        let key = place.to_array().map(f64::to_bits);
+        *self.0.borrow_mut().entry(key).or_insert_with(|| course.seen(place))
     }
 }
 

@@ -1,0 +1,110 @@
+//! What moves, drawn over a bent map: a scene of its own, cut for every picture as finely as the map is drawn.
+
+use super::MapQuality;
+use crate::gpu::Gpu;
+use crate::renderers::Shot;
+use crate::renderers::certainty::Edges;
+use crate::renderers::polygon::{Adaptive, Pace, Tolerance};
+use crate::renderers::target::Format;
+use crate::renderers::world::{Draws, Mode, Part, World};
+use crate::scene::cut::Sight;
+use crate::scene::{Mesh, Scene};
+
+/// Texels by which anything may be drawn from its place: as many as the map is off.
+const TOLERANCE_TEXELS: f64 = 0.5;
+
+/// The moving part of a scene.
+pub struct Movers {
+    world: World,
+    adaptive: Adaptive,
+}
+
+impl Movers {
+    /// Of a scene, to be drawn over a map of this quality; `None` if nothing moves in it.
+    pub fn of(gpu: &Gpu, scene: &Scene, quality: MapQuality) -> Option<Self> {
+        let moving = moving_part(scene)?;
+        // Pictures that are kept take single texels, and wait for their cut; windows mix texels, and do not.
+        let pace = if quality.smooth { Pace::Ride } else { Pace::Still };
+        let tolerance = Tolerance { pixels: TOLERANCE_TEXELS / quality.texels_per_pixel, pace };
+        Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance) })
+    }
+
+    /// Cuts it for a picture, in the light that falls on it then.
+    pub fn cut(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
+        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
+        self.adaptive.cut(gpu, &mut self.world, shot, size);
+    }
+
+    /// Some edges of the newest cut.
+    pub fn edges(&self) -> Option<&Edges> {
+        self.adaptive.edges()
+    }
+
+    /// Gets ready to draw: the view of what rests, then that of each motion.
+    pub fn prepare(&mut self, gpu: &Gpu, views: &[shaders::View], mode: Mode, format: Format) {
+        self.world.prepare(gpu, mode, false, format);
+        self.world.write_views(gpu, views);
+    }
+
+    /// Draws it where it is not hidden. `sights`: how each motion is seen.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        shot: &Shot,
+        sights: &[Sight],
+        mode: Mode,
+        format: Format,
+    ) {
+        let streams = self.adaptive.streams();
+        if streams.is_none() {
+            return;
+        }
+        let draws = Draws { streams, bends: false, mode, format, eye: shot.eye.position(), moving: sights, sky: false };
+        self.world.draw(gpu, pass, &draws, &[Part::WHOLE]);
+    }
+}
+
+/// What moves, with the materials and textures that it has, under the same light; `None` if nothing does.
+fn moving_part(scene: &Scene) -> Option<Scene> {
+    let mut meshes: Vec<Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_some()).cloned().collect();
+    if meshes.is_empty() {
+        return None;
+    }
+    let mut used = Used::default();
+    meshes.iter_mut().for_each(|mesh| mesh.material = used.number(mesh.material));
+    let mut materials: Vec<_> = used.kept.iter().map(|&index| scene.materials[index].clone()).collect();
+    let mut used = Used::default();
+    for texture in materials.iter_mut().flat_map(|one| [&mut one.base_colour_texture, &mut one.emissive_texture]) {
+        *texture = texture.map(|index| used.number(index));
+    }
+    Some(Scene {
+        name: scene.name.clone(),
+        origin: scene.origin,
+        textures: used.kept.iter().map(|&index| scene.textures[index].clone()).collect(),
+        materials,
+        meshes,
+        motions: scene.motions.clone(),
+        // No shadow falls on what moves.
+        light: crate::scene::Lighting { shadows: false, ..scene.light },
+        illuminant: scene.illuminant.clone(),
+        white: Some(scene.white_luminance()),
+        ..Scene::default()
+    })
+}
+
+/// Which of many are used, in the order in which they came up.
+#[derive(Default)]
+struct Used {
+    kept: Vec<usize>,
+}
+
+impl Used {
+    /// The new number of what had this one.
+    fn number(&mut self, index: usize) -> usize {
+        self.kept.iter().position(|&kept| kept == index).unwrap_or_else(|| {
+            self.kept.push(index);
+            self.kept.len() - 1
+        })
+    }
+}

@@ -1,0 +1,254 @@
+//! Where a body is that keys move: a chain of transforms from the file's frame down to the body's own, and its derivative.
+//!
+//! A point p of the body is at x = M p at each moment of the world, and moves at β = M' p, with M' from the product rule along the chain. Both are
+//! exact functions of time, so that light's delay can be solved for to the last bits ([`super::Course`]).
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use physics::retarded::Worldline;
+
+use super::track::Track;
+
+/// Until a scene is told otherwise light is as fast as in ours, m/s.
+const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
+
+/// A body that keys move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Animated {
+    /// Of the last node of the chain, for messages.
+    pub name: String,
+    /// From the root down; the last one's own frame is the body's.
+    links: Vec<Link>,
+    pub(super) speed_of_light_m_s: f64,
+    /// All of the body, in its own frame.
+    pub(super) ball: Ball,
+}
+
+/// One transform of a chain.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Link {
+    /// It stands still.
+    Fixed(DAffine3),
+    /// It moves.
+    Keyed(Keyed),
+}
+
+/// A node that keys move: translation · rotation · scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keyed {
+    /// Metres.
+    pub translation: Track<DVec3>,
+    /// From the node's axes to its parent's.
+    pub rotation: Track<DQuat>,
+    /// Does not change.
+    pub scale: DVec3,
+}
+
+/// A ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ball {
+    /// Metres.
+    pub centre: DVec3,
+    /// Metres.
+    pub radius: f64,
+}
+
+/// Where a body is at one moment, and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// World metres from the body's.
+    pub world_from_body: DAffine3,
+    /// Its change per metre of light travel.
+    pub rate: DAffine3,
+}
+
+impl Pose {
+    /// World position of a point of the body.
+    pub fn position(&self, place: DVec3) -> DVec3 {
+        self.world_from_body.transform_point3(place)
+    }
+
+    /// v/c of a point of the body.
+    pub fn beta(&self, place: DVec3) -> DVec3 {
+        self.rate.transform_point3(place)
+    }
+
+    /// The body's axes in the world, orthogonal, each of length 1: without scale or shear, but mirrored where the body is.
+    pub fn axes(&self) -> DMat3 {
+        let DMat3 { x_axis, y_axis, z_axis } = self.world_from_body.matrix3;
+        let x = x_axis.normalize_or(DVec3::X);
+        let y = y_axis.reject_from_normalized(x).normalize_or(x.any_orthonormal_vector());
+        let z = x.cross(y);
+        DMat3::from_cols(x, y, if z.dot(z_axis) < 0.0 { -z } else { z })
+    }
+}
+
+impl Keyed {
+    /// The transform, and its change per second.
+    fn at(&self, time_s: f64) -> (DAffine3, DAffine3) {
+        let (translation, velocity) = self.translation.at(time_s);
+        let (rotation, turn) = self.rotation.at(time_s);
+        let rotation = DMat3::from_quat(rotation);
+        let scale = DMat3::from_diagonal(self.scale);
+        // [ω]×, column by column.
+        let spin = DMat3::from_cols(turn.cross(DVec3::X), turn.cross(DVec3::Y), turn.cross(DVec3::Z));
+        (
+            DAffine3 { matrix3: rotation * scale, translation },
+            DAffine3 { matrix3: rotation * spin * scale, translation: velocity },
+        )
+    }
+}
+
+impl Animated {
+    /// A body of this name at the end of a chain.
+    pub fn new(name: impl Into<String>, links: Vec<Link>) -> Self {
+        Self { name: name.into(), links, speed_of_light_m_s: SPEED_OF_LIGHT_M_S, ball: Ball::default() }
+    }
+
+    /// From the root down.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// All of the body in its own frame, as far as the scene has told.
+    pub fn ball(&self) -> Ball {
+        self.ball
+    }
+
+    /// Of the world it moves in, m/s.
+    pub fn speed_of_light_m_s(&self) -> f64 {
+        self.speed_of_light_m_s
+    }
+
+    /// Where it is at world time `ct`, metres of light travel.
+    ///
+    /// *Equation:* (A B)' = A' B + A B'.
+    pub fn at(&self, ct: f64) -> Pose {
+        let time_s = ct / self.speed_of_light_m_s;
+        let mut whole = DAffine3::IDENTITY;
+        let mut rate = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
+        for link in &self.links {
+            match link {
+                Link::Fixed(fixed) => {
+                    rate = changed(&rate, fixed);
+                    whole *= *fixed;
+                }
+                Link::Keyed(keyed) => {
+                    let (local, local_rate) = keyed.at(time_s);
+                    let (of_rest, of_link) = (changed(&rate, &local), whole.matrix3 * local_rate.translation);
+                    rate = DAffine3 {
+                        matrix3: of_rest.matrix3 + whole.matrix3 * local_rate.matrix3,
+                        translation: of_rest.translation + of_link,
+                    };
+                    whole *= local;
+                }
+            }
+        }
+        let per_metre = 1.0 / self.speed_of_light_m_s;
+        let rate = DAffine3 { matrix3: rate.matrix3 * per_metre, translation: rate.translation * per_metre };
+        Pose { world_from_body: whole, rate }
+    }
+
+    /// The worldline of a point of the body.
+    pub fn point(&self, place: DVec3) -> impl Worldline + use<'_> {
+        Point { animated: self, place }
+    }
+
+    /// By how much a length of the body may be longer in the world, at most.
+    pub fn stretch(&self) -> f64 {
+        let of_link = |link: &Link| match link {
+            Link::Fixed(fixed) => stretch(fixed.matrix3),
+            Link::Keyed(keyed) => keyed.scale.abs().max_element(),
+        };
+        self.links.iter().map(of_link).product()
+    }
+
+    /// A ball of the world that a ball of the body never leaves.
+    pub fn reach(&self, ball: Ball) -> Ball {
+        self.links.iter().rev().fold(ball, |ball, link| match link {
+            Link::Fixed(fixed) => {
+                Ball { centre: fixed.transform_point3(ball.centre), radius: stretch(fixed.matrix3) * ball.radius }
+            }
+            Link::Keyed(keyed) => {
+                let [least, most] = keyed.translation.bounds();
+                let out = (keyed.scale * ball.centre).length() + keyed.scale.abs().max_element() * ball.radius;
+                Ball { centre: 0.5 * (least + most), radius: 0.5 * least.distance(most) + out }
+            }
+        })
+    }
+}
+
+/// The part of a product's rate that is its first factor's.
+fn changed(rate: &DAffine3, second: &DAffine3) -> DAffine3 {
+    DAffine3 {
+        matrix3: rate.matrix3 * second.matrix3,
+        translation: rate.matrix3 * second.translation + rate.translation,
+    }
+}
+
+/// By how much a matrix may lengthen a vector at most: ‖A‖² is at most the largest sum of a column of |Aᵀ A|. 1 for a rotation.
+fn stretch(matrix: DMat3) -> f64 {
+    let square = matrix.transpose() * matrix;
+    [square.x_axis, square.y_axis, square.z_axis]
+        .map(|column| column.abs().element_sum())
+        .into_iter()
+        .fold(0.0, f64::max)
+        .sqrt()
+}
+
+struct Point<'a> {
+    animated: &'a Animated,
+    place: DVec3,
+}
+
+impl Worldline for Point<'_> {
+    fn at(&self, ct: f64) -> (DVec3, DVec3) {
+        let pose = self.animated.at(ct);
+        (pose.position(self.place), pose.beta(self.place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A pose's rate is its derivative, through scaled and turned links. A product rule the wrong way round shows against differences.
+
+    use super::super::track::Keys;
+    use super::*;
+
+    #[test]
+    fn a_rate_is_the_derivative_of_the_pose() {
+        let turn = Keys::slerp(vec![0.0, 1.0], vec![DQuat::IDENTITY, DQuat::from_rotation_z(2.0)]).unwrap();
+        let way = Keys::linear(vec![-1.0, 2.0], vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)]).unwrap();
+        let spin = Keys::slerp(vec![0.0, 2.0], vec![DQuat::IDENTITY, DQuat::from_rotation_x(-1.0)]).unwrap();
+        let fixed = DAffine3::from_scale_rotation_translation(
+            DVec3::new(1.0, -2.0, 0.5),
+            DQuat::from_rotation_y(0.4),
+            DVec3::new(3.0, 0.0, 1.0),
+        );
+        let keyed =
+            |translation, rotation| Link::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
+        let mut body = Animated::new(
+            "body",
+            vec![
+                Link::Fixed(fixed),
+                keyed(Track::Keyed(way), Track::Keyed(turn)),
+                Link::Fixed(fixed),
+                keyed(Track::Fixed(DVec3::Y), Track::Keyed(spin)),
+            ],
+        );
+        body.speed_of_light_m_s = 4.0;
+        let ball = Ball { centre: DVec3::new(0.1, 0.2, 0.3), radius: 0.7 };
+        let reach = body.reach(ball);
+        for place in [DVec3::ZERO, DVec3::new(0.1, 0.2, 1.0), DVec3::new(-0.6, 0.2, 0.3)] {
+            for ct in [0.5, 1.0, 2.3, 3.7] {
+                let [before, after] = [-1e-6, 1e-6].map(|step| body.at(ct + step).position(place));
+                let (position, beta) = (body.at(ct).position(place), body.at(ct).beta(place));
+                assert!(beta.distance((after - before) / 2e-6) < 1e-8, "{beta} at {ct}");
+                assert!(position.distance(reach.centre) <= reach.radius);
+            }
+        }
+        // Axes are orthogonal, and mirrored as the chain is.
+        let axes = body.at(1.0).axes();
+        assert!(((axes.transpose() * axes) - DMat3::IDENTITY).to_cols_array().iter().all(|value| value.abs() < 1e-14));
+        assert!((axes.determinant() - body.at(1.0).world_from_body.matrix3.determinant().signum()).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,159 @@
+//! Nothing is faster than light: how fast animated bodies are at most.
+//!
+//! Speeds are looked at between all keys of a chain, for the body's outermost points: |M' p| is convex in p, so no point within is faster.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::animated::{Animated, Ball, Link};
+use super::{Motion, Uniform};
+use crate::scene::Scene;
+
+/// Looks between two keys.
+const LOOKS: usize = 16;
+
+/// The most looks at a chain.
+const MOST_LOOKS: usize = 200_000;
+
+/// Directions in which a body's outermost points are looked for.
+const DIRECTIONS: usize = 200;
+
+/// Where something is fastest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fastest {
+    /// |v|/c.
+    pub beta: f64,
+    /// Seconds of the world's clock.
+    pub time_s: f64,
+}
+
+/// An animation that cannot be.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error(
+    "{name} moves at {speed_m_s:.6} m/s at {time_s:.6} s of its animation, and light at {speed_of_light_m_s:.6} m/s: \
+     slow the animation down, or raise --speed-of-light"
+)]
+pub struct TooFast {
+    /// Which node.
+    pub name: String,
+    /// How fast.
+    pub speed_m_s: f64,
+    /// When.
+    pub time_s: f64,
+    /// Of the world, m/s.
+    pub speed_of_light_m_s: f64,
+}
+
+impl Scene {
+    /// Says how fast light is, in m/s: seconds of animations become times of the world, and nothing may be faster.
+    ///
+    /// # Errors
+    /// [`TooFast`]: which node is, when, and how fast.
+    pub fn set_speed_of_light(&mut self, speed_of_light_m_s: f64) -> Result<(), TooFast> {
+        for number in 0..self.motions.len() {
+            let places = self.outermost(number);
+            let Motion::Animated(animated) = &mut self.motions[number] else { continue };
+            let animated = Arc::make_mut(animated);
+            animated.speed_of_light_m_s = speed_of_light_m_s;
+            animated.ball = around(&places);
+            let Fastest { beta, time_s } = animated.fastest(&places);
+            // A speed that is no number is refused as well.
+            if beta >= 1.0 || beta.is_nan() {
+                let (name, speed_m_s) = (animated.name.clone(), beta * speed_of_light_m_s);
+                return Err(TooFast { name, speed_m_s, time_s, speed_of_light_m_s });
+            }
+        }
+        Ok(())
+    }
+
+    /// How fast each of its motions is at most.
+    pub fn fastest(&self, motion: usize) -> Fastest {
+        match &self.motions[motion] {
+            Motion::Uniform(Uniform { celerity, anchor: _ }) => {
+                Fastest { beta: celerity.beta().vector().length(), time_s: 0.0 }
+            }
+            Motion::Animated(animated) => animated.fastest(&self.outermost(motion)),
+        }
+    }
+
+    /// The outermost vertices of what moves so, in its own frame.
+    fn outermost(&self, motion: usize) -> Vec<DVec3> {
+        let meshes = self.meshes.iter().filter(|mesh| mesh.motion == Some(motion));
+        let places: Vec<DVec3> = meshes
+            .flat_map(|mesh| mesh.positions.iter().filter(|place| place.is_finite()).map(|place| place.as_dvec3()))
+            .collect();
+        if places.len() <= DIRECTIONS {
+            return places;
+        }
+        // Fibonacci's spiral: even over the sphere.
+        let furthest = |number: usize| {
+            let z = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTIONS as f64;
+            let (sine, cosine) = (number as f64 * 2.399_963_229_728_653).sin_cos();
+            let direction = DVec3::new(cosine, sine, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z;
+            places.iter().copied().max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
+        };
+        (0..DIRECTIONS).filter_map(furthest).collect()
+    }
+}
+
+impl Animated {
+    /// Where the fastest of some points is fastest.
+    fn fastest(&self, places: &[DVec3]) -> Fastest {
+        let mut fastest = Fastest::default();
+        for time_s in self.looks() {
+            let pose = self.at(time_s * self.speed_of_light_m_s);
+            for place in places {
+                let beta = pose.beta(*place).length();
+                if beta > fastest.beta || beta.is_nan() {
+                    fastest = Fastest { beta, time_s };
+                }
+            }
+        }
+        fastest
+    }
+
+    /// Seconds at which it is looked at: between all keys, as often as the slowest part needs to come round.
+    fn looks(&self) -> Vec<f64> {
+        let keyed = || {
+            self.links().iter().filter_map(|link| match link {
+                Link::Fixed(_) => None,
+                Link::Keyed(keyed) => Some(keyed),
+            })
+        };
+        let tracks = keyed().flat_map(|keyed| {
+            let of_translation = keyed.translation.keys().map(|keys| (keys.times_s(), keys.period_s()));
+            let of_rotation = keyed.rotation.keys().map(|keys| (keys.times_s(), keys.period_s()));
+            [of_translation, of_rotation].into_iter().flatten()
+        });
+        let tracks: Vec<(&[f64], Option<f64>)> = tracks.collect();
+        let ends = tracks.iter().flat_map(|(times, _)| [times[0], times[times.len() - 1]]);
+        let (from, to) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let mut keys: Vec<f64> = Vec::new();
+        for (times, period) in tracks {
+            let turns = period.map_or(1.0, |period| ((to - from) / period).ceil().clamp(1.0, 64.0));
+            for turn in 0..turns as usize {
+                keys.extend(times.iter().map(|time| time + turn as f64 * period.unwrap_or(0.0)));
+            }
+        }
+        keys.sort_by(f64::total_cmp);
+        keys.dedup();
+        let looks = (MOST_LOOKS / keys.len().max(1)).clamp(1, LOOKS);
+        let between = keys.windows(2).flat_map(|pair| {
+            let [a, b] = [pair[0], pair[1]];
+            (0..looks).map(move |look| a + (b - a) * (look as f64 + 0.5) / looks as f64)
+        });
+        // Just after each key too, where the speed is that of what follows.
+        between.chain(keys.iter().copied()).collect()
+    }
+}
+
+fn around(places: &[DVec3]) -> Ball {
+    let bounds = places.iter().fold(None, |bounds: Option<[DVec3; 2]>, &place| {
+        Some(bounds.map_or([place; 2], |[least, most]| [least.min(place), most.max(place)]))
+    });
+    let Some([least, most]) = bounds else { return Ball::default() };
+    let centre = 0.5 * (least + most);
+    Ball { centre, radius: places.iter().map(|place| place.distance(centre)).fold(0.0, f64::max) }
+}

@@ -1,0 +1,164 @@
+//! Law: what a file's animations say is where its nodes are at each second of the world, under whatever hangs above them; what cannot be is refused
+//! in a sentence, and what is not shown is named.
+//!
+//! A wrong program shows: nodes that stand still, keys read in the wrong order, a child that forgets its parents, an animation that jumps back
+//! where it should go on, or a body faster than light.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+mod scene_file;
+
+use glam::{DQuat, DVec3};
+use rapidity::command::SceneChoice;
+use rapidity::scene::Scene;
+use rapidity::scene::check::Report;
+use rapidity::scene::motion::{Animated, Motion};
+use rapidity::scene::source;
+use scene_file::File;
+use serde_json::{Value, json};
+
+/// Metres a second: slower than light for all that moves here.
+const SPEED_OF_LIGHT: f64 = 20.0;
+
+/// Keys are f32.
+const ROUNDED: f64 = 1e-6;
+
+fn scalars(file: &mut File, values: &[f32]) -> usize {
+    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    file.accessor(&bytes, 5126, "SCALAR", values.len())
+}
+
+/// One more animation, of one channel.
+fn animate(file: &mut File, node: usize, path: &str, interpolation: &str, times: &[f32], values: &[f32]) {
+    let input = scalars(file, times);
+    let output = file.floats(if path == "rotation" { "VEC4" } else { "VEC3" }, values);
+    let animation = json!({
+        "channels": [{ "sampler": 0, "target": { "node": node, "path": path } }],
+        "samplers": [{ "input": input, "output": output, "interpolation": interpolation }],
+    });
+    match file.json.get_mut("animations") {
+        Some(Value::Array(animations)) => animations.push(animation),
+        _ => file.json["animations"] = json!([animation]),
+    }
+}
+
+/// A carousel: root 0 stands and is twice as large, 1 turns on it, 2 is moved on 1, 3 bears the triangle.
+fn carousel() -> File {
+    let mut file = File::triangle();
+    file.json["scenes"][0]["nodes"] = json!([0]);
+    file.json["nodes"] = json!([
+        { "children": [1], "translation": [10, 0, 0], "scale": [2, 2, 2] },
+        { "name": "carousel", "children": [2], "translation": [0, 1, 0] },
+        { "name": "horse", "children": [3] },
+        { "mesh": 0, "translation": [0, 0, 3] },
+    ]);
+    let quarters: Vec<f32> = (0..=4)
+        .flat_map(|quarter| DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2 * f64::from(quarter)).to_array())
+        .map(|value| value as f32)
+        .collect();
+    animate(&mut file, 1, "rotation", "LINEAR", &[0.0, 1.0, 2.0, 3.0, 4.0], &quarters);
+    file
+}
+
+fn read(file: &File, speed_of_light: f64) -> Result<Scene, String> {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("scene.glb");
+    std::fs::write(&path, file.glb()).unwrap();
+    source::load(&SceneChoice::File(path), speed_of_light).map_err(|error| error.to_string())
+}
+
+fn animated(scene: &Scene) -> &Animated {
+    let motion = scene.meshes[0].motion.unwrap();
+    let Motion::Animated(animated) = &scene.motions[motion] else { unreachable!("it is animated") };
+    animated
+}
+
+/// World place of the triangle's first corner, seconds after the world began.
+fn corner(scene: &Scene, time_s: f64) -> DVec3 {
+    let pose = animated(scene).at(time_s * SPEED_OF_LIGHT);
+    pose.position(scene.meshes[0].positions[0].as_dvec3())
+}
+
+#[test]
+fn a_carousel_turns_for_ever_under_its_parents() {
+    let scene = read(&carousel(), SPEED_OF_LIGHT).unwrap();
+    assert!(scene.notices.is_empty(), "{:?}", scene.notices);
+    assert!(!scene.meshes[0].solid);
+    for time in [-3.3_f64, 0.0, 0.4, 2.5, 3.9, 4.0, 103.7] {
+        let (sine, cosine) = (std::f64::consts::FRAC_PI_2 * time).sin_cos();
+        let expected = DVec3::new(10.0, 2.0, 0.0) + 6.0 * DVec3::new(sine, 0.0, cosine);
+        let found = corner(&scene, time);
+        assert!(found.distance(expected) < 10.0 * ROUNDED, "{found} {expected} at {time} s");
+    }
+    // It passes 6 m from the axis, its furthest corner further.
+    let report = Report::new(&scene).unwrap();
+    assert!(report.moving[0].contains("\"carousel\"") && report.moving[0].contains("11.327"), "{:?}", report.moving);
+    assert!(report.to_string().contains("moves       \"carousel\""));
+}
+
+#[test]
+fn a_chain_of_two_moves_as_both_say() {
+    let mut file = carousel();
+    // In half a second into the third dimension and back: cubic, at rest at its keys.
+    let up = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    animate(&mut file, 2, "translation", "CUBICSPLINE", &[0.0, 2.0], &up);
+    let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+    assert_eq!(animated(&scene).name, "horse");
+    // Half way the cubic is half way up; it stays at its end, since it does not end as it began.
+    for (time, height) in [(-1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (50.0, 1.0)] {
+        let (sine, cosine) = (std::f64::consts::FRAC_PI_2 * time).sin_cos();
+        let expected = DVec3::new(10.0, 2.0 + 2.0 * height, 0.0) + 6.0 * DVec3::new(sine, 0.0, cosine);
+        let found = corner(&scene, time);
+        assert!(found.distance(expected) < 10.0 * ROUNDED, "{found} {expected} at {time} s");
+    }
+}
+
+#[test]
+fn what_would_be_faster_than_light_is_refused() {
+    let said = read(&carousel(), 9.0).unwrap_err();
+    assert!(said.contains("scene.glb: carousel moves at 11.327"), "{said}");
+    assert!(said.contains("s of its animation, and light at 9.000000 m/s"), "{said}");
+    assert!(said.contains("slow the animation down, or raise --speed-of-light"), "{said}");
+    // By less than one part of a thousand faster it may.
+    assert!(read(&carousel(), 11.33).is_ok());
+}
+
+#[test]
+fn what_is_not_shown_stands_still_and_is_named() {
+    let mut file = carousel();
+    animate(&mut file, 2, "translation", "STEP", &[0.0, 1.0], &[0.0, 0.0, 0.0, 5.0, 0.0, 0.0]);
+    animate(&mut file, 3, "scale", "LINEAR", &[0.0, 1.0], &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
+    animate(&mut file, 1, "rotation", "LINEAR", &[0.0], &[0.0, 0.0, 0.0, 1.0]);
+    let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+    let said = scene.notices.join("\n");
+    assert!(
+        said.contains("animations[1].channels[0] stands still: it jumps (STEP), which is faster than light"),
+        "{said}"
+    );
+    assert!(said.contains("animations[2].channels[0] stands still: it changes a scale"), "{said}");
+    assert!(said.contains("nodes[1] is moved by two animations, of which the first is shown"), "{said}");
+    let turned = corner(&scene, 1.0);
+    assert!(turned.distance(DVec3::new(16.0, 2.0, 0.0)) < 10.0 * ROUNDED, "{turned}");
+
+    let mut file = carousel();
+    file.json["nodes"][0]["extras"] = json!({ "celerity": [0.1, 0, 0] });
+    let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+    assert!(matches!(scene.motions[0], Motion::Uniform(_)));
+    assert!(scene.notices.join("\n").contains("its animation stands still"), "{:?}", scene.notices);
+}
+
+#[test]
+fn damaged_keys_are_errors() {
+    let fault = |change: fn(&mut File)| {
+        let mut file = carousel();
+        change(&mut file);
+        read(&file, SPEED_OF_LIGHT).unwrap_err()
+    };
+    let said = fault(|file| animate(file, 2, "translation", "LINEAR", &[0.0, 0.0], &[0.0; 6]));
+    assert!(said.contains("animations[1].channels[0]") && said.contains("do not ascend at key 1"), "{said}");
+    let said = fault(|file| animate(file, 2, "translation", "CUBICSPLINE", &[0.0, 1.0], &[0.0; 6]));
+    assert!(said.contains("it has 2 times and 0 values"), "{said}");
+    let said = fault(|file| animate(file, 2, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
+    assert!(said.contains("key 0 is no rotation"), "{said}");
+    let said = fault(|file| animate(file, 9, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
+    assert!(said.contains("animations[1].channels[0].target.node"), "{said}");
+}

@@ -1,0 +1,90 @@
+//! Law: the light of a part of a picture is the mean of what rays see there. A ray takes a texture at full size, at one place; drawn pictures ask for
+//! the mean over a pixel or a texel, ready-made. Over blocks of pixels, each with hundreds of rays, both must come to the same.
+//!
+//! A wrong program shows: textures averaged as sRGB numbers, darker everywhere; shifted or mirrored, other blocks altogether; looked up in copies
+//! too small, blocks that mix with their neighbours, however large.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use glam::{DVec3, Vec3};
+use image::Rgb32FImage;
+use rapidity::renderers::image::MapQuality;
+use rapidity::renderers::polygon::{Pace, Tolerance};
+use rapidity::renderers::{Effects, Method};
+use rapidity::scene::town;
+use system_tests::bodies::celerity;
+use system_tests::photographer::{By, Photographer};
+use system_tests::view::View;
+
+/// Four times as wide and high as the pictures of the other tests, with a ray a pixel: in them a block is four pixels wide, with 256 rays.
+const SIZE: [u32; 2] = [768, 512];
+const BLOCK: u32 = 16;
+
+/// Of half of the blocks, and of 99 of 100, relative to the brighter one's largest channel.
+///
+/// A copy of a texture is as small as the pixel is long, not as it is wide (a software driver is not asked for more looks): on the pavement and on
+/// walls seen at a slant a pixel takes in some of its neighbours. A block of one colour beside one of another then has a seam some
+/// pixels wide, a tenth of its area. The map is finer than the picture, and the seam narrower.
+const POLYGON: [f64; 2] = [0.012, 0.16];
+const IMAGE: [f64; 2] = [0.008, 0.09];
+
+/// What is left of the error of 99 of 100 blocks if they are twice as wide: half, were it seams alone.
+const LEFT: f64 = 0.7;
+
+/// Of the whole picture: no light is lost or won.
+const WHOLE: f64 = 0.006;
+
+/// Means of blocks of pixels.
+fn blocks(light: &Rgb32FImage, side: u32) -> Vec<DVec3> {
+    let pixel = |column, row| Vec3::from_array(light.get_pixel(column, row).0).as_dvec3();
+    let mean = |[column, row]: [u32; 2]| {
+        let inside = (0..side).flat_map(|down| (0..side).map(move |right| (right, down)));
+        let sum: DVec3 = inside.map(|(right, down)| pixel(side * column + right, side * row + down)).sum();
+        sum / f64::from(side * side)
+    };
+    let [columns, rows] = SIZE.map(|pixels| pixels / side);
+    (0..rows).flat_map(|row| (0..columns).map(move |column| mean([column, row]))).collect()
+}
+
+/// Differences of blocks, sorted.
+fn differences(drawn: &Rgb32FImage, traced: &Rgb32FImage, side: u32) -> Vec<f64> {
+    let (drawn, traced) = (blocks(drawn, side), blocks(traced, side));
+    let difference = |(a, b): (&DVec3, &DVec3)| (*a - *b).abs().max_element() / a.max(*b).max_element();
+    let mut differences: Vec<f64> = drawn.iter().zip(&traced).map(difference).collect();
+    differences.sort_by(f64::total_cmp);
+    differences
+}
+
+#[test]
+fn the_town_in_its_own_textures_is_what_many_rays_see() {
+    let mut scene = town::build(1);
+    // Their edges are a map's, and soft: `raytrace.rs` knows them.
+    scene.light.shadows = false;
+    let eye = scene.start.position + DVec3::Y * 1.6;
+    let look = scene.start.look;
+    let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let mut tracer = Photographer::by(&scene, SIZE, 1, None, By::Rays);
+    let motions = [0.0, 0.9].map(|beta| celerity(look.normalize() * beta));
+    let traced = motions.map(|motion| tracer.light(&view, eye, motion, Effects::ALL));
+
+    let adaptive = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
+    let map = Method::Image(MapQuality { texels_per_pixel: 3.0, smooth: false });
+    for (method, [half, most]) in [(adaptive, POLYGON), (map, IMAGE)] {
+        let mut photographer = Photographer::with(&scene, SIZE, 1, None, method);
+        for (motion, traced) in motions.iter().zip(&traced) {
+            let drawn = photographer.light(&view, eye, *motion, Effects::ALL);
+            let quantile = |sorted: &[f64], share: f64| sorted[(sorted.len() as f64 * share) as usize];
+            let [small, large] = [BLOCK, 2 * BLOCK].map(|side| differences(&drawn, traced, side));
+            let [usual, of_99, of_large] = [quantile(&small, 0.5), quantile(&small, 0.99), quantile(&large, 0.99)];
+            let sum = |light| blocks(light, BLOCK).iter().sum::<DVec3>();
+            let whole = (sum(&drawn) / sum(traced) - 1.0).abs().max_element();
+            let what = format!(
+                "{method:?} at γ = {:.2}: half of the blocks within {usual:.4}, 99 % within {of_99:.4}, of larger ones {of_large:.4}; \
+                 all together {whole:.4}",
+                motion.gamma()
+            );
+            println!("{what}");
+            assert!(usual <= half && of_99 <= most, "{what}");
+            assert!(of_large <= LEFT * of_99 && whole <= WHOLE, "{what}");
+        }
+    }
+}
