@@ -31,6 +31,9 @@ use crate::scene::Scene;
 /// Samples of each pixel whose light is compared.
 pub const SAMPLES: u32 = 4;
 
+/// Whoever has taken so long at a pose is not timed there again, milliseconds: what is slow is so in one round as well.
+const LONG_MS: f64 = 1500.0;
+
 /// Frames of a ride that are drawn in one go.
 const FRAMES: u32 = 4;
 
@@ -109,6 +112,8 @@ struct Candidate {
     bytes: Option<(i64, i64)>,
     /// Frames drawn at this pose.
     frames: u32,
+    /// How much of times, directions and comparisons is of the poses before.
+    before: [usize; 3],
 }
 
 /// Measures these settings. Once `stop` is set, what was measured until then is returned.
@@ -139,7 +144,8 @@ pub fn measure(
         }
     }
     let bar = progress::bar("measuring", (shots.len() * candidates.len()) as u64);
-    for shot in shots {
+    for (poses, shot) in shots.iter().enumerate() {
+        candidates.iter_mut().for_each(Candidate::begin_pose);
         let reference = tracer.map(|tracer| Reference::trace(tracer, shot, size, SAMPLES, stop));
         // The first pictures compile pipelines and warm caches: they are the ones that are compared.
         for candidate in &mut candidates {
@@ -161,7 +167,10 @@ pub fn measure(
             candidate.hold(before, clock::device_bytes(gpu)?);
         }
         for _ in 0..measurement.rounds {
-            for candidate in candidates.iter_mut().filter(|_| !stop.load(Ordering::Relaxed)) {
+            for candidate in candidates.iter_mut().filter(|candidate| candidate.is_quick()) {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
                 let pictures = if kind == Kind::Stills { 1 } else { FRAMES };
                 for _ in 0..pictures {
                     let stages = candidate.picture(gpu, &radiance, shot, kind)?;
@@ -177,9 +186,15 @@ pub fn measure(
             }
             bar.inc(1);
         }
+        if stop.load(Ordering::Relaxed) {
+            // Settings are compared at the same poses, if there is one that all have been at.
+            candidates.iter_mut().filter(|_| poses > 0).for_each(Candidate::forget_pose);
+            break;
+        }
     }
     bar.finish_and_clear();
-    let measured = candidates.into_iter().filter(|candidate| !candidate.times.is_empty());
+    let measured =
+        candidates.into_iter().filter(|candidate| !candidate.times.is_empty() && !candidate.directions.is_empty());
     let mut rows: Vec<Row> = measured.map(Candidate::row).collect();
     mark_best(&mut rows);
     Ok(rows)
@@ -201,10 +216,29 @@ fn ready(measurement: &Measurement<'_>, setting: Setting, format: Format) -> Res
         compared: Vec::new(),
         bytes,
         frames: 0,
+        before: [0; 3],
     })
 }
 
 impl Candidate {
+    /// What comes now is of another pose.
+    fn begin_pose(&mut self) {
+        self.before = [self.times.len(), self.directions.len(), self.compared.len()];
+    }
+
+    /// Leaves out what was measured of this pose.
+    fn forget_pose(&mut self) {
+        let [times, directions, compared] = self.before;
+        self.times.truncate(times);
+        self.directions.truncate(directions);
+        self.compared.truncate(compared);
+    }
+
+    /// Whether there is time to time it at this pose once more.
+    fn is_quick(&self) -> bool {
+        self.times[self.before[0]..].iter().map(|stages| stages.total()).sum::<f64>() < LONG_MS
+    }
+
     /// One more picture of a pose; in a ride, of the pose that it has come to.
     fn picture(&mut self, gpu: &Gpu, radiance: &Radiance, shot: &Shot, kind: Kind) -> Result<Stages, Error> {
         match kind {

@@ -1,6 +1,6 @@
 //! The dial `--samples`: what taking few samples of each pixel costs, beside rays through very many places of it.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::clock;
 use super::dials::Setting;
@@ -21,17 +21,16 @@ const MANY: u32 = 64;
 /// How finely triangles are cut, so that what is left is of the samples.
 const FINE: Setting = Setting::Tolerance(0.25);
 
-/// Measures it at the pose in the middle of the path.
+/// Measures it at the pose in the middle of the path. Once `stop` is set, what was measured until then is returned.
 ///
 /// # Errors
 /// A lost device.
 pub fn measure(
     measurement: &Measurement<'_>,
     tracer: &RayTracer,
-    rounds: u32,
     stop: &AtomicBool,
 ) -> Result<(String, Vec<Line>), Error> {
-    let Measurement { gpu, scene, shots, size, .. } = *measurement;
+    let Measurement { gpu, scene, shots, size, rounds, .. } = *measurement;
     let shot = &shots[shots.len() / 2];
     let reference = Reference::trace(tracer, shot, size, MANY, stop);
     let choice = FINE.choose(scene.clone(), Pace::Still)?;
@@ -40,6 +39,10 @@ pub fn measure(
     let mut table = Markdown::new(&["samples a pixel", "", "ms", "ΔE2000", "99 %", "most", "FLIP"]);
     let mut lines = Vec::new();
     for count in COUNTS {
+        // A reference that was interrupted is none.
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
         clock::submit(gpu, &mut renderer, shot)?;
         let light = Studio::new(gpu, size, count).expose(gpu, &mut renderer, shot)?;
         let compared = reference.compare(&light);

@@ -67,19 +67,20 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     print!("{}", table::of_pictures(&rows));
     let mut lines: Vec<Line> = rows.iter().map(Line::from).collect();
     if let Some(tracer) = &tracer {
+        let mut add = |(text, of_dial): (String, Vec<Line>)| {
+            if !of_dial.is_empty() {
+                print!("\n{text}");
+                lines.extend(of_dial);
+            }
+        };
         // Before each, as whoever interrupts wants the end.
-        let mut others: Vec<(String, Vec<Line>)> = Vec::new();
         if !stop.load(Ordering::Relaxed) {
-            others.push(samples::measure(&measurement, tracer, options.rounds, &stop)?);
+            add(samples::measure(&measurement, tracer, &stop)?);
         }
         for measure in [shift_table::measure, steps::measure, precision::measure] {
             if !stop.load(Ordering::Relaxed) {
-                others.push(measure(&views)?);
+                add(measure(&views)?);
             }
-        }
-        for (text, of_dial) in others {
-            print!("\n{text}");
-            lines.extend(of_dial);
         }
     }
     if stop.load(Ordering::Relaxed) {
