@@ -78,7 +78,9 @@ fn a_tolerance_is_kept_and_written_down() {
     assert!(number("image --map-scale 8", "bytes") > number("image --map-scale 0.9", "bytes") + 1e5);
 
     let table = String::from_utf8(output.stdout).unwrap();
-    for (dial, settings) in [("edge", 3), ("tolerance", 5), ("map-scale", 3), ("samples", 3), ("shift-table", 6)] {
+    for (dial, settings) in
+        [("edge", 3), ("transform", 2), ("tolerance", 5), ("map-scale", 3), ("samples", 3), ("shift-table", 6)]
+    {
         let of_dial = csv.of_dial(dial);
         assert!(of_dial.len() == settings && of_dial.iter().all(|setting| table.contains(setting)), "{dial}: {table}");
     }
@@ -105,9 +107,10 @@ fn rides_are_drawn_by_what_was_chosen_until_told_otherwise() {
     assert!(told(&output).contains(file.to_str().unwrap()) && text.contains("--budget 100000ms"), "{text}");
     let csv = Csv::read(&csv);
     let error = |setting: &&str| csv.number(setting, "arcmin_99");
-    let settings = ["edge", "tolerance", "map-scale"].map(|dial| csv.of_dial(dial)).concat();
-    let closest = settings.iter().copied().min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
-    assert!(told(&output).contains(&format!("{closest} is best")), "{closest}: {}", told(&output));
+    let settings = ["edge", "transform", "tolerance", "map-scale"].map(|dial| csv.of_dial(dial)).concat();
+    let least = settings.iter().map(error).min_by(f64::total_cmp).unwrap();
+    let closest = settings.iter().find(|setting| told(&output).contains(&format!("{setting} is best"))).unwrap();
+    assert_eq!(error(closest), least, "{closest}: {}", told(&output));
 
     // A ride says that it reads it, and from where; any option on how to draw leaves it out.
     let output = ride(&[]);
@@ -115,8 +118,15 @@ fn rides_are_drawn_by_what_was_chosen_until_told_otherwise() {
     assert!(told(&output).contains(&format!("{}: drawn with {closest}", file.display())), "{}", told(&output));
     assert!(!told(&ride(&["--renderer", "auto"])).contains("rapidity.toml"));
 
-    std::fs::write(&file, "[ride]\nrenderer = \"polygon\"\nedge = 0.3\n").unwrap();
-    assert!(told(&ride(&[])).contains("--renderer polygon --edge 0.3"));
+    for (said, text) in [
+        ("--renderer polygon --edge 0.3,", "[ride]\nrenderer = \"polygon\"\nedge = 0.3\n"),
+        ("--edge 0.3 --transform gpu,", "[ride]\nrenderer = \"polygon\"\nedge = 0.3\ntransform = \"gpu\"\n"),
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let output = ride(&[]);
+        assert!(output.status.success() && told(&output).contains(said), "{said}: {}", told(&output));
+    }
+    assert!(!told(&ride(&["--transform", "cpu"])).contains("rapidity.toml"));
     for (broken, said) in [("[ride]\nrender = 1", "line 2"), ("[ride]\nrenderer = \"auto\"\nedge = 0.0", "edge is 0")] {
         std::fs::write(&file, broken).unwrap();
         let output = ride(&[]);
@@ -151,6 +161,7 @@ fn what_cannot_be_measured_is_refused_before_anything_is() {
         (["--budget", "infs"], "as in 16.7ms"),
         (["--tolerance", "1"], "as in 1px"),
         (["--tolerance", "0px"], "as in 1px"),
+        (["--speed-of-light", "30"], "km/h"),
         (["--replay", "ride.txt"], ".mcap"),
         (["--replay", "nowhere.mcap"], "nowhere.mcap"),
     ] {
