@@ -89,6 +89,9 @@ pub enum Error {
     /// A ride too long to be recorded from its beginning.
     #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
     NotRemembered,
+    /// Ctrl-C before there was anything to keep.
+    #[error("interrupted before anything was traced, so nothing was written")]
+    Interrupted,
     /// No window.
     #[error("no window could be opened ({0}); to film the ride instead, name a file with --out")]
     Window(String),
@@ -96,7 +99,7 @@ pub enum Error {
     #[error("the output cannot be written: {0}")]
     Output(#[from] std::io::Error),
     /// A file that would not be written.
-    #[error("{}: could not be written: {reason}; choose another place with --out", path.display())]
+    #[error("{}: could not be written: {reason}; choose another place", path.display())]
     Write {
         /// What was to be written.
         path: PathBuf,

@@ -14,7 +14,6 @@ use crate::renderers::polygon::Pace;
 use crate::ride::{first_actions, prepared, present, recorded};
 use crate::scene::{Scene, source};
 use crate::simulation::{Frame, ReplayError, Replayed, Simulation, Tour};
-use crate::vehicle::World;
 use input::{Key, Nanos, SECOND, Sample, VehicleKind};
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -37,8 +36,9 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let seconds = options.seconds.unwrap_or(SECONDS);
     let (scene, moments) = match &options.replay {
         Some(recording) => {
-            let ridden = reel(recording, &options.world.scene, f64::from(FRAMES_PER_SECOND), options.seconds)?;
-            (ridden.scene, ridden.moments)
+            let rate = f64::from(FRAMES_PER_SECOND);
+            let (scene, _, moments) = reel(recording, &options.world.scene, rate, options.seconds)?;
+            (scene, moments)
         }
         None => {
             let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
@@ -60,18 +60,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }
 
-/// A recorded ride once more.
-#[derive(Debug)]
-pub struct Ridden {
-    /// What was ridden through.
-    pub scene: Scene,
-    /// How fast light was.
-    pub world: World,
-    /// The observer at each picture's time.
-    pub moments: Vec<Moment>,
-}
-
-/// Rides a recorded ride once more.
+/// A recorded ride once more: its scene, its speed of light in metres per second, and the observer at each picture's time.
 ///
 /// A recording that is damaged or differs is followed as far as it goes, and the user told.
 ///
@@ -82,9 +71,9 @@ pub fn reel(
     choice: &SceneChoice,
     frames_per_second: f64,
     seconds: Option<f64>,
-) -> Result<Ridden, Error> {
+) -> Result<(Scene, f64, Vec<Moment>), Error> {
     let (scene, mut replay) = recorded(recording, choice)?;
-    let world = replay.simulation().setup().world;
+    let speed_of_light = replay.simulation().setup().world.speed_of_light_m_s();
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
     let mut differed = false;
@@ -108,7 +97,7 @@ pub fn reel(
         }
     }
     spinner.finish_and_clear();
-    Ok(Ridden { scene, world, moments: reel.moments })
+    Ok((scene, speed_of_light, reel.moments))
 }
 
 /// What the film will show: the observer at each picture's time.

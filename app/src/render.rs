@@ -3,17 +3,17 @@
 //! A film without a recording shows what an inertial observer sees: his eye moves on a straight worldline, and the
 //! frames are taken at equal steps of his own time. A recorded ride is seen with the rider's eyes.
 
-use crate::command::{Output, PictureOptions, RenderOptions, Renderer, Viewpoint};
+use crate::command::{Output, PictureOptions, RayOptions, RenderOptions, Renderer, Viewpoint};
 use crate::error::Error;
 use crate::exr;
 use crate::film::{Film, Written};
-use crate::film_ride::{self, Ridden};
+use crate::film_ride;
 use crate::gpu::Gpu;
 use crate::progress;
 use crate::renderers::choice::{Bending, Choice};
 use crate::renderers::picture::{Studio, largest_side};
 use crate::renderers::polygon::{CutStats, Pace};
-use crate::renderers::raytrace::{RayTracer, Traced};
+use crate::renderers::raytrace::{Lens, Optics, RayTracer, Traced};
 use crate::renderers::{Effects, SceneRenderer, Shot};
 use crate::scene::{Scene, Start, source};
 use crate::views::{Camera, Gaze};
@@ -34,6 +34,10 @@ const FILM_SECONDS: f64 = 10.0;
 /// # Errors
 /// Whatever keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
+    // Only rays are worth interrupting, but for them it counts from the beginning.
+    if options.picture.renderer == Renderer::Raytrace {
+        interrupted();
+    }
     let gpu = Gpu::new()?;
     writable(options.out.path())?;
     if let Some(recording) = &options.replay {
@@ -41,8 +45,9 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     }
     let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
     let start = scene.start;
-    let mut camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
     let speed_of_light = options.world.speed_of_light;
+    let camera = Cameraman::new(&gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
+    let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0)?, path),
         Output::Light(path) => camera.light(inertial(&options.viewpoint, start, 0.0)?, path),
@@ -61,8 +66,9 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// The same with the eyes of a recorded rider.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let Ridden { scene, moments, .. } = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
-    let mut camera = Cameraman::new(gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
+    let (scene, speed_of_light, moments) = film_ride::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let camera = Cameraman::new(gpu, scene, &options.picture, options.world.bending(Pace::Still))?;
+    let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
         Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
@@ -117,6 +123,9 @@ impl<'gpu> Cameraman<'gpu> {
             return Err(Error::TooLarge { size: options.size, limit });
         }
         if options.renderer == Renderer::Raytrace {
+            if interruption().load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
             eprintln!("{}: traced ray by ray, on the CPU", scene.name);
             let spinner = progress::spinner("sorting triangles");
             let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
@@ -135,15 +144,25 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(Self { gpu, way: Way::Drawn(Box::new(renderer)), studio, options: options.clone() })
     }
 
+    /// The same with a lens, a shutter and mirrors, if it traces rays. `speed_of_light`: metres per second.
+    #[must_use]
+    pub fn with_rays(mut self, rays: &RayOptions, speed_of_light: f64) -> Self {
+        if let Way::Traced(tracer) = self.way {
+            let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| Lens { aperture_m, focus_m });
+            let optics = Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light };
+            let tracer = tracer.with_optics(optics).with_bounces(rays.bounces.unwrap_or(0));
+            self.way = Way::Traced(Box::new(tracer));
+        }
+        self
+    }
+
     /// Takes one picture and writes it as PNG.
     ///
     /// # Errors
-    /// A lost device, or a place that cannot be written.
+    /// A lost device, a place that cannot be written, or [`Error::Interrupted`].
     pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
-        // What is drawn ends by itself before long: only rays are worth interrupting.
-        let stop = if matches!(self.way, Way::Traced(_)) { interrupted() } else { Arc::default() };
         self.submit(&gaze)?;
-        let picture = self.take(&gaze, None, &stop)?;
+        let picture = self.take(&gaze, None)?;
         self.tell_of_quality(&gaze);
         save(&picture, path)?;
         eprintln!("wrote {}", path.display());
@@ -159,7 +178,7 @@ impl<'gpu> Cameraman<'gpu> {
         let shot = shot(&gaze, self.options.fov, self.options.effects);
         let light = match &mut self.way {
             Way::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot)?,
-            Way::Traced(tracer) => traced(tracer, &shot, &self.options, &interrupted()).image(),
+            Way::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
         };
         self.tell_of_quality(&gaze);
         exr::save(&light, path)?;
@@ -178,7 +197,11 @@ impl<'gpu> Cameraman<'gpu> {
         frames_per_second: f64,
         path: &Path,
     ) -> Result<(), Error> {
-        let stop = interrupted();
+        let traces = matches!(self.way, Way::Traced(_));
+        let stop = if traces { interruption() } else { interrupted() };
+        if traces && stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
         let film = Film::create(path, self.options.size, frames_per_second)?;
         let bar = progress::bar(path.display().to_string(), count);
 
@@ -195,18 +218,24 @@ impl<'gpu> Cameraman<'gpu> {
                 self.submit(&moment.gaze)?;
             }
             let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
-            let picture = self.take(&moment.gaze, elapsed_s, &stop)?;
+            let picture = match self.take(&moment.gaze, elapsed_s) {
+                Err(Error::Interrupted) => break,
+                picture => picture?,
+            };
             // A picture that was interrupted may be half black.
-            if stop.load(Ordering::Relaxed) && matches!(self.way, Way::Traced(_)) {
-                break;
-            }
-            if !film.add(picture) {
+            if (traces && stop.load(Ordering::Relaxed)) || !film.add(picture) {
                 break;
             }
             done += 1;
             bar.inc(1);
         }
         bar.finish_and_clear();
+        if traces && done == 0 && stop.load(Ordering::Relaxed) {
+            // Of a film without pictures nothing comes but the encoder's complaint.
+            let _ = film.finish();
+            let _ = std::fs::remove_file(path);
+            return Err(Error::Interrupted);
+        }
         if done < count && stop.load(Ordering::Relaxed) {
             eprintln!("interrupted: the film ends after {done} of {count} pictures");
         }
@@ -257,13 +286,13 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(())
     }
 
-    fn take(&mut self, gaze: &Gaze, elapsed_s: Option<f64>, stop: &AtomicBool) -> Result<RgbaImage, Error> {
+    fn take(&mut self, gaze: &Gaze, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
         let shot = shot(gaze, self.options.fov, self.options.effects);
         let development = self.options.development();
         Ok(match &mut self.way {
             Way::Drawn(renderer) => self.studio.photograph(self.gpu, renderer, &shot, &development, elapsed_s)?,
             Way::Traced(tracer) => {
-                let traced = traced(tracer, &shot, &self.options, stop);
+                let traced = traced(tracer, &shot, &self.options)?;
                 self.studio.develop(self.gpu, &traced.texels(), traced.stored, &development, elapsed_s)?
             }
         })
@@ -271,14 +300,17 @@ impl<'gpu> Cameraman<'gpu> {
 }
 
 /// Traces a picture, and says how much of it there is if it was interrupted.
-fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions, stop: &AtomicBool) -> Traced {
+fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<Traced, Error> {
     let bar = progress::bar("tracing rays", RayTracer::tile_count(options.size));
-    let traced = tracer.trace(shot, options.size, options.samples, stop, || bar.inc(1));
+    let traced = tracer.trace(shot, options.size, options.samples, &interruption(), || bar.inc(1));
     bar.finish_and_clear();
+    if traced.done == 0 {
+        return Err(Error::Interrupted);
+    }
     if traced.done < traced.tiles {
         eprintln!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles);
     }
-    traced
+    Ok(traced)
 }
 
 /// A gaze through a camera of `fov` degrees.
@@ -315,6 +347,13 @@ pub fn save(picture: &RgbaImage, path: &Path) -> Result<(), Error> {
 
 /// A flag that Ctrl-C (or a request to end) sets, so that what was done so far can be finished; the second one ends at once.
 pub fn interrupted() -> Arc<AtomicBool> {
+    let flag = interruption();
+    flag.store(false, Ordering::Relaxed);
+    flag
+}
+
+/// The same flag as it is, for work that began before.
+fn interruption() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     let flag = FLAG.get_or_init(|| {
         let flag = Arc::new(AtomicBool::new(false));
@@ -327,6 +366,5 @@ pub fn interrupted() -> Arc<AtomicBool> {
         });
         flag
     });
-    flag.store(false, Ordering::Relaxed);
     Arc::clone(flag)
 }

@@ -176,6 +176,12 @@ fn lights_that_do_not_shine_are_named() {
         assert!(scene.notices.iter().any(|notice| notice.contains(name)), "{name} is not in {:?}", scene.notices);
     }
     assert_eq!(scene.notices.len(), 3);
+    // Two of them are lamps, for the ray tracer.
+    let [bulb, stage] = &scene.lamps[..] else { panic!("{:?}", scene.lamps) };
+    assert_eq!((bulb.name.as_str(), bulb.colour, bulb.spot), ("Bulb", [1.0 / std::f32::consts::PI; 3], None));
+    let spot = stage.spot.unwrap();
+    assert_eq!((spot.direction, spot.inner_rad), (DVec3::NEG_Z, 0.0));
+    assert!((spot.outer_rad - std::f64::consts::FRAC_PI_4).abs() < 1e-6);
     file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = json!(9);
     assert!(file.error().contains("KHR_lights_punctual.light: there is no number 9 among 4"), "{}", file.error());
 }

@@ -5,20 +5,22 @@
 //! bends or lights differently, more than outlines that differ.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use glam::{DVec3, Vec3};
-use image::Rgb32FImage;
+use glam::{DVec3, Vec2, Vec3};
+use image::{Rgb32FImage, RgbaImage};
 use physics::photo_surface::Eye;
 use physics::{Aberration, Celerity, Event};
+use rapidity::renderers::display::{Development, Gamut};
+use rapidity::renderers::picture::Studio;
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::renderers::raytrace::{RayTracer, Traced};
 use rapidity::renderers::{Effects, Method, Shot};
 use rapidity::scene::lattice::Lattice;
 use rapidity::scene::mipmap::mipmap;
 use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Material, Scene, town};
-use std::sync::atomic::AtomicBool;
+use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, town};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use system_tests::bodies::{Cone, celerity, exact, observer, outline, sphere};
-use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::photographer::{DEFAULT_MAP, Photographer, gpu};
 use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [96, 64];
@@ -200,4 +202,149 @@ fn what_is_stopped_says_how_much_is_done() {
     let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(true), || {});
     assert_eq!((traced.done, traced.tiles), (0, 24));
     assert!(traced.light.iter().all(|light| *light == DVec3::ZERO));
+}
+
+#[test]
+fn what_is_stopped_has_its_middle() {
+    let tracer = RayTracer::new(room([1.0; 3]), None, false).unwrap();
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let shot = shot(&view, DVec3::ZERO, Celerity::ZERO, Effects::ALL);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let (stop, finished) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let count = || {
+            if finished.fetch_add(1, Ordering::Relaxed) + 1 == 4 {
+                stop.store(true, Ordering::Relaxed);
+            }
+        };
+        let traced = pool.install(|| tracer.trace(&shot, SIZE, 1, &stop, count));
+        assert!((4..4 + threads).contains(&traced.done), "{} tiles with {threads} threads", traced.done);
+        // The four tiles around the middle are among them.
+        for (column, row) in (SIZE[0] / 2 - 16..SIZE[0] / 2 + 16).flat_map(|x| (24..40).map(move |y| (x, y))) {
+            let light = traced.light[(row * SIZE[0] + column) as usize];
+            assert!(light != DVec3::ZERO || threads > 1, "{column}, {row} is black");
+        }
+        assert_eq!(traced.light[0], DVec3::ZERO, "a corner is traced last");
+    }
+}
+
+/// A square across z about the axis, of one unlit colour with this opacity.
+fn sheet(z: f32, half: f32, colour: [f32; 4], alpha: Alpha) -> (Mesh, Material) {
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let mesh = Mesh {
+        positions: corners.map(|[x, y]| Vec3::new(x, y, z)).to_vec(),
+        normals: vec![Vec3::Z; 4],
+        uvs: vec![Vec2::ZERO; 4],
+        colours: vec![colour; 4],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        ..Mesh::default()
+    };
+    (mesh, Material { unlit: true, alpha, ..Material::default() })
+}
+
+fn sheets(sheets: impl IntoIterator<Item = (Mesh, Material)>) -> Scene {
+    let mut scene = Scene::default();
+    for (number, (mut mesh, material)) in sheets.into_iter().enumerate() {
+        mesh.material = number;
+        scene.meshes.push(mesh);
+        scene.materials.push(material);
+    }
+    scene
+}
+
+#[test]
+fn sheets_are_mixed_in_their_order_and_masks_are_there_or_not() {
+    let scene = sheets([
+        sheet(-6.0, 9.0, [0.1, 0.2, 0.4, 1.0], Alpha::Opaque),
+        // The nearer one is listed before the further one: the ray sorts them.
+        sheet(-3.0, 9.0, [1.0, 0.0, 0.5, 0.25], Alpha::Blend),
+        sheet(-4.0, 9.0, [0.0, 1.0, 0.5, 0.5], Alpha::Blend),
+        sheet(-2.0, 9.0, [9.0, 9.0, 9.0, 0.3], Alpha::Mask(0.5)),
+    ]);
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let plain = Effects::GEOMETRY;
+    let wall = Vec3::new(0.1, 0.2, 0.4).as_dvec3();
+    let behind = DVec3::new(0.0, 1.0, 0.5) * 0.5 + wall * 0.5;
+    let expected = DVec3::new(1.0, 0.0, 0.5) * 0.25 + behind * 0.75;
+    let hidden = {
+        let mut scene = scene.clone();
+        scene.materials[3].alpha = Alpha::Mask(0.2);
+        scene
+    };
+    for (scene, expected) in [(scene, expected), (hidden, DVec3::splat(9.0))] {
+        let tracer = RayTracer::new(scene, None, false).unwrap();
+        for beta in [0.0, 0.7] {
+            let traced = trace(&tracer, &shot(&view, DVec3::ZERO, celerity(DVec3::Y * beta), plain));
+            let middle = traced.light[(SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize];
+            assert!((middle - expected).length() < LIGHT_TOLERANCE, "{middle} {expected} at {beta} c");
+        }
+    }
+}
+
+#[test]
+fn a_panorama_is_behind_everything_as_the_others_draw_it() {
+    let (width, height) = (64, 32);
+    let colour = |x: u32, y: u32| {
+        let (x, y) = (x as f32 / width as f32, y as f32 / height as f32);
+        [0.3 + 0.2 * (x * std::f32::consts::TAU).sin(), 0.2 + 0.5 * y, 0.4]
+    };
+    let rgb = (0..height).flat_map(|y| (0..width).map(move |x| colour(x, y))).collect();
+    let mut scene = sheets([sheet(-6.0, 0.5, [0.1, 0.2, 0.4, 1.0], Alpha::Opaque)]);
+    scene.panorama = Some(Panorama { width, height, rgb });
+    hold(&scene, DVec3::ZERO, DVec3::new(0.2, 0.1, -1.0), 0.02, [0.98, 0.98]);
+}
+
+#[test]
+fn lit_boxes_that_move_are_drawn_as_rays_see_them() {
+    let mut scene = Lattice { count: [4, 4, 4], spacing: 3.0, side: 1.0 }.build();
+    for material in &mut scene.materials {
+        material.unlit = false;
+    }
+    scene.light = Lighting::default();
+    let anchor = Event { ct: -3.0, position: DVec3::new(0.0, 0.0, -9.0) };
+    scene.motions = vec![Motion::Uniform(Uniform { celerity: celerity(DVec3::new(0.5, 0.1, -0.3)), anchor })];
+    for mesh in &mut scene.meshes {
+        mesh.motion = Some(0);
+    }
+    let tracer = RayTracer::new(scene.clone(), None, false).unwrap();
+    let mut photographer = Photographer::with(&scene, SIZE, 1, None, POLYGON);
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    for beta in [DVec3::ZERO, DVec3::new(-0.2, 0.3, -0.6)] {
+        let eye = DVec3::new(0.3, 0.4, 2.0);
+        let light = photographer.light(&view, eye, celerity(beta), Effects::ALL);
+        let traced = trace(&tracer, &shot(&view, eye, celerity(beta), Effects::ALL));
+        let share = alike(&light, &traced, 0.01);
+        println!("{beta}: {share:.4} to 1 %");
+        assert!(share >= 0.99, "{beta}: only {share} of the pixels are alike");
+    }
+}
+
+#[test]
+fn traced_light_is_developed_as_drawn_light_is() {
+    // The same light on both ways: what was drawn, fetched and put in where traced light is, is the same picture.
+    let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
+    let (eye, motion) = (DVec3::new(0.3, 0.4, 2.0), celerity(DVec3::NEG_Z * 0.5));
+    let mut photographer = Photographer::with(&scene, SIZE, 1, None, POLYGON);
+    let drawn = photographer.seen(&view, eye, motion, Effects::ALL);
+    let light = photographer.light(&view, eye, motion, Effects::ALL);
+
+    let shot = shot(&view, eye, motion, Effects::ALL);
+    let mut traced = trace(&RayTracer::new(scene, None, false).unwrap(), &shot);
+    let own = develop(&traced);
+    traced.light = light.pixels().map(|pixel| Vec3::from_array(pixel.0).as_dvec3()).collect();
+    let developed = develop(&traced);
+    let apart = |one: &RgbaImage, other: &RgbaImage, codes: u8| {
+        let differ = one.as_raw().iter().zip(other.as_raw()).filter(|(one, other)| one.abs_diff(**other) > codes);
+        differ.count() as f64 / one.as_raw().len() as f64
+    };
+    assert_eq!(apart(&drawn, &developed, 1), 0.0, "light that is the same looks the same");
+    assert!(apart(&drawn, &own, 2) < 0.02, "{} of the values differ", apart(&drawn, &own, 2));
+}
+
+/// Traced light as a picture, as the photographer takes it.
+fn develop(traced: &Traced) -> RgbaImage {
+    let development = Development { gamut: Gamut::Clamp, ..Development::default() };
+    let mut studio = Studio::new(gpu(), traced.size, 1);
+    studio.develop(gpu(), &traced.texels(), traced.stored, &development, None).unwrap()
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use physics::Celerity;
 
 use super::values::{self, Output};
-use super::{PictureOptions, WorldOptions};
+use super::{PictureOptions, RayOptions, Renderer, WorldOptions};
 
 /// Pictures a second of a film for which `--fps` says nothing.
 const FRAMES_PER_SECOND: f64 = 30.0;
@@ -46,6 +46,9 @@ pub struct RenderOptions {
     /// How the picture is drawn.
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// What rays do.
+    #[command(flatten)]
+    pub rays: RayOptions,
 }
 
 /// Where the observer is, how he moves, and where he looks.
@@ -99,6 +102,9 @@ impl RenderOptions {
         let Viewpoint { look, up, .. } = self.viewpoint;
         if look.is_some_and(|look| look.cross(up).length() < PARALLEL) {
             return Err("--up must not be parallel to --look; give another --up (its default is 0,1,0)".to_owned());
+        }
+        if let Some(option) = self.rays.given().filter(|_| self.picture.renderer != Renderer::Raytrace) {
+            return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));
         }
         self.picture.check()
     }

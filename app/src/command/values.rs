@@ -41,6 +41,12 @@ pub enum ValueError {
     /// Not a usable number.
     #[error("expected a finite number above 0")]
     Positive,
+    /// Below zero, or no number.
+    #[error("expected a finite number, 0 or above")]
+    NotNegative,
+    /// Not a time.
+    #[error("expected seconds, 0 or more, as in 0.02 or 1/50")]
+    ShareOfTime,
     /// Outside its range.
     #[error("expected a number from {least} to {most}")]
     Range {
@@ -219,6 +225,18 @@ pub(super) fn pixels(text: &str) -> Result<f64, ValueError> {
 /// A finite number above zero.
 pub(super) fn positive(text: &str) -> Result<f64, ValueError> {
     number(text).filter(|number| *number > 0.0).ok_or(ValueError::Positive)
+}
+
+/// A finite number, zero or above.
+pub(super) fn not_negative(text: &str) -> Result<f64, ValueError> {
+    number(text).filter(|number| *number >= 0.0).ok_or(ValueError::NotNegative)
+}
+
+/// Seconds, as photographers write them too: 1/50.
+pub(super) fn share_of_time(text: &str) -> Result<f64, ValueError> {
+    let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+    let quotient = number(above).zip(number(below)).map(|(above, below)| above / below);
+    quotient.filter(|seconds| seconds.is_finite() && *seconds >= 0.0).ok_or(ValueError::ShareOfTime)
 }
 
 /// A number from `least` to `most`.

@@ -65,6 +65,11 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     let settings: &[_] = if kind == Kind::Stills { &OF_STILLS } else { &OF_RIDES };
     let rows = measure(&measurement, settings, tracer.as_ref(), &stop)?;
     print!("{}", table::of_pictures(&rows));
+    if rows.iter().all(|row| row.pixels == 0) {
+        eprintln!(
+            "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay"
+        );
+    }
     let mut lines: Vec<Line> = rows.iter().map(Line::from).collect();
     if let Some(tracer) = &tracer {
         let mut add = |(text, of_dial): (String, Vec<Line>)| {

@@ -8,7 +8,7 @@ use physics::{Beta, Celerity};
 
 use crate::command::SceneChoice;
 use crate::error::Error;
-use crate::film_ride::{self, Ridden};
+use crate::film_ride;
 use crate::render::shot;
 use crate::renderers::{Effects, Shot};
 use crate::scene::{Scene, source};
@@ -46,7 +46,8 @@ pub fn views(choice: &SceneChoice, speed_of_light_m_s: f64, replay: Option<&Path
         let shots = built_in(&scene, count)?;
         return Ok(Views { scene, world, shots });
     };
-    let Ridden { scene, world, moments } = film_ride::reel(recording, choice, LOOKED_THROUGH, None)?;
+    let (scene, speed_of_light_m_s, moments) = film_ride::reel(recording, choice, LOOKED_THROUGH, None)?;
+    let world = World::new(speed_of_light_m_s)?;
     let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
     if gazes.is_empty() {
         return Err(Error::NothingRidden);

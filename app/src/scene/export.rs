@@ -19,7 +19,7 @@ use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
 use super::gltf::spectrum;
 use super::motion::{Motion, Uniform};
 use super::panorama::is_equirectangular;
-use super::{Alpha, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
+use super::{Alpha, Lamp, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
 const FLOAT: u32 = 5126;
@@ -119,6 +119,10 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
         nodes.push(node);
         meshes.push(file.mesh(mesh));
     }
+    for (number, lamp) in scene.lamps.iter().enumerate() {
+        roots.push(nodes.len());
+        nodes.push(lamp_node(number, lamp));
+    }
     let extras = SceneExtras {
         origin: Some(scene.origin.to_array()),
         light: LightExtras::of(scene.light, scene.illuminant.as_ref().map(spectrum::to_json)),
@@ -143,7 +147,11 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
         root[name] = json!(list);
     }
-    let extensions = extensions_used(&scene.materials);
+    if !scene.lamps.is_empty() {
+        let lights: Vec<Value> = scene.lamps.iter().map(lamp).collect();
+        root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
+    }
+    let extensions = extensions_used(scene);
     if !extensions.is_empty() {
         root["extensionsUsed"] = json!(extensions);
     }
@@ -180,6 +188,10 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
         ensure(emissive, "the emission", name, "it is negative or too large")?;
         let cutoff = !matches!(material.alpha, Alpha::Mask(cutoff) if !(cutoff.is_finite() && cutoff >= 0.0));
         ensure(cutoff, "the opacity threshold", name, "it is negative or not finite")?;
+    }
+    for lamp in &scene.lamps {
+        let colour = lamp.colour.iter().all(|value| value.is_finite() && *value >= 0.0);
+        ensure(lamp.position.is_finite() && colour, "a lamp", &lamp.name, "it is not finite")?;
     }
     for mesh in &scene.meshes {
         ensure(mesh.positions.iter().all(|position| position.is_finite()), "a position", &mesh.name, FINITE)?;
@@ -306,7 +318,11 @@ fn emissive_strength(material: &Material) -> f32 {
 }
 
 fn material(material: &Material) -> Value {
-    let mut surface = json!({ "baseColorFactor": material.base_colour, "metallicFactor": 0.0 });
+    let mut surface = json!({
+        "baseColorFactor": material.base_colour,
+        "metallicFactor": material.metallic,
+        "roughnessFactor": material.roughness,
+    });
     if let Some(texture) = material.base_colour_texture {
         surface["baseColorTexture"] = json!({ "index": texture });
     }
@@ -338,16 +354,66 @@ fn material(material: &Material) -> Value {
     if strength > 1.0 {
         extensions.insert("KHR_materials_emissive_strength".into(), json!({ "emissiveStrength": strength }));
     }
+    if material.transmission > 0.0 {
+        let transmission = json!({ "transmissionFactor": material.transmission });
+        extensions.insert("KHR_materials_transmission".into(), transmission);
+    }
+    if material.index_of_refraction != 1.5 {
+        extensions.insert("KHR_materials_ior".into(), json!({ "ior": material.index_of_refraction }));
+    }
+    if material.solid_glass {
+        extensions.insert("KHR_materials_volume".into(), json!({ "thicknessFactor": 1.0 }));
+    }
     if !extensions.is_empty() {
         value["extensions"] = Value::Object(extensions);
     }
     value
 }
 
-fn extensions_used(materials: &[Material]) -> Vec<&'static str> {
-    let unlit = materials.iter().any(|material| material.unlit);
-    let strong = materials.iter().any(|material| emissive_strength(material) > 1.0);
-    let names = [(unlit, "KHR_materials_unlit"), (strong, "KHR_materials_emissive_strength")];
+/// A node with a light, which shines along −z of it.
+fn lamp_node(number: usize, lamp: &Lamp) -> Value {
+    let mut node = json!({
+        "name": lamp.name,
+        "translation": lamp.position.to_array(),
+        "extensions": { "KHR_lights_punctual": { "light": number } },
+    });
+    if let Some(spot) = lamp.spot {
+        let turn = glam::DQuat::from_rotation_arc(glam::DVec3::NEG_Z, spot.direction);
+        node["rotation"] = json!(turn.to_array());
+    }
+    node
+}
+
+/// A lamp in candela: those of one metre's light, π of which show white as white.
+fn lamp(lamp: &Lamp) -> Value {
+    let mut light = json!({
+        "name": lamp.name,
+        "type": if lamp.spot.is_some() { "spot" } else { "point" },
+        "color": lamp.colour,
+        "intensity": std::f32::consts::PI,
+    });
+    if let Some(range) = lamp.range {
+        light["range"] = json!(range);
+    }
+    if let Some(spot) = lamp.spot {
+        light["spot"] = json!({ "innerConeAngle": spot.inner_rad, "outerConeAngle": spot.outer_rad });
+    }
+    if let Some(spectrum) = &lamp.spectrum {
+        light["extras"] = json!({ "spectrum": spectrum::to_json(spectrum) });
+    }
+    light
+}
+
+fn extensions_used(scene: &Scene) -> Vec<&'static str> {
+    let any = |has: fn(&Material) -> bool| scene.materials.iter().any(has);
+    let names = [
+        (!scene.lamps.is_empty(), "KHR_lights_punctual"),
+        (any(|material| material.unlit), "KHR_materials_unlit"),
+        (any(|material| emissive_strength(material) > 1.0), "KHR_materials_emissive_strength"),
+        (any(|material| material.transmission > 0.0), "KHR_materials_transmission"),
+        (any(|material| material.index_of_refraction != 1.5), "KHR_materials_ior"),
+        (any(|material| material.solid_glass), "KHR_materials_volume"),
+    ];
     names.into_iter().filter_map(|(used, name)| used.then_some(name)).collect()
 }
 

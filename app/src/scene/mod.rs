@@ -13,6 +13,7 @@ pub mod cut;
 pub mod export;
 pub mod falling;
 pub mod gltf;
+pub mod lamp;
 pub mod lattice;
 pub mod mipmap;
 pub mod motion;
@@ -22,6 +23,8 @@ pub mod source;
 pub mod spectra;
 pub mod town;
 mod turn;
+
+pub use lamp::{Lamp, Lamplight, Spot};
 
 use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Spectrum;
@@ -50,6 +53,8 @@ pub struct Scene {
     pub motions: Vec<motion::Motion>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
+    /// Lamps at rest in the world, which the ray tracer alone draws.
+    pub lamps: Vec<Lamp>,
     /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: that of the colours themselves.
     pub illuminant: Option<Spectrum>,
     /// Luminance in cd/m² that is shown as white at rest. `None`: that of the brightest spectrum at rest; 1 where there is none.
@@ -122,6 +127,16 @@ pub struct Material {
     pub unlit: bool,
     /// Drawn from behind as well.
     pub double_sided: bool,
+    /// How much of it is metal, 0 to 1. This and all up to `alpha` the ray tracer alone draws, where it is to follow mirrors.
+    pub metallic: f32,
+    /// 0 is a mirror, 1 quite rough.
+    pub roughness: f32,
+    /// Of what lies behind the surface (KHR_materials_ior); 1 or more.
+    pub index_of_refraction: f32,
+    /// Share of the light that enters and goes through (KHR_materials_transmission), 0 to 1.
+    pub transmission: f32,
+    /// Whether what goes through is bent, by a volume behind the surface (KHR_materials_volume), and not by a thin pane.
+    pub solid_glass: bool,
     /// What the opacity does.
     pub alpha: Alpha,
     /// Instead of colours: on an unlit or emissive material the radiance sent out, on any other the reflectance, times the base
@@ -139,6 +154,11 @@ impl Default for Material {
             emissive_texture: None,
             unlit: false,
             double_sided: false,
+            metallic: 0.0,
+            roughness: 1.0,
+            index_of_refraction: 1.5,
+            transmission: 0.0,
+            solid_glass: false,
             alpha: Alpha::Opaque,
             spectrum: None,
         }
@@ -341,6 +361,12 @@ impl Scene {
             if fault.is_some() {
                 return fault;
             }
+            if !(material.index_of_refraction >= 1.0 && material.index_of_refraction.is_finite()) {
+                let (name, index) = (&material.name, material.index_of_refraction);
+                return Some(format!(
+                    "material \"{name}\" has an index of refraction of {index}, which is not 1 or more"
+                ));
+            }
             let used = [material.base_colour_texture, material.emissive_texture];
             let missing = used.into_iter().flatten().find(|&index| index >= self.textures.len())?;
             let (name, count) = (&material.name, self.textures.len());
@@ -384,11 +410,16 @@ impl Scene {
                 format!("its materials have more than {MAX_SPECTRA} different spectra, which is all that can be drawn")
             })
         };
+        let lamp = |lamp: &Lamp| {
+            let place = (!lamp.position.is_finite()).then(|| format!("lamp \"{}\" is nowhere", lamp.name));
+            place.or_else(|| spectrum(&lamp.spectrum, &format!("lamp \"{}\"", lamp.name)))
+        };
         let textures = self.textures.iter().find_map(texture);
         textures
             .or_else(|| self.materials.iter().find_map(material))
             .or_else(|| self.meshes.iter().find_map(mesh))
             .or_else(|| self.motions.iter().enumerate().find_map(motion))
+            .or_else(|| self.lamps.iter().find_map(lamp))
             .or_else(|| spectrum(&self.illuminant, "the light"))
             .or_else(white)
             .or_else(panorama)

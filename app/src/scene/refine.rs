@@ -116,6 +116,7 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         meshes: scene.meshes.par_iter().map(|mesh| refine_mesh(mesh, rule)).collect(),
         motions: scene.motions.clone(),
         light: scene.light,
+        lamps: scene.lamps.clone(),
         start: scene.start,
         circuit: scene.circuit.clone(),
         notices: scene.notices.clone(),

@@ -4,7 +4,10 @@
 //! taken there once for a picture, a pixel's direction once for a ray. Along one sight line the apparent distance |x'| = r D (r in the body's frame, D from it to
 //! the observer) is how long ago by the observer's clock the light left, in every body's case: the smallest is seen.
 
+mod onward;
+
 use super::curve::{Chord, Curve, SLACK};
+use super::surface::Surfaces;
 use crate::renderers::Shot;
 use crate::scene::falling::Falling;
 use crate::scene::motion::{Animated, Ball, Motion, SeenBy};
@@ -16,6 +19,8 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
 use physics::{Aberration, Beta, Boost, Celerity, FourVector, Observer};
 use std::sync::Arc;
+
+pub use onward::{Emission, Turn};
 
 /// By how much boxes are larger than what is in them, relative to its coordinates, so that rounding misses nothing.
 const MARGIN: f64 = 1e-9;
@@ -33,6 +38,8 @@ pub struct Hit {
     pub position: DVec3,
     /// From where the ray begins, metres in the body's frame.
     pub distance: f64,
+    /// Along the normal of the triangle's front, of any length.
+    pub plane: DVec3,
     /// Whether the ray meets its front.
     pub front: bool,
 }
@@ -65,6 +72,7 @@ struct Triangle {
     corners: [usize; 3],
     points: [DVec3; 3],
     double_sided: bool,
+    glass: bool,
 }
 
 struct Body {
@@ -95,6 +103,8 @@ pub struct Bodies {
     bodies: Vec<Body>,
     /// What keeps the sun from others.
     casters: Hierarchy,
+    /// Whether light goes through glass: then it has no shadow, and its inner side is met too.
+    pub clear_glass: bool,
 }
 
 /// An observer as all bodies have him.
@@ -109,6 +119,8 @@ pub struct Sight {
 /// An observer as one body has him.
 struct Seer {
     position: DVec3,
+    /// His time in the body's frame; for what is animated, the world's.
+    ct: f64,
     group_from_observer: DQuat,
     bend: Bend,
 }
@@ -187,14 +199,20 @@ impl Bodies {
             scene.meshes[mesh].motion.is_none() && !material.unlit && material.alpha != Alpha::Blend
         };
         let casters = Hierarchy::of(scene, 0.0, |mesh| scene.light.shadows && casts(mesh));
-        Self { bodies, casters }
+        Self { bodies, casters, clear_glass: false }
     }
 
-    /// The observer of a shot, and the light that falls on each of the scene's motions.
-    pub fn sight(&self, scene: &Scene, shot: &Shot, falling: Vec<Falling>) -> Sight {
-        let seer = |motion| seer(scene, shot, motion);
+    /// The observer of a shot.
+    pub fn sight(&self, surfaces: &Surfaces, shot: &Shot) -> Sight {
+        self.sight_of(surfaces, &shot.observer(), shot.effects.geometry)
+    }
+
+    /// The same of any observer, with the light that falls on each of the scene's motions. `geometry`: whether light takes its time.
+    pub fn sight_of(&self, surfaces: &Surfaces, observer: &Observer, geometry: bool) -> Sight {
+        let seer = |motion| seer(&surfaces.scene, observer, geometry, motion);
         let bodies = self.bodies.iter().map(|body| seer(body.motion)).collect();
-        Sight { bodies, world: seer(None), observer: shot.observer(), falling }
+        let falling = surfaces.falling(observer, geometry);
+        Sight { bodies, world: seer(None), observer: *observer, falling }
     }
 
     /// What is seen first in a direction, beyond the given distance in each body's frame, of what `is_there`.
@@ -205,7 +223,10 @@ impl Bodies {
             let found = match (&body.swept, &seer.bend) {
                 (Some(swept), Bend::Light(_)) => body.surfaces.first_on_curve(swept, sight, &line, after, &is_there),
                 _ => {
-                    body.surfaces.first(seer.position, line.direction, after, &is_there).map(|hit| (hit, line.doppler))
+                    // What is animated turns no rays.
+                    let clear_glass = self.clear_glass && body.swept.is_none();
+                    let hit = body.surfaces.first(seer.position, line.direction, after, clear_glass, &is_there);
+                    hit.map(|hit| (hit, line.doppler))
                 }
             };
             let Some((hit, doppler)) = found else { continue };
@@ -226,8 +247,7 @@ impl Bodies {
     }
 
     /// What was found, for those who ask where it is.
-    pub fn place(&self, sight: &Sight, seen: DVec3, found: &Found) -> Place {
-        debug_assert_eq!(sight.bodies.len(), self.bodies.len());
+    pub fn place(&self, seen: DVec3, found: &Found) -> Place {
         Place {
             position: found.hit.position,
             motion: self.bodies[found.body].motion,
@@ -241,21 +261,38 @@ impl Bodies {
     /// The ray begins off the surface by what the other renderers leave between a surface and its own shadow.
     pub fn sunlit(&self, position: DVec3, normal: DVec3, towards_sun: DVec3) -> bool {
         let from = position + f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
-        self.casters.any(from, towards_sun, f64::from(shaders::SHADOW_BIAS_M)).is_none()
+        self.is_free(from, towards_sun, f64::INFINITY)
+    }
+
+    /// Whether nothing is between a point of what rests in the world and one of its lamps, `away` from it. `normal`: as for
+    /// [`Bodies::sunlit`]; zero where the point is of something that moves, in whose frame the normal is another.
+    pub fn lamplit(&self, position: DVec3, normal: DVec3, away: DVec3) -> bool {
+        let offset = f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
+        let distance = (away - offset).length();
+        self.is_free(position + offset, (away - offset) / distance, distance)
+    }
+
+    fn is_free(&self, from: DVec3, direction: DVec3, until: f64) -> bool {
+        let after = f64::from(shaders::SHADOW_BIAS_M);
+        let meet = |index: u32| {
+            let triangle = &self.casters.triangles[index as usize];
+            let distance = triangle.meet(from, direction)?.distance;
+            (distance > after && distance < until && !(self.clear_glass && triangle.glass)).then_some(distance)
+        };
+        self.casters.cast(from, direction, meet).is_none()
     }
 }
 
-fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
-    let observer = shot.observer();
+fn seer(scene: &Scene, observer: &Observer, geometry: bool, motion: Option<usize>) -> Seer {
     let rest =
         SeenBy { position: observer.event.position, celerity: observer.celerity, observer_from_group: DQuat::IDENTITY };
     let uniform = match motion.map(|motion| &scene.motions[motion]) {
         None => None,
         Some(Motion::Uniform(uniform)) => Some(*uniform),
-        Some(Motion::Animated(animated)) => return seer_of_animated(shot, animated),
+        Some(Motion::Animated(animated)) => return seer_of_animated(observer, geometry, animated),
     };
-    let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(&observer));
-    let bend = if shot.effects.geometry {
+    let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(observer));
+    let bend = if geometry {
         Bend::Light(Aberration::new(seen_by.celerity))
     } else {
         let celerity = uniform.map_or(Celerity::ZERO, |uniform| uniform.celerity);
@@ -266,22 +303,26 @@ fn seer(scene: &Scene, shot: &Shot, motion: Option<usize>) -> Seer {
         }
     };
     let group_from_observer = seen_by.observer_from_group.conjugate();
-    Seer { position: seen_by.position - scene.origin, group_from_observer, bend }
+    let ct = uniform.map_or(observer.event.ct, |uniform| {
+        let apart = observer.event - uniform.anchor;
+        uniform.anchor.ct + Boost::observer_from_world(uniform.celerity).apply(apart).t
+    });
+    Seer { position: seen_by.position - scene.origin, ct, group_from_observer, bend }
 }
 
 /// Of what is animated light is followed in the world; without light's delay it is in one pose.
-fn seer_of_animated(shot: &Shot, animated: &Animated) -> Seer {
-    let observer = shot.observer();
+fn seer_of_animated(observer: &Observer, geometry: bool, animated: &Animated) -> Seer {
+    let ct = observer.event.ct;
     let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
     let of_observer = Aberration::new(observer.celerity);
-    if shot.effects.geometry {
-        return Seer { position, group_from_observer, bend: Bend::Light(of_observer) };
+    if geometry {
+        return Seer { position, ct, group_from_observer, bend: Bend::Light(of_observer) };
     }
-    let pose = animated.as_seen(&observer, false);
+    let pose = animated.as_seen(observer, false);
     let body_from_world = pose.world_from_body.inverse();
     let object = Aberration::new(animated.celerity(&pose));
     let bend = Bend::Pose { observer: of_observer, object, body_from_world: body_from_world.matrix3 };
-    Seer { position: body_from_world.transform_point3(position), group_from_observer, bend }
+    Seer { position: body_from_world.transform_point3(position), ct, group_from_observer, bend }
 }
 
 impl Swept {
@@ -306,12 +347,13 @@ impl Hierarchy {
     fn of(scene: &Scene, margin: f64, wanted: impl Fn(usize) -> bool) -> Self {
         let mut triangles = Vec::new();
         for (number, mesh) in scene.meshes.iter().enumerate().filter(|(number, _)| wanted(*number)) {
-            let double_sided = scene.materials[mesh.material].double_sided;
+            let material = &scene.materials[mesh.material];
+            let (double_sided, glass) = (material.double_sided, material.transmission > 0.0);
             for corners in mesh.indices.as_chunks::<3>().0 {
                 let corners = corners.map(|corner| corner as usize);
                 let points = corners.map(|corner| mesh.positions[corner].as_dvec3());
                 if points.iter().all(|point| point.is_finite()) {
-                    triangles.push(Triangle { mesh: number, corners, points, double_sided });
+                    triangles.push(Triangle { mesh: number, corners, points, double_sided, glass });
                 }
             }
         }
@@ -319,12 +361,20 @@ impl Hierarchy {
         Self { triangles, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
-    /// The nearest hit further than `after`.
-    fn first(&self, from: DVec3, direction: DVec3, after: f64, is_there: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    /// The nearest hit further than `after`. `clear_glass`: of glass the inner side too.
+    fn first(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        after: f64,
+        clear_glass: bool,
+        is_there: impl Fn(&Hit) -> bool,
+    ) -> Option<Hit> {
         let meet = |index: u32| {
             let triangle = &self.triangles[index as usize];
             let hit = triangle.meet(from, direction)?;
-            (hit.distance > after && (hit.front || triangle.double_sided) && is_there(&hit)).then_some(hit)
+            let shown = hit.front || triangle.double_sided || (clear_glass && triangle.glass);
+            (hit.distance > after && shown && is_there(&hit)).then_some(hit)
         };
         let (index, _) = self.cast(from, direction, |index| meet(index).map(|hit| hit.distance))?;
         meet(index)
@@ -361,15 +411,6 @@ impl Hierarchy {
         Some((hit, doppler))
     }
 
-    /// Whether there is anything further than `after`, seen from whichever side.
-    fn any(&self, from: DVec3, direction: DVec3, after: f64) -> Option<u32> {
-        let meet = |index: u32| {
-            let hit = self.triangles[index as usize].meet(from, direction)?;
-            (hit.distance > after).then_some(hit.distance)
-        };
-        self.cast(from, direction, meet).map(|(index, _)| index)
-    }
-
     fn cast(&self, from: DVec3, direction: DVec3, meet: impl Fn(u32) -> Option<f64>) -> Option<(u32, f64)> {
         if self.triangles.is_empty() || !from.is_finite() || !direction.is_finite() {
             return None;
@@ -387,7 +428,15 @@ impl Triangle {
     fn meet(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let (weights, away, front) = self.shares(from, direction)?;
         let distance = away.dot(direction);
-        let hit = Hit { mesh: self.mesh, corners: self.corners, weights, position: from + away, distance, front };
+        let hit = Hit {
+            mesh: self.mesh,
+            corners: self.corners,
+            weights,
+            position: from + away,
+            distance,
+            plane: self.plane(),
+            front,
+        };
         (distance > 0.0).then_some(hit)
     }
 
@@ -398,7 +447,13 @@ impl Triangle {
         let direction = rate.normalize_or_zero();
         let size = self.points[0].distance(self.points[1]).max(self.points[0].distance(self.points[2]));
         let (weights, _, front) = self.shares(position - direction * size, direction)?;
-        Some(Hit { mesh: self.mesh, corners: self.corners, weights, position, distance, front })
+        let plane = self.plane();
+        Some(Hit { mesh: self.mesh, corners: self.corners, weights, position, distance, plane, front })
+    }
+
+    fn plane(&self) -> DVec3 {
+        let [a, b, c] = self.points;
+        (b - a).cross(c - a)
     }
 
     /// The shares of the corners where a line passes, the way there from its beginning, and whether that comes from the front.

@@ -3,43 +3,107 @@
 //! The wavelength shift is linear in the weights: a matrix for each carrier and Doppler factor (B eq. 2.17), looked up in the same table
 //! that the shaders have, or integrated for every single ray. The searchlight effect multiplies by D⁴ (W eq. 4.13).
 
+use super::path::Seen;
 use crate::renderers::Effects;
 use crate::renderers::world::Spectra;
+use crate::scene::{Lamp, Scene};
 use glam::{DMat3, DVec3};
-use physics::colour::{Carrier, ShiftTable, luminance};
+use physics::colour::{Carrier, ShiftTable, Spectrum, luminance};
 
 /// Weights and their carrier, in cd/m² where the carrier's weights are.
-pub type Sent = [(DVec3, usize); 2];
+pub type Weights = (DVec3, usize);
+
+/// What leaves a point.
+#[derive(Clone, Debug, Default)]
+pub struct Sent {
+    /// Light that is returned; of an unlit surface or of the sky, all there is.
+    pub returned: Weights,
+    /// Light of lamps that is returned and has a carrier of its own.
+    pub of_lamps: Vec<Weights>,
+    /// Light that the surface has of itself.
+    pub emitted: Weights,
+}
+
+impl Sent {
+    /// The same when of the returned light only a share is, and all of it goes through a filter.
+    pub fn dimmed(mut self, share: f64, filter: DVec3) -> Self {
+        self.returned.0 *= filter * share;
+        self.of_lamps.iter_mut().for_each(|(weights, _)| *weights *= filter * share);
+        self.emitted.0 *= filter;
+        self
+    }
+
+    fn all(&self) -> impl Iterator<Item = Weights> {
+        [self.returned, self.emitted].into_iter().chain(self.of_lamps.iter().copied())
+    }
+}
+
+/// The carriers that a lamp's light has.
+struct OfLamp {
+    /// From a white surface.
+    white: usize,
+    /// From each material, if the lamp has a spectrum of its own.
+    materials: Option<Vec<usize>>,
+}
 
 /// The carriers of a scene.
 pub struct Light {
     carriers: Vec<Carrier>,
     at_rest: Vec<DMat3>,
     table: Option<ShiftTable>,
+    lamps: Vec<OfLamp>,
     /// Luminance that is white at rest, cd/m².
     pub white: f64,
 }
 
 impl Light {
     /// Works out the table, unless light is to be `exact`.
-    pub fn new(spectra: &Spectra, exact: bool) -> Self {
-        let carriers = spectra.carriers.clone();
+    pub fn new(spectra: &Spectra, scene: &Scene, exact: bool) -> Self {
+        let mut carriers = spectra.carriers.clone();
+        let mut number = |carrier: Carrier| {
+            carriers.iter().position(|known| *known == carrier).unwrap_or_else(|| {
+                carriers.push(carrier);
+                carriers.len() - 1
+            })
+        };
+        let mut of_lamp = |lamp: &Lamp| {
+            let Some(spectrum) = &lamp.spectrum else { return OfLamp { white: spectra.sky, materials: None } };
+            let mut reflected =
+                |reflectance: Option<Spectrum>| number(Carrier::reflected(reflectance, Some(spectrum.clone())));
+            let materials = scene.materials.iter().map(|material| reflected(material.spectrum.clone())).collect();
+            OfLamp { white: reflected(None), materials: Some(materials) }
+        };
+        let lamps = scene.lamps.iter().map(&mut of_lamp).collect();
         let at_rest = carriers.iter().map(|carrier| carrier.rgb_from_weights(1.0)).collect();
         let table = (!exact).then(|| ShiftTable::new(&carriers, ShiftTable::NODES));
-        Self { carriers, at_rest, table, white: spectra.white_luminance }
+        Self { carriers, at_rest, table, lamps, white: spectra.white_luminance }
     }
 
-    /// Linear sRGB in cd/m² as observed, and the luminance at rest relative to white.
-    pub fn observed(&self, sent: &Sent, effects: Effects, doppler: f64) -> (DVec3, f64) {
+    /// The carrier of a lamp's light from a material, if it is not the material's own.
+    pub fn carrier_of_lamp(&self, lamp: usize, material: usize) -> Option<usize> {
+        self.lamps[lamp].materials.as_ref().map(|materials| materials[material])
+    }
+
+    /// Light of a lamp after a shift, as the weights that look the same on its own carrier.
+    pub fn shifted_lamp(&self, lamp: usize, weights: DVec3, doppler: f64) -> DVec3 {
+        if doppler == 1.0 {
+            return weights;
+        }
+        let white = self.lamps[lamp].white;
+        self.at_rest[white].inverse() * (self.shift(white, doppler) * weights)
+    }
+
+    /// What is sent out as it is observed.
+    pub fn observed(&self, sent: &Sent, effects: Effects, doppler: f64) -> Seen {
         let (mut colour, mut at_rest) = (DVec3::ZERO, DVec3::ZERO);
-        for &(weights, carrier) in sent.iter().filter(|(weights, _)| *weights != DVec3::ZERO) {
+        for (weights, carrier) in sent.all().filter(|(weights, _)| *weights != DVec3::ZERO) {
             let unshifted = self.at_rest[carrier] * weights;
             at_rest += unshifted;
             colour +=
                 if effects.doppler && doppler != 1.0 { self.shift(carrier, doppler) * weights } else { unshifted };
         }
         let brighter = if effects.searchlight { doppler.powi(4) } else { 1.0 };
-        (colour * brighter, luminance(at_rest) / self.white)
+        Seen { light: colour * brighter, at_rest: luminance(at_rest) / self.white }
     }
 
     fn shift(&self, carrier: usize, doppler: f64) -> DMat3 {

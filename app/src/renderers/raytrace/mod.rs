@@ -7,36 +7,41 @@
 //! times at which the light left. The surface there sends out what its material, sun and sky make it send out in its own frame
 //! (`surface`); the observer sees it shifted and brightened (`light`).
 //!
+//! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`); a lens and a shutter spread a pixel's rays over places and
+//! moments (`lens`).
+//!
 //! What is animated rests in no frame: in its own a ray is a curve, which is followed where the body is (`curve`).
 //!
 //! Edges bend by themselves, and no triangle is cut. It is slow, and right: what the other renderers draw is held against it.
 
 mod curve;
+mod finish;
 mod hits;
+mod lens;
 mod light;
+mod path;
 mod surface;
 
+use super::Shot;
 use super::display::Stored;
 use super::world::Spectra;
-use super::{Effects, Shot};
 use crate::scene::{Scene, SceneFault};
 use crate::views::sample_offset;
 use glam::{DVec2, DVec3};
 use hits::{Bodies, Sight};
 use image::Rgb32FImage;
 use light::Light;
+use path::{Leg, Seen};
 use physics::Celerity;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use surface::Surfaces;
 
 pub use hits::Place;
+pub use lens::{Lens, Optics};
 
 /// Pixels along each side of what is traced in one go.
 const TILE: u32 = 16;
-
-/// What shines through less than this is not looked at.
-const HIDDEN: f64 = 1e-4;
 
 /// A scene, ready to be traced.
 pub struct RayTracer {
@@ -44,6 +49,8 @@ pub struct RayTracer {
     bodies: Bodies,
     light: Light,
     background: Option<[f32; 3]>,
+    optics: Optics,
+    bounces: u32,
 }
 
 /// What was traced: rows from the top; black where nothing was.
@@ -93,11 +100,26 @@ impl RayTracer {
         scene.validate()?;
         let spectra = Spectra::of(&scene);
         let bodies = Bodies::of(&scene);
-        let light = Light::new(&spectra, exact_light);
-        Ok(Self { surfaces: Surfaces::new(scene, spectra), bodies, light, background })
+        let light = Light::new(&spectra, &scene, exact_light);
+        let surfaces = Surfaces::new(scene, spectra);
+        Ok(Self { surfaces, bodies, light, background, optics: Optics::default(), bounces: 0 })
     }
 
-    /// Traces a picture, on all cores; `finished` is told of every tile. Once `stop` is set, no further tile is begun.
+    /// The same through a lens, or with a shutter that is open for a while.
+    #[must_use]
+    pub fn with_optics(self, optics: Optics) -> Self {
+        Self { optics, ..self }
+    }
+
+    /// The same with mirrors and clear glass, which turn a ray up to so many times.
+    #[must_use]
+    pub fn with_bounces(mut self, bounces: u32) -> Self {
+        self.bounces = bounces;
+        self.bodies.clear_glass = bounces > 0;
+        self
+    }
+
+    /// Traces a picture, on all cores, from its middle outwards; `finished` is told of every tile. Once `stop` is set, no further tile is begun.
     ///
     /// The result does not depend on the number of threads.
     pub fn trace(
@@ -109,28 +131,29 @@ impl RayTracer {
         finished: impl Fn() + Sync,
     ) -> Traced {
         let tiles = tiles(size);
-        let sight = self.sight(shot);
+        let sight = self.bodies.sight(&self.surfaces, shot);
+        // Whoever is free takes the next tile, so that the order holds for any number of threads.
+        let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
             .par_iter()
-            .map(|tile| {
+            .filter_map(|_| {
                 if stop.load(Ordering::Relaxed) {
                     return None;
                 }
-                let pixels = pixels(*tile).map(|pixel| self.pixel(shot, &sight, size, pixel, samples)).collect();
+                let tile = tiles[next.fetch_add(1, Ordering::Relaxed)];
+                let seen: Vec<_> = pixels(tile).map(|pixel| self.pixel(shot, &sight, size, pixel, samples)).collect();
                 finished();
-                Some(pixels)
+                Some((tile, seen))
             })
-            .collect::<Vec<Option<Vec<(DVec3, f64)>>>>();
+            .collect();
 
         let count = size[0] as usize * size[1] as usize;
         let (mut light, mut at_rest) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        let mut done = 0;
-        for (tile, of_tile) in tiles.iter().zip(traced) {
-            let Some(of_tile) = of_tile else { continue };
-            done += 1;
-            for ([column, row], (seen, resting)) in pixels(*tile).zip(of_tile) {
+        let done = traced.len();
+        for (tile, of_tile) in traced {
+            for ([column, row], seen) in pixels(tile).zip(of_tile) {
                 let index = row as usize * size[0] as usize + column as usize;
-                (light[index], at_rest[index]) = (seen, resting);
+                (light[index], at_rest[index]) = (seen.light, seen.at_rest);
             }
         }
         let shifted = shot.effects.shift_light()
@@ -146,65 +169,44 @@ impl RayTracer {
 
     /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
-        let sight = self.sight(shot);
+        let sight = self.bodies.sight(&self.surfaces, shot);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
-            let seen = direction(shot, size, *pixel, DVec2::ZERO);
+            let seen = (shot.camera.observer_from_eye * ahead(shot, size, *pixel, DVec2::ZERO)).normalize();
             let hit = self.bodies.first(&sight, seen, &sight.start(), |hit| self.surfaces.is_there(hit))?;
-            Some(self.bodies.place(&sight, seen, &hit))
+            Some(self.bodies.place(seen, &hit))
         };
         pixels.par_iter().map(place).collect()
     }
 
-    /// The observer of a shot, and the light that falls on what moves as he sees it.
-    fn sight(&self, shot: &Shot) -> Sight {
-        self.bodies.sight(&self.surfaces.scene, shot, self.surfaces.falling(shot))
-    }
-
-    /// The light of a pixel, and its luminance at rest.
-    fn pixel(&self, shot: &Shot, sight: &Sight, size: [u32; 2], pixel: [u32; 2], samples: u32) -> (DVec3, f64) {
+    /// The mean of a pixel's samples.
+    fn pixel(&self, shot: &Shot, sight: &Sight, size: [u32; 2], pixel: [u32; 2], samples: u32) -> Seen {
         let samples = samples.max(1);
-        let mut sum = (DVec3::ZERO, 0.0);
+        let mut sum = Seen::default();
+        let (effects, bounces) = (shot.effects, self.bounces);
         for sample in 0..samples {
-            let seen = direction(shot, size, pixel, sample_offset(sample, samples));
-            let (light, at_rest) = self.along(sight, seen, shot.effects);
-            sum = (sum.0 + light, sum.1 + at_rest);
-        }
-        (sum.0 / f64::from(samples), sum.1 / f64::from(samples))
-    }
-
-    /// The light that comes from a direction of the observer's frame, and its luminance at rest.
-    fn along(&self, sight: &Sight, seen: DVec3, effects: Effects) -> (DVec3, f64) {
-        let mut light = DVec3::ZERO;
-        let mut shines_through = 1.0;
-        let mut start = sight.start();
-        while shines_through > HIDDEN {
-            let Some(found) = self.bodies.first(sight, seen, &start, |hit| self.surfaces.is_there(hit)) else { break };
-            let (opacity, sent) = self.surfaces.light(&found.hit, &self.bodies, &sight.falling);
-            let (colour, at_rest) = self.light.observed(&sent, effects, found.doppler);
-            // As in the renderers' targets, the luminance at rest is that of what is not mixed with anything behind it.
-            if opacity >= 1.0 {
-                return (light + shines_through * colour, at_rest);
+            let ahead = ahead(shot, size, pixel, sample_offset(sample, samples));
+            if self.optics.is_pinhole() {
+                let seen = (shot.camera.observer_from_eye * ahead).normalize();
+                sum += self.along(Leg::first(sight, seen, effects, bounces));
+            } else {
+                let (observer, seen) = self.optics.look(shot, ahead, pixel, sample);
+                let sight = self.bodies.sight_of(&self.surfaces, &observer, effects.geometry);
+                sum += self.along(Leg::first(&sight, seen, effects, bounces));
             }
-            light += shines_through * opacity * colour;
-            shines_through *= 1.0 - opacity;
-            start = self.bodies.beyond(sight, seen, &found);
         }
-        let (direction, doppler) = sight.world(seen);
-        let sent = self.surfaces.sky(direction, self.background);
-        let (colour, at_rest) = self.light.observed(&sent, effects, doppler);
-        (light + shines_through * colour, at_rest)
+        sum * (1.0 / f64::from(samples))
     }
 }
 
-/// The unit vector that a place of a pixel sees along, observer's axes.
-fn direction(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
+/// Where a place of a pixel looks, in eye axes: (x, y, −1).
+fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
     let [width, height] = size.map(f64::from);
     let tan = (0.5 * shot.camera.fov_y_rad).tan();
     let x = f64::from(column) + 0.5 + offset.x - 0.5 * width;
     let y = 0.5 * height - f64::from(row) - 0.5 - offset.y;
     let pixel = 2.0 * tan / height;
-    (shot.camera.observer_from_eye * DVec3::new(x * pixel, y * pixel, -1.0)).normalize()
+    DVec3::new(x * pixel, y * pixel, -1.0)
 }
 
 #[derive(Clone, Copy)]
@@ -213,10 +215,17 @@ struct Tile {
     beyond: [u32; 2],
 }
 
+/// The tiles of a picture, those nearest to its middle first.
 fn tiles(size: [u32; 2]) -> Vec<Tile> {
     let starts = |side: u32| (0..side).step_by(TILE as usize);
     let tile = |x: u32, y: u32| Tile { first: [x, y], beyond: [(x + TILE).min(size[0]), (y + TILE).min(size[1])] };
-    starts(size[1]).flat_map(|y| starts(size[0]).map(move |x| tile(x, y))).collect()
+    let mut tiles: Vec<_> = starts(size[1]).flat_map(|y| starts(size[0]).map(move |x| tile(x, y))).collect();
+    let from_middle = |tile: &Tile| {
+        let side = |axis: usize| f64::from(tile.first[axis]) + 0.5 * f64::from(TILE) - 0.5 * f64::from(size[axis]);
+        side(0).hypot(side(1))
+    };
+    tiles.sort_by(|one, other| from_middle(one).total_cmp(&from_middle(other)));
+    tiles
 }
 
 fn pixels(tile: Tile) -> impl Iterator<Item = [u32; 2]> {

@@ -2,15 +2,16 @@
 //!
 //! Textures are taken at their full size, each look the mix of the four nearest texels; the mean over a pixel is left to its samples.
 
-use super::hits::{Bodies, Hit};
-use super::light::Sent;
-use crate::renderers::Shot;
+use super::finish::Finish;
+use super::hits::{Bodies, Emission, Hit};
+use super::light::{Light, Sent};
 use crate::renderers::world::{Spectra, WHITE};
 use crate::scene::falling::Falling;
 use crate::scene::mipmap::linear_from_srgb;
 use crate::scene::motion::Motion;
-use crate::scene::{Alpha, Lighting, Panorama, Scene, Texture, Wrap};
+use crate::scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
 use glam::{DVec3, DVec4, Vec3, Vec4};
+use physics::Observer;
 use physics::colour::luminance;
 use std::f64::consts::TAU;
 
@@ -47,20 +48,25 @@ impl Surfaces {
         }
     }
 
-    /// The light that falls on each of what moves, as the observer of a shot sees it.
-    pub fn falling(&self, shot: &Shot) -> Vec<Falling> {
+    /// The light that falls on each of what moves, as an observer sees it. `geometry`: whether light takes its time.
+    pub fn falling(&self, observer: &Observer, geometry: bool) -> Vec<Falling> {
         let sky = &self.spectra.carriers[self.spectra.sky];
         let falling = |(motion, falling): (&Motion, &Falling)| match motion {
             Motion::Uniform(_) => *falling,
-            Motion::Animated(animated) => {
-                Falling::on_animated(&self.scene.light, animated, &shot.observer(), shot.effects.geometry, sky)
-            }
+            Motion::Animated(animated) => Falling::on_animated(&self.scene.light, animated, observer, geometry, sky),
         };
         self.scene.motions.iter().zip(&self.falling.1).map(falling).collect()
     }
 
-    /// Opacity, and the weights that a point sends out. `falling`: light on each of what moves.
-    pub fn light(&self, hit: &Hit, bodies: &Bodies, falling: &[Falling]) -> (f64, Sent) {
+    /// Opacity, and the weights that a point sends out. `moving`: light on each of what moves.
+    pub fn light(
+        &self,
+        hit: &Hit,
+        emission: Emission,
+        moving: &[Falling],
+        bodies: &Bodies,
+        light: &Light,
+    ) -> (f64, Sent) {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
         let base = self.base(hit);
@@ -70,15 +76,24 @@ impl Surfaces {
         }
         // A spectrum on an emissive material is all that it sends out.
         let source = material.unlit || (material.spectrum.is_some() && material.is_source());
+        let mut of_lamps = Vec::new();
         if !source {
-            weights *= self.falling_on(hit, bodies, falling);
+            let mut falling = self.falling_on(hit, bodies, moving);
+            for (lamp, light_of_it) in self.of_lamps(hit, emission, bodies, light) {
+                match light.carrier_of_lamp(lamp, mesh.material) {
+                    None => falling += light_of_it,
+                    Some(carrier) => of_lamps.push((weights * light_of_it, carrier)),
+                }
+            }
+            weights *= falling;
         }
         let mut emitted = if source { DVec3::ZERO } else { rgb(material.emissive) };
         if emitted != DVec3::ZERO {
             emitted *= self.look_up(material.emissive_texture, hit).truncate();
         }
         let opacity = if material.alpha == Alpha::Blend { base.w.clamp(0.0, 1.0) } else { 1.0 };
-        (opacity, [(weights, self.spectra.materials[mesh.material]), (emitted, WHITE)])
+        let returned = (weights, self.spectra.materials[mesh.material]);
+        (opacity, Sent { returned, of_lamps, emitted: (emitted, WHITE) })
     }
 
     /// What comes from where no surface is, from a direction of the world.
@@ -90,7 +105,25 @@ impl Surfaces {
             (None, Some(panorama)) => (surrounding(panorama, direction) * white, WHITE),
             (None, None) => (sky(&self.scene.light, direction), self.spectra.sky),
         };
-        [sent, (DVec3::ZERO, WHITE)]
+        Sent { returned: sent, ..Sent::default() }
+    }
+
+    /// How smooth a point is, and what it does to a ray that it turns; `None` if it is rough, or animated.
+    pub fn finish(&self, hit: &Hit) -> Option<Finish> {
+        let mesh = &self.scene.meshes[hit.mesh];
+        if mesh.motion.is_some_and(|motion| self.scene.motions[motion].animated().is_some()) {
+            return None;
+        }
+        let material = &self.scene.materials[mesh.material];
+        Finish::of(material, || self.base(hit).truncate())
+    }
+
+    /// The interpolated normal of a point in its body's frame, turned to the side that is seen.
+    pub fn normal(&self, hit: &Hit) -> DVec3 {
+        let mesh = &self.scene.meshes[hit.mesh];
+        let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
+        let normal = (a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]).normalize_or_zero();
+        if hit.front { normal } else { -normal }
     }
 
     /// Base colour and opacity.
@@ -105,9 +138,7 @@ impl Surfaces {
     /// Light on a point, by its interpolated normal, turned to the side that is seen.
     fn falling_on(&self, hit: &Hit, bodies: &Bodies, moving: &[Falling]) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
-        let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
-        let normal = (a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]).normalize_or_zero();
-        let normal = if hit.front { normal } else { -normal };
+        let normal = self.normal(hit);
         if let Some(falling) = mesh.motion.and_then(|motion| moving.get(motion)) {
             return falling.on(normal, 1.0);
         }
@@ -115,6 +146,31 @@ impl Surfaces {
         let asks = self.scene.light.shadows && normal.dot(falling.sun_direction) > 0.0;
         let lit = !asks || bodies.sunlit(hit.position, normal, falling.sun_direction);
         falling.on(normal, if lit { 1.0 } else { 0.0 })
+    }
+
+    /// Light of the scene's lamps on a point: of each that reaches it, weights on that lamp's carrier.
+    fn of_lamps(&self, hit: &Hit, emission: Emission, bodies: &Bodies, light: &Light) -> Vec<(usize, DVec3)> {
+        let scene = &self.scene;
+        if scene.lamps.is_empty() {
+            return Vec::new();
+        }
+        // The body's own axes, turned to the world's.
+        let normal = bodies.axes(emission) * self.normal(hit);
+        let moves = scene.meshes[hit.mesh].motion.is_some();
+        let surface = bodies.in_world(scene, emission, hit.position);
+        let place = surface.event.position;
+        let of = |(number, lamp): (usize, &Lamp)| {
+            let Lamplight { direction, doppler, strength } = lamp.falling(place, surface.celerity)?;
+            let cosine = normal.dot(direction);
+            let lit = strength > 0.0 && cosine > 0.0;
+            let offset = if moves { DVec3::ZERO } else { normal };
+            if !lit || !bodies.lamplit(place - scene.origin, offset, lamp.position - place) {
+                return None;
+            }
+            let weights = rgb(lamp.colour) * (strength * cosine);
+            Some((number, light.shifted_lamp(number, weights, doppler)))
+        };
+        scene.lamps.iter().enumerate().filter_map(of).collect()
     }
 
     fn look_up(&self, texture: Option<usize>, hit: &Hit) -> DVec4 {

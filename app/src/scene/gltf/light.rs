@@ -1,22 +1,34 @@
 //! Light: the sun of `KHR_lights_punctual`, and what `extras.rapidity.light` says instead of it or beyond it.
 //!
 //! The first directional light that stands in the scene is the sun. As in other viewers its intensity E, in lux, makes a white surface
-//! that faces it send out E/π: light of π lux and the colour 1 shows white as white. There is no lamp nearby in this program, whose only
-//! light comes from infinity; point and spot lights are named in a notice.
+//! that faces it send out E/π: light of π lux and the colour 1 shows white as white. Point and spot lights that rest are lamps, I candela of
+//! which give I lux at one metre; only the ray tracer draws them, and a notice says so.
 
 use ::gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
 use ::gltf::json::validation::Checked;
 use glam::DVec3;
 use physics::colour::Spectrum;
+use std::f32::consts::PI;
+use std::f64::consts::FRAC_PI_2;
 
 use super::container::Document;
 use super::extras::SceneExtras;
 use super::nodes::Placement;
 use super::spectrum::{Spectra, in_extras};
 use super::{GltfError, Notices};
-use crate::scene::Lighting;
+use crate::scene::{Lamp, Lighting, Spot};
 
-/// The file's light, and its spectrum if it has one.
+/// All that shines.
+pub(super) struct Lights {
+    /// Sun and sky.
+    pub(super) lighting: Lighting,
+    /// Their spectrum, if they have one.
+    pub(super) illuminant: Option<Spectrum>,
+    /// Point and spot lights at rest.
+    pub(super) lamps: Vec<Lamp>,
+}
+
+/// The file's light.
 pub(super) fn lighting(
     document: &Document,
     scene: Option<usize>,
@@ -24,8 +36,8 @@ pub(super) fn lighting(
     placements: &[Placement],
     spectra: &mut Spectra<'_>,
     notices: &mut Notices,
-) -> Result<(Lighting, Option<Spectrum>), GltfError> {
-    let sun = sun(document, placements, spectra, notices)?;
+) -> Result<Lights, GltfError> {
+    let (sun, lamps) = sun_and_lamps(document, placements, spectra, notices)?;
     refuse_spectra_of_other_nodes(document, spectra);
     let mut lighting = Lighting::default();
     let mut illuminant = None;
@@ -37,7 +49,7 @@ pub(super) fn lighting(
     if let (Some(value), Some(scene)) = (&extras.light.spectrum, scene) {
         illuminant = spectra.read(value, &format!("scenes[{scene}]"), "extras.rapidity.light.spectrum");
     }
-    Ok((lighting, illuminant))
+    Ok(Lights { lighting, illuminant, lamps })
 }
 
 struct Sun {
@@ -46,12 +58,12 @@ struct Sun {
     spectrum: Option<Spectrum>,
 }
 
-fn sun(
+fn sun_and_lamps(
     document: &Document,
     placements: &[Placement],
     spectra: &mut Spectra<'_>,
     notices: &mut Notices,
-) -> Result<Option<Sun>, GltfError> {
+) -> Result<(Option<Sun>, Vec<Lamp>), GltfError> {
     // Every light's spectrum is looked at, whether it shines or not: a mistake is a mistake.
     let lights = lights(document);
     let own: Vec<_> = lights
@@ -59,7 +71,7 @@ fn sun(
         .enumerate()
         .map(|(index, light)| spectra.of_extras(&light.extras, &owner(index, light)))
         .collect();
-    let mut sun = None;
+    let (mut sun, mut lamps) = (None, Vec::new());
     for placement in placements {
         let Some(index) = placement.light else {
             continue;
@@ -72,25 +84,42 @@ fn sun(
         let Checked::Valid(kind) = light.type_ else {
             return Err(document.damaged(&format!("{place}.type"), "it is none of directional, point, spot"));
         };
+        let colour = light.color.map(|channel| channel * light.intensity / PI);
+        if !colour.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
+            return Err(document.damaged(&place, "its colour times its intensity is negative or beyond all numbers"));
+        }
+        let direction = || {
+            let direction = (placement.transform.matrix3 * DVec3::Z).try_normalize();
+            direction.ok_or_else(|| document.damaged(&format!("nodes[{node}]"), "its light has no direction"))
+        };
+        let spectrum = of_node.or_else(|| own[index].clone());
         if kind != Type::Directional {
             let kind = if kind == Type::Point { "point" } else { "spot" };
-            notices.add(format!("the {kind} light \"{name}\" does not shine: only directional lights do"));
+            if placement.motion.is_some() {
+                notices.add(format!("the {kind} light \"{name}\" moves and does not shine: only lamps at rest do"));
+                continue;
+            }
+            notices.add(format!("the {kind} light \"{name}\" shines in pictures by --renderer raytrace only"));
+            let spot = light.spot.as_ref().map(|spot| -> Result<Spot, GltfError> {
+                let outer_rad = f64::from(spot.outer_cone_angle).clamp(0.0, FRAC_PI_2);
+                let inner_rad = f64::from(spot.inner_cone_angle).clamp(0.0, outer_rad);
+                Ok(Spot { direction: -direction()?, inner_rad, outer_rad })
+            });
+            lamps.push(Lamp {
+                name: name.to_owned(),
+                position: placement.transform.translation,
+                colour,
+                range: light.range.map(f64::from).filter(|range| *range > 0.0),
+                spot: spot.transpose()?,
+                spectrum,
+            });
         } else if sun.is_some() {
             notices.add(format!("the directional light \"{name}\" does not shine: there is one sun, the first"));
         } else {
-            let colour = light.color.map(|channel| channel * light.intensity / std::f32::consts::PI);
-            if !colour.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
-                return Err(
-                    document.damaged(&place, "its colour times its intensity is negative or beyond all numbers")
-                );
-            }
-            let Some(direction) = (placement.transform.matrix3 * DVec3::Z).try_normalize() else {
-                return Err(document.damaged(&format!("nodes[{node}]"), "its light has no direction"));
-            };
-            sun = Some(Sun { direction, colour, spectrum: of_node.or_else(|| own[index].clone()) });
+            sun = Some(Sun { direction: direction()?, colour, spectrum });
         }
     }
-    Ok(sun)
+    Ok((sun, lamps))
 }
 
 fn lights(document: &Document) -> &[Light] {

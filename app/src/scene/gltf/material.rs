@@ -1,4 +1,4 @@
-//! Surfaces: the diffuse part of glTF's metallic–roughness model.
+//! Surfaces: the diffuse part of glTF's metallic–roughness model, and what makes mirrors and clear glass.
 
 use std::collections::HashSet;
 
@@ -85,6 +85,14 @@ fn read(
         return Err(document.damaged(&format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND"));
     };
     let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
+    let rough = surface.metallic_roughness_texture.is_some();
+    let factor = |factor: f32| if factor.is_finite() { factor.clamp(0.0, 1.0) } else { 0.0 };
+    let transmission = extensions.and_then(|extensions| extensions.transmission.as_ref());
+    let index = extensions.and_then(|extensions| extensions.ior.as_ref()).map_or(1.5, |extension| extension.ior.0);
+    let volume = extensions.and_then(|extensions| extensions.volume.as_ref());
+    if volume.is_some_and(|volume| volume.attenuation_distance.0.is_finite()) {
+        notices.add(format!("the glass of material \"{}\" does not absorb light on its way", name));
+    }
     let read = Material {
         spectrum: spectra.of_extras(&material.extras, &format!("{place} \"{name}\"")),
         name,
@@ -94,6 +102,13 @@ fn read(
         emissive_texture: material.emissive_texture.as_ref().map(|texture| texture.index.value()),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         double_sided: material.double_sided,
+        metallic: factor(surface.metallic_factor.0),
+        // A map says where it is smooth, and is not drawn: so nothing of it is a mirror.
+        roughness: if rough { 1.0 } else { factor(surface.roughness_factor.0) },
+        // glTF's 0 stands for a metal in another model.
+        index_of_refraction: if index >= 1.0 && index.is_finite() { index } else { 1.5 },
+        transmission: transmission.map_or(0.0, |extension| factor(extension.transmission_factor.0)),
+        solid_glass: volume.is_some_and(|volume| volume.thickness_factor.0 > 0.0),
         alpha: match mode {
             AlphaMode::Opaque => Alpha::Opaque,
             AlphaMode::Mask => Alpha::Mask(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),

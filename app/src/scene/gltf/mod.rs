@@ -155,7 +155,7 @@ pub struct Progress {
 ///
 /// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
 /// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
-/// The first directional light of `KHR_lights_punctual` is the sun; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
+/// The first directional light of `KHR_lights_punctual` is the sun, others are lamps; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
 /// tells all of it. What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
 /// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
 /// first camera, else at the origin or in front of the scene.
@@ -178,7 +178,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     // Read surfaces and light.
     let mut spectra = Spectra::new(&document);
     let (mut materials, channels) = material::materials(&document, &mut spectra, &mut notices)?;
-    let (light, illuminant) =
+    let light::Lights { lighting, illuminant, lamps } =
         light::lighting(&document, scene_index, &extras, &placements, &mut spectra, &mut notices)?;
     spectra.finish()?;
 
@@ -251,8 +251,9 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         materials,
         meshes,
         motions,
-        light,
+        light: lighting,
         illuminant,
+        lamps,
         white: extras.white,
         panorama,
         start: extras.start.unwrap_or_else(|| bounds.start()),
@@ -350,10 +351,13 @@ fn start_below(camera: DAffine3, scene: &Scene) -> Start {
 }
 
 /// Extensions that are drawn.
-const EXTENSIONS: [&str; 5] = [
+const EXTENSIONS: [&str; 8] = [
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];

@@ -1,0 +1,128 @@
+//! The camera's lens and shutter: what makes a pixel's ray one of many.
+//!
+//! Every point of a lens is an eye of its own, at the observer's one moment, and every moment that the shutter is open has an eye further along the
+//! worldline. Either is an observer with the same celerity at another event, so nothing else in the tracer knows of them.
+//!
+//! Where in the lens and when a sample looks is a point of a low-discrepancy sequence in three dimensions, the same in every pixel but turned
+//! round by a hash of the pixel's place: noise instead of patterns, and the same picture on any number of threads.
+
+use crate::renderers::Shot;
+use glam::{DVec2, DVec3};
+use physics::{Boost, FourVector, Observer};
+use std::f64::consts::TAU;
+
+/// A thin lens in front of the observer, at rest in his frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Diameter of its opening, metres.
+    pub aperture_m: f64,
+    /// Distance of the plane that is sharp, metres along the axis of the picture, in the observer's frame: of apparent places.
+    pub focus_m: f64,
+}
+
+/// Lens and shutter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Optics {
+    /// `None`: a pinhole.
+    pub lens: Option<Lens>,
+    /// How long the shutter is open, metres of light travel by the observer's clock, half before and half after the picture's moment.
+    pub exposure_m: f64,
+}
+
+/// Where in the lens and when a sample looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Draw {
+    /// In the unit disc.
+    lens: DVec2,
+    /// −½…½ of the exposure.
+    moment: f64,
+}
+
+impl Optics {
+    /// Whether every sample is seen from the shot's own event.
+    pub fn is_pinhole(&self) -> bool {
+        self.lens.is_none_or(|lens| lens.aperture_m == 0.0) && self.exposure_m == 0.0
+    }
+
+    /// Who looks for a sample of a pixel, and which way.
+    ///
+    /// *Frames:* `ahead` is the pixel's direction in eye axes, (x, y, −1); the result is in the observer's.
+    ///
+    /// *Equation:* a thin lens brings together the rays that cross at a point of its sharp plane: from the place o in the lens a pixel
+    /// looks along F (x, y, −1) − o, F the distance of that plane (W C.1.2).
+    pub fn look(&self, shot: &Shot, ahead: DVec3, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
+        let draw = Draw::of(pixel, sample);
+        let observer = shot.observer();
+        let tau = self.exposure_m * draw.moment;
+        let mut ahead = ahead;
+        let mut place = DVec3::ZERO;
+        if let Some(lens) = self.lens.filter(|lens| lens.aperture_m > 0.0) {
+            let eye = (0.5 * lens.aperture_m * draw.lens).extend(0.0);
+            ahead = ahead * lens.focus_m - eye;
+            place = shot.camera.observer_from_eye * eye;
+        }
+        let gone = if shot.effects.geometry {
+            let world_from_observer = Boost::observer_from_world(observer.celerity).inverse();
+            world_from_observer.apply(FourVector { t: tau, r: place })
+        } else {
+            // Where light takes no time, the observer's lens is at one moment of the world.
+            let celerity = observer.celerity;
+            FourVector { t: tau * celerity.gamma(), r: celerity.vector() * tau + place }
+        };
+        let observer = Observer { event: observer.event + gone, ..observer };
+        (observer, (shot.camera.observer_from_eye * ahead).normalize())
+    }
+}
+
+impl Draw {
+    /// *Equation:* the additive recurrence x_n = n (1/g, 1/g², 1/g³) + x₀ mod 1 with g⁴ = g + 1 (Roberts' R₃), the third taken for the time;
+    /// its steps are not those of the places within a pixel, with which it would keep pace.
+    fn of(pixel: [u32; 2], sample: u32) -> Self {
+        const G: f64 = 1.220_744_084_605_759_5;
+        let steps = [1.0 / G, 1.0 / (G * G), 1.0 / (G * G * G)];
+        let [u, v, w] = [0, 1, 2].map(|dimension: u32| {
+            let start = f64::from(hash([pixel[0], pixel[1], dimension])) / (f64::from(u32::MAX) + 1.0);
+            (start + steps[dimension as usize] * f64::from(sample)).fract()
+        });
+        let (sine, cosine) = (TAU * v).sin_cos();
+        Self { lens: DVec2::new(cosine, sine) * u.sqrt(), moment: w - 0.5 }
+    }
+}
+
+/// Mixes numbers well: a multiplication and a shift by the upper bits for each (after PCG).
+fn hash(numbers: [u32; 3]) -> u32 {
+    numbers.into_iter().fold(0x9e37_79b9, |state: u32, number| {
+        let state = (state ^ number).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+        (word >> 22) ^ word
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    //! Samples fill the lens and the exposure evenly, whatever the pixel. A wrong program leaves holes, or draws pixels beside each other alike.
+
+    use super::*;
+
+    #[test]
+    fn samples_fill_the_lens_and_the_exposure_evenly() {
+        for pixel in [[0, 0], [1, 0], [0, 1], [917, 401]] {
+            let count = 256;
+            let draws: Vec<_> = (0..count).map(|sample| Draw::of(pixel, sample)).collect();
+            assert!(draws.iter().all(|draw| draw.lens.length() <= 1.0 && draw.moment.abs() <= 0.5));
+            // Each of eight rings and sectors of one area, and each eighth of the time, has an eighth of the samples to a quarter of that;
+            // independent random numbers would be further off in one part of eight.
+            let parts = |part: &dyn Fn(&Draw) -> f64| {
+                let mut counts = [0; 8];
+                draws.iter().for_each(|draw| counts[(part(draw) * 8.0).min(7.0) as usize] += 1);
+                counts
+            };
+            let sector = |draw: &Draw| draw.lens.y.atan2(draw.lens.x).rem_euclid(TAU) / TAU;
+            for counts in [parts(&|draw| draw.lens.length_squared()), parts(&sector), parts(&|draw| draw.moment + 0.5)]
+            {
+                assert!(counts.iter().all(|count| (24..=40).contains(count)), "{counts:?} at {pixel:?}");
+            }
+        }
+        assert_ne!(Draw::of([3, 4], 0), Draw::of([4, 3], 0));
+    }
+}

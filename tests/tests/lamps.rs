@@ -1,0 +1,114 @@
+//! Law: a lamp's light falls off with the square of the distance and with the cosine of its angle, behind something there is none of it, and what moves gets it
+//! as its own observer would see it: from the aberrated direction, of another colour, D² as much.
+//!
+//! A wrong program shows: with the direction of the world's frame, a floor that is bright in the wrong place; with another power of D, another
+//! brightness; with shadow rays that go on beyond the lamp, shadows of what is behind it.
+#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+use glam::{DVec3, Vec2, Vec3};
+use physics::colour::Carrier;
+use physics::photo_surface::Eye;
+use physics::{Beta, Event};
+use rapidity::renderers::raytrace::RayTracer;
+use rapidity::renderers::{Effects, Shot};
+use rapidity::scene::motion::{Motion, Uniform};
+use rapidity::scene::{Lamp, Lighting, Material, Mesh, Scene};
+use std::sync::atomic::AtomicBool;
+use system_tests::view::{View, middle};
+
+const SIZE: [u32; 2] = [64, 48];
+
+/// Of light that f32 coordinates and colours have gone through.
+const LIGHT_TOLERANCE: f64 = 1e-5;
+
+const LAMP: DVec3 = DVec3::new(0.5, 1.0, -3.0);
+const COLOUR: [f32; 3] = [3.0, 2.0, 1.0];
+
+/// A level square about a place that faces up.
+fn level(x: f32, y: f32, z: f32, half: f32) -> Mesh {
+    let corners = [[-half, half], [half, half], [half, -half], [-half, -half]];
+    Mesh {
+        positions: corners.map(|[along, across]| Vec3::new(x + along, y, z + across)).to_vec(),
+        normals: vec![Vec3::Y; 4],
+        uvs: vec![Vec2::ZERO; 4],
+        colours: vec![[1.0; 4]; 4],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        ..Mesh::default()
+    }
+}
+
+/// A floor under a lamp, and nothing else that shines.
+fn scene(meshes: Vec<Mesh>) -> Scene {
+    let lamp = Lamp { name: "lamp".into(), position: LAMP, colour: COLOUR, range: None, spot: None, spectrum: None };
+    Scene {
+        materials: vec![Material::default()],
+        meshes,
+        light: Lighting { sun: [0.0; 3], sky: [0.0; 3], ground: [0.0; 3], ..Lighting::default() },
+        lamps: vec![lamp],
+        ..Scene::default()
+    }
+}
+
+/// Holds each pixel of the floor, a metre below the eye, against what is expected for its place in the world; `None`: too near an edge.
+fn hold(scene: Scene, expected: impl Fn(DVec3) -> Option<DVec3>) -> [usize; 2] {
+    let view = View { look: DVec3::new(0.0, -0.3, -1.0), up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
+    let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap();
+    let eye = Eye::new(DVec3::ZERO, DVec3::ZERO).unwrap();
+    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: Effects::GEOMETRY };
+    let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {});
+    let mut compared = [0; 2];
+    let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
+    for (pixel, light) in pixels.zip(&traced.light) {
+        let direction = view.direction(middle(pixel));
+        if direction.y > -0.05 {
+            continue;
+        }
+        let Some(expected) = expected(direction / -direction.y) else { continue };
+        let off = (*light - expected).abs().max_element();
+        assert!(off <= LIGHT_TOLERANCE * expected.abs().max_element(), "{light} instead of {expected} at {pixel:?}");
+        compared[usize::from(expected != DVec3::ZERO)] += 1;
+    }
+    compared
+}
+
+#[test]
+fn a_lamp_lights_the_floor_and_what_is_between_shades_it() {
+    // A sheet between the lamp and the floor, and one above the lamp that shades nothing.
+    let floor = level(0.0, -1.0, 0.0, 90.0);
+    let scene = scene(vec![floor, level(0.7, 0.6, -3.1, 0.3), level(0.5, 2.0, -3.0, 4.0)]);
+    let compared = hold(scene, |place| {
+        let share = 0.4 / 2.0;
+        let crossing = LAMP + (place - LAMP) * share;
+        let inside = 0.3 - (crossing.x - 0.7).abs().max((crossing.z + 3.1).abs());
+        // Shadow rays begin a little off the floor.
+        if inside.abs() < 0.04 {
+            return None;
+        }
+        let away = LAMP - place;
+        let strength = away.y / away.length().powi(3);
+        Some(if inside > 0.0 { DVec3::ZERO } else { Vec3::from_array(COLOUR).as_dvec3() * strength })
+    });
+    assert!(compared[0] > 50 && compared[1] > 500, "{compared:?} in shadow and in light");
+}
+
+#[test]
+fn a_floor_that_moves_gets_the_lamp_as_it_sees_it() {
+    for beta in [DVec3::X * 0.6, DVec3::new(-0.4, 0.0, 0.5)] {
+        let velocity = Beta::new(beta).unwrap();
+        let celerity = velocity.celerity();
+        let mut scene = scene(vec![level(0.0, -1.0, 0.0, 900.0)]);
+        let anchor = Event { ct: 0.0, position: DVec3::NEG_Y };
+        scene.motions = vec![Motion::Uniform(Uniform { celerity, anchor })];
+        scene.meshes[0].motion = Some(0);
+        let white = Carrier::white();
+        let compared = hold(scene, |place| {
+            let away = LAMP - place;
+            let (distance, towards) = (away.length(), away.normalize());
+            let doppler = celerity.gamma() * (1.0 + beta.dot(towards));
+            // D² of light per area across it, on a floor that it meets at an angle of cosine n_y / D.
+            let strength = doppler * towards.y / (distance * distance);
+            Some(white.rgb_from_weights(doppler) * Vec3::from_array(COLOUR).as_dvec3() * strength)
+        });
+        assert!(compared[1] > 500, "{compared:?}");
+    }
+}
