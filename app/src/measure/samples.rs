@@ -17,7 +17,7 @@ use crate::renderers::target::Radiance;
 
 const COUNTS: [u32; 3] = [1, 4, 16];
 /// Samples of the reference.
-const MANY: u32 = 64;
+const MANY: u32 = 32;
 /// How finely triangles are cut, so that what is left is of the samples.
 const FINE: Setting = Setting::Tolerance(0.25);
 
