@@ -65,7 +65,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     let settings: &[_] = if kind == Kind::Stills { &OF_STILLS } else { &OF_RIDES };
     let rows = measure(&measurement, settings, tracer.as_ref(), &stop)?;
     print!("{}", table::of_pictures(&rows));
-    if rows.iter().all(|row| row.pixels == 0) {
+    if !rows.is_empty() && rows.iter().all(|row| row.pixels == 0) {
         eprintln!(
             "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay"
         );
