@@ -41,7 +41,7 @@ pub struct Line {
     pub dial: &'static str,
     /// What it is set to, as the command line has it where it can.
     pub setting: String,
-    /// Names are among [`COLUMNS`].
+    /// Names are among `COLUMNS`.
     pub numbers: Vec<(&'static str, f64)>,
 }
 
