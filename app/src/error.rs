@@ -18,6 +18,15 @@ pub enum Error {
     /// No plot.
     #[error(transparent)]
     Plot(#[from] crate::measure::plot::PlotError),
+    /// No setting for a goal.
+    #[error(transparent)]
+    Choice(#[from] crate::measure::choice::ChoiceError),
+    /// No use of the user's preferences.
+    #[error(transparent)]
+    Preferences(#[from] crate::preferences::PreferencesError),
+    /// A worldline that cannot be followed.
+    #[error(transparent)]
+    Worldline(#[from] physics::worldline::WorldlineError),
     /// Physics less exact than promised.
     #[error(transparent)]
     Extremes(#[from] crate::measure::extremes::ExtremesError),
@@ -115,7 +124,7 @@ pub enum Error {
     #[error("the output cannot be written: {0}")]
     Output(#[from] std::io::Error),
     /// A file that would not be written.
-    #[error("{}: could not be written: {reason}; choose another place with --out", path.display())]
+    #[error("{}: could not be written: {reason}; choose another place", path.display())]
     Write {
         /// What was to be written.
         path: PathBuf,

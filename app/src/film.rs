@@ -18,7 +18,7 @@ const WAITING_FRAMES: usize = 3;
 #[derive(Debug, Error)]
 pub enum FilmError {
     /// A file or folder would not be written.
-    #[error("{path}: could not be written: {reason}; choose another place with --out")]
+    #[error("{path}: could not be written: {reason}; choose another place")]
     Write {
         /// What was to be written.
         path: PathBuf,

@@ -16,6 +16,7 @@ pub mod log;
 pub mod measure;
 pub mod pace;
 pub mod photo;
+pub mod preferences;
 pub mod probe;
 pub mod progress;
 pub mod render;

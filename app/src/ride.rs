@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::film_ride;
 use crate::live::Live;
 use crate::log::Log;
+use crate::preferences;
 use crate::progress;
 use crate::render::writable;
 use crate::room::Display;
@@ -43,6 +44,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
     if options.verify {
         return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
     }
+    let options = &preferences::applied(options)?;
     if options.out.is_none() && window::has_display() {
         let (scene, begin) = begin(options)?;
         return window::run(options, scene, begin);

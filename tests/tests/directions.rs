@@ -7,7 +7,8 @@
 
 use glam::DVec3;
 use physics::{Celerity, Event, Observer};
-use rapidity::measure::direction::{ARCMIN_PER_RAD, DirectionErrors};
+use rapidity::measure::direction::{self, ARCMIN_PER_RAD};
+use rapidity::measure::quantiles::Sorted;
 use rapidity::renderers::Method;
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::scene::Scene;
@@ -34,7 +35,7 @@ const MAP_ARCMIN: f64 = 0.5 * std::f64::consts::SQRT_2 * PIXEL_ARCMIN / 8.0;
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
 
 /// Errors of a picture; pixels that show no surface do not count.
-fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec3) -> DirectionErrors {
+fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec3) -> Sorted {
     let view = View { look, up: DVec3::Y, fov_degrees: FOV_DEGREES, size: SIZE };
     let celerity = Celerity::new(celerity).unwrap();
     let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
@@ -44,7 +45,7 @@ fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec
         .zip(places)
         .filter_map(|(pixel, shown)| Some((view.direction(middle(pixel)), shown?.position + scene.origin)));
     let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
-    DirectionErrors::of(&observer, shown)
+    direction::errors(&observer, shown)
 }
 
 fn polygon() -> Method {

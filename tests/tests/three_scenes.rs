@@ -9,7 +9,7 @@ use glam::DVec3;
 use image::Rgb32FImage;
 use physics::apparent::at_rest;
 use physics::{Celerity, Observer};
-use rapidity::measure::direction::DirectionErrors;
+use rapidity::measure::direction;
 use rapidity::renderers::picture::Shown;
 use rapidity::renderers::polygon::{Pace, Tolerance};
 use rapidity::renderers::{Effects, Method};
@@ -92,7 +92,7 @@ impl World {
             let seen = pixels.zip(&places).filter_map(|(pixel, shown)| {
                 Some((view.direction(middle(pixel)), self.apparent(who, shown.as_ref()?)))
             });
-            let errors = DirectionErrors::between(seen);
+            let errors = direction::between(seen);
             let alike = alike(&drawn, &traced);
             let moves = |shown: &Option<Shown>| shown.and_then(|shown| shown.motion);
             let moving = met.iter().filter(|shown| moves(shown).is_some()).count();

@@ -21,6 +21,18 @@ pub enum Renderer {
     Raytrace,
 }
 
+impl Renderer {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Polygon => "polygon",
+            Self::Image => "image",
+            Self::Raytrace => "raytrace",
+        }
+    }
+}
+
 /// Size, field of view, quality.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "Picture")]
@@ -96,11 +108,6 @@ impl PictureOptions {
 }
 
 fn renderer(text: &str) -> Result<Renderer, ValueError> {
-    match text {
-        "auto" => Ok(Renderer::Auto),
-        "polygon" => Ok(Renderer::Polygon),
-        "image" => Ok(Renderer::Image),
-        "raytrace" => Ok(Renderer::Raytrace),
-        _ => Err(ValueError::Renderer),
-    }
+    let all = [Renderer::Auto, Renderer::Polygon, Renderer::Image, Renderer::Raytrace];
+    all.into_iter().find(|renderer| renderer.name() == text).ok_or(ValueError::Renderer)
 }

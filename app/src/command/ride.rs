@@ -31,6 +31,9 @@ pub enum Latency {
 }
 
 /// What to ride through, in what, and for how long.
+///
+/// Where none of --renderer, --tolerance, --edge, --transform and --map-scale is given, they are those that rapidity.toml in the user's configuration directory
+/// names (on Linux ~/.config/rapidity, or rapidity in XDG_CONFIG_HOME), if there is one; `rapidity measure --budget` and `--tolerance` write it.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RideOptions {
@@ -76,6 +79,9 @@ pub struct RideOptions {
     /// How the picture is drawn.
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// Whether the command line says anything of the renderer or its dials.
+    #[arg(skip)]
+    pub drawing_is_given: bool,
 }
 
 impl RideOptions {

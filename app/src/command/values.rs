@@ -32,6 +32,12 @@ pub enum ValueError {
     /// Not a speed.
     #[error("expected a positive number and a unit (m/s, km/h, mph, km/s or c), as in \"30 km/h\"")]
     Speed,
+    /// Not a time.
+    #[error("expected a time above 0 and its unit, ms or s, as in 16.7ms")]
+    Time,
+    /// Not a length in the picture.
+    #[error("expected a number of pixels above 0, as in 1px")]
+    Pixels,
     /// Not a usable number.
     #[error("expected a finite number above 0")]
     Positive,
@@ -205,6 +211,22 @@ pub(super) fn speed(text: &str) -> Result<f64, ValueError> {
         .ok_or(ValueError::Speed)?;
     let speed = number.trim().parse::<f64>().map_err(|_| ValueError::Speed)? * factor;
     if speed.is_finite() && speed > 0.0 { Ok(speed) } else { Err(ValueError::Speed) }
+}
+
+/// A time in milliseconds, from a number and its unit.
+pub(super) fn milliseconds(text: &str) -> Result<f64, ValueError> {
+    let text = text.trim();
+    let (number, factor) = match text.strip_suffix("ms") {
+        Some(number) => (number, 1.0),
+        None => (text.strip_suffix('s').ok_or(ValueError::Time)?, 1e3),
+    };
+    positive(number).map(|number| number * factor).ok().filter(|ms| ms.is_finite()).ok_or(ValueError::Time)
+}
+
+/// A length in pixels, with its unit.
+pub(super) fn pixels(text: &str) -> Result<f64, ValueError> {
+    let number = text.trim().strip_suffix("px").ok_or(ValueError::Pixels)?;
+    positive(number).map_err(|_| ValueError::Pixels)
 }
 
 /// A finite number above zero.

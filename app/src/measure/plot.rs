@@ -4,20 +4,45 @@ use std::path::Path;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
-use super::sweep::Row;
+use super::pictures::Row;
 
 /// Pixels.
 const SIZE: (u32, u32) = (1000, 620);
 const FONT: &str = "sans-serif";
 const FRONT: RGBColor = RGBColor(120, 120, 120);
 
-/// What a renderer's points look like.
-const KINDS: [(&str, &str, RGBColor); 3] = [
-    ("--edge", "polygon, cut once (--edge, metres)", RGBColor(214, 96, 36)),
-    ("--tolerance", "polygon, cut for the picture (--tolerance, pixels)", RGBColor(20, 110, 180)),
-    ("--map-scale", "image (--map-scale, texels a pixel)", RGBColor(40, 140, 60)),
+/// What a dial's points look like.
+struct Kind {
+    dial: &'static str,
+    name: &'static str,
+    colour: RGBColor,
+    /// Whether values stand below their points on the left, where no point is that is better; or above them on the right.
+    below: bool,
+}
+
+const KINDS: [Kind; 4] = [
+    Kind { dial: "edge", name: "polygon, cut once (--edge, metres)", colour: RGBColor(214, 96, 36), below: true },
+    Kind {
+        dial: "transform",
+        name: "the same, bent by the GPU (--transform gpu)",
+        colour: RGBColor(140, 70, 160),
+        below: false,
+    },
+    Kind {
+        dial: "tolerance",
+        name: "polygon, cut for the picture (--tolerance, pixels)",
+        colour: RGBColor(20, 110, 180),
+        below: true,
+    },
+    Kind {
+        dial: "map-scale",
+        name: "image (--map-scale, texels a pixel)",
+        colour: RGBColor(40, 140, 60),
+        below: false,
+    },
 ];
 
 /// Why there is no plot.
@@ -41,18 +66,21 @@ pub fn plot(rows: &[Row], title: &str, pixel_arcmin: f64, path: &Path) -> Result
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .map_err(|_| fault("its font is damaged".to_owned()))?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
-        draw(&SVGBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin).map_err(fault)
+        draw(&SVGBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, " ").map_err(fault)
     } else {
-        draw(&BitMapBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin).map_err(fault)
+        draw(&BitMapBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, "  ").map_err(fault)
     }
 }
 
+/// `space`: between words; in bitmaps, where letters are set without their sides, one is hardly seen.
 fn draw<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     rows: &[Row],
     title: &str,
     pixel_arcmin: f64,
+    space: &str,
 ) -> Result<(), String> {
+    let words = |text: &str| text.replace(' ', space);
     let told = |error: DrawingAreaErrorKind<B::ErrorType>| error.to_string();
     area.fill(&WHITE).map_err(told)?;
     let span = |values: Vec<f64>, below: f64, above: f64| {
@@ -62,20 +90,20 @@ fn draw<B: DrawingBackend>(
     let across = span(rows.iter().map(|row| row.ms[0]).collect(), 0.8, 1.6);
     let up = span(rows.iter().map(|row| row.arcmin[1]).chain([pixel_arcmin]).collect(), 0.6, 1.8);
     let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT, 22))
+        .caption(words(title), (FONT, 22))
         .margin(14)
         .x_label_area_size(52)
         .y_label_area_size(70)
         .build_cartesian_2d(across.clone().log_scale(), up.log_scale())
         .map_err(told)?;
-    let plain = |value: &f64| if *value < 10.0 { format!("{value:.1}") } else { format!("{value:.0}") };
     chart
         .configure_mesh()
-        .x_desc("milliseconds a picture, from nothing")
-        .y_desc("direction error that 99 of 100 pixels do not exceed, arcmin")
-        .x_label_formatter(&plain)
-        .y_label_formatter(&plain)
-        .x_labels(6)
+        .x_desc(words("milliseconds a picture, from nothing"))
+        .y_desc(words("direction error that 99 of 100 pixels do not exceed, arcmin"))
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
+        .x_labels(16)
+        .y_labels(16)
         .max_light_lines(4)
         .axis_desc_style((FONT, 18))
         .label_style((FONT, 15))
@@ -87,30 +115,31 @@ fn draw<B: DrawingBackend>(
     // A pixel, and what nothing beats.
     let pixel = [(across.start, pixel_arcmin), (across.end, pixel_arcmin)];
     chart.draw_series(LineSeries::new(pixel, BLACK.mix(0.35))).map_err(told)?;
-    let note = Text::new("one pixel", (across.start * 1.03, pixel_arcmin * 0.93), (FONT, 15).into_font());
+    let note = Text::new(words("one pixel"), (across.start * 1.03, pixel_arcmin * 0.93), (FONT, 15).into_font());
     chart.draw_series([note]).map_err(told)?;
     let mut front: Vec<(f64, f64)> = rows.iter().filter(|row| row.best).map(|row| (row.ms[0], row.arcmin[1])).collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart
         .draw_series(LineSeries::new(front, FRONT.stroke_width(2)))
         .map_err(told)?
-        .label("no setting is both faster and closer")
+        .label(words("no setting is both faster and closer"))
         .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], FRONT.stroke_width(2)));
 
-    for (flag, name, colour) in KINDS {
-        let points = rows.iter().filter_map(|row| {
-            let value = row.flags.split_once(flag)?.1.trim().to_owned();
-            Some((row.ms[0], row.arcmin[1], value))
-        });
+    for Kind { dial, name, colour, below } in KINDS {
+        let (offset, anchor) =
+            if below { ((-7, 2), (HPos::Right, VPos::Top)) } else { ((8, -2), (HPos::Left, VPos::Bottom)) };
+        let style = (FONT, 17).into_font().color(&colour).pos(Pos::new(anchor.0, anchor.1));
+        let of_dial = rows.iter().filter(|row| row.setting.dial() == dial);
+        let points = of_dial.map(|row| (row.ms[0], row.arcmin[1], row.setting.value().to_string()));
         let marks = points.map(|(ms, arcmin, value)| {
             EmptyElement::at((ms, arcmin))
                 + Circle::new((0, 0), 6, colour.filled())
-                + Text::new(value, (10, -14), (FONT, 17).into_font().color(&colour))
+                + Text::new(value, offset, style.clone())
         });
         chart
             .draw_series(marks)
             .map_err(told)?
-            .label(name)
+            .label(words(name))
             .legend(move |(x, y)| Circle::new((x + 9, y), 5, colour.filled()));
     }
     chart
@@ -122,4 +151,25 @@ fn draw<B: DrawingBackend>(
         .draw()
         .map_err(told)?;
     area.present().map_err(told)
+}
+
+/// Numbers along a logarithmic axis: those that begin with 1, 2 or 5, for there is no room for more.
+fn label(value: &f64) -> String {
+    let power = value.log10().floor();
+    let first = (value / 10.0_f64.powf(power)).round();
+    let digits = (-power).max(0.0) as usize;
+    if [1.0, 2.0, 5.0, 10.0].contains(&first) { format!("{value:.digits$}") } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Numbers along an axis are what they stand for, in as many digits as they need.
+
+    use super::*;
+
+    #[test]
+    fn every_third_number_is_written() {
+        let values = [0.05, 0.1, 0.30000000000000004, 0.5, 1.0, 2.0, 3.0, 5.000000000000001, 900.0, 1000.0];
+        assert_eq!(values.map(|value| label(&value)), ["0.05", "0.1", "", "0.5", "1", "2", "", "5", "", "1000"]);
+    }
 }

@@ -259,6 +259,21 @@ impl SceneRenderer {
         if let Way::Polygon(surface) = &mut self.way { Some(surface) } else { None }
     }
 
+    /// Waits for whatever goes on beside the drawing.
+    pub fn settle(&self) {
+        if let Way::Adaptive(adaptive) = &self.way {
+            adaptive.settle();
+        }
+    }
+
+    /// Draws into targets of another format from now on; a map, if there is one, is then made anew in this quality.
+    pub fn draw_in(&mut self, gpu: &Gpu, format: Format, quality: Option<MapQuality>) {
+        self.format = format;
+        if let (Way::Image(image, movers), Some(quality)) = (&mut self.way, quality) {
+            **image = ImageRenderer::new(gpu, format, quality, movers.is_some());
+        }
+    }
+
     /// Makes what all samples of a picture share: the map or the cut, where the method has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
         self.prepare_eye(gpu, &[(*shot, size)]);

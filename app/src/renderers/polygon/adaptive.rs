@@ -131,6 +131,15 @@ impl Adaptive {
         }
     }
 
+    /// Waits for the cut that is being made, if one is; the next picture takes it.
+    pub fn settle(&self) {
+        if let Some(cutter) = &self.cutter {
+            while cutter.busy && cutter.made.is_empty() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        }
+    }
+
     /// The apparent positions of the newest cut.
     pub fn streams(&self) -> Option<&wgpu::Buffer> {
         self.shown.as_ref().map(|shown| &shown.streams)

@@ -1,0 +1,151 @@
+//! The best setting for a goal, and where rides find it.
+
+use thiserror::Error;
+
+use super::pictures::Row;
+use crate::command::Goal;
+use crate::error::Error;
+use crate::preferences::{Drawing, Preferences};
+
+/// A goal that no setting reaches here.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ChoiceError {
+    /// All are too slow.
+    #[error(
+        "nothing was written, for no setting keeps to {budget_ms} ms a frame in 95 of 100 on this device; {flags} comes closest, with {ms:.1} ms; \
+         a smaller --size is faster"
+    )]
+    TooSlow {
+        /// As asked.
+        budget_ms: f64,
+        /// The fastest.
+        flags: String,
+        /// Its 95th percentile.
+        ms: f64,
+    },
+    /// All are too far off.
+    #[error(
+        "nothing was written, for no setting keeps 99 of 100 pixels within {tolerance_px} pixels; {flags} comes closest, with {px:.2} pixels"
+    )]
+    TooFarOff {
+        /// As asked.
+        tolerance_px: f64,
+        /// The closest.
+        flags: String,
+        /// Its 99th percentile.
+        px: f64,
+    },
+    /// Nothing was measured.
+    #[error("nothing was written, for no surface of this scene could be looked at; choose another --scene or --replay")]
+    Nothing,
+}
+
+/// Picks the setting that reaches the goal best, and writes it where rides read it.
+///
+/// # Errors
+/// [`ChoiceError`], or a file that cannot be written.
+pub fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result<(), Error> {
+    let row = best(rows, goal, pixel_arcmin)?;
+    let drawing = Drawing::of(row.setting);
+    let note = format!(
+        "Chosen by `rapidity measure --{goal}` for pictures of {} x {}: {:.1} ms a frame ({:.1} in 95 of 100), {:.2} pixels off.",
+        size[0],
+        size[1],
+        row.ms[0],
+        row.ms[1],
+        row.arcmin[1] / pixel_arcmin
+    );
+    let path = Preferences { ride: drawing }.save(&note)?;
+    eprintln!(
+        "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
+        row.setting.flags(),
+        row.ms[0],
+        row.ms[1],
+        row.arcmin[1] / pixel_arcmin
+    );
+    eprintln!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display());
+    Ok(())
+}
+
+/// For a budget, the closest of those that keep to it in 95 of 100 frames; for a tolerance, the fastest of those that keep to it in 99 of 100 pixels.
+fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError> {
+    // Where nothing was seen, nothing was wrong.
+    let seen = || rows.iter().filter(|row| row.pixels > 0);
+    let by = |key: fn(&Row) -> [f64; 2]| {
+        move |a: &&Row, b: &&Row| {
+            let ([a, then_a], [b, then_b]) = (key(a), key(b));
+            a.total_cmp(&b).then(then_a.total_cmp(&then_b))
+        }
+    };
+    let closer = by(|row| [row.arcmin[1], row.ms[0]]);
+    let faster = by(|row| [row.ms[0], row.arcmin[1]]);
+    match goal {
+        Goal::Budget { ms: budget_ms } => seen().filter(|row| row.ms[1] <= budget_ms).min_by(closer).ok_or_else(|| {
+            let fastest = seen().min_by(by(|row| [row.ms[1], row.arcmin[1]]));
+            fastest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooSlow {
+                budget_ms,
+                flags: row.setting.flags(),
+                ms: row.ms[1],
+            })
+        }),
+        Goal::Tolerance { pixels } => {
+            seen().filter(|row| row.arcmin[1] <= pixels * pixel_arcmin).min_by(faster).ok_or_else(|| {
+                let closest = seen().min_by(closer);
+                closest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooFarOff {
+                    tolerance_px: pixels,
+                    flags: row.setting.flags(),
+                    px: row.arcmin[1] / pixel_arcmin,
+                })
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: no setting that reaches the goal is better than the chosen one, and where none does, the nearest is named.
+
+    use super::*;
+    use crate::measure::dials::Setting;
+
+    /// Metres of edge, 95th percentile of time, arcminutes.
+    fn rows(of: &[(f64, f64, f64)]) -> Vec<Row> {
+        let row = |&(edge, ms, arcmin): &(f64, f64, f64)| Row {
+            setting: Setting::Edge(edge),
+            ms: [0.9 * ms, ms],
+            stages_ms: [[0.0; 2]; 3],
+            bytes: None,
+            pixels: 1,
+            arcmin: [0.0, arcmin, 2.0 * arcmin],
+            above_one: 0.0,
+            colour: None,
+            best: false,
+        };
+        of.iter().map(row).collect()
+    }
+
+    #[test]
+    fn the_best_that_reaches_the_goal_is_taken() {
+        let rows = rows(&[(1.0, 5.0, 40.0), (2.0, 16.0, 12.0), (3.0, 17.0, 1.0), (4.0, 10.0, 12.0), (5.0, 90.0, 0.5)]);
+        let edge = |goal| best(&rows, goal, 10.0).map(|row| row.setting.value());
+        // 2 and 4 are equally close: the faster.
+        assert_eq!(edge(Goal::Budget { ms: 16.7 }), Ok(4.0));
+        assert_eq!(edge(Goal::Budget { ms: 17.0 }), Ok(3.0));
+        assert_eq!(edge(Goal::Budget { ms: 9.99 }), Ok(1.0));
+        assert_eq!(edge(Goal::Tolerance { pixels: 1.0 }), Ok(3.0));
+        assert_eq!(edge(Goal::Tolerance { pixels: 0.09 }), Ok(5.0));
+        assert_eq!(edge(Goal::Tolerance { pixels: 10.0 }), Ok(1.0));
+    }
+
+    #[test]
+    fn what_comes_closest_is_named_where_nothing_reaches_it() {
+        let rows = rows(&[(1.0, 5.0, 40.0), (2.0, 16.0, 12.0)]);
+        let told = |goal| best(&rows, goal, 10.0).unwrap_err().to_string();
+        let slow = told(Goal::Budget { ms: 4.0 });
+        assert!(slow.contains("--edge 1") && slow.contains("5.0 ms"), "{slow}");
+        let far = told(Goal::Tolerance { pixels: 1.0 });
+        assert!(far.contains("--edge 2") && far.contains("1.20 pixels"), "{far}");
+        let unseen: Vec<Row> = rows.into_iter().map(|row| Row { pixels: 0, arcmin: [0.0; 3], ..row }).collect();
+        assert_eq!(best(&unseen, Goal::Budget { ms: 90.0 }, 10.0), Err(ChoiceError::Nothing));
+    }
+}

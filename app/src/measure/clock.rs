@@ -1,0 +1,136 @@
+//! How long the stages of a picture take, and what its renderer holds on the device.
+
+use std::time::Instant;
+
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::renderers::target::Radiance;
+use crate::renderers::{SceneRenderer, Shot};
+use crate::views::sample_offset;
+
+/// Milliseconds that one picture's stages took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stages {
+    /// Photo-surface, cut, or plan of the map: what the CPU works out.
+    pub bend: f64,
+    /// Getting that onto the device.
+    pub upload: f64,
+    /// Drawing, the map's panes included, until the device is done.
+    pub draw: f64,
+}
+
+impl Stages {
+    /// All of it.
+    pub fn total(self) -> f64 {
+        self.bend + self.upload + self.draw
+    }
+}
+
+/// Begins the photo-surface, where there is one.
+///
+/// # Errors
+/// A lost device.
+pub fn submit(gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<(), Error> {
+    if renderer.transforms(shot.effects) {
+        renderer.submit(gpu, shot.eye, shot.ct)?;
+    }
+    Ok(())
+}
+
+/// A picture from nothing, as a still is: each stage waits for the one before.
+///
+/// # Errors
+/// A lost device.
+pub fn still(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    radiance: &Radiance,
+    shot: &Shot,
+    samples: u32,
+) -> Result<Stages, Error> {
+    let watch = Watch::start();
+    submit(gpu, renderer, shot)?;
+    picture(gpu, renderer, radiance, shot, samples, watch)
+}
+
+/// A frame as a ride has it: the photo-surface that is drawn was begun a frame ago, and the `next` one is worked out meanwhile; a cut is the newest
+/// there is.
+///
+/// # Errors
+/// A lost device.
+pub fn frame(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    radiance: &Radiance,
+    shown: &Shot,
+    next: &Shot,
+) -> Result<Stages, Error> {
+    let watch = Watch::start();
+    if renderer.pending() == 0 {
+        submit(gpu, renderer, shown)?;
+    }
+    submit(gpu, renderer, next)?;
+    picture(gpu, renderer, radiance, shown, 1, watch)
+}
+
+/// Takes the oldest photo-surface that was begun, and draws.
+fn picture(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    radiance: &Radiance,
+    shot: &Shot,
+    samples: u32,
+    mut watch: Watch,
+) -> Result<Stages, Error> {
+    let mut stages = Stages::default();
+    let transforms = renderer.transforms(shot.effects);
+    if transforms {
+        let transformed = renderer.receive()?;
+        stages.bend = watch.lap();
+        renderer.show(gpu, transformed);
+    }
+    renderer.prepare(gpu, shot, radiance.size);
+    let prepared = watch.lap();
+    if let Some(map) = renderer.map_stats() {
+        // Its panes are being drawn already: to wait for them is part of drawing.
+        (stages.bend, stages.upload) = (map.plan_ms, prepared - map.plan_ms);
+    } else {
+        *(if transforms { &mut stages.upload } else { &mut stages.bend }) += prepared;
+        gpu.queue.submit([]);
+        gpu.wait()?;
+        stages.upload += watch.lap();
+    }
+    for sample in 0..samples {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        renderer.draw(gpu, &mut encoder, radiance, shot, sample_offset(sample, samples));
+        gpu.queue.submit([encoder.finish()]);
+    }
+    gpu.wait()?;
+    stages.draw = watch.lap();
+    Ok(stages)
+}
+
+/// Milliseconds between one look and the next.
+struct Watch(Instant);
+
+impl Watch {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        (now - std::mem::replace(&mut self.0, now)).as_secs_f64() * 1e3
+    }
+}
+
+/// Bytes that buffers and textures take on the device, all renderers' together; `None` where the driver does not say.
+///
+/// # Errors
+/// A lost device.
+pub fn device_bytes(gpu: &Gpu) -> Result<Option<i64>, Error> {
+    // What nobody holds any more goes once the device is done with it.
+    gpu.queue.submit([]);
+    gpu.wait()?;
+    Ok(gpu.device.generate_allocator_report().map(|report| report.total_allocated_bytes as i64))
+}

@@ -1,0 +1,373 @@
+//! Pictures at several settings of the renderers' dials: how long they take, what they hold on the device, and how far off they are.
+//!
+//! At each pose every setting draws the same picture, one after the other, several times over: what the machine does besides falls on all alike.
+//!
+//! - **Stills** are drawn from nothing: each picture waits for its cut or map. Their light is compared with rays traced through the same points of the
+//!   same pixels.
+//! - **Frames of a ride** are drawn one after another from an eye that goes on: photo-surfaces are one frame ahead, cuts are made beside the drawing and
+//!   are a little late, maps are smooth. Their times are those of frames in that steady state, frames that take over a new cut among them, and their errors
+//!   are those of the frame after, which has whatever cut it has.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use glam::DVec2;
+
+use super::clock::{self, Stages};
+use super::dials::Setting;
+use super::quantiles::Sorted;
+use super::reference::{Compared, Reference};
+use super::{direction, views};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::progress;
+use crate::renderers::image::MapQuality;
+use crate::renderers::picture::{Shown, Studio};
+use crate::renderers::polygon::Pace;
+use crate::renderers::raytrace::RayTracer;
+use crate::renderers::target::{Format, Radiance};
+use crate::renderers::{SceneRenderer, Shot};
+use crate::scene::Scene;
+
+/// Samples of each pixel whose light is compared.
+pub const SAMPLES: u32 = 4;
+
+/// Whoever has taken so long at a pose is not timed there again, milliseconds: what is slow is so in one round as well.
+const LONG_MS: f64 = 1500.0;
+
+/// Frames of a ride that are drawn in one go.
+const FRAMES: u32 = 4;
+
+/// Hardware mixes so many samples of a window's pixel; software has one.
+const WINDOW_SAMPLES: u32 = 4;
+
+/// What kind of picture is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Whoever asks for it waits.
+    Stills,
+    /// One after another.
+    Rides {
+        /// Own time from frame to frame, metres of light travel.
+        own_m: f64,
+    },
+}
+
+impl Kind {
+    /// Who waits for whom.
+    fn pace(self) -> Pace {
+        match self {
+            Self::Stills => Pace::Still,
+            Self::Rides { .. } => Pace::Ride,
+        }
+    }
+}
+
+/// What is measured on what.
+pub struct Measurement<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where pictures are taken.
+    pub shots: &'a [Shot],
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Stills, or frames of a ride.
+    pub kind: Kind,
+    /// How often each is timed.
+    pub rounds: u32,
+}
+
+/// What was measured of a setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The setting.
+    pub setting: Setting,
+    /// Milliseconds a picture takes: median and 95th percentile.
+    pub ms: [f64; 2],
+    /// The same of bending, uploading and drawing.
+    pub stages_ms: [[f64; 2]; 3],
+    /// The most that its renderer held on the device, bytes, where the driver says.
+    pub bytes: Option<f64>,
+    /// Pixels that showed a surface, in all pictures.
+    pub pixels: usize,
+    /// Minutes of arc: median, 99th percentile and largest.
+    pub arcmin: [f64; 3],
+    /// Share of pixels that are off by more than one minute of arc.
+    pub above_one: f64,
+    /// Of stills: ΔE2000 of their pixels, median, 99th percentile and largest, and FLIP.
+    pub colour: Option<([f64; 3], f64)>,
+    /// No other setting is both faster and closer (by the 99th percentile).
+    pub best: bool,
+}
+
+/// A setting while it is measured.
+struct Candidate {
+    setting: Setting,
+    renderer: SceneRenderer,
+    times: Vec<Stages>,
+    directions: Vec<Sorted>,
+    compared: Vec<Compared>,
+    /// Held now, and at most.
+    bytes: Option<(i64, i64)>,
+    /// Frames drawn at this pose.
+    frames: u32,
+    /// How much of times, directions and comparisons is of the poses before.
+    before: [usize; 3],
+}
+
+/// Measures these settings. Once `stop` is set, what was measured until then is returned.
+///
+/// # Errors
+/// What keeps the scene from being drawn.
+pub fn measure(
+    measurement: &Measurement<'_>,
+    settings: &[Setting],
+    tracer: Option<&RayTracer>,
+    stop: &AtomicBool,
+) -> Result<Vec<Row>, Error> {
+    let Measurement { gpu, shots, size, kind, .. } = *measurement;
+    let exact = Studio::format(gpu);
+    let format = match kind {
+        Kind::Stills => exact,
+        Kind::Rides { .. } => Format::fast(if gpu.is_software() { 1 } else { WINDOW_SAMPLES }),
+    };
+    let radiance = Radiance::new(gpu, size, format);
+    let mut studio = Studio::new(gpu, size, SAMPLES);
+    // Make everything ready before anything is timed.
+    let mut candidates = Vec::new();
+    for &setting in settings {
+        match ready(measurement, setting, format) {
+            Ok(candidate) => candidates.push(candidate),
+            Err(error @ (Error::Gpu(_) | Error::PhotoSurface(_))) => return Err(error),
+            Err(error) => eprintln!("{} is left out: {error}", setting.flags()),
+        }
+    }
+    let bar = progress::bar("measuring", (shots.len() * candidates.len()) as u64);
+    for (poses, shot) in shots.iter().enumerate() {
+        candidates.iter_mut().for_each(Candidate::begin_pose);
+        let reference = tracer.map(|tracer| Reference::trace(tracer, shot, size, SAMPLES, stop));
+        // The first pictures compile pipelines and warm caches: they are the ones that are compared.
+        for candidate in &mut candidates {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            let before = clock::device_bytes(gpu)?;
+            if kind == Kind::Stills {
+                candidate.judge(gpu, &mut studio, shot, measurement)?;
+                if let Some(reference) = &reference {
+                    clock::submit(gpu, &mut candidate.renderer, shot)?;
+                    let light = studio.expose(gpu, &mut candidate.renderer, shot)?;
+                    candidate.compared.push(reference.compare(&light));
+                }
+            } else {
+                candidate.begin(gpu)?;
+                candidate.picture(gpu, &radiance, shot, kind)?;
+            }
+            candidate.hold(before, clock::device_bytes(gpu)?);
+        }
+        for _ in 0..measurement.rounds {
+            for candidate in candidates.iter_mut().filter(|candidate| candidate.is_quick()) {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let pictures = if kind == Kind::Stills { 1 } else { FRAMES };
+                for _ in 0..pictures {
+                    let stages = candidate.picture(gpu, &radiance, shot, kind)?;
+                    candidate.times.push(stages);
+                }
+                candidate.renderer.settle();
+            }
+        }
+        for candidate in candidates.iter_mut().filter(|_| !stop.load(Ordering::Relaxed)) {
+            if let Kind::Rides { own_m } = kind {
+                let shot = views::further(shot, f64::from(candidate.frames) * own_m)?;
+                candidate.judge_ride(gpu, &mut studio, &shot, measurement, format)?;
+            }
+            bar.inc(1);
+        }
+        if stop.load(Ordering::Relaxed) {
+            // Settings are compared at the same poses, if there is one that all have been at.
+            candidates.iter_mut().filter(|_| poses > 0).for_each(Candidate::forget_pose);
+            break;
+        }
+    }
+    bar.finish_and_clear();
+    let measured =
+        candidates.into_iter().filter(|candidate| !candidate.times.is_empty() && !candidate.directions.is_empty());
+    let mut rows: Vec<Row> = measured.map(Candidate::row).collect();
+    mark_best(&mut rows);
+    Ok(rows)
+}
+
+/// Uploads the scene as a setting wants it.
+fn ready(measurement: &Measurement<'_>, setting: Setting, format: Format) -> Result<Candidate, Error> {
+    let gpu = measurement.gpu;
+    let choice = setting.choose(measurement.scene.clone(), measurement.kind.pace())?;
+    let before = clock::device_bytes(gpu)?;
+    let renderer = SceneRenderer::new(gpu, &choice.scene, format, None, choice.method)?;
+    let after = clock::device_bytes(gpu)?;
+    let bytes = before.zip(after).map(|(before, after)| (after - before, after - before));
+    Ok(Candidate {
+        setting,
+        renderer,
+        times: Vec::new(),
+        directions: Vec::new(),
+        compared: Vec::new(),
+        bytes,
+        frames: 0,
+        before: [0; 3],
+    })
+}
+
+impl Candidate {
+    /// What comes now is of another pose.
+    fn begin_pose(&mut self) {
+        self.before = [self.times.len(), self.directions.len(), self.compared.len()];
+    }
+
+    /// Leaves out what was measured of this pose.
+    fn forget_pose(&mut self) {
+        let [times, directions, compared] = self.before;
+        self.times.truncate(times);
+        self.directions.truncate(directions);
+        self.compared.truncate(compared);
+    }
+
+    /// Whether there is time to time it at this pose once more.
+    fn is_quick(&self) -> bool {
+        self.times[self.before[0]..].iter().map(|stages| stages.total()).sum::<f64>() < LONG_MS
+    }
+
+    /// One more picture of a pose; in a ride, of the pose that it has come to.
+    fn picture(&mut self, gpu: &Gpu, radiance: &Radiance, shot: &Shot, kind: Kind) -> Result<Stages, Error> {
+        match kind {
+            Kind::Stills => clock::still(gpu, &mut self.renderer, radiance, shot, 1),
+            Kind::Rides { own_m } => {
+                let at = |frame: u32| views::further(shot, f64::from(frame) * own_m);
+                let (shown, next) = (at(self.frames)?, at(self.frames + 1)?);
+                self.frames += 1;
+                clock::frame(gpu, &mut self.renderer, radiance, &shown, &next)
+            }
+        }
+    }
+
+    /// A ride begins somewhere else.
+    fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        self.frames = 0;
+        while self.renderer.pending() > 0 {
+            self.renderer.discard()?;
+        }
+        // What was uploaded last frees its memory.
+        gpu.wait()?;
+        Ok(())
+    }
+
+    /// Asks where everything is drawn.
+    fn judge(
+        &mut self,
+        gpu: &Gpu,
+        studio: &mut Studio,
+        shot: &Shot,
+        measurement: &Measurement<'_>,
+    ) -> Result<(), Error> {
+        if self.renderer.pending() == 0 {
+            clock::submit(gpu, &mut self.renderer, shot)?;
+        }
+        let places = studio.places(gpu, &mut self.renderer, shot)?;
+        self.directions.push(of_picture(shot, measurement.size, &places));
+        Ok(())
+    }
+
+    /// The same of the frame that comes after those that were timed. Windows have half floats, which places do not fit; and mixed texels have no place, so
+    /// of a map the nearest is taken, which is no closer than the mixture.
+    fn judge_ride(
+        &mut self,
+        gpu: &Gpu,
+        studio: &mut Studio,
+        shot: &Shot,
+        measurement: &Measurement<'_>,
+        format: Format,
+    ) -> Result<(), Error> {
+        let texels = self.renderer.map_stats().map(|stats| stats.texels_per_pixel);
+        let quality = |texels_per_pixel, smooth| MapQuality { texels_per_pixel, smooth };
+        let exact = Studio::format(gpu);
+        self.renderer.draw_in(gpu, exact, texels.map(|texels| quality(texels, false)));
+        self.judge(gpu, studio, shot, measurement)?;
+        self.renderer.draw_in(gpu, format, texels.map(|_| quality(self.setting.value(), true)));
+        Ok(())
+    }
+
+    /// Counts what its renderer has come to hold.
+    fn hold(&mut self, before: Option<i64>, after: Option<i64>) {
+        let grown = before.zip(after).map_or(0, |(before, after)| after - before);
+        self.bytes = self.bytes.map(|(now, most)| (now + grown, most.max(now + grown)));
+    }
+
+    fn row(self) -> Row {
+        let of = |stage: fn(&Stages) -> f64| Sorted::of(self.times.iter().map(stage)).usual_and_slow();
+        let directions = Sorted::together(self.directions);
+        let pictures = self.compared.len() as f64;
+        let flip = self.compared.iter().map(|compared| compared.flip).sum::<f64>() / pictures;
+        let delta_e = Sorted::together(self.compared.into_iter().map(|compared| compared.delta_e));
+        Row {
+            setting: self.setting,
+            ms: of(|stages| stages.total()),
+            stages_ms: [of(|stages| stages.bend), of(|stages| stages.upload), of(|stages| stages.draw)],
+            bytes: self.bytes.map(|(_, most)| most as f64),
+            pixels: directions.count(),
+            arcmin: directions.summary(),
+            above_one: directions.share_above(1.0),
+            colour: (pictures > 0.0).then(|| (delta_e.summary(), flip)),
+            best: false,
+        }
+    }
+}
+
+/// Errors of all pixels that show a surface.
+fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> Sorted {
+    let shown = places.iter().enumerate().filter_map(|(number, place)| {
+        let (column, row) = (number % size[0] as usize, number / size[0] as usize);
+        let middle = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let direction = shot.camera.observer_from_eye * shot.camera.ahead(size, middle).normalize();
+        Some((direction, place.as_ref()?.apparent))
+    });
+    direction::between(shown)
+}
+
+/// Marks the rows of the Pareto front: no other is at once as fast and as close, and better in one of the two.
+fn mark_best(rows: &mut [Row]) {
+    let points: Vec<[f64; 2]> = rows.iter().map(|row| [row.ms[0], row.arcmin[1]]).collect();
+    for (row, &[ms, arcmin]) in rows.iter_mut().zip(&points) {
+        let beats = |other: &[f64; 2]| other[0] <= ms && other[1] <= arcmin && (other[0] < ms || other[1] < arcmin);
+        row.best = !points.iter().any(beats);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The front holds exactly what nothing beats.
+
+    use super::*;
+
+    fn row(ms: f64, arcmin: f64) -> Row {
+        Row {
+            setting: Setting::Edge(1.0),
+            ms: [ms; 2],
+            stages_ms: [[0.0; 2]; 3],
+            bytes: None,
+            pixels: 1,
+            arcmin: [arcmin; 3],
+            above_one: 0.0,
+            colour: None,
+            best: false,
+        }
+    }
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let mut rows = [row(1.0, 9.0), row(2.0, 9.0), row(3.0, 4.0), row(4.0, 5.0), row(5.0, 1.0), row(5.0, 1.0)];
+        mark_best(&mut rows);
+        assert_eq!(rows.map(|row| row.best), [true, false, true, false, true, true]);
+    }
+}

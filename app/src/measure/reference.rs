@@ -1,0 +1,51 @@
+//! A picture traced ray by ray, and how others look beside it.
+
+use std::sync::atomic::AtomicBool;
+
+use glam::DVec3;
+use image::Rgb32FImage;
+
+use super::colour;
+use super::flip::{self, PIXELS_PER_DEGREE, Perceived};
+use super::quantiles::Sorted;
+use crate::renderers::Shot;
+use crate::renderers::raytrace::RayTracer;
+
+/// The picture that is right.
+pub struct Reference {
+    size: [u32; 2],
+    exposure: f64,
+    developed: Vec<DVec3>,
+    perceived: Perceived,
+}
+
+/// How one picture looks beside the right one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Compared {
+    /// ΔE2000 of each pixel.
+    pub delta_e: Sorted,
+    /// The mean distance by FLIP.
+    pub flip: f64,
+}
+
+impl Reference {
+    /// Traces it.
+    pub fn trace(tracer: &RayTracer, shot: &Shot, size: [u32; 2], samples: u32, stop: &AtomicBool) -> Self {
+        let traced = tracer.trace(shot, size, samples, stop, || {});
+        let exposure = colour::exposure(&traced.light, &traced.at_rest, traced.stored.white);
+        let developed: Vec<DVec3> = traced.light.iter().map(|light| colour::developed(*light, exposure)).collect();
+        let perceived = Perceived::new(size, &developed, PIXELS_PER_DEGREE);
+        Self { size, exposure, developed, perceived }
+    }
+
+    /// Develops `light`, linear sRGB in cd/m², by the same exposure, and compares.
+    pub fn compare(&self, light: &Rgb32FImage) -> Compared {
+        let light = light.pixels().map(|pixel| DVec3::from(pixel.0.map(f64::from)));
+        let developed: Vec<DVec3> = light.map(|light| colour::developed(light, self.exposure)).collect();
+        let perceived = Perceived::new(self.size, &developed, PIXELS_PER_DEGREE);
+        Compared {
+            delta_e: colour::differences(&self.developed, &developed),
+            flip: flip::mean(&flip::distances(&self.perceived, &perceived)),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! The dial `--samples`: what taking few samples of each pixel costs, beside rays through very many places of it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::clock;
+use super::dials::Setting;
+use super::pictures::Measurement;
+use super::quantiles::Sorted;
+use super::reference::Reference;
+use super::table::{Line, Markdown};
+use crate::error::Error;
+use crate::renderers::SceneRenderer;
+use crate::renderers::picture::Studio;
+use crate::renderers::polygon::Pace;
+use crate::renderers::raytrace::RayTracer;
+use crate::renderers::target::Radiance;
+
+const COUNTS: [u32; 3] = [1, 4, 16];
+/// Samples of the reference.
+const MANY: u32 = 32;
+/// How finely triangles are cut, so that what is left is of the samples.
+const FINE: Setting = Setting::Tolerance(0.25);
+
+/// Measures it at the pose in the middle of the path. Once `stop` is set, what was measured until then is returned.
+///
+/// # Errors
+/// A lost device.
+pub fn measure(
+    measurement: &Measurement<'_>,
+    tracer: &RayTracer,
+    stop: &AtomicBool,
+) -> Result<(String, Vec<Line>), Error> {
+    let Measurement { gpu, scene, shots, size, rounds, .. } = *measurement;
+    let shot = &shots[shots.len() / 2];
+    let reference = Reference::trace(tracer, shot, size, MANY, stop);
+    let choice = FINE.choose(scene.clone(), Pace::Still)?;
+    let mut renderer = SceneRenderer::new(gpu, &choice.scene, Studio::format(gpu), None, choice.method)?;
+    let radiance = Radiance::new(gpu, size, Studio::format(gpu));
+    let mut table = Markdown::new(&["samples a pixel", "", "ms", "ΔE2000", "99 %", "most", "FLIP"]);
+    let mut lines = Vec::new();
+    for count in COUNTS {
+        // A reference that was interrupted is none.
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        clock::submit(gpu, &mut renderer, shot)?;
+        let light = Studio::new(gpu, size, count).expose(gpu, &mut renderer, shot)?;
+        let compared = reference.compare(&light);
+        let times = (0..rounds).map(|_| Ok(clock::still(gpu, &mut renderer, &radiance, shot, count)?.total()));
+        let [ms, slow] = Sorted::of(times.collect::<Result<Vec<f64>, Error>>()?).usual_and_slow();
+        let (delta_e, flip) = (compared.delta_e.summary(), compared.flip);
+        let setting = format!("{} --samples {count}", FINE.flags());
+        let mut cells = vec![setting.clone(), String::new(), format!("{ms:.1}")];
+        cells.extend(delta_e.map(|delta_e| format!("{delta_e:.2}")));
+        cells.push(format!("{flip:.4}"));
+        table.add(cells);
+        let [median, of_99, most] = delta_e;
+        let numbers = vec![
+            ("ms_median", ms),
+            ("ms_95", slow),
+            ("delta_e_median", median),
+            ("delta_e_99", of_99),
+            ("delta_e_most", most),
+            ("flip", flip),
+        ];
+        lines.push(Line { dial: "samples", setting, numbers });
+    }
+    Ok((table.text(), lines))
+}

@@ -1,0 +1,256 @@
+//! What rides are drawn by where the command line does not say: a small file in the user's configuration directory, written by `rapidity measure`.
+//!
+//! ```toml
+//! [ride]
+//! renderer = "polygon"
+//! tolerance = 2.0     # or edge = 0.5, and transform = "gpu"; for the image renderer, map-scale = 0.9
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use directories::ProjectDirs;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::command::{Renderer, RideOptions, Transform};
+use crate::measure::dials::Setting;
+
+/// The file's name.
+const FILE: &str = "rapidity.toml";
+
+/// All that the file holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Preferences {
+    /// How rides are drawn.
+    pub ride: Drawing,
+}
+
+/// A renderer and its dial, by the names of the command line's options.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Drawing {
+    /// Which renderer; not raytrace.
+    pub renderer: RendererName,
+    /// `--edge`, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edge: Option<f64>,
+    /// `--transform`, for an edge; the CPU where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transform: Option<Transform>,
+    /// `--tolerance`, pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// `--map-scale`, texels a pixel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map_scale: Option<f64>,
+}
+
+/// A renderer that rides can be drawn by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RendererName {
+    /// Chosen by what the scene needs.
+    #[default]
+    Auto,
+    /// The photo-surface.
+    Polygon,
+    /// The map.
+    Image,
+}
+
+/// Why the file is of no use.
+#[derive(Debug, Error)]
+pub enum PreferencesError {
+    /// The system names no place for it.
+    #[error("there is no place for {FILE}: the system names no configuration directory; set HOME or XDG_CONFIG_HOME")]
+    NoPlace,
+    /// It cannot be read.
+    #[error("{}: it cannot be read: {reason}; mend it, or delete it to have the program choose how to draw", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// As the system or the parser says it.
+        reason: String,
+    },
+    /// It cannot be written.
+    #[error("{}: it cannot be written: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// As the system says it.
+        reason: String,
+    },
+}
+
+impl Preferences {
+    /// Where the file is, whether or not there is one.
+    pub fn path() -> Option<PathBuf> {
+        ProjectDirs::from("", "", "rapidity").map(|directories| directories.config_dir().join(FILE))
+    }
+
+    /// What the file says, and where it is; none if there is none.
+    ///
+    /// # Errors
+    /// [`PreferencesError::Unreadable`].
+    pub fn load() -> Result<Option<(Self, PathBuf)>, PreferencesError> {
+        let Some(path) = Self::path() else { return Ok(None) };
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(PreferencesError::Unreadable { path, reason: error.to_string() }),
+        };
+        match Self::from_toml(&text) {
+            Ok(preferences) => Ok(Some((preferences, path))),
+            Err(reason) => Err(PreferencesError::Unreadable { path, reason }),
+        }
+    }
+
+    /// Writes the file, `note` at its head, and says where it is.
+    ///
+    /// # Errors
+    /// [`PreferencesError::NoPlace`], [`PreferencesError::Unwritable`].
+    pub fn save(&self, note: &str) -> Result<PathBuf, PreferencesError> {
+        let path = Self::path().ok_or(PreferencesError::NoPlace)?;
+        let text = toml::to_string(self).map_err(|error| error.to_string());
+        let written = text.and_then(|text| {
+            let text =
+                format!("# {note}\n# Delete this file to have `rapidity ride` choose by itself again.\n\n{text}");
+            let folder = path.parent().unwrap_or(Path::new("."));
+            std::fs::create_dir_all(folder)
+                .and_then(|()| std::fs::write(&path, text))
+                .map_err(|error| error.to_string())
+        });
+        match written {
+            Ok(()) => Ok(path),
+            Err(reason) => Err(PreferencesError::Unwritable { path, reason }),
+        }
+    }
+
+    /// Reads and checks: the same limits as on the command line.
+    fn from_toml(text: &str) -> Result<Self, String> {
+        let preferences: Self = toml::from_str(text).map_err(|error| {
+            let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+            let place = line.map_or_else(String::new, |line| format!("line {line}: "));
+            format!("{place}{}", error.message().lines().collect::<Vec<_>>().join(" "))
+        })?;
+        let Drawing { edge, transform, tolerance, map_scale, .. } = preferences.ride;
+        let limits = [
+            ("edge", edge, f64::MIN_POSITIVE, f64::MAX),
+            ("tolerance", tolerance, 0.01, 100.0),
+            ("map-scale", map_scale, 0.1, 16.0),
+        ];
+        for (key, value, least, most) in limits {
+            if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+                let expected = if key == "edge" {
+                    "a finite number above 0".to_owned()
+                } else {
+                    format!("a number from {least} to {most}")
+                };
+                return Err(format!("{key} is {value}: expected {expected}"));
+            }
+        }
+        if edge.is_some() && tolerance.is_some() {
+            return Err("edge and tolerance exclude each other".to_owned());
+        }
+        if transform == Some(Transform::Gpu) && edge.is_none() {
+            return Err("transform is \"gpu\", which needs edge, as on the command line".to_owned());
+        }
+        Ok(preferences)
+    }
+}
+
+impl Drawing {
+    /// A measured setting.
+    pub fn of(setting: Setting) -> Self {
+        let polygon = Self { renderer: RendererName::Polygon, ..Self::default() };
+        match setting {
+            Setting::Edge(metres) => Self { edge: Some(metres), ..polygon },
+            Setting::VertexStage(metres) => Self { edge: Some(metres), transform: Some(Transform::Gpu), ..polygon },
+            Setting::Tolerance(pixels) => Self { tolerance: Some(pixels), ..polygon },
+            Setting::Map(texels) => Self { renderer: RendererName::Image, map_scale: Some(texels), ..Self::default() },
+        }
+    }
+
+    /// As the command line has it.
+    fn flags(self) -> String {
+        let dials = [("edge", self.edge), ("tolerance", self.tolerance), ("map-scale", self.map_scale)];
+        let dials = dials.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
+        let transform = match self.transform {
+            Some(Transform::Gpu) => " --transform gpu",
+            Some(Transform::Cpu) | None => "",
+        };
+        format!("--renderer {}{}{transform}", Renderer::from(self.renderer).name(), dials.collect::<String>())
+    }
+
+    fn apply(self, options: &mut RideOptions) {
+        options.picture.renderer = self.renderer.into();
+        options.picture.map_scale = self.map_scale;
+        options.world.edge = self.edge;
+        options.world.transform = self.transform.unwrap_or_default();
+        options.world.tolerance = self.tolerance;
+    }
+}
+
+impl From<RendererName> for Renderer {
+    fn from(name: RendererName) -> Self {
+        match name {
+            RendererName::Auto => Self::Auto,
+            RendererName::Polygon => Self::Polygon,
+            RendererName::Image => Self::Image,
+        }
+    }
+}
+
+/// The options of a ride, with what the file says of its drawing unless the command line says anything of it; tells so.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn applied(options: &RideOptions) -> Result<RideOptions, PreferencesError> {
+    let mut options = options.clone();
+    if options.drawing_is_given {
+        return Ok(options);
+    }
+    if let Some((preferences, path)) = Preferences::load()? {
+        preferences.ride.apply(&mut options);
+        eprintln!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride.flags());
+    }
+    Ok(options)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: what is written is read; what is no setting is refused with a sentence that names the line, or the key and its limits.
+
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        for setting in [Setting::Edge(0.5), Setting::VertexStage(0.5), Setting::Tolerance(2.0), Setting::Map(0.9)] {
+            let preferences = Preferences { ride: Drawing::of(setting) };
+            let text = toml::to_string(&preferences).unwrap();
+            assert_eq!(Preferences::from_toml(&text), Ok(preferences), "{text}");
+            assert_eq!(preferences.ride.flags(), setting.flags());
+        }
+    }
+
+    #[test]
+    fn what_is_no_setting_is_refused() {
+        for (text, told) in [
+            ("[ride]\nrenderer = \"polygon\"\nedgee = 1", "line 3"),
+            ("[ride]\nrenderer = \"raytrace\"", "line 2"),
+            ("[ride", "line 1"),
+            ("", "ride"),
+            ("[ride]\nrenderer = \"auto\"\ntolerance = 0.0", "tolerance is 0: expected a number from 0.01 to 100"),
+            ("[ride]\nrenderer = \"auto\"\nedge = -1.0", "edge is -1: expected a finite number above 0"),
+            ("[ride]\nrenderer = \"auto\"\nedge = inf", "edge is inf"),
+            ("[ride]\nrenderer = \"auto\"\nmap-scale = nan", "map-scale is NaN"),
+            ("[ride]\nrenderer = \"auto\"\nedge = 1.0\ntolerance = 1.0", "exclude"),
+            ("[ride]\nrenderer = \"polygon\"\ntransform = \"gpu\"", "needs edge"),
+            ("[ride]\nrenderer = \"polygon\"\nedge = 1.0\ntransform = \"tpu\"", "line 4"),
+        ] {
+            let refused = Preferences::from_toml(text).unwrap_err();
+            assert!(refused.contains(told) && !refused.contains('\n'), "{text:?}: {refused}");
+        }
+    }
+}
