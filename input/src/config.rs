@@ -5,6 +5,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::head::HeadConfig;
+
 /// A setting that cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{key} is {value}: expected {expected}")]
@@ -18,7 +20,7 @@ pub struct ConfigError {
 }
 
 /// Fails unless the value is positive and of a size that leaves room for arithmetic.
-fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
+pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if (1e-6..=1e6).contains(&value) {
         Ok(())
     } else {
@@ -47,6 +49,9 @@ pub struct DeskConfig {
     pub space_mouse: AxisTable,
     /// A SpaceMouse through spacenavd.
     pub spacenavd: AxisTable,
+    /// The tracked head; none in recordings of before there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub head: Option<HeadConfig>,
 }
 
 impl Default for DeskConfig {
@@ -56,6 +61,7 @@ impl Default for DeskConfig {
             rider: RiderConfig::default(),
             space_mouse: AxisTable::RAW,
             spacenavd: AxisTable::SPACENAVD,
+            head: None,
         }
     }
 }
@@ -69,7 +75,8 @@ impl DeskConfig {
         self.bicycle.check()?;
         self.rider.check()?;
         self.space_mouse.check("space_mouse")?;
-        self.spacenavd.check("spacenavd")
+        self.spacenavd.check("spacenavd")?;
+        self.head.as_ref().map_or(Ok(()), HeadConfig::check)
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
+use crate::head::HeadState;
 
 /// The state of all controls at one moment, and what was pressed since the moment before.
 ///
@@ -25,6 +26,9 @@ pub struct Controls {
     /// Wanted turn rate as a fraction of the vehicle's, each −1 to 1: nose up, nose to the left,
     /// roll to the left.
     pub turn: [f64; 3],
+    /// The head in the room. `None` where nothing tracks it.
+    #[serde(default)]
+    pub head: Option<HeadState>,
     /// What happened since the controls were last asked for, in order.
     pub actions: Vec<Action>,
 }

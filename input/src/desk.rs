@@ -7,17 +7,23 @@
 //! Several devices may be used at once. Deflections add up and are clamped; the stronger brake
 //! wins; the wheel is the faster of the ridden and the pretended one. Keys and sticks turn the
 //! handlebar only as far as a rider would lean: at the speed v no further than tan δ = a L / v².
+//!
+//! A tracker's poses go to the one [`Head`], if one is configured.
 
 use crate::action::Settings;
 use crate::bicycle::Bicycle;
 use crate::config::{ConfigError, DeskConfig};
 use crate::controls::Controls;
 use crate::decoder::{Actions, Decoder, Faults};
+use crate::dtrack::Dtrack;
 use crate::gamepad::Gamepad;
+use crate::head::{Head, HeadConfig, HeadState, Mouse, TrackedPose, TrackerUrl};
 use crate::keyboard::Keyboard;
 use crate::sample::{Nanos, Sample, Signal, Source};
 use crate::spacemouse::SpaceMouse;
 use crate::spacenavd::Spacenavd;
+use crate::vrpn::Vrpn;
+use glam::DVec3;
 
 /// All decoders.
 #[derive(Debug)]
@@ -28,6 +34,10 @@ pub struct Desk {
     space_mouse: SpaceMouse,
     spacenavd: Spacenavd,
     bicycle: Bicycle,
+    vrpn: Vrpn,
+    dtrack: Dtrack,
+    mouse: Mouse,
+    head: Option<Head>,
     settings: Settings,
     actions: Actions,
 }
@@ -39,7 +49,16 @@ impl Desk {
     /// Names a setting that cannot be used.
     pub fn new(config: DeskConfig) -> Result<Self, ConfigError> {
         config.check()?;
+        let device = match config.head.as_ref().map(|head| &head.url) {
+            Some(TrackerUrl::Vrpn { device, .. }) => device,
+            _ => "",
+        };
+        let home = config.head.as_ref().map_or(DVec3::ZERO, |head| DVec3::from_array(head.home));
         Ok(Self {
+            vrpn: Vrpn::new(device),
+            dtrack: Dtrack::default(),
+            mouse: Mouse::new(home),
+            head: config.head.clone().map(Head::new).transpose()?,
             keyboard: Keyboard::new(config.rider.clone()),
             gamepad: Gamepad::default(),
             space_mouse: SpaceMouse::new(config.space_mouse),
@@ -64,12 +83,49 @@ impl Desk {
             Source::SpaceMouse => &mut self.space_mouse,
             Source::Spacenavd => &mut self.spacenavd,
             Source::Bicycle => &mut self.bicycle,
+            Source::Vrpn => &mut self.vrpn,
+            Source::Dtrack => &mut self.dtrack,
+            Source::Mouse => &mut self.mouse,
             Source::Settings => &mut self.settings,
         };
         match &sample.signal {
             Signal::Opened | Signal::Closed => decoder.reset(sample.at),
             Signal::Bytes(bytes) => decoder.bytes(sample.at, bytes, &mut self.actions),
         }
+        self.track(sample);
+    }
+
+    /// Hands what a tracker has said to the head, if the head listens to that tracker.
+    fn track(&mut self, sample: &Sample) {
+        let poses: Vec<TrackedPose> = match sample.source {
+            Source::Vrpn => self.vrpn.take_poses(),
+            Source::Dtrack => self.dtrack.take_poses(),
+            _ => return,
+        };
+        let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
+            return;
+        };
+        poses.iter().for_each(|pose| head.pose(pose));
+        if !matches!(sample.signal, Signal::Bytes(_)) {
+            head.gone(sample.at);
+        }
+    }
+
+    /// The tracked head, if one is configured: what it rejects.
+    pub fn head(&self) -> Option<&Head> {
+        self.head.as_ref()
+    }
+
+    /// What the VRPN server has described of itself.
+    pub fn vrpn(&self) -> &Vrpn {
+        &self.vrpn
+    }
+
+    /// The head at the time `at`, as far as it is used.
+    fn head_state(&self, at: Nanos) -> Option<HeadState> {
+        let head = self.head.as_ref()?;
+        let HeadConfig { url, mode, .. } = head.config();
+        mode.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
     }
 
     /// What is wanted at the time `at`, and what was pressed since the last time this was asked.
@@ -103,6 +159,7 @@ impl Desk {
             brake: self.bicycle.brake().max(self.keyboard.brake(at)).max(self.gamepad.brake()),
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
+            head: self.head_state(at),
             actions: self.actions.take(),
         }
     }
@@ -115,6 +172,9 @@ impl Desk {
             Source::SpaceMouse => self.space_mouse.faults(),
             Source::Spacenavd => self.spacenavd.faults(),
             Source::Bicycle => self.bicycle.faults(),
+            Source::Vrpn => self.vrpn.faults(),
+            Source::Dtrack => self.dtrack.faults(),
+            Source::Mouse => self.mouse.faults(),
             Source::Settings => self.settings.faults(),
         }
     }

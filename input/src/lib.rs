@@ -26,8 +26,10 @@ mod controls;
 pub mod decoder;
 mod desk;
 pub mod devices;
+pub mod dtrack;
 pub mod filters;
 pub mod gamepad;
+pub mod head;
 pub mod keyboard;
 pub mod line;
 pub mod pulses;
@@ -36,6 +38,7 @@ pub mod recording;
 mod sample;
 pub mod spacemouse;
 pub mod spacenavd;
+pub mod vrpn;
 
 pub use action::{Action, VehicleKind};
 pub use brake::BrakeCommand;
@@ -43,5 +46,6 @@ pub use config::{AxisTable, BareNumber, BicycleConfig, ConfigError, DeskConfig, 
 pub use controls::Controls;
 pub use desk::Desk;
 pub use devices::{Devices, DevicesConfig};
+pub use head::{HeadConfig, HeadState, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
 pub use keyboard::Key;
 pub use sample::{Clock, Nanos, SECOND, Sample, Signal, Source, seconds_between};

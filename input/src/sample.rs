@@ -11,6 +11,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
+use crate::head::MouseEvent;
 use crate::keyboard::{self, Key};
 
 /// Nanoseconds since the ride began, on one monotonic clock for devices and frames alike.
@@ -55,14 +56,29 @@ pub enum Source {
     Spacenavd,
     /// An instrumented bicycle on a serial port: [`crate::bicycle`].
     Bicycle,
+    /// A tracker through a VRPN server: [`crate::vrpn`].
+    Vrpn,
+    /// A tracker of ART: [`crate::dtrack`].
+    Dtrack,
+    /// The mouse in the window, where it moves the head: [`crate::head::Mouse`].
+    Mouse,
     /// The program's own interface: [`crate::action`].
     Settings,
 }
 
 impl Source {
     /// Every source, in the order of the listing.
-    pub const ALL: [Self; 6] =
-        [Self::Keyboard, Self::Gamepad, Self::SpaceMouse, Self::Spacenavd, Self::Bicycle, Self::Settings];
+    pub const ALL: [Self; 9] = [
+        Self::Keyboard,
+        Self::Gamepad,
+        Self::SpaceMouse,
+        Self::Spacenavd,
+        Self::Bicycle,
+        Self::Vrpn,
+        Self::Dtrack,
+        Self::Mouse,
+        Self::Settings,
+    ];
 
     /// The name in recordings and messages.
     pub fn name(self) -> &'static str {
@@ -72,6 +88,9 @@ impl Source {
             Self::SpaceMouse => "space_mouse",
             Self::Spacenavd => "spacenavd",
             Self::Bicycle => "bicycle",
+            Self::Vrpn => "vrpn",
+            Self::Dtrack => "dtrack",
+            Self::Mouse => "mouse",
             Self::Settings => "settings",
         }
     }
@@ -124,6 +143,11 @@ impl Sample {
     /// A key of the window pressed or released.
     pub fn key(at: Nanos, key: Key, pressed: bool) -> Self {
         Self::bytes(at, Source::Keyboard, keyboard::encode(key, pressed))
+    }
+
+    /// The mouse of the window, where it moves the head.
+    pub fn mouse(at: Nanos, event: MouseEvent) -> Self {
+        Self::bytes(at, Source::Mouse, event.to_bytes())
     }
 
     /// A switch of the interface.

@@ -1,0 +1,408 @@
+//! What can be set about the tracker: the table `[tracker]` of a display file.
+//!
+//! ```
+//! # let text = r#"
+//! url = "vrpn://192.168.0.10/Head"
+//! sensor = 0
+//! room_from_tracker = { position = [0.0, 2.5, -1.5], yaw = 90 }
+//! head_from_sensor = { position = [0.0, 0.08, 0.05] }
+//! mode = "position-and-velocity"
+//! velocity = { filter = "mean", frames = 4 }
+//! # "#;
+//! # let config: input::HeadConfig = toml::from_str(text).unwrap();
+//! # config.check().unwrap();
+//! # assert_eq!(config.room_from_tracker.yaw, 90.0);
+//! ```
+
+use glam::{DQuat, DVec3, EulerRot};
+use serde::{Deserialize, Serialize};
+
+use super::{Rigid, TrackerUrl};
+use crate::config::{ConfigError, positive};
+
+/// How far from the room's origin anything is, metres.
+pub(super) const FARTHEST_M: f64 = 1000.0;
+/// How far a quaternion's length may be from one.
+pub(super) const UNIT_LENGTH: f64 = 1e-2;
+
+/// How the head is tracked.
+///
+/// *Frames, units*: the room's axes, in which the screens stand: x right, y up, z backward, metres.
+/// Angles are in degrees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeadConfig {
+    /// Where the tracker is.
+    pub url: TrackerUrl,
+    /// Number of the tracker's sensor, or body, that is on the head.
+    #[serde(default)]
+    pub sensor: i32,
+    /// How the tracker's axes stand in the room.
+    #[serde(default)]
+    pub room_from_tracker: Placement,
+    /// How the sensor's axes stand in the head's, whose origin is midway between the eyes.
+    #[serde(default)]
+    pub head_from_sensor: Placement,
+    /// What of it is used.
+    #[serde(default)]
+    pub mode: TrackingMode,
+    /// How the velocity is made from poses.
+    #[serde(default)]
+    pub velocity: VelocityFilter,
+    /// How long the velocity of a head that is lost takes to fade, seconds.
+    #[serde(default = "fade_s")]
+    pub fade_s: f64,
+    /// Where the head is until the tracker has seen it; where one that the mouse moves begins.
+    #[serde(default = "home")]
+    pub home: [f64; 3],
+}
+
+fn fade_s() -> f64 {
+    0.2
+}
+
+/// Where the eyes of somebody who stands in the middle are.
+fn home() -> [f64; 3] {
+    [0.0, 1.7, 0.0]
+}
+
+/// What of the tracker is used (W 6.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TrackingMode {
+    /// The head's place and turn, and its velocity.
+    #[default]
+    PositionAndVelocity,
+    /// Its place and turn; it is taken to rest in the vehicle.
+    Position,
+    /// Nothing.
+    None,
+}
+
+/// How a velocity is made from poses. What each costs in latency and leaves of the noise is measured
+/// by the example `head_filters`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "filter", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum VelocityFilter {
+    /// The mean over the tracker's last frames (W 6.4.1).
+    Mean {
+        /// How many.
+        #[serde(default = "frames")]
+        frames: u32,
+    },
+    /// The slope of the straight line that is closest to the places in a window of time.
+    LeastSquares {
+        /// The window's length, seconds.
+        #[serde(default = "window_s")]
+        window_s: f64,
+    },
+    /// A low-pass whose cutoff rises with the acceleration: [`crate::filters::OneEuro`] on the
+    /// differences.
+    OneEuro {
+        /// Cutoff while the velocity is steady, Hz.
+        #[serde(default = "minimum_cutoff_hz")]
+        minimum_cutoff_hz: f64,
+        /// By how much the cutoff rises with the acceleration, Hz per m/s².
+        #[serde(default = "acceleration_coefficient")]
+        acceleration_coefficient: f64,
+        /// Cutoff for the acceleration, Hz.
+        #[serde(default = "acceleration_cutoff_hz")]
+        acceleration_cutoff_hz: f64,
+    },
+    /// No filter: the difference of the last two poses.
+    Off,
+}
+
+fn frames() -> u32 {
+    4
+}
+
+fn window_s() -> f64 {
+    0.05
+}
+
+fn minimum_cutoff_hz() -> f64 {
+    1.5
+}
+
+fn acceleration_coefficient() -> f64 {
+    1.0
+}
+
+fn acceleration_cutoff_hz() -> f64 {
+    1.0
+}
+
+impl Default for VelocityFilter {
+    /// As in W 6.4.1.
+    fn default() -> Self {
+        Self::Mean { frames: frames() }
+    }
+}
+
+impl VelocityFilter {
+    /// The most frames that are averaged.
+    const MOST_FRAMES: u32 = 1000;
+    /// The longest window, seconds.
+    const LONGEST_WINDOW_S: f64 = 1.0;
+
+    /// The least-squares filter with its usual window.
+    pub fn least_squares() -> Self {
+        Self::LeastSquares { window_s: window_s() }
+    }
+
+    /// The One Euro filter with its usual cutoffs.
+    pub fn one_euro() -> Self {
+        Self::OneEuro {
+            minimum_cutoff_hz: minimum_cutoff_hz(),
+            acceleration_coefficient: acceleration_coefficient(),
+            acceleration_cutoff_hz: acceleration_cutoff_hz(),
+        }
+    }
+
+    fn check(self) -> Result<(), ConfigError> {
+        match self {
+            Self::Mean { frames: 1..=Self::MOST_FRAMES } | Self::Off => Ok(()),
+            Self::Mean { frames } => Err(ConfigError {
+                key: "tracker.velocity.frames",
+                value: frames.to_string(),
+                expected: "a number of frames from 1 to 1000",
+            }),
+            Self::LeastSquares { window_s } if (1e-3..=Self::LONGEST_WINDOW_S).contains(&window_s) => Ok(()),
+            Self::LeastSquares { window_s } => Err(ConfigError {
+                key: "tracker.velocity.window_s",
+                value: window_s.to_string(),
+                expected: "a number of seconds from 0.001 to 1",
+            }),
+            Self::OneEuro { minimum_cutoff_hz, acceleration_coefficient, acceleration_cutoff_hz } => {
+                positive("tracker.velocity.minimum_cutoff_hz", minimum_cutoff_hz)?;
+                if !(0.0..=1e6).contains(&acceleration_coefficient) {
+                    return Err(ConfigError {
+                        key: "tracker.velocity.acceleration_coefficient",
+                        value: acceleration_coefficient.to_string(),
+                        expected: "a number from 0 to 1e6",
+                    });
+                }
+                positive("tracker.velocity.acceleration_cutoff_hz", acceleration_cutoff_hz)
+            }
+        }
+    }
+}
+
+/// How one body's axes stand in another's: turned, then shifted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Placement {
+    /// Its origin in the other's axes, metres.
+    pub position: [f64; 3],
+    /// Turn about y, to the left, degrees; the last to be done.
+    pub yaw: f64,
+    /// Turn about x, nose up, degrees.
+    pub pitch: f64,
+    /// Turn about z, to the left, degrees; the first to be done.
+    pub roll: f64,
+    /// The turn as a quaternion (x, y, z, w), instead of the angles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quaternion: Option<[f64; 4]>,
+}
+
+impl Placement {
+    /// The transform.
+    pub fn rigid(&self) -> Rigid {
+        let angles = [self.yaw, self.pitch, self.roll].map(f64::to_radians);
+        let orientation = match self.quaternion {
+            Some(quaternion) => DQuat::from_array(quaternion).normalize(),
+            None => DQuat::from_euler(EulerRot::YXZ, angles[0], angles[1], angles[2]),
+        };
+        Rigid { position: DVec3::from_array(self.position), orientation }
+    }
+
+    /// Checks the table whose keys these are.
+    fn check(&self, keys: &PlacementKeys) -> Result<(), ConfigError> {
+        within(keys.position, self.position)?;
+        for (key, angle) in [(keys.yaw, self.yaw), (keys.pitch, self.pitch), (keys.roll, self.roll)] {
+            if !(-360.0..=360.0).contains(&angle) {
+                return Err(ConfigError { key, value: angle.to_string(), expected: "an angle from -360 to 360 degrees" });
+            }
+        }
+        let Some(quaternion) = self.quaternion else {
+            return Ok(());
+        };
+        let bad = |expected| ConfigError { key: keys.quaternion, value: format!("{quaternion:?}"), expected };
+        // Not a number is not within either.
+        if !((DQuat::from_array(quaternion).length() - 1.0).abs() <= UNIT_LENGTH) {
+            return Err(bad("x, y, z, w of length 1"));
+        }
+        if [self.yaw, self.pitch, self.roll] != [0.0; 3] {
+            return Err(bad("a quaternion or yaw, pitch and roll, not both"));
+        }
+        Ok(())
+    }
+}
+
+/// Full names of a placement's keys.
+struct PlacementKeys {
+    position: &'static str,
+    yaw: &'static str,
+    pitch: &'static str,
+    roll: &'static str,
+    quaternion: &'static str,
+}
+
+macro_rules! placement_keys {
+    ($table:literal) => {
+        PlacementKeys {
+            position: concat!($table, ".position"),
+            yaw: concat!($table, ".yaw"),
+            pitch: concat!($table, ".pitch"),
+            roll: concat!($table, ".roll"),
+            quaternion: concat!($table, ".quaternion"),
+        }
+    };
+}
+
+const ROOM_FROM_TRACKER: PlacementKeys = placement_keys!("tracker.room_from_tracker");
+const HEAD_FROM_SENSOR: PlacementKeys = placement_keys!("tracker.head_from_sensor");
+
+/// Fails unless the place is near the origin.
+fn within(key: &'static str, position: [f64; 3]) -> Result<(), ConfigError> {
+    if position.iter().all(|coordinate| coordinate.abs() <= FARTHEST_M) {
+        Ok(())
+    } else {
+        let value = format!("{position:?}");
+        Err(ConfigError { key, value, expected: "three numbers of metres, each from -1000 to 1000" })
+    }
+}
+
+impl HeadConfig {
+    /// A tracker as it comes: its axes are the room's, its sensor is the head.
+    pub fn new(url: TrackerUrl) -> Self {
+        Self {
+            url,
+            sensor: 0,
+            room_from_tracker: Placement::default(),
+            head_from_sensor: Placement::default(),
+            mode: TrackingMode::default(),
+            velocity: VelocityFilter::default(),
+            fade_s: fade_s(),
+            home: home(),
+        }
+    }
+
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// Names the first one that cannot be used.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.room_from_tracker.check(&ROOM_FROM_TRACKER)?;
+        self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
+        let placements =
+            [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
+        for (keys, placement) in placements {
+            if self.url == TrackerUrl::Mouse && placement != Placement::default() {
+                let value = format!("{:?}", placement.position);
+                let expected = "nothing with url = \"mouse\", which moves the head itself from `home`";
+                return Err(ConfigError { key: keys.position, value, expected });
+            }
+        }
+        self.velocity.check()?;
+        positive("tracker.fade_s", self.fade_s)?;
+        within("tracker.home", self.home)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A table must mean what it says, and one that cannot be used must be told by key and reason.
+    use super::*;
+
+    fn parse(text: &str) -> Result<HeadConfig, String> {
+        let config: HeadConfig = toml::from_str(text).map_err(|error| error.to_string())?;
+        config.check().map_err(|error| error.to_string()).map(|()| config)
+    }
+
+    #[test]
+    fn a_url_is_enough() {
+        let config = parse("url = \"dtrack://:5000\"").unwrap();
+        assert_eq!(config, HeadConfig::new("dtrack://:5000".parse().unwrap()));
+        assert_eq!(config.velocity, VelocityFilter::Mean { frames: 4 });
+        assert_eq!(config.room_from_tracker.rigid(), Rigid::IDENTITY);
+    }
+
+    #[test]
+    fn every_key_is_read() {
+        let config = parse(
+            r#"
+            url = "vrpn://tracker/Head"
+            sensor = 3
+            room_from_tracker = { position = [1, 2.5, -3], yaw = 90, pitch = 10, roll = -5 }
+            head_from_sensor = { quaternion = [0, 1, 0, 0] }
+            mode = "position"
+            velocity = { filter = "least-squares", window_s = 0.1 }
+            fade_s = 0.5
+            home = [0, 1.2, 0.4]
+            "#,
+        )
+        .unwrap();
+        assert_eq!((config.sensor, config.mode, config.fade_s), (3, TrackingMode::Position, 0.5));
+        assert_eq!(config.room_from_tracker.position, [1.0, 2.5, -3.0]);
+        assert_eq!(config.head_from_sensor.rigid().orientation, DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
+        assert_eq!(config.velocity, VelocityFilter::LeastSquares { window_s: 0.1 });
+        // It survives the recording's header.
+        let json = serde_json::to_string(&config).unwrap();
+        assert_eq!(serde_json::from_str::<HeadConfig>(&json).unwrap(), config);
+        assert_eq!(parse(&toml::to_string(&config).unwrap()), Ok(config));
+    }
+
+    #[test]
+    fn filters_have_their_names() {
+        for (text, filter) in [
+            ("filter = \"mean\"", VelocityFilter::Mean { frames: 4 }),
+            ("filter = \"mean\", frames = 8", VelocityFilter::Mean { frames: 8 }),
+            ("filter = \"least-squares\"", VelocityFilter::least_squares()),
+            ("filter = \"one-euro\"", VelocityFilter::one_euro()),
+            ("filter = \"off\"", VelocityFilter::Off),
+        ] {
+            let config = parse(&format!("url = \"mouse\"\nvelocity = {{ {text} }}")).unwrap();
+            assert_eq!(config.velocity, filter);
+        }
+    }
+
+    #[test]
+    fn yaw_is_to_the_left_pitch_nose_up_roll_to_the_left() {
+        let forward = |placement: Placement| placement.rigid().orientation * DVec3::NEG_Z;
+        let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 1e-15, "{a} for {b}");
+        near(forward(Placement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
+        near(forward(Placement { pitch: 90.0, ..Default::default() }), DVec3::Y);
+        let rolled = Placement { roll: 90.0, ..Default::default() }.rigid().orientation;
+        near(rolled * DVec3::Y, DVec3::NEG_X);
+        // Yaw comes last.
+        near(forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }), DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt());
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_told_by_key_and_reason() {
+        for (text, expected) in [
+            ("", "missing field `url`"),
+            ("url = \"vrpn://tracker\"", "names no device"),
+            ("url = \"mouse\"\nsensors = 1", "unknown field `sensors`"),
+            ("url = \"mouse\"\nmode = \"velocity\"", "unknown variant `velocity`"),
+            ("url = \"mouse\"\nvelocity = { filter = \"kalman\" }", "unknown variant `kalman`"),
+            ("url = \"mouse\"\nvelocity = { filter = \"mean\", n = 3 }", "unknown field `n`"),
+            ("url = \"mouse\"\nvelocity = { filter = \"mean\", frames = 0 }", "tracker.velocity.frames is 0"),
+            ("url = \"mouse\"\nvelocity = { filter = \"least-squares\", window_s = 0 }", "tracker.velocity.window_s is 0"),
+            ("url = \"mouse\"\nvelocity = { filter = \"one-euro\", minimum_cutoff_hz = nan }", "minimum_cutoff_hz is NaN"),
+            ("url = \"mouse\"\nfade_s = -1", "tracker.fade_s is -1"),
+            ("url = \"mouse\"\nhome = [0, inf, 0]", "tracker.home is [0.0, inf, 0.0]"),
+            ("url = \"mouse\"\nroom_from_tracker = { position = [0, 0, 1] }", "nothing with url = \"mouse\""),
+            ("url = \"dtrack://\"\nroom_from_tracker = { yaw = 1e3 }", "tracker.room_from_tracker.yaw is 1000"),
+            ("url = \"dtrack://\"\nhead_from_sensor = { position = [2000, 0, 0] }", "tracker.head_from_sensor.position"),
+            ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, 0] }", "length 1"),
+            ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, nan] }", "length 1"),
+            ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, 1], yaw = 3 }", "not both"),
+        ] {
+            let error = parse(text).unwrap_err();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
+}

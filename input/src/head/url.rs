@@ -1,0 +1,210 @@
+//! Where a tracker is, as one text: `vrpn://HOST[:PORT]/DEVICE`, `dtrack://[ADDRESS][:PORT]`, `mouse`.
+
+use std::fmt;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::sample::Source;
+use crate::vrpn::wire::LONGEST_NAME;
+use crate::{dtrack, vrpn};
+
+/// A tracker's place.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum TrackerUrl {
+    /// A VRPN server, reached over TCP.
+    Vrpn {
+        /// Its name or address.
+        host: String,
+        /// Its port.
+        port: u16,
+        /// Which of its devices the tracker is.
+        device: String,
+    },
+    /// The datagrams of an ART DTrack controller.
+    Dtrack {
+        /// The address of this machine that they are sent to, or the multicast group.
+        address: IpAddr,
+        /// The port that they are sent to.
+        port: u16,
+    },
+    /// No tracker: the mouse in the window moves the head.
+    Mouse,
+}
+
+/// Why a text is no tracker's place.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum TrackerUrlError {
+    /// Nothing that we know.
+    #[error(
+        "{0:?} is no tracker: expected vrpn://HOST/DEVICE, dtrack://ADDRESS:PORT or mouse, as in vrpn://192.168.0.10/Head"
+    )]
+    Unknown(String),
+    /// No host.
+    #[error("{0:?} names no host: expected vrpn://HOST/DEVICE, as in vrpn://192.168.0.10/Head")]
+    Host(String),
+    /// No device.
+    #[error("{0:?} names no device of the server: expected vrpn://HOST/DEVICE, as in vrpn://192.168.0.10/Head")]
+    Device(String),
+    /// Not a port.
+    #[error("{port:?} in {url:?} is no port: expected a number from 1 to 65535")]
+    Port {
+        /// The whole text.
+        url: String,
+        /// What should be a port.
+        port: String,
+    },
+    /// Not an address.
+    #[error(
+        "{address:?} in {url:?} is no address: expected one of this machine or a multicast group, as in dtrack://225.1.1.1:5000, or none"
+    )]
+    Address {
+        /// The whole text.
+        url: String,
+        /// What should be an address.
+        address: String,
+    },
+}
+
+impl TrackerUrl {
+    /// Which decoder reads it.
+    pub fn source(&self) -> Source {
+        match self {
+            Self::Vrpn { .. } => Source::Vrpn,
+            Self::Dtrack { .. } => Source::Dtrack,
+            Self::Mouse => Source::Mouse,
+        }
+    }
+}
+
+impl FromStr for TrackerUrl {
+    type Err = TrackerUrlError;
+
+    fn from_str(text: &str) -> Result<Self, TrackerUrlError> {
+        let url = text.trim();
+        if url == "mouse" {
+            return Ok(Self::Mouse);
+        }
+        match url.split_once("://") {
+            // VRPN's own name for its way over TCP alone.
+            Some(("vrpn" | "tcp", rest)) => {
+                let (place, device) = rest.split_once('/').unwrap_or((rest, ""));
+                let (host, port) = host_and_port(url, place, vrpn::wire::PORT)?;
+                if host.is_empty() || host.contains('@') {
+                    return Err(TrackerUrlError::Host(url.to_owned()));
+                }
+                if device.is_empty() || device.len() >= LONGEST_NAME {
+                    return Err(TrackerUrlError::Device(url.to_owned()));
+                }
+                Ok(Self::Vrpn { host: host.to_owned(), port, device: device.to_owned() })
+            }
+            Some(("dtrack", rest)) => {
+                let (host, port) = host_and_port(url, rest.trim_end_matches('/'), dtrack::PORT)?;
+                let bad = |_| TrackerUrlError::Address { url: url.to_owned(), address: host.to_owned() };
+                let address =
+                    if host.is_empty() { Ipv4Addr::UNSPECIFIED.into() } else { host.parse().map_err(bad)? };
+                Ok(Self::Dtrack { address, port })
+            }
+            _ => Err(TrackerUrlError::Unknown(url.to_owned())),
+        }
+    }
+}
+
+/// Cuts `HOST[:PORT]`; an IPv6 address stands in brackets.
+fn host_and_port<'a>(url: &str, place: &'a str, usual: u16) -> Result<(&'a str, u16), TrackerUrlError> {
+    let (host, port) = match place.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
+        Some((host, "")) => (host, None),
+        // Without its colon it is no number either.
+        Some((host, rest)) => (host, Some(rest.strip_prefix(':').unwrap_or(""))),
+        None => match place.split_once(':') {
+            Some((host, port)) => (host, Some(port)),
+            None => (place, None),
+        },
+    };
+    let Some(port) = port else {
+        return Ok((host, usual));
+    };
+    let bad = || TrackerUrlError::Port { url: url.to_owned(), port: port.to_owned() };
+    let number = port.parse().map_err(|_| bad())?;
+    if number == 0 { Err(bad()) } else { Ok((host, number)) }
+}
+
+impl fmt::Display for TrackerUrl {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Vrpn { host, port, device } if host.parse::<Ipv6Addr>().is_ok() => {
+                write!(formatter, "vrpn://[{host}]:{port}/{device}")
+            }
+            Self::Vrpn { host, port, device } => write!(formatter, "vrpn://{host}:{port}/{device}"),
+            Self::Dtrack { address: IpAddr::V6(address), port } => write!(formatter, "dtrack://[{address}]:{port}"),
+            Self::Dtrack { address, port } => write!(formatter, "dtrack://{address}:{port}"),
+            Self::Mouse => formatter.write_str("mouse"),
+        }
+    }
+}
+
+impl TryFrom<String> for TrackerUrl {
+    type Error = TrackerUrlError;
+
+    fn try_from(text: String) -> Result<Self, TrackerUrlError> {
+        text.parse()
+    }
+}
+
+impl From<TrackerUrl> for String {
+    fn from(url: TrackerUrl) -> Self {
+        url.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A place must survive its text, for a recording carries it; a wrong one must be told why.
+    use super::*;
+
+    #[test]
+    fn places_are_read_and_written() {
+        for (text, whole) in [
+            ("vrpn://tracker/Head", "vrpn://tracker:3883/Head"),
+            ("vrpn://192.168.0.10:4000/Head 0", "vrpn://192.168.0.10:4000/Head 0"),
+            ("tcp://tracker:3883/a/b", "vrpn://tracker:3883/a/b"),
+            ("vrpn://[::1]/Head", "vrpn://[::1]:3883/Head"),
+            ("dtrack://", "dtrack://0.0.0.0:5000"),
+            ("dtrack://:5001", "dtrack://0.0.0.0:5001"),
+            ("dtrack://225.1.1.1:5000/", "dtrack://225.1.1.1:5000"),
+            ("dtrack://[::]:5000", "dtrack://[::]:5000"),
+            (" mouse ", "mouse"),
+        ] {
+            let url: TrackerUrl = text.parse().unwrap();
+            assert_eq!(url.to_string(), whole);
+            assert_eq!(whole.parse(), Ok(url.clone()));
+            assert_eq!(serde_json::from_str::<TrackerUrl>(&serde_json::to_string(&url).unwrap()).unwrap(), url);
+        }
+    }
+
+    #[test]
+    fn a_wrong_place_is_told_in_a_sentence() {
+        for (text, expected) in [
+            ("", "is no tracker"),
+            ("Head@tracker", "expected vrpn://HOST/DEVICE"),
+            ("http://tracker/Head", "is no tracker"),
+            ("vrpn:///Head", "names no host"),
+            ("vrpn://Head@tracker/", "names no host"),
+            ("vrpn://tracker", "names no device"),
+            ("vrpn://tracker:3883/", "names no device"),
+            ("vrpn://tracker:0/Head", "\"0\" in \"vrpn://tracker:0/Head\" is no port"),
+            ("vrpn://tracker:99999/Head", "is no port"),
+            ("vrpn://[::1]3883/Head", "is no port"),
+            ("dtrack://controller:5000", "\"controller\" in"),
+            ("dtrack://:port", "is no port"),
+        ] {
+            let error = text.parse::<TrackerUrl>().unwrap_err().to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+        let long = format!("vrpn://tracker/{}", "x".repeat(LONGEST_NAME));
+        assert!(matches!(long.parse::<TrackerUrl>(), Err(TrackerUrlError::Device(_))));
+    }
+}

@@ -1,0 +1,401 @@
+//! VRPN: trackers of nearly every make, through a server that speaks one language.
+//!
+//! The server numbers its senders (devices) and types of messages as it likes, and describes each
+//! number before it is used. We keep the numbers of the names that matter and pass over every
+//! message whose numbers have not been described: over other transports such messages come early,
+//! so they are no fault.
+//!
+//! | message | payload |
+//! |---|---|
+//! | `vrpn_Tracker Pos_Quat` | i32 sensor, i32 filler, f64 × 3 position (m), f64 × 4 quaternion (x, y, z, w) |
+//! | `vrpn_Tracker Velocity` | i32 sensor, i32 filler, f64 × 3 velocity (m/s), f64 × 5 of turning |
+//!
+//! The axes are whatever the laboratory has calibrated.
+
+pub mod wire;
+
+use glam::{DQuat, DVec3};
+
+use crate::decoder::{Actions, Decoder, Faults};
+use crate::head::TrackedPose;
+use crate::sample::Nanos;
+use wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError};
+
+/// Type of a pose.
+pub const POSE: &str = "vrpn_Tracker Pos_Quat";
+/// Type of a velocity.
+pub const VELOCITY: &str = "vrpn_Tracker Velocity";
+/// Type of the question whether somebody is there.
+pub const PING: &str = "vrpn_Base ping_message";
+/// Type of its answer.
+pub const PONG: &str = "vrpn_Base pong_message";
+
+const POSE_LENGTH: usize = 64;
+const VELOCITY_LENGTH: usize = 72;
+/// Sensors whose velocities are remembered.
+const MOST_SENSORS: usize = 64;
+/// Senders that are remembered by name, for those who have mistaken it.
+const MOST_SENDERS: usize = 16;
+
+/// The numbers that the other side has given to the names that matter.
+#[derive(Clone, Debug, Default)]
+pub struct Numbers {
+    /// Name of the device that we listen to.
+    device: String,
+    sender: Option<i32>,
+    /// Of [`Self::TYPES`].
+    types: [Option<i32>; 4],
+    senders: Vec<String>,
+}
+
+impl Numbers {
+    const TYPES: [&str; 4] = [POSE, VELOCITY, PING, PONG];
+
+    /// Nothing described yet.
+    pub fn new(device: &str) -> Self {
+        Self { device: device.to_owned(), ..Self::default() }
+    }
+
+    /// Forgets what was described.
+    pub fn forget(&mut self) {
+        *self = Self::new(&self.device);
+    }
+
+    /// Takes a description; whether the message was one.
+    ///
+    /// # Errors
+    /// If its name cannot be read.
+    pub fn describe(&mut self, message: &Message<'_>) -> Result<bool, WireError> {
+        match message.kind {
+            DESCRIBES_SENDER => {
+                let name = message.name()?;
+                give(&mut self.sender, message.sender, name == self.device);
+                if self.senders.len() < MOST_SENDERS && !self.senders.iter().any(|known| known == name) {
+                    self.senders.push(name.to_owned());
+                }
+            }
+            DESCRIBES_TYPE => {
+                let name = message.name()?;
+                for (number, known) in self.types.iter_mut().zip(Self::TYPES) {
+                    give(number, message.sender, name == known);
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Which of the types that matter this message of our device is; `None` for all others.
+    pub fn of_device(&self, message: &Message<'_>) -> Option<&'static str> {
+        if self.sender != Some(message.sender) {
+            return None;
+        }
+        let index = self.types.iter().position(|number| *number == Some(message.kind))?;
+        Some(Self::TYPES[index])
+    }
+
+    /// Names of the senders that have been described, the first few.
+    pub fn senders(&self) -> &[String] {
+        &self.senders
+    }
+
+    /// Whether our device has been described.
+    pub fn has_device(&self) -> bool {
+        self.sender.is_some()
+    }
+}
+
+/// A number goes to a name, and is taken from the name that had it.
+fn give(number: &mut Option<i32>, described: i32, is_ours: bool) {
+    if is_ours {
+        *number = Some(described);
+    } else if *number == Some(described) {
+        *number = None;
+    }
+}
+
+/// Decoder of [`Source::Vrpn`](crate::Source::Vrpn): the server's side of a direct connection.
+#[derive(Debug)]
+pub struct Vrpn {
+    pieces: Pieces,
+    numbers: Numbers,
+    velocities: Vec<(i32, DVec3)>,
+    poses: Vec<TrackedPose>,
+    faults: Faults,
+}
+
+impl Vrpn {
+    /// A decoder of what this device of the server says.
+    pub fn new(device: &str) -> Self {
+        Self {
+            pieces: Pieces::default(),
+            numbers: Numbers::new(device),
+            velocities: Vec::new(),
+            poses: Vec::new(),
+            faults: Faults::default(),
+        }
+    }
+
+    /// What the server has described.
+    pub fn numbers(&self) -> &Numbers {
+        &self.numbers
+    }
+
+    /// The poses of the bytes fed last, in their order.
+    pub fn take_poses(&mut self) -> Vec<TrackedPose> {
+        std::mem::take(&mut self.poses)
+    }
+
+    fn forget(&mut self) {
+        self.numbers.forget();
+        self.velocities.clear();
+    }
+
+    fn message(&mut self, at: Nanos, message: &Message<'_>) {
+        match self.numbers.describe(message) {
+            Ok(true) => return,
+            Ok(false) => {}
+            Err(error) => return self.faults.count(error.to_string()),
+        }
+        match self.numbers.of_device(message) {
+            Some(POSE) => match pose(at, message) {
+                Some(pose) => {
+                    let velocity = self.velocities.iter().find(|(sensor, _)| *sensor == pose.sensor);
+                    self.poses.push(TrackedPose { velocity_m_s: velocity.map(|(_, velocity)| *velocity), ..pose });
+                }
+                None => self.bad_length(POSE, message),
+            },
+            Some(VELOCITY) => match velocity(message) {
+                Some((sensor, velocity)) => self.remember(sensor, velocity),
+                None => self.bad_length(VELOCITY, message),
+            },
+            _ => {}
+        }
+    }
+
+    fn remember(&mut self, sensor: i32, velocity: DVec3) {
+        if let Some((_, known)) = self.velocities.iter_mut().find(|(known, _)| *known == sensor) {
+            *known = velocity;
+        } else if self.velocities.len() < MOST_SENSORS {
+            self.velocities.push((sensor, velocity));
+        }
+    }
+
+    fn bad_length(&mut self, kind: &str, message: &Message<'_>) {
+        self.faults.count(format!("a `{kind}` of {} bytes", message.payload.len()));
+    }
+}
+
+/// A pose; `None` if the payload is none.
+fn pose(at: Nanos, message: &Message<'_>) -> Option<TrackedPose> {
+    let payload: &[u8; POSE_LENGTH] = message.payload.try_into().ok()?;
+    let [x, y, z, qx, qy, qz, qw] = numbers(&payload[8..])?;
+    // A server without a clock stamps nothing.
+    let measured_s = f64::from(message.seconds) + 1e-6 * f64::from(message.microseconds);
+    Some(TrackedPose {
+        sensor: sensor(payload)?,
+        at,
+        measured_s: (measured_s > 0.0).then_some(measured_s),
+        latency_s: None,
+        position_m: DVec3::new(x, y, z),
+        orientation: DQuat::from_xyzw(qx, qy, qz, qw),
+        velocity_m_s: None,
+    })
+}
+
+/// A sensor and its velocity; `None` if the payload is none.
+fn velocity(message: &Message<'_>) -> Option<(i32, DVec3)> {
+    let payload: &[u8; VELOCITY_LENGTH] = message.payload.try_into().ok()?;
+    let velocity = DVec3::from_array(numbers(&payload[8..])?);
+    Some((sensor(payload)?, velocity))
+}
+
+fn sensor(payload: &[u8]) -> Option<i32> {
+    payload.first_chunk().map(|bytes| i32::from_be_bytes(*bytes))
+}
+
+/// The first numbers of these bytes.
+fn numbers<const N: usize>(bytes: &[u8]) -> Option<[f64; N]> {
+    let mut numbers = [0.0; N];
+    for (number, bytes) in numbers.iter_mut().zip(bytes.as_chunks::<8>().0.get(..N)?) {
+        *number = f64::from_be_bytes(*bytes);
+    }
+    Some(numbers)
+}
+
+impl Decoder for Vrpn {
+    fn reset(&mut self, _at: Nanos) {
+        self.pieces.reset();
+        self.forget();
+    }
+
+    fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
+        let mut pieces = std::mem::take(&mut self.pieces);
+        pieces.push(bytes, |piece| match piece {
+            Ok(Piece::Cookie(_)) => self.forget(),
+            Ok(Piece::Message(message, _)) => self.message(at, &message),
+            Err(error) => self.faults.count(error.to_string()),
+        });
+        self.pieces = pieces;
+    }
+
+    fn faults(&self) -> &Faults {
+        &self.faults
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod golden {
+    //! Bytes captured from the stock server (07.38) with a NULL tracker "Head" and a Spin tracker
+    //! "Spin0".
+
+    pub const COOKIE: &str = "7672706e3a207665722e2030372e33382020300000000000";
+    /// Sender 1 is "Head".
+    pub const SENDER: &str = "000000216b027c890009b7cd00000001ffffffff0000000100000005486561640000000000000000";
+    /// Type 4 is `vrpn_Tracker Pos_Quat`.
+    pub const TYPE: &str = concat!(
+        "000000326b027c890009b7ce00000004fffffffe00000008000000167672706e5f547261636b657220506f735f51",
+        "75617400000000000000",
+    );
+    /// Sender 1, sensor 0, at the origin, not turned.
+    pub const IDENTITY: &str = concat!(
+        "000000586b027c890009d21f00000001000000040000001d",
+        "0000000000000000",
+        "000000000000000000000000000000000000000000000000",
+        "000000000000000000000000000000000000000000000000",
+        "3ff0000000000000",
+    );
+    /// Sender 2, sensor 0, turned about z.
+    pub const TURNED: &str = concat!(
+        "000000586b027c890009bc2b000000020000000400000018",
+        "0000000000000000",
+        "000000000000000000000000000000000000000000000000",
+        "00000000000000000000000000000000",
+        "3fef4502a6de9c4e3fcb313bc05f50e8",
+    );
+
+    pub fn bytes(hex: &str) -> Vec<u8> {
+        (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
+    }
+
+    /// Cookie, both descriptions, both poses, the description of sender 2, its pose again.
+    pub fn session() -> Vec<u8> {
+        let spin = super::wire::description(super::wire::DESCRIBES_SENDER, 2, "Spin0");
+        [
+            bytes(COOKIE),
+            bytes(SENDER),
+            bytes(TYPE),
+            bytes(IDENTITY),
+            bytes(TURNED),
+            spin,
+            bytes(TURNED),
+        ]
+        .concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! What the stock server sends must give its poses, whatever numbers it has chosen and however
+    //! the stream is cut; what has not been described must be passed over.
+    use super::*;
+    use crate::sample::SECOND;
+    use wire::description;
+
+    fn decode(device: &str, chunks: &[&[u8]]) -> (Vec<TrackedPose>, u64) {
+        let (mut decoder, mut actions) = (Vrpn::new(device), Actions::default());
+        let mut poses = Vec::new();
+        for chunk in chunks {
+            decoder.bytes(SECOND, chunk, &mut actions);
+            poses.extend(decoder.take_poses());
+        }
+        (poses, decoder.faults().number())
+    }
+
+    fn identity() -> TrackedPose {
+        TrackedPose {
+            sensor: 0,
+            at: SECOND,
+            measured_s: Some(1_795_325_065.643_615),
+            latency_s: None,
+            position_m: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            velocity_m_s: None,
+        }
+    }
+
+    #[test]
+    fn captured_bytes_give_their_poses() {
+        let stream = golden::session();
+        let (poses, faults) = decode("Head", &[&stream]);
+        assert_eq!((poses, faults), (vec![identity()], 0));
+        // Before Spin0 was described its pose was nobody's.
+        let (poses, faults) = decode("Spin0", &[&stream]);
+        assert_eq!((poses.len(), faults), (1, 0));
+        let turned = DQuat::from_xyzw(0.0, 0.0, 0.977_174_116_055_616_2, 0.212_439_984_256_554_53);
+        assert_eq!(poses[0].orientation, turned);
+        assert_eq!(decode("Tail", &[&stream]), (vec![], 0));
+    }
+
+    #[test]
+    fn poses_do_not_depend_on_the_cut() {
+        let stream = golden::session();
+        for cut in 0..=stream.len() {
+            assert_eq!(decode("Head", &[&stream[..cut], &stream[cut..]]), (vec![identity()], 0), "cut at {cut}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_the_servers_and_may_change() {
+        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        decoder.bytes(0, &golden::session(), &mut actions);
+        assert_eq!(decoder.take_poses().len(), 1);
+        // Number 1 goes to another device; the next session's numbers are its own.
+        decoder.bytes(0, &description(DESCRIBES_SENDER, 1, "Wand"), &mut actions);
+        decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
+        assert_eq!(decoder.take_poses(), []);
+        decoder.bytes(0, &golden::bytes(golden::COOKIE), &mut actions);
+        decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
+        assert_eq!((decoder.take_poses().len(), decoder.faults().number()), (0, 0));
+        assert!(!decoder.numbers().has_device());
+    }
+
+    #[test]
+    fn a_velocity_goes_with_the_poses_of_its_sensor() {
+        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let mut payload = [0; VELOCITY_LENGTH];
+        payload[8..16].copy_from_slice(&1.25_f64.to_be_bytes());
+        payload[64..].copy_from_slice(&golden::bytes("3ffccccccccccccd"));
+        let velocity = Message { seconds: 1, microseconds: 0, sender: 1, kind: 9, payload: &payload }.to_bytes();
+        assert_eq!(velocity[..4], golden::bytes("00000060"));
+        let stream =
+            [golden::session(), description(DESCRIBES_TYPE, 9, VELOCITY), velocity, golden::bytes(golden::IDENTITY)];
+        decoder.bytes(0, &stream.concat(), &mut actions);
+        let velocities: Vec<_> = decoder.take_poses().iter().map(|pose| pose.velocity_m_s).collect();
+        assert_eq!(velocities, [None, Some(DVec3::X * 1.25)]);
+    }
+
+    #[test]
+    fn poses_of_a_wrong_length_are_counted() {
+        for length in [0, 8, 63, 65, 72] {
+            let payload = vec![0; length];
+            let short = Message { seconds: 0, microseconds: 0, sender: 1, kind: 4, payload: &payload }.to_bytes();
+            let (poses, faults) = decode("Head", &[&golden::session(), &short, &golden::bytes(golden::IDENTITY)]);
+            assert_eq!((poses.len(), faults), (2, 1), "{length}");
+        }
+    }
+
+    #[test]
+    fn a_flood_of_descriptions_costs_no_memory() {
+        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        decoder.bytes(0, &golden::session(), &mut actions);
+        for number in 0..100_000 {
+            let bytes = description(DESCRIBES_SENDER, 10 + number, &format!("device {number}"));
+            decoder.bytes(0, &bytes, &mut actions);
+        }
+        assert_eq!(decoder.numbers().senders().len(), MOST_SENDERS);
+        decoder.take_poses();
+        decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
+        assert_eq!(decoder.take_poses().len(), 1);
+    }
+}
