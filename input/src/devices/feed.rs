@@ -3,7 +3,7 @@
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
 
@@ -139,12 +139,14 @@ impl Feed {
         while !self.is_stopped() {
             match port.open() {
                 Ok((place, mut connection)) => {
-                    pause = FIRST_PAUSE;
+                    let began = Instant::now();
                     let source = place.source;
                     self.opened(place);
                     let why = self.read(source, connection.as_mut());
                     self.send(Sample::closed(self.clock.now(), source));
                     self.absent(why);
+                    // One that goes as soon as it has come is given time.
+                    pause = if began.elapsed() > LONGEST_PAUSE { FIRST_PAUSE } else { (2 * pause).min(LONGEST_PAUSE) };
                 }
                 Err(why) => {
                     self.absent(why);

@@ -8,8 +8,9 @@
 //! own queue, so one that floods hurts only itself.
 //!
 //! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence
-//! what to do about it. A keyboard's samples come from the window, not from here.
+//! what to do about it. A keyboard's and a mouse's samples come from the window, not from here.
 
+mod dtrack;
 mod feed;
 #[cfg(target_os = "linux")]
 mod pad;
@@ -18,6 +19,7 @@ mod puck;
 mod serial;
 #[cfg(unix)]
 mod socket;
+mod vrpn;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,13 +31,18 @@ use thiserror::Error;
 pub use feed::{State, Status};
 pub use plugged::{Plugged, plugged_in};
 
+use crate::head::TrackerUrl;
 use crate::sample::{Clock, Sample, Source};
+use dtrack::DtrackPort;
 use feed::{Feed, Port};
 use puck::PuckPort;
 use serial::{BrakeSlot, SerialPort};
+use vrpn::VrpnPort;
 
 /// Samples of one device that wait for the frame loop: several seconds of the fastest.
 const QUEUE: usize = 4096;
+/// Samples of a tracker that wait: they are longer.
+const TRACKER_QUEUE: usize = 1024;
 
 /// Which devices to look for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +57,8 @@ pub struct DevicesConfig {
     pub spacenavd_socket: PathBuf,
     /// Look for a gamepad or joystick.
     pub gamepad: bool,
+    /// The tracker of the head.
+    pub tracker: Option<TrackerUrl>,
 }
 
 impl Default for DevicesConfig {
@@ -60,6 +69,7 @@ impl Default for DevicesConfig {
             space_mouse: true,
             spacenavd_socket: PathBuf::from("/run/spnav.sock"),
             gamepad: true,
+            tracker: None,
         }
     }
 }
@@ -105,20 +115,35 @@ impl Devices {
         let brake = Arc::new(BrakeSlot::default());
         let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
         if let Some(path) = &config.bicycle {
-            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), &stopped)?;
+            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), QUEUE, &stopped)?;
         }
         if config.space_mouse {
-            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), &stopped)?;
+            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), QUEUE, &stopped)?;
         }
         #[cfg(target_os = "linux")]
         if config.gamepad {
-            devices.start(Source::Gamepad, pad::PadPort, &stopped)?;
+            devices.start(Source::Gamepad, pad::PadPort, QUEUE, &stopped)?;
+        }
+        match &config.tracker {
+            Some(TrackerUrl::Vrpn { host, port, device }) => {
+                devices.start(Source::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Dtrack { address, port }) => {
+                devices.start(Source::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Mouse) | None => {}
         }
         Ok(devices)
     }
 
-    fn start(&mut self, source: Source, port: impl Port + 'static, stopped: &Receiver<()>) -> Result<(), DevicesError> {
-        let (feed, samples, live) = Feed::new(source, self.clock, QUEUE, stopped.clone());
+    fn start(
+        &mut self,
+        source: Source,
+        port: impl Port + 'static,
+        queue: usize,
+        stopped: &Receiver<()>,
+    ) -> Result<(), DevicesError> {
+        let (feed, samples, live) = Feed::new(source, self.clock, queue, stopped.clone());
         let thread = thread::Builder::new()
             .name(source.name().to_owned())
             .spawn(move || feed.run(port))

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use input::devices::State;
-use input::{Clock, Desk, Devices, DevicesConfig};
+use input::{Clock, Desk, DeskConfig, Devices, DevicesConfig, HeadConfig, HeadState};
 
 /// Longer than any pause before a device is looked for again, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(8);
@@ -24,6 +24,22 @@ impl Loop {
         let clock = Clock::start();
         let devices = Devices::open(config, clock).unwrap();
         Self { clock, devices, desk: Desk::new(Default::default()).unwrap() }
+    }
+
+    /// Starts a tracker alone, and a head that it tracks.
+    pub fn track(url: &str) -> Self {
+        let head = HeadConfig::new(url.parse().unwrap());
+        let tracker = Some(head.url.clone());
+        let mut tracking =
+            Self::start(&DevicesConfig { space_mouse: false, gamepad: false, tracker, ..Default::default() });
+        tracking.desk = Desk::new(DeskConfig { head: Some(head), ..Default::default() }).unwrap();
+        tracking
+    }
+
+    /// The head now.
+    pub fn head(&mut self) -> HeadState {
+        let now = self.clock.now();
+        self.desk.controls(now).head.unwrap()
     }
 
     /// Draws frames until the condition holds.

@@ -1,0 +1,82 @@
+//! The datagrams of an ART controller. Nothing is sent to it: the controller is told where to send.
+
+use std::io::{self, ErrorKind};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
+use std::time::Duration;
+
+use super::feed::{Connection, Place, Port};
+use super::serial::passing;
+use crate::dtrack::LONGEST_DATAGRAM;
+use crate::sample::Source;
+
+/// How long a read waits.
+const READ_WAIT: Duration = Duration::from_millis(100);
+
+/// Where the controller sends to.
+pub(super) struct DtrackPort {
+    address: IpAddr,
+    port: u16,
+}
+
+impl DtrackPort {
+    pub(super) fn new(address: IpAddr, port: u16) -> Self {
+        Self { address, port }
+    }
+
+    fn bind(&self) -> io::Result<UdpSocket> {
+        let any = |port| -> SocketAddr {
+            match self.address {
+                IpAddr::V4(_) => (Ipv4Addr::UNSPECIFIED, port).into(),
+                IpAddr::V6(_) => (Ipv6Addr::UNSPECIFIED, port).into(),
+            }
+        };
+        let socket = if self.address.is_multicast() {
+            let socket = UdpSocket::bind(any(self.port))?;
+            match &self.address {
+                IpAddr::V4(group) => socket.join_multicast_v4(group, &Ipv4Addr::UNSPECIFIED)?,
+                IpAddr::V6(group) => socket.join_multicast_v6(group, 0)?,
+            }
+            socket
+        } else {
+            UdpSocket::bind((self.address, self.port))?
+        };
+        socket.set_read_timeout(Some(READ_WAIT))?;
+        Ok(socket)
+    }
+}
+
+impl Port for DtrackPort {
+    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+        let path = SocketAddr::new(self.address, self.port).to_string();
+        let socket = self.bind().map_err(|error| match error.kind() {
+            ErrorKind::AddrInUse => {
+                format!("another program listens at {path}: end it, or have DTrack send to another port")
+            }
+            ErrorKind::AddrNotAvailable => {
+                format!("{path} is no address of this machine: name one that is, or a multicast group, or none")
+            }
+            _ => format!("cannot listen at {path}: {error}"),
+        })?;
+        let place = Place { source: Source::Dtrack, name: "DTrack".to_owned(), path };
+        Ok((place, Box::new(Datagrams { socket, buffer: vec![0; LONGEST_DATAGRAM + 1] })))
+    }
+}
+
+/// A socket that is listened to.
+struct Datagrams {
+    socket: UdpSocket,
+    /// Longer by one than any datagram that is believed, so that the decoder sees which are too long.
+    buffer: Vec<u8>,
+}
+
+impl Connection for Datagrams {
+    fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+        match self.socket.recv(&mut self.buffer) {
+            Ok(length) => {
+                bytes.extend_from_slice(&self.buffer[..length]);
+                Ok(())
+            }
+            Err(error) => passing(Err(error)),
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! A VRPN server over TCP alone.
+//!
+//! Both sides begin with their cookies; the server's is awaited here, so that one that speaks
+//! something else is told from a tracker. We then name the device that we listen to and ask once a
+//! second whether it is there, as VRPN's own clients do. What the server sends goes on as it comes,
+//! whole messages only: one that has to be dropped then does not shift those behind it.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::{Duration, Instant};
+
+use super::feed::{Connection, Place, Port};
+use super::serial::passing;
+use crate::sample::Source;
+use crate::vrpn::wire::{
+    COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError, description,
+};
+use crate::vrpn::{Numbers, PING, PONG};
+
+/// How long a server may take to answer at first.
+const CONNECT_WAIT: Duration = Duration::from_secs(1);
+/// How long a read waits.
+const READ_WAIT: Duration = Duration::from_millis(100);
+/// How long a write may wait for a server that does not read.
+const WRITE_WAIT: Duration = Duration::from_millis(100);
+/// The device is asked this often.
+const PING_EVERY: Duration = Duration::from_secs(1);
+/// A server that has said nothing for so long is gone, as VRPN has it.
+const SILENCE: Duration = Duration::from_secs(10);
+/// Bytes taken at once.
+const BUFFER: usize = 4096;
+/// Descriptions kept, for the samples after some had to be dropped.
+const MOST_DESCRIPTIONS: usize = 256;
+
+/// Our number for the device, and for our two types of message.
+const OUR_SENDER: i32 = 0;
+const OUR_PING: i32 = 0;
+const OUR_PONG: i32 = 1;
+
+/// Where a server is.
+pub(super) struct VrpnPort {
+    host: String,
+    port: u16,
+    device: String,
+}
+
+impl VrpnPort {
+    pub(super) fn new(host: &str, port: u16, device: &str) -> Self {
+        Self { host: host.to_owned(), port, device: device.to_owned() }
+    }
+
+    fn connect(&self) -> Result<TcpStream, String> {
+        let place = format!("{}:{}", self.host, self.port);
+        let addresses = (self.host.as_str(), self.port)
+            .to_socket_addrs()
+            .map_err(|error| format!("there is no host {:?} ({error}): name another", self.host))?;
+        let mut why = "it has no address".to_owned();
+        for address in addresses {
+            match TcpStream::connect_timeout(&address, CONNECT_WAIT) {
+                Ok(stream) => return Ok(stream),
+                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
+                    why = "nothing listens there: start the VRPN server, or name another port".to_owned();
+                }
+                Err(error) => why = error.to_string(),
+            }
+        }
+        Err(format!("no VRPN server at {place}: {why}"))
+    }
+}
+
+impl Port for VrpnPort {
+    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+        let path = format!("{}:{}", self.host, self.port);
+        let stream = self.connect()?;
+        let link = Link::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
+        let place = Place { source: Source::Vrpn, name: self.device.clone(), path };
+        Ok((place, Box::new(link)))
+    }
+}
+
+/// An open connection.
+struct Link {
+    stream: TcpStream,
+    pieces: Pieces,
+    numbers: Numbers,
+    /// The server's cookie, then its descriptions, as they came.
+    descriptions: Vec<Vec<u8>>,
+    /// What the next sample begins with.
+    first: Vec<u8>,
+    last_ping: Option<Instant>,
+    last_heard: Instant,
+}
+
+impl Link {
+    /// Exchanges the cookies and names our device.
+    fn begin(mut stream: TcpStream, device: &str) -> io::Result<Self> {
+        stream.set_nodelay(true)?;
+        stream.set_write_timeout(Some(WRITE_WAIT))?;
+        stream.set_read_timeout(Some(CONNECT_WAIT))?;
+        stream.write_all(&COOKIE)?;
+
+        let mut cookie = [0; COOKIE_LENGTH];
+        stream.read_exact(&mut cookie).map_err(|error| match error.kind() {
+            ErrorKind::TimedOut | ErrorKind::WouldBlock => {
+                io::Error::new(error.kind(), "it says nothing; is it a VRPN server?")
+            }
+            _ => error,
+        })?;
+        let mut pieces = Pieces::default();
+        let mut outcome = Ok(());
+        pieces.push(&cookie, |piece| outcome = piece.map(|_| ()));
+        outcome.map_err(invalid)?;
+
+        stream.set_read_timeout(Some(READ_WAIT))?;
+        let ours = [
+            description(DESCRIBES_SENDER, OUR_SENDER, device),
+            description(DESCRIBES_TYPE, OUR_PING, PING),
+            description(DESCRIBES_TYPE, OUR_PONG, PONG),
+        ];
+        stream.write_all(&ours.concat())?;
+        Ok(Self {
+            stream,
+            pieces,
+            numbers: Numbers::new(device),
+            descriptions: vec![cookie.to_vec()],
+            first: cookie.to_vec(),
+            last_ping: None,
+            last_heard: Instant::now(),
+        })
+    }
+
+    fn say(&mut self, kind: i32) -> io::Result<()> {
+        let message = Message { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
+        self.stream.write_all(&message.to_bytes())
+    }
+
+    /// Asks whether somebody is there, and ends what is silent for too long.
+    fn ping(&mut self) -> io::Result<()> {
+        if self.last_heard.elapsed() > SILENCE {
+            let known = match self.numbers.senders() {
+                _ if self.numbers.has_device() => String::new(),
+                [] => "; it has described no device".to_owned(),
+                senders => format!("; it has no such device, but {}", senders.join(", ")),
+            };
+            return Err(io::Error::new(ErrorKind::TimedOut, format!("silent for {} s{known}", SILENCE.as_secs())));
+        }
+        if self.last_ping.is_some_and(|last| last.elapsed() < PING_EVERY) {
+            return Ok(());
+        }
+        self.last_ping = Some(Instant::now());
+        self.say(OUR_PING)
+    }
+
+    /// Passes on the whole messages of these bytes, and answers whether we are there.
+    fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> io::Result<()> {
+        let mut outcome = Ok(());
+        let mut asked = false;
+        let (numbers, descriptions) = (&mut self.numbers, &mut self.descriptions);
+        self.pieces.push(received, |piece| match piece {
+            Ok(Piece::Cookie(_)) if outcome.is_ok() => {
+                outcome = Err(invalid(WireError::NotVrpn("a second cookie".to_owned())));
+            }
+            Ok(Piece::Message(message, raw)) if outcome.is_ok() => {
+                bytes.extend_from_slice(raw);
+                // The decoder counts those that cannot be read.
+                if numbers.describe(&message) == Ok(true) {
+                    keep(descriptions, raw);
+                }
+                asked |= numbers.of_device(&message) == Some(PING);
+            }
+            Ok(_) => {}
+            Err(error) => outcome = Err(invalid(error)),
+        });
+        if asked && outcome.is_ok() {
+            outcome = self.say(OUR_PONG);
+        }
+        outcome
+    }
+}
+
+/// Keeps a description in place of an earlier one of the same number.
+fn keep(descriptions: &mut Vec<Vec<u8>>, raw: &[u8]) {
+    // Sender and type: what is described.
+    let what = 12..20;
+    let same = descriptions.iter().skip(1).position(|known| known[what.clone()] == raw[what.clone()]);
+    match same {
+        Some(index) => descriptions[1 + index] = raw.to_vec(),
+        None if descriptions.len() < MOST_DESCRIPTIONS => descriptions.push(raw.to_vec()),
+        None => {}
+    }
+}
+
+fn invalid(error: WireError) -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, error)
+}
+
+impl Connection for Link {
+    fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+        self.ping()?;
+        let mut buffer = [0; BUFFER];
+        let length = match self.stream.read(&mut buffer) {
+            Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+            Ok(length) => length,
+            Err(error) => return passing(Err(error)),
+        };
+        self.last_heard = Instant::now();
+        let mut messages = Vec::new();
+        self.take(&buffer[..length], &mut messages)?;
+        // Not as a sample of its own: in a flood that would cost another, and so on for ever.
+        if !messages.is_empty() {
+            bytes.append(&mut self.first);
+            bytes.append(&mut messages);
+        }
+        Ok(())
+    }
+
+    /// What was dropped may have described what comes.
+    fn report_all(&mut self) {
+        self.first = self.descriptions.concat();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A server that dies without a word must be noticed, and a mistaken name be told.
+    use std::net::TcpListener;
+
+    use super::*;
+    use crate::vrpn::golden;
+
+    /// Our end and the server's, after the cookies.
+    fn link() -> (Link, TcpStream) {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let mut server = listener.accept().unwrap().0;
+        server.write_all(&COOKIE).unwrap();
+        (Link::begin(stream, "Tail").unwrap(), server)
+    }
+
+    #[test]
+    fn a_silent_server_is_gone_and_a_mistaken_name_told() {
+        let (mut link, mut server) = link();
+        let mut bytes = Vec::new();
+        link.last_heard = Instant::now().checked_sub(SILENCE + READ_WAIT).unwrap();
+        let text = link.read(&mut bytes).unwrap_err().to_string();
+        assert_eq!(text, "silent for 10 s; it has described no device");
+
+        server.write_all(&golden::bytes(golden::SENDER)).unwrap();
+        link.last_heard = Instant::now();
+        while bytes.is_empty() {
+            link.read(&mut bytes).unwrap();
+        }
+        assert_eq!(bytes, [COOKIE.to_vec(), golden::bytes(golden::SENDER)].concat());
+        link.last_heard = Instant::now().checked_sub(SILENCE + READ_WAIT).unwrap();
+        let text = link.read(&mut bytes).unwrap_err().to_string();
+        assert_eq!(text, "silent for 10 s; it has no such device, but Head");
+    }
+
+    #[test]
+    fn after_a_loss_the_stream_begins_anew_with_what_was_described() {
+        let (mut link, mut server) = link();
+        let mut bytes = Vec::new();
+        let later = description(DESCRIBES_SENDER, 1, "Tail");
+        let sent = [golden::bytes(golden::SENDER), golden::bytes(golden::TYPE), later.clone()].concat();
+        server.write_all(&sent).unwrap();
+        let expected = [COOKIE.to_vec(), sent].concat();
+        while bytes.len() < expected.len() {
+            link.read(&mut bytes).unwrap();
+        }
+        assert_eq!(bytes, expected);
+        link.report_all();
+        let pose = golden::bytes(golden::IDENTITY);
+        server.write_all(&pose).unwrap();
+        bytes.clear();
+        while bytes.is_empty() {
+            link.read(&mut bytes).unwrap();
+        }
+        assert_eq!(bytes, [COOKIE.to_vec(), later, golden::bytes(golden::TYPE), pose].concat());
+    }
+
+    #[test]
+    fn a_flood_of_descriptions_is_bounded() {
+        let mut kept = vec![COOKIE.to_vec()];
+        for number in 0..10_000 {
+            keep(&mut kept, &description(DESCRIBES_TYPE, number, "type"));
+        }
+        assert_eq!(kept.len(), MOST_DESCRIPTIONS);
+    }
+}
