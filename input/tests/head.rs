@@ -1,0 +1,282 @@
+//! A ride with a tracked head: a recording of it must give the same head to the last bit, whatever
+//! the tracker sent; what it sent must never make a head that no replay could read back; and
+//! recordings of before there was a head must open.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use input::head::{Tracking, VelocityFilter};
+use input::recording::{ControlsRecord, Entry, Header, Recorder, Recording};
+use input::vrpn::wire::{COOKIE, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, description};
+use input::{
+    Controls, Desk, DeskConfig, HeadConfig, MouseButton, MouseEvent, Nanos, SECOND, Sample, Source, VehicleKind, vrpn,
+};
+use proptest::prelude::*;
+
+const URLS: [&str; 3] = ["vrpn://tracker/Head", "dtrack://:5000", "mouse"];
+
+fn filters() -> [VelocityFilter; 4] {
+    [VelocityFilter::default(), VelocityFilter::least_squares(), VelocityFilter::one_euro(), VelocityFilter::Off]
+}
+
+fn config(url: &str, velocity: VelocityFilter) -> DeskConfig {
+    let mut head = HeadConfig { velocity, ..HeadConfig::new(url.parse().unwrap()) };
+    if url != "mouse" {
+        head.room_from_tracker.position = [0.1, 2.0, -1.0 / 3.0];
+        head.room_from_tracker.yaw = 30.0;
+        head.head_from_sensor.position = [0.0, 0.1, 0.07];
+        head.head_from_sensor.pitch = -12.5;
+    }
+    DeskConfig { head: Some(head), ..DeskConfig::default() }
+}
+
+fn header(desk: DeskConfig) -> Header {
+    Header {
+        build: "0.1.0 (test)".to_owned(),
+        scene: "town".to_owned(),
+        speed_of_light_m_s: 30.0 / 3.6,
+        vehicle: VehicleKind::Bicycle,
+        integrator: "rk4".to_owned(),
+        step_s: 1.0 / 240.0,
+        desk,
+        settings: BTreeMap::new(),
+    }
+}
+
+/// Feeds the samples, asks after each, and records it.
+fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
+    let mut desk = Desk::new(config.clone()).unwrap();
+    let mut recorder = Recorder::create(path, &header(config.clone())).unwrap();
+    let mut ridden = Vec::new();
+    for (frame, sample) in (0..).zip(samples) {
+        desk.feed(sample);
+        recorder.sample(sample).unwrap();
+        let controls = desk.controls(sample.at);
+        recorder.controls(frame, sample.at, &controls).unwrap();
+        ridden.push(controls);
+    }
+    recorder.finish().unwrap();
+    ridden
+}
+
+/// Every number of a head, as bits.
+fn bits(controls: &Controls) -> Vec<u64> {
+    let head = controls.head.unwrap();
+    let numbers = [&head.position_m.to_array()[..], &head.orientation.to_array(), &head.velocity_m_s.to_array()].concat();
+    numbers.into_iter().map(f64::to_bits).collect()
+}
+
+/// Rides a recording again and compares.
+fn assert_same_again(path: &Path, ridden: &[Controls]) {
+    let recording = Recording::open(path).unwrap();
+    let mut desk = Desk::new(recording.header().desk.clone()).unwrap();
+    let mut frames = 0;
+    for entry in recording {
+        match entry.unwrap() {
+            Entry::Sample(sample) => desk.feed(&sample),
+            Entry::Controls(record) => {
+                let again = desk.controls(record.at);
+                assert_eq!(again, ridden[frames], "frame {frames}");
+                assert_eq!((&record.controls, bits(&record.controls)), (&again, bits(&ridden[frames])));
+                frames += 1;
+            }
+            Entry::Frame(_) => {}
+        }
+    }
+    assert_eq!(frames, ridden.len());
+}
+
+/// A pose of a 100 Hz tracker as a VRPN server sends it, number 5 of sender 3.
+fn vrpn_pose(frame: u32, x: f64) -> Vec<u8> {
+    let mut payload = vec![0; 8];
+    let turn = 0.01 * f64::from(frame);
+    for value in [x, 1.7, -x / 3.0, 0.0, turn.sin(), 0.0, turn.cos()] {
+        payload.extend_from_slice(&value.to_be_bytes());
+    }
+    Message { seconds: 1000 + frame / 100, microseconds: frame % 100 * 10_000, sender: 3, kind: 5, payload: &payload }
+        .to_bytes()
+}
+
+/// A walk of three seconds as this source's samples.
+fn walk(source: Source) -> Vec<Sample> {
+    let step = SECOND / 100;
+    let mut samples = vec![Sample::opened(0, source)];
+    let sway = |frame: u32| 0.3 * (0.05 * f64::from(frame)).sin();
+    match source {
+        Source::Vrpn => {
+            let mut stream = COOKIE.to_vec();
+            stream.extend(description(DESCRIBES_SENDER, 3, "Head"));
+            stream.extend(description(DESCRIBES_TYPE, 5, vrpn::POSE));
+            (0..300).for_each(|frame| stream.extend(vrpn_pose(frame, sway(frame))));
+            // Cut without regard to the messages.
+            samples.extend((1..).zip(stream.chunks(61)).map(|(chunk, bytes)| Sample::bytes(chunk * step, source, bytes)));
+        }
+        Source::Dtrack => samples.extend((0..300_u32).map(|frame| {
+            let text = format!(
+                "fr {frame}\r\nts2 {} {} 4000\r\n6d 1 [0 1.0][{} 170.0 -99.0 0 0 0][1 0 0 0 1 0 0 0 1]\r\n",
+                1000 + frame / 100,
+                frame % 100 * 10_000,
+                1000.0 * sway(frame)
+            );
+            Sample::bytes(u64::from(frame) * step, source, text.into_bytes())
+        })),
+        _ => {
+            samples.push(Sample::mouse(0, MouseEvent::Button { button: MouseButton::Left, pressed: true }));
+            samples.extend((1..300).map(|frame| {
+                let event = match frame % 3 {
+                    0 => MouseEvent::Wheel(0.7),
+                    1 => MouseEvent::Moved { right: -3.3, down: 1.1 },
+                    _ => MouseEvent::Shift(frame % 2 == 0),
+                };
+                Sample::mouse(frame * step, event)
+            }));
+        }
+    }
+    let end = samples.last().unwrap().at;
+    samples.push(Sample::closed(end, source));
+    samples.extend((1..50).map(|frame| Sample::closed(end + frame * step, Source::Keyboard)));
+    samples
+}
+
+#[test]
+fn a_walk_is_the_same_again_to_the_last_bit() {
+    for url in URLS {
+        for filter in filters() {
+            let directory = tempfile::tempdir().unwrap();
+            let path = directory.path().join("walk.mcap");
+            let config = config(url, filter);
+            let samples = walk(config.head.as_ref().unwrap().url.source());
+            let ridden = ride(&path, &config, &samples);
+            // The head has moved, so something was compared.
+            let fastest = ridden.iter().map(|controls| controls.head.unwrap().velocity_m_s.length()).fold(0.0, f64::max);
+            assert!(fastest > 0.3, "{url}, {filter:?}: {fastest}");
+            assert_same_again(&path, &ridden);
+        }
+    }
+}
+
+#[test]
+fn every_source_tracks_and_a_tracker_that_goes_loses_the_head() {
+    for url in URLS {
+        let config = config(url, VelocityFilter::default());
+        let source = config.head.as_ref().unwrap().url.source();
+        let mut desk = Desk::new(config).unwrap();
+        assert_eq!(desk.controls(0).head.unwrap().tracked == Tracking::Never, source != Source::Mouse);
+        let samples = walk(source);
+        let closed = samples.iter().position(|sample| *sample == Sample::closed(sample.at, source)).unwrap();
+        samples[..closed].iter().for_each(|sample| desk.feed(sample));
+        let at = samples[closed].at;
+        let before = desk.controls(at).head.unwrap();
+        assert_eq!(before.tracked, Tracking::Tracked, "{url}");
+        desk.feed(&samples[closed]);
+        let after = desk.controls(at + SECOND).head.unwrap();
+        if source != Source::Mouse {
+            assert_eq!((after.tracked, after.position_m), (Tracking::Lost, before.position_m));
+        }
+        assert!(after.velocity_m_s.length() < 1e-3, "{url}: {after:?}");
+    }
+}
+
+#[test]
+fn a_head_listens_to_its_own_tracker_alone() {
+    for url in URLS {
+        let config = config(url, VelocityFilter::default());
+        let own = config.head.as_ref().unwrap().url.source();
+        let mut desk = Desk::new(config).unwrap();
+        for other in [Source::Vrpn, Source::Dtrack, Source::Mouse] {
+            let before = desk.controls(0).head;
+            if other != own {
+                walk(other).iter().for_each(|sample| desk.feed(sample));
+                assert_eq!(desk.controls(0).head, before, "{other} for {url}");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_a_tracker_there_is_no_head() {
+    let mut desk = Desk::new(DeskConfig::default()).unwrap();
+    for source in [Source::Vrpn, Source::Dtrack, Source::Mouse] {
+        walk(source).iter().for_each(|sample| desk.feed(sample));
+        assert_eq!(desk.controls(10 * SECOND).head, None);
+    }
+}
+
+/// The texts of a recording that was made before heads were tracked.
+#[test]
+fn recordings_of_before_the_head_open() {
+    let mut desk = serde_json::to_value(DeskConfig::default()).unwrap();
+    assert_eq!(desk.as_object_mut().unwrap().remove("head"), None, "a desk without a head says nothing of it");
+    assert_eq!(serde_json::from_value::<DeskConfig>(desk).unwrap(), DeskConfig::default());
+    let controls = r#"{"frame":7,"at":9,"wheel_speed":2.5,"cadence_hz":null,"steer_rad":0.1,"brake":0.0,
+        "thrust":[0.0,0.0,0.0],"turn":[0.0,0.0,0.0],"actions":["step"]}"#;
+    let record: ControlsRecord = serde_json::from_str(controls).unwrap();
+    assert_eq!((record.frame, record.controls.wheel_speed, record.controls.head), (7, Some(2.5), None));
+}
+
+#[test]
+fn a_tracker_that_cannot_be_is_refused_at_the_door() {
+    let mut config = config(URLS[1], VelocityFilter::default());
+    config.head.as_mut().unwrap().fade_s = 0.0;
+    let error = Desk::new(config).unwrap_err().to_string();
+    assert_eq!(error, "tracker.fade_s is 0: expected a positive number from 1e-6 to 1e6");
+}
+
+/// A number as a tracker may send it, sound or not.
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => -3.0..3.0, 1 => any::<f64>(), 1 => Just(0.0), 1 => Just(1.0)]
+}
+
+/// Bytes that a tracker might send, good or bad.
+fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
+    let vrpn = (any::<u32>(), any::<u32>(), proptest::array::uniform7(any_number()), 0..2_i32).prop_map(
+        |(seconds, microseconds, numbers, sensor)| {
+            let mut payload = [sensor.to_be_bytes(), [0; 4]].concat();
+            numbers.iter().for_each(|number| payload.extend_from_slice(&number.to_be_bytes()));
+            let pose = Message { seconds: seconds % 3, microseconds, sender: 3, kind: 5, payload: &payload };
+            let begin = [&COOKIE[..], &description(DESCRIBES_SENDER, 3, "Head"), &description(DESCRIBES_TYPE, 5, vrpn::POSE)];
+            [begin.concat(), pose.to_bytes()].concat()
+        },
+    );
+    let dtrack = (any::<u32>(), proptest::array::uniform3(any_number())).prop_map(|(time, [x, y, z])| {
+        format!("ts2 {} {} 0\n6d 1 [0 1.0][{x} {y} {z} 0 0 0][1 0 0 0 1 0 0 0 1]\n", time % 3, time % 1_000_000).into_bytes()
+    });
+    let mouse = (any::<f32>(), any::<f32>()).prop_map(|(right, down)| MouseEvent::Moved { right, down }.to_bytes());
+    let wheel = any::<f32>().prop_map(|ahead| MouseEvent::Wheel(ahead).to_bytes());
+    prop_oneof![vrpn, dtrack, mouse, wheel, proptest::collection::vec(any::<u8>(), 0..80)]
+}
+
+fn any_sample(source: Source) -> impl Strategy<Value = Sample> {
+    (any::<Nanos>(), any_bytes(), 0..20_u8).prop_map(move |(at, bytes, kind)| match kind {
+        0 => Sample::opened(at % (5 * SECOND), source),
+        1 => Sample::closed(at % (5 * SECOND), source),
+        _ => Sample::bytes(at % (5 * SECOND), source, bytes),
+    })
+}
+
+/// A source's place, and a filter, and samples.
+fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sample>)> {
+    (proptest::sample::select(URLS.to_vec()), proptest::sample::select(filters().to_vec())).prop_flat_map(|(url, filter)| {
+        let source = config(url, filter).head.unwrap().url.source();
+        (Just(url), Just(filter), proptest::collection::vec(any_sample(source), 1..60))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 192, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever a tracker sends, the head is somewhere, some way up and of some speed, and is the same again.
+    #[test]
+    fn any_noise_gives_a_sound_head_and_the_same_again((url, filter, samples) in any_track()) {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("noise.mcap");
+        let ridden = ride(&path, &config(url, filter), &samples);
+        for controls in &ridden {
+            let head = controls.head.unwrap();
+            prop_assert!(head.position_m.is_finite() && head.position_m.abs().max_element() < 4000.0, "{head:?}");
+            prop_assert!(head.velocity_m_s.is_finite() && head.orientation.is_normalized(), "{head:?}");
+        }
+        assert_same_again(&path, &ridden);
+    }
+}
