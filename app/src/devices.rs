@@ -4,7 +4,9 @@ use crate::command::DevicesOptions;
 use crate::error::Error;
 use crate::render::interrupted;
 use input::devices::{Devices, DevicesConfig, Plugged, State, Status, plugged_in};
-use input::{Clock, Controls, Desk, DeskConfig, SECOND};
+use glam::EulerRot;
+use input::head::{Head, Tracking};
+use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, Source};
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
@@ -27,9 +29,10 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     writeln!(out, "{}", plugged(&plugged_in()))?;
 
     let clock = Clock::start();
-    let config = DevicesConfig { bicycle: options.bicycle.clone(), ..Default::default() };
-    let live = Devices::open(&config, clock)?;
-    let mut desk = Desk::new(DeskConfig::default())?;
+    let (bicycle, tracker) = (options.bicycle.clone(), options.tracker.clone());
+    let head = tracker.clone().map(HeadConfig::new);
+    let mut desk = Desk::new(DeskConfig { head, ..Default::default() })?;
+    let live = Devices::open(&DevicesConfig { bicycle, tracker, ..Default::default() }, clock)?;
     let stop = interrupted();
     let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
     let mut shown = 0;
@@ -104,5 +107,35 @@ fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
         axes(controls.thrust),
         axes(controls.turn)
     );
+    if let (Some(head), Some(state)) = (desk.head(), &controls.head) {
+        let _ = writeln!(text, "{}", head_line(head, state, desk));
+    }
+    text
+}
+
+/// The head, and why there is none.
+fn head_line(head: &Head, state: &HeadState, desk: &Desk) -> String {
+    let tracked = match state.tracked {
+        Tracking::Never => "not seen yet",
+        Tracking::Tracked => "tracked",
+        Tracking::Fading | Tracking::Lost => "lost",
+    };
+    let [x, y, z] = state.position_m.to_array();
+    let (yaw, pitch, roll) = state.orientation.to_euler(EulerRot::YXZ);
+    let mut text = format!(
+        "head {tracked} · {x:+.3} {y:+.3} {z:+.3} m · yaw {:+.1}° pitch {:+.1}° roll {:+.1}° · {:.2} m/s · {} rejected",
+        yaw.to_degrees(),
+        pitch.to_degrees(),
+        roll.to_degrees(),
+        state.velocity_m_s.length(),
+        head.rejected().number()
+    );
+    if let Some(why) = head.rejected().last() {
+        let _ = write!(text, " ({why})");
+    }
+    let numbers = desk.vrpn().numbers();
+    if head.config().url.source() == Source::Vrpn && !numbers.has_device() && !numbers.senders().is_empty() {
+        let _ = write!(text, "; the server has no such device, but {}", numbers.senders().join(", "));
+    }
     text
 }

@@ -16,7 +16,7 @@ use crate::window;
 use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
-use input::{Action, Clock, DeskConfig, Sample, VehicleKind};
+use input::{Action, Clock, DeskConfig, HeadConfig, Sample, VehicleKind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -146,7 +146,7 @@ fn setup(options: &RideOptions, scene: &Scene) -> Result<Setup, Error> {
         kind,
         start: Start::at_rest(scene.start.position + eye, scene.start.look),
         vehicle,
-        desk: DeskConfig::default(),
+        desk: DeskConfig { head: options.devices.tracker.clone().map(HeadConfig::new), ..Default::default() },
     })
 }
 
@@ -161,6 +161,7 @@ pub fn devices_config(options: &RideOptions) -> DevicesConfig {
     DevicesConfig {
         bicycle: options.devices.bicycle.clone(),
         space_mouse: options.devices.spacemouse || window::has_display(),
+        tracker: options.devices.tracker.clone(),
         ..Default::default()
     }
 }

@@ -17,6 +17,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use input::TrackerUrl;
 use thiserror::Error;
 
 mod measure;
@@ -81,6 +82,9 @@ pub struct DevicesOptions {
     /// The serial port of the instrumented bicycle, to be listed with the others.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
+    /// The tracker of the head, likewise: vrpn://HOST[:PORT]/DEVICE or dtrack://[ADDRESS][:PORT].
+    #[arg(long, value_name = "URL")]
+    pub tracker: Option<TrackerUrl>,
     /// How long to watch, in seconds [default: until Ctrl-C].
     #[arg(long, value_name = "N", value_parser = values::positive)]
     pub seconds: Option<f64>,

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::{PictureOptions, Renderer, WorldOptions, values};
 use crate::vehicle::{IntegratorKind, Nose};
+use input::TrackerUrl;
 
 /// What drives the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -50,7 +51,7 @@ pub struct RideOptions {
     /// World, vehicle and devices come from the recording; --scene is needed only if its scene's file has moved.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
-    #[arg(conflicts_with_all = ["bicycle", "spacemouse"])]
+    #[arg(conflicts_with_all = ["bicycle", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
     /// Only compare: compute the recorded ride again, show nothing, and fail at the first frame that is not the
     /// same to the bit.
@@ -116,4 +117,7 @@ pub struct DeviceOptions {
     /// Read a SpaceMouse, by itself or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
+    /// What tracks the head: vrpn://HOST[:PORT]/DEVICE, dtrack://[ADDRESS][:PORT], or mouse.
+    #[arg(long, value_name = "URL")]
+    pub tracker: Option<TrackerUrl>,
 }

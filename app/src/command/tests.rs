@@ -58,7 +58,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
 #[test]
 fn a_ride_takes_all_its_options() {
     let options = ride(
-        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --record r.mcap \
+        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
          --exposure -1.5 --tone filmic --gamut clamp \
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
          --threads 2 --integrator exact --transport gyroscopic --time-scale 0.5 --out r.mp4 --realtime --fov 90",
@@ -66,7 +66,11 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.world.scene, SceneChoice::File("a/b.glb".into()));
     assert_eq!(options.world.speed_of_light, 299_792_458.0);
     assert_eq!(options.world.edge, Some(0.1));
-    assert_eq!(options.devices, DeviceOptions { bicycle: Some("/dev/pts/3".to_owned()), spacemouse: true });
+    assert_eq!(options.devices, DeviceOptions {
+        bicycle: Some("/dev/pts/3".to_owned()),
+        spacemouse: true,
+        tracker: Some("vrpn://cave:3883/Head".parse().unwrap()),
+    });
     assert_eq!(options.record, Some("r.mcap".into()));
     assert_eq!((options.seconds, options.latency, options.realtime), (Some(2.5), Latency::Low, true));
     assert_eq!(options.vehicle.vehicle, VehicleName::Fly);
@@ -141,8 +145,12 @@ fn the_small_commands_parse() {
     assert_eq!(parse("town --out t.glb").unwrap(), Command::Town(TownOptions { out: "t.glb".into() }));
     let files = vec!["a.glb".into(), "b.mcap".into()];
     assert_eq!(parse("check a.glb b.mcap").unwrap(), Command::Check(CheckOptions { files }));
-    let devices = DevicesOptions { bicycle: Some("/dev/ttyUSB0".to_owned()), seconds: Some(1.0) };
-    assert_eq!(parse("devices --bicycle /dev/ttyUSB0 --seconds 1").unwrap(), Command::Devices(devices));
+    let tracker = Some("dtrack://0.0.0.0:5000".parse().unwrap());
+    let devices = DevicesOptions { bicycle: Some("/dev/ttyUSB0".to_owned()), tracker, seconds: Some(1.0) };
+    assert_eq!(
+        parse("devices --bicycle /dev/ttyUSB0 --tracker dtrack:// --seconds 1").unwrap(),
+        Command::Devices(devices)
+    );
 }
 
 #[test]
@@ -188,6 +196,8 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("ride --speed-of-light 1e308_c", ["--speed-of-light", "positive"]),
         ("ride --speed-of-light -30_km/h", ["--speed-of-light", "positive"]),
         ("ride --vehicle boat", ["--vehicle", "bicycle"]),
+        ("ride --tracker vrpn://cave", ["--tracker", "names no device"]),
+        ("devices --tracker cave", ["--tracker", "vrpn://HOST/DEVICE"]),
         ("ride --latency none", ["--latency", "overlap"]),
         ("ride --integrator euler", ["--integrator", "dopri5"]),
         ("ride --transport bus", ["--transport", "gyroscopic"]),
@@ -219,6 +229,7 @@ fn options_that_contradict_each_other_are_refused_by_name() {
         ("ride --replay r.mcap --record s.mcap", ["--replay", "--record"]),
         ("ride --replay r.mcap --vehicle fly", ["--replay", "--vehicle"]),
         ("ride --replay r.mcap --spacemouse", ["--replay", "--spacemouse"]),
+        ("ride --replay r.mcap --tracker mouse", ["--replay", "--tracker"]),
         ("ride --replay r.mcap --verify --out a.mp4", ["--verify", "--out"]),
         ("render", ["--out", "required"]),
         ("check", ["FILE", "required"]),

@@ -122,7 +122,7 @@ fn window_s() -> f64 {
 }
 
 fn minimum_cutoff_hz() -> f64 {
-    1.5
+    1.0
 }
 
 fn acceleration_coefficient() -> f64 {
