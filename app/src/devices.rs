@@ -3,8 +3,8 @@
 use crate::command::DevicesOptions;
 use crate::error::Error;
 use crate::render::interrupted;
-use input::devices::{Devices, DevicesConfig, Plugged, State, Status, plugged_in};
 use glam::EulerRot;
+use input::devices::{Devices, DevicesConfig, Plugged, State, Status, plugged_in};
 use input::head::{Head, Tracking};
 use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, Source};
 use std::fmt::Write as _;

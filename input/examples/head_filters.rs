@@ -115,7 +115,8 @@ fn main() {
     for (name, filter) in filters {
         for rate_hz in RATES_HZ {
             let (clean, noisy) = (filtered(filter, rate_hz, 0.0, walk), filtered(filter, rate_hz, NOISE_M, walk));
-            let resting = rms(filtered(filter, rate_hz, NOISE_M, |_| DVec3::ZERO).iter().map(|(_, velocity)| *velocity));
+            let resting =
+                rms(filtered(filter, rate_hz, NOISE_M, |_| DVec3::ZERO).iter().map(|(_, velocity)| *velocity));
             let noise = rms(noisy.iter().zip(&clean).map(|((_, noisy), (_, clean))| *noisy - *clean));
             println!(
                 "| {name} | {rate_hz} | {:.0} | {:.0} | {:.0} | {:.2} | {:.0} |",

@@ -151,10 +151,8 @@ impl Body {
 
 /// The bodies of a `6d` line that were seen.
 fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
-    const BAD: DtrackError = DtrackError::Line {
-        line: "6d",
-        expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]",
-    };
+    const BAD: DtrackError =
+        DtrackError::Line { line: "6d", expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]" };
     let (count, mut rest) = line.trim().split_once(' ').unwrap_or((line.trim(), ""));
     let count: usize = count.parse().map_err(|_| BAD)?;
     let mut bodies = Vec::new();

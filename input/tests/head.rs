@@ -63,7 +63,8 @@ fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
 /// Every number of a head, as bits.
 fn bits(controls: &Controls) -> Vec<u64> {
     let head = controls.head.unwrap();
-    let numbers = [&head.position_m.to_array()[..], &head.orientation.to_array(), &head.velocity_m_s.to_array()].concat();
+    let numbers =
+        [&head.position_m.to_array()[..], &head.orientation.to_array(), &head.velocity_m_s.to_array()].concat();
     numbers.into_iter().map(f64::to_bits).collect()
 }
 
@@ -110,7 +111,8 @@ fn walk(source: Source) -> Vec<Sample> {
             stream.extend(description(DESCRIBES_TYPE, 5, vrpn::POSE));
             (0..300).for_each(|frame| stream.extend(vrpn_pose(frame, sway(frame))));
             // Cut without regard to the messages.
-            samples.extend((1..).zip(stream.chunks(61)).map(|(chunk, bytes)| Sample::bytes(chunk * step, source, bytes)));
+            samples
+                .extend((1..).zip(stream.chunks(61)).map(|(chunk, bytes)| Sample::bytes(chunk * step, source, bytes)));
         }
         Source::Dtrack => samples.extend((0..300_u32).map(|frame| {
             let text = format!(
@@ -149,7 +151,8 @@ fn a_walk_is_the_same_again_to_the_last_bit() {
             let samples = walk(config.head.as_ref().unwrap().url.source());
             let ridden = ride(&path, &config, &samples);
             // The head has moved, so something was compared.
-            let fastest = ridden.iter().map(|controls| controls.head.unwrap().velocity_m_s.length()).fold(0.0, f64::max);
+            let fastest =
+                ridden.iter().map(|controls| controls.head.unwrap().velocity_m_s.length()).fold(0.0, f64::max);
             assert!(fastest > 0.3, "{url}, {filter:?}: {fastest}");
             assert_same_again(&path, &ridden);
         }
@@ -235,12 +238,14 @@ fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
             let mut payload = [sensor.to_be_bytes(), [0; 4]].concat();
             numbers.iter().for_each(|number| payload.extend_from_slice(&number.to_be_bytes()));
             let pose = Message { seconds: seconds % 3, microseconds, sender: 3, kind: 5, payload: &payload };
-            let begin = [&COOKIE[..], &description(DESCRIBES_SENDER, 3, "Head"), &description(DESCRIBES_TYPE, 5, vrpn::POSE)];
+            let begin =
+                [&COOKIE[..], &description(DESCRIBES_SENDER, 3, "Head"), &description(DESCRIBES_TYPE, 5, vrpn::POSE)];
             [begin.concat(), pose.to_bytes()].concat()
         },
     );
     let dtrack = (any::<u32>(), proptest::array::uniform3(any_number())).prop_map(|(time, [x, y, z])| {
-        format!("ts2 {} {} 0\n6d 1 [0 1.0][{x} {y} {z} 0 0 0][1 0 0 0 1 0 0 0 1]\n", time % 3, time % 1_000_000).into_bytes()
+        format!("ts2 {} {} 0\n6d 1 [0 1.0][{x} {y} {z} 0 0 0][1 0 0 0 1 0 0 0 1]\n", time % 3, time % 1_000_000)
+            .into_bytes()
     });
     let mouse = (any::<f32>(), any::<f32>()).prop_map(|(right, down)| MouseEvent::Moved { right, down }.to_bytes());
     let wheel = any::<f32>().prop_map(|ahead| MouseEvent::Wheel(ahead).to_bytes());
@@ -257,10 +262,12 @@ fn any_sample(source: Source) -> impl Strategy<Value = Sample> {
 
 /// A source's place, and a filter, and samples.
 fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sample>)> {
-    (proptest::sample::select(URLS.to_vec()), proptest::sample::select(filters().to_vec())).prop_flat_map(|(url, filter)| {
-        let source = config(url, filter).head.unwrap().url.source();
-        (Just(url), Just(filter), proptest::collection::vec(any_sample(source), 1..60))
-    })
+    (proptest::sample::select(URLS.to_vec()), proptest::sample::select(filters().to_vec())).prop_flat_map(
+        |(url, filter)| {
+            let source = config(url, filter).head.unwrap().url.source();
+            (Just(url), Just(filter), proptest::collection::vec(any_sample(source), 1..60))
+        },
+    )
 }
 
 proptest! {

@@ -66,11 +66,14 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.world.scene, SceneChoice::File("a/b.glb".into()));
     assert_eq!(options.world.speed_of_light, 299_792_458.0);
     assert_eq!(options.world.edge, Some(0.1));
-    assert_eq!(options.devices, DeviceOptions {
-        bicycle: Some("/dev/pts/3".to_owned()),
-        spacemouse: true,
-        tracker: Some("vrpn://cave:3883/Head".parse().unwrap()),
-    });
+    assert_eq!(
+        options.devices,
+        DeviceOptions {
+            bicycle: Some("/dev/pts/3".to_owned()),
+            spacemouse: true,
+            tracker: Some("vrpn://cave:3883/Head".parse().unwrap()),
+        }
+    );
     assert_eq!(options.record, Some("r.mcap".into()));
     assert_eq!((options.seconds, options.latency, options.realtime), (Some(2.5), Latency::Low, true));
     assert_eq!(options.vehicle.vehicle, VehicleName::Fly);

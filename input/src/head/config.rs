@@ -14,6 +14,8 @@
 //! # assert_eq!(config.room_from_tracker.yaw, 90.0);
 //! ```
 
+use std::ops::RangeInclusive;
+
 use glam::{DQuat, DVec3, EulerRot};
 use serde::{Deserialize, Serialize};
 
@@ -22,8 +24,8 @@ use crate::config::{ConfigError, positive};
 
 /// How far from the room's origin anything is, metres.
 pub(super) const FARTHEST_M: f64 = 1000.0;
-/// How far a quaternion's length may be from one.
-pub(super) const UNIT_LENGTH: f64 = 1e-2;
+/// Lengths of quaternions that pass for one.
+pub(super) const UNIT_LENGTHS: RangeInclusive<f64> = 1.0 - 1e-2..=1.0 + 1e-2;
 
 /// How the head is tracked.
 ///
@@ -222,15 +224,18 @@ impl Placement {
         within(keys.position, self.position)?;
         for (key, angle) in [(keys.yaw, self.yaw), (keys.pitch, self.pitch), (keys.roll, self.roll)] {
             if !(-360.0..=360.0).contains(&angle) {
-                return Err(ConfigError { key, value: angle.to_string(), expected: "an angle from -360 to 360 degrees" });
+                return Err(ConfigError {
+                    key,
+                    value: angle.to_string(),
+                    expected: "an angle from -360 to 360 degrees",
+                });
             }
         }
         let Some(quaternion) = self.quaternion else {
             return Ok(());
         };
         let bad = |expected| ConfigError { key: keys.quaternion, value: format!("{quaternion:?}"), expected };
-        // Not a number is not within either.
-        if !((DQuat::from_array(quaternion).length() - 1.0).abs() <= UNIT_LENGTH) {
+        if !UNIT_LENGTHS.contains(&DQuat::from_array(quaternion).length()) {
             return Err(bad("x, y, z, w of length 1"));
         }
         if [self.yaw, self.pitch, self.roll] != [0.0; 3] {
@@ -296,8 +301,7 @@ impl HeadConfig {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.room_from_tracker.check(&ROOM_FROM_TRACKER)?;
         self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
-        let placements =
-            [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
+        let placements = [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
         for (keys, placement) in placements {
             if self.url == TrackerUrl::Mouse && placement != Placement::default() {
                 let value = format!("{:?}", placement.position);
@@ -377,7 +381,10 @@ mod tests {
         let rolled = Placement { roll: 90.0, ..Default::default() }.rigid().orientation;
         near(rolled * DVec3::Y, DVec3::NEG_X);
         // Yaw comes last.
-        near(forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }), DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt());
+        near(
+            forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
+            DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt(),
+        );
     }
 
     #[test]
@@ -390,13 +397,22 @@ mod tests {
             ("url = \"mouse\"\nvelocity = { filter = \"kalman\" }", "unknown variant `kalman`"),
             ("url = \"mouse\"\nvelocity = { filter = \"mean\", n = 3 }", "unknown field `n`"),
             ("url = \"mouse\"\nvelocity = { filter = \"mean\", frames = 0 }", "tracker.velocity.frames is 0"),
-            ("url = \"mouse\"\nvelocity = { filter = \"least-squares\", window_s = 0 }", "tracker.velocity.window_s is 0"),
-            ("url = \"mouse\"\nvelocity = { filter = \"one-euro\", minimum_cutoff_hz = nan }", "minimum_cutoff_hz is NaN"),
+            (
+                "url = \"mouse\"\nvelocity = { filter = \"least-squares\", window_s = 0 }",
+                "tracker.velocity.window_s is 0",
+            ),
+            (
+                "url = \"mouse\"\nvelocity = { filter = \"one-euro\", minimum_cutoff_hz = nan }",
+                "minimum_cutoff_hz is NaN",
+            ),
             ("url = \"mouse\"\nfade_s = -1", "tracker.fade_s is -1"),
             ("url = \"mouse\"\nhome = [0, inf, 0]", "tracker.home is [0.0, inf, 0.0]"),
             ("url = \"mouse\"\nroom_from_tracker = { position = [0, 0, 1] }", "nothing with url = \"mouse\""),
             ("url = \"dtrack://\"\nroom_from_tracker = { yaw = 1e3 }", "tracker.room_from_tracker.yaw is 1000"),
-            ("url = \"dtrack://\"\nhead_from_sensor = { position = [2000, 0, 0] }", "tracker.head_from_sensor.position"),
+            (
+                "url = \"dtrack://\"\nhead_from_sensor = { position = [2000, 0, 0] }",
+                "tracker.head_from_sensor.position",
+            ),
             ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, 0] }", "length 1"),
             ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, nan] }", "length 1"),
             ("url = \"dtrack://\"\nhead_from_sensor = { quaternion = [0, 0, 0, 1], yaw = 3 }", "not both"),

@@ -37,7 +37,7 @@ pub use velocity::Velocity;
 use crate::config::ConfigError;
 use crate::decoder::Faults;
 use crate::sample::{Nanos, seconds_between};
-use config::{FARTHEST_M, UNIT_LENGTH};
+use config::{FARTHEST_M, UNIT_LENGTHS};
 
 /// A pose may be this old before its velocity begins to fade, seconds: three frames at 60 Hz.
 const GRACE_S: f64 = 0.05;
@@ -279,8 +279,7 @@ impl Head {
     /// The head's pose, if the sensor's makes sense.
     fn sound(&self, pose: &TrackedPose) -> Result<Seen, PoseError> {
         let length = pose.orientation.length();
-        // Not a number is not within either.
-        if !((length - 1.0).abs() <= UNIT_LENGTH) {
+        if !UNIT_LENGTHS.contains(&length) {
             return Err(PoseError::Quaternion(length));
         }
         if !pose.position_m.is_finite() || pose.position_m.abs().max_element() > FARTHEST_M {

@@ -33,10 +33,7 @@ impl std::ops::Mul for Rigid {
 
     /// `c_from_b * b_from_a` is `c_from_a`.
     fn mul(self, other: Self) -> Self {
-        Self {
-            position: self.point(other.position),
-            orientation: (self.orientation * other.orientation).normalize(),
-        }
+        Self { position: self.point(other.position), orientation: (self.orientation * other.orientation).normalize() }
     }
 }
 

@@ -104,8 +104,7 @@ impl FromStr for TrackerUrl {
             Some(("dtrack", rest)) => {
                 let (host, port) = host_and_port(url, rest.trim_end_matches('/'), dtrack::PORT)?;
                 let bad = |_| TrackerUrlError::Address { url: url.to_owned(), address: host.to_owned() };
-                let address =
-                    if host.is_empty() { Ipv4Addr::UNSPECIFIED.into() } else { host.parse().map_err(bad)? };
+                let address = if host.is_empty() { Ipv4Addr::UNSPECIFIED.into() } else { host.parse().map_err(bad)? };
                 Ok(Self::Dtrack { address, port })
             }
             _ => Err(TrackerUrlError::Unknown(url.to_owned())),

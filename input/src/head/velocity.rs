@@ -135,17 +135,12 @@ mod tests {
     const ROUNDING: f64 = 1e-9;
 
     fn every_filter() -> [VelocityFilter; 4] {
-        [
-            VelocityFilter::default(),
-            VelocityFilter::least_squares(),
-            VelocityFilter::one_euro(),
-            VelocityFilter::Off,
-        ]
+        [VelocityFilter::default(), VelocityFilter::least_squares(), VelocityFilter::one_euro(), VelocityFilter::Off]
     }
 
     /// Intervals as a network makes them of 60 Hz.
     fn intervals() -> impl Iterator<Item = f64> {
-        (0..400).map(|index| (1.0 + 0.4 * (index as f64 * 1.7).sin()) / 60.0)
+        (0..400).map(|index| (1.0 + 0.4 * (f64::from(index) * 1.7).sin()) / 60.0)
     }
 
     #[test]

@@ -281,16 +281,7 @@ pub(crate) mod golden {
     /// Cookie, both descriptions, both poses, the description of sender 2, its pose again.
     pub fn session() -> Vec<u8> {
         let spin = super::wire::description(super::wire::DESCRIBES_SENDER, 2, "Spin0");
-        [
-            bytes(COOKIE),
-            bytes(SENDER),
-            bytes(TYPE),
-            bytes(IDENTITY),
-            bytes(TURNED),
-            spin,
-            bytes(TURNED),
-        ]
-        .concat()
+        [bytes(COOKIE), bytes(SENDER), bytes(TYPE), bytes(IDENTITY), bytes(TURNED), spin, bytes(TURNED)].concat()
     }
 }
 

@@ -228,8 +228,7 @@ fn message(bytes: &[u8]) -> Result<Option<(Piece<'_>, usize)>, WireError> {
     }
     let [_, seconds, microseconds, sender, kind, _] = words;
     let payload = &raw[HEADER_LENGTH..HEADER_LENGTH + payload_length];
-    let message =
-        Message { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
+    let message = Message { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
     Ok(Some((Piece::Message(message, raw), whole)))
 }
 
@@ -246,7 +245,10 @@ mod tests {
     use super::*;
     use crate::vrpn::golden;
 
-    fn pieces(chunks: &[&[u8]]) -> Vec<Result<(Option<(i32, i32, Vec<u8>)>, Vec<u8>), WireError>> {
+    /// Sender, type and payload of a message, none of a cookie; and the bytes.
+    type Cut = (Option<(i32, i32, Vec<u8>)>, Vec<u8>);
+
+    fn pieces(chunks: &[&[u8]]) -> Vec<Result<Cut, WireError>> {
         let (mut cut, mut pieces) = (Vec::new(), Pieces::default());
         for chunk in chunks {
             pieces.push(chunk, |piece| {
@@ -316,7 +318,8 @@ mod tests {
         };
         assert_eq!(name(b"\0\0\0\x05Head\0"), Ok("Head".to_owned()));
         let long = [&200_u32.to_be_bytes()[..], &[b'x'; 199], &[0]].concat();
-        for bad in [&b""[..], b"\0\0\0", b"\0\0\0\0", b"\0\0\0\x06Head\0", b"\0\0\0\x04Head", b"\xff\xff\xff\xffH\0", &long]
+        for bad in
+            [&b""[..], b"\0\0\0", b"\0\0\0\0", b"\0\0\0\x06Head\0", b"\0\0\0\x04Head", b"\xff\xff\xff\xffH\0", &long]
         {
             assert_eq!(name(bad), Err(WireError::Name), "{bad:?}");
         }
@@ -325,7 +328,8 @@ mod tests {
     #[test]
     fn nonsense_is_told_once_and_the_next_cookie_is_taken_up() {
         let good = golden::session();
-        for nonsense in [&[0xff; 300][..], &[0; 300], &[0, 0, 0, 23], b"vrpn: ver. 06.04  0\0\0\0\0\0", b"HTTP/1.1 400"] {
+        for nonsense in [&[0xff; 300][..], &[0; 300], &[0, 0, 0, 23], b"vrpn: ver. 06.04  0\0\0\0\0\0", b"HTTP/1.1 400"]
+        {
             for before in [0, COOKIE_LENGTH] {
                 let stream = [&good[..before], nonsense, &good].concat();
                 let whole = pieces(&[&stream]);
