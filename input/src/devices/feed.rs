@@ -283,4 +283,16 @@ mod tests {
         drop(stop);
         thread.join().unwrap();
     }
+
+    #[test]
+    fn a_device_that_goes_as_soon_as_it_has_come_is_given_time() {
+        let (feed, samples, _live, stop) = feed(4096);
+        let thread = std::thread::spawn(move || feed.run(Flaky { lives: 200 }));
+        std::thread::sleep(Duration::from_secs(1));
+        drop(stop);
+        thread.join().unwrap();
+        // At 0, 0.2, 0.6 and 1.4 s.
+        let lives = samples.try_iter().filter(|sample| sample.signal == crate::sample::Signal::Opened).count();
+        assert!((2..=3).contains(&lives), "{lives}");
+    }
 }

@@ -177,7 +177,8 @@ impl Devices {
 }
 
 impl Drop for Devices {
-    /// Ends the threads; each looks up from its device at least ten times a second.
+    /// Ends the threads; each looks up from its device at least ten times a second, and from waiting for a server
+    /// after a second.
     fn drop(&mut self) {
         self.stop = None;
         for lane in self.lanes.drain(..) {

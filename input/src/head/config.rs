@@ -14,18 +14,11 @@
 //! # assert_eq!(config.room_from_tracker.yaw, 90.0);
 //! ```
 
-use std::ops::RangeInclusive;
-
-use glam::{DQuat, DVec3, EulerRot};
 use serde::{Deserialize, Serialize};
 
-use super::{Rigid, TrackerUrl};
+use super::placement::{HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
+use super::{Placement, TrackerUrl};
 use crate::config::{ConfigError, positive};
-
-/// How far from the room's origin anything is, metres.
-pub(super) const FARTHEST_M: f64 = 1000.0;
-/// Lengths of quaternions that pass for one.
-pub(super) const UNIT_LENGTHS: RangeInclusive<f64> = 1.0 - 1e-2..=1.0 + 1e-2;
 
 /// How the head is tracked.
 ///
@@ -191,94 +184,6 @@ impl VelocityFilter {
     }
 }
 
-/// How one body's axes stand in another's: turned, then shifted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Placement {
-    /// Its origin in the other's axes, metres.
-    pub position: [f64; 3],
-    /// Turn about y, to the left, degrees; the last to be done.
-    pub yaw: f64,
-    /// Turn about x, nose up, degrees.
-    pub pitch: f64,
-    /// Turn about z, to the left, degrees; the first to be done.
-    pub roll: f64,
-    /// The turn as a quaternion (x, y, z, w), instead of the angles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub quaternion: Option<[f64; 4]>,
-}
-
-impl Placement {
-    /// The transform.
-    pub fn rigid(&self) -> Rigid {
-        let angles = [self.yaw, self.pitch, self.roll].map(f64::to_radians);
-        let orientation = match self.quaternion {
-            Some(quaternion) => DQuat::from_array(quaternion).normalize(),
-            None => DQuat::from_euler(EulerRot::YXZ, angles[0], angles[1], angles[2]),
-        };
-        Rigid { position: DVec3::from_array(self.position), orientation }
-    }
-
-    /// Checks the table whose keys these are.
-    fn check(&self, keys: &PlacementKeys) -> Result<(), ConfigError> {
-        within(keys.position, self.position)?;
-        for (key, angle) in [(keys.yaw, self.yaw), (keys.pitch, self.pitch), (keys.roll, self.roll)] {
-            if !(-360.0..=360.0).contains(&angle) {
-                return Err(ConfigError {
-                    key,
-                    value: angle.to_string(),
-                    expected: "an angle from -360 to 360 degrees",
-                });
-            }
-        }
-        let Some(quaternion) = self.quaternion else {
-            return Ok(());
-        };
-        let bad = |expected| ConfigError { key: keys.quaternion, value: format!("{quaternion:?}"), expected };
-        if !UNIT_LENGTHS.contains(&DQuat::from_array(quaternion).length()) {
-            return Err(bad("x, y, z, w of length 1"));
-        }
-        if [self.yaw, self.pitch, self.roll] != [0.0; 3] {
-            return Err(bad("a quaternion or yaw, pitch and roll, not both"));
-        }
-        Ok(())
-    }
-}
-
-/// Full names of a placement's keys.
-struct PlacementKeys {
-    position: &'static str,
-    yaw: &'static str,
-    pitch: &'static str,
-    roll: &'static str,
-    quaternion: &'static str,
-}
-
-macro_rules! placement_keys {
-    ($table:literal) => {
-        PlacementKeys {
-            position: concat!($table, ".position"),
-            yaw: concat!($table, ".yaw"),
-            pitch: concat!($table, ".pitch"),
-            roll: concat!($table, ".roll"),
-            quaternion: concat!($table, ".quaternion"),
-        }
-    };
-}
-
-const ROOM_FROM_TRACKER: PlacementKeys = placement_keys!("tracker.room_from_tracker");
-const HEAD_FROM_SENSOR: PlacementKeys = placement_keys!("tracker.head_from_sensor");
-
-/// Fails unless the place is near the origin.
-fn within(key: &'static str, position: [f64; 3]) -> Result<(), ConfigError> {
-    if position.iter().all(|coordinate| coordinate.abs() <= FARTHEST_M) {
-        Ok(())
-    } else {
-        let value = format!("{position:?}");
-        Err(ConfigError { key, value, expected: "three numbers of metres, each from -1000 to 1000" })
-    }
-}
-
 impl HeadConfig {
     /// A tracker as it comes: its axes are the room's, its sensor is the head.
     pub fn new(url: TrackerUrl) -> Self {
@@ -319,6 +224,8 @@ impl HeadConfig {
 mod tests {
     //! A table must mean what it says, and one that cannot be used must be told by key and reason.
     use super::*;
+    use crate::head::Rigid;
+    use glam::DQuat;
 
     fn parse(text: &str) -> Result<HeadConfig, String> {
         let config: HeadConfig = toml::from_str(text).map_err(|error| error.to_string())?;
@@ -370,21 +277,6 @@ mod tests {
             let config = parse(&format!("url = \"mouse\"\nvelocity = {{ {text} }}")).unwrap();
             assert_eq!(config.velocity, filter);
         }
-    }
-
-    #[test]
-    fn yaw_is_to_the_left_pitch_nose_up_roll_to_the_left() {
-        let forward = |placement: Placement| placement.rigid().orientation * DVec3::NEG_Z;
-        let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 1e-15, "{a} for {b}");
-        near(forward(Placement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
-        near(forward(Placement { pitch: 90.0, ..Default::default() }), DVec3::Y);
-        let rolled = Placement { roll: 90.0, ..Default::default() }.rigid().orientation;
-        near(rolled * DVec3::Y, DVec3::NEG_X);
-        // Yaw comes last.
-        near(
-            forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
-            DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt(),
-        );
     }
 
     #[test]

@@ -19,6 +19,7 @@
 mod config;
 mod limit;
 mod mouse;
+mod placement;
 mod rigid;
 mod url;
 mod velocity;
@@ -27,9 +28,10 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use config::{HeadConfig, Placement, TrackingMode, VelocityFilter};
+pub use config::{HeadConfig, TrackingMode, VelocityFilter};
 pub use limit::{celerity, limited};
 pub use mouse::{Mouse, MouseButton, MouseEvent};
+pub use placement::Placement;
 pub use rigid::Rigid;
 pub use url::{TrackerUrl, TrackerUrlError};
 pub use velocity::Velocity;
@@ -37,10 +39,12 @@ pub use velocity::Velocity;
 use crate::config::ConfigError;
 use crate::decoder::Faults;
 use crate::sample::{Nanos, seconds_between};
-use config::{FARTHEST_M, UNIT_LENGTHS};
+use placement::{FARTHEST_M, UNIT_LENGTHS};
 
 /// A pose may be this old before its velocity begins to fade, seconds: three frames at 60 Hz.
 const GRACE_S: f64 = 0.05;
+/// Or this old, in intervals of a slow tracker.
+const GRACE_FRAMES: f64 = 1.5;
 /// Over a longer gap than this, seconds, no velocity is made.
 const GAP_S: f64 = 0.25;
 /// A message time that goes back further than this, seconds, is a clock that was set.
@@ -181,6 +185,8 @@ pub struct Head {
     /// A pose that leapt away, which the next may confirm.
     leapt: Option<Seen>,
     velocity: Velocity,
+    /// The last interval between poses of one track, seconds.
+    rhythm_s: f64,
     /// When the tracker went.
     gone: Option<Nanos>,
     rejected: Faults,
@@ -199,6 +205,7 @@ impl Head {
             last: None,
             leapt: None,
             velocity: Velocity::new(config.velocity),
+            rhythm_s: 0.0,
             gone: None,
             rejected: Faults::default(),
             config,
@@ -262,7 +269,10 @@ impl Head {
         }
 
         match interval {
-            Interval::Steady(interval_s) => self.velocity.push(interval_s, seen.room_from_head.position),
+            Interval::Steady(interval_s) => {
+                self.velocity.push(interval_s, seen.room_from_head.position);
+                self.rhythm_s = interval_s;
+            }
             Interval::Gap(_) => {
                 let (_, share) = self.belief(&last, seen.at);
                 self.velocity.restart(seen.room_from_head.position, self.velocity.value() * share);
@@ -293,7 +303,7 @@ impl Head {
 
     /// How far a pose is to be believed at the time `at`, and the share of its velocity.
     fn belief(&self, last: &Seen, at: Nanos) -> (Tracking, f64) {
-        let unseen_s = seconds_between(last.at, at) - GRACE_S;
+        let unseen_s = seconds_between(last.at, at) - GRACE_S.max(GRACE_FRAMES * self.rhythm_s);
         let gone_s = self.gone.map_or(f64::NEG_INFINITY, |gone| seconds_between(gone, at));
         let fading_s = unseen_s.max(gone_s);
         if fading_s <= 0.0 && self.gone.is_none() {

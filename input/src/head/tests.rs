@@ -132,6 +132,22 @@ fn a_lost_head_stays_and_its_velocity_fades() {
 }
 
 #[test]
+fn a_slow_tracker_loses_nobody_between_its_frames() {
+    let mut head = head();
+    for number in 0..20 {
+        // 8 Hz.
+        let at = number * SECOND / 8;
+        let measured_s = Some(0.125 * number as f64);
+        head.pose(&TrackedPose { at, measured_s, ..pose(0, DVec3::X * 0.125 * number as f64) });
+        if number > 0 {
+            let state = head.state(at + SECOND / 8);
+            assert_eq!((state.tracked, state.velocity_m_s), (Tracking::Tracked, DVec3::X));
+        }
+    }
+    assert_eq!(head.state(5 * SECOND).tracked, Tracking::Lost);
+}
+
+#[test]
 fn a_tracker_that_goes_loses_the_head_at_once() {
     let mut head = walking();
     head.gone(SEEN);

@@ -12,6 +12,9 @@
 //!
 //! The axes are whatever the laboratory has calibrated.
 
+#[cfg(test)]
+pub(crate) mod golden;
+mod numbers;
 pub mod wire;
 
 use glam::{DQuat, DVec3};
@@ -19,7 +22,9 @@ use glam::{DQuat, DVec3};
 use crate::decoder::{Actions, Decoder, Faults};
 use crate::head::TrackedPose;
 use crate::sample::Nanos;
-use wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError};
+use wire::{Message, Piece, Pieces};
+
+pub use numbers::Numbers;
 
 /// Type of a pose.
 pub const POSE: &str = "vrpn_Tracker Pos_Quat";
@@ -34,85 +39,6 @@ const POSE_LENGTH: usize = 64;
 const VELOCITY_LENGTH: usize = 72;
 /// Sensors whose velocities are remembered.
 const MOST_SENSORS: usize = 64;
-/// Senders that are remembered by name, for those who have mistaken it.
-const MOST_SENDERS: usize = 16;
-
-/// The numbers that the other side has given to the names that matter.
-#[derive(Clone, Debug, Default)]
-pub struct Numbers {
-    /// Name of the device that we listen to.
-    device: String,
-    sender: Option<i32>,
-    /// Of [`Self::TYPES`].
-    types: [Option<i32>; 4],
-    senders: Vec<String>,
-}
-
-impl Numbers {
-    const TYPES: [&str; 4] = [POSE, VELOCITY, PING, PONG];
-
-    /// Nothing described yet.
-    pub fn new(device: &str) -> Self {
-        Self { device: device.to_owned(), ..Self::default() }
-    }
-
-    /// Forgets what was described.
-    pub fn forget(&mut self) {
-        *self = Self::new(&self.device);
-    }
-
-    /// Takes a description; whether the message was one.
-    ///
-    /// # Errors
-    /// If its name cannot be read.
-    pub fn describe(&mut self, message: &Message<'_>) -> Result<bool, WireError> {
-        match message.kind {
-            DESCRIBES_SENDER => {
-                let name = message.name()?;
-                give(&mut self.sender, message.sender, name == self.device);
-                if self.senders.len() < MOST_SENDERS && !self.senders.iter().any(|known| known == name) {
-                    self.senders.push(name.to_owned());
-                }
-            }
-            DESCRIBES_TYPE => {
-                let name = message.name()?;
-                for (number, known) in self.types.iter_mut().zip(Self::TYPES) {
-                    give(number, message.sender, name == known);
-                }
-            }
-            _ => return Ok(false),
-        }
-        Ok(true)
-    }
-
-    /// Which of the types that matter this message of our device is; `None` for all others.
-    pub fn of_device(&self, message: &Message<'_>) -> Option<&'static str> {
-        if self.sender != Some(message.sender) {
-            return None;
-        }
-        let index = self.types.iter().position(|number| *number == Some(message.kind))?;
-        Some(Self::TYPES[index])
-    }
-
-    /// Names of the senders that have been described, the first few.
-    pub fn senders(&self) -> &[String] {
-        &self.senders
-    }
-
-    /// Whether our device has been described.
-    pub fn has_device(&self) -> bool {
-        self.sender.is_some()
-    }
-}
-
-/// A number goes to a name, and is taken from the name that had it.
-fn give(number: &mut Option<i32>, described: i32, is_ours: bool) {
-    if is_ours {
-        *number = Some(described);
-    } else if *number == Some(described) {
-        *number = None;
-    }
-}
 
 /// Decoder of [`Source::Vrpn`](crate::Source::Vrpn): the server's side of a direct connection.
 #[derive(Debug)]
@@ -245,53 +171,13 @@ impl Decoder for Vrpn {
 }
 
 #[cfg(test)]
-pub(crate) mod golden {
-    //! Bytes captured from the stock server (07.38) with a NULL tracker "Head" and a Spin tracker
-    //! "Spin0".
-
-    pub const COOKIE: &str = "7672706e3a207665722e2030372e33382020300000000000";
-    /// Sender 1 is "Head".
-    pub const SENDER: &str = "000000216b027c890009b7cd00000001ffffffff0000000100000005486561640000000000000000";
-    /// Type 4 is `vrpn_Tracker Pos_Quat`.
-    pub const TYPE: &str = concat!(
-        "000000326b027c890009b7ce00000004fffffffe00000008000000167672706e5f547261636b657220506f735f51",
-        "75617400000000000000",
-    );
-    /// Sender 1, sensor 0, at the origin, not turned.
-    pub const IDENTITY: &str = concat!(
-        "000000586b027c890009d21f00000001000000040000001d",
-        "0000000000000000",
-        "000000000000000000000000000000000000000000000000",
-        "000000000000000000000000000000000000000000000000",
-        "3ff0000000000000",
-    );
-    /// Sender 2, sensor 0, turned about z.
-    pub const TURNED: &str = concat!(
-        "000000586b027c890009bc2b000000020000000400000018",
-        "0000000000000000",
-        "000000000000000000000000000000000000000000000000",
-        "00000000000000000000000000000000",
-        "3fef4502a6de9c4e3fcb313bc05f50e8",
-    );
-
-    pub fn bytes(hex: &str) -> Vec<u8> {
-        (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
-    }
-
-    /// Cookie, both descriptions, both poses, the description of sender 2, its pose again.
-    pub fn session() -> Vec<u8> {
-        let spin = super::wire::description(super::wire::DESCRIBES_SENDER, 2, "Spin0");
-        [bytes(COOKIE), bytes(SENDER), bytes(TYPE), bytes(IDENTITY), bytes(TURNED), spin, bytes(TURNED)].concat()
-    }
-}
-
-#[cfg(test)]
 mod tests {
     //! What the stock server sends must give its poses, whatever numbers it has chosen and however
     //! the stream is cut; what has not been described must be passed over.
+    use super::numbers::MOST_SENDERS;
     use super::*;
     use crate::sample::SECOND;
-    use wire::description;
+    use wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, description};
 
     fn decode(device: &str, chunks: &[&[u8]]) -> (Vec<TrackedPose>, u64) {
         let (mut decoder, mut actions) = (Vrpn::new(device), Actions::default());

@@ -1,0 +1,120 @@
+//! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is in the ride, and
+//! replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
+//! would have another the second time.
+
+use std::io::Write;
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use input::head::Tracking;
+use input::recording::{Entry, Recording};
+use input::vrpn::{POSE, wire};
+
+/// Poses a second.
+const RATE_HZ: u32 = 100;
+/// The head sways so far, metres, at so many radians a second.
+const SWAY: (f64, f64) = (0.2, 3.0);
+
+fn rapidity(arguments: &[&str], folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rapidity"))
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program starts")
+}
+
+fn sentence(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// A server whose "Head" sways before everybody who connects, until he goes.
+fn serve() -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let place = listener.local_addr().unwrap();
+    std::thread::spawn(move || {
+        for client in listener.incoming() {
+            let mut client = client.unwrap();
+            let names = [
+                wire::COOKIE.to_vec(),
+                wire::description(wire::DESCRIBES_SENDER, 1, "Head"),
+                wire::description(wire::DESCRIBES_TYPE, 4, POSE),
+            ];
+            let began = Instant::now();
+            let mut outcome = client.write_all(&names.concat());
+            while outcome.is_ok() {
+                outcome = client.write_all(&pose(began.elapsed()));
+                std::thread::sleep(Duration::from_secs(1) / RATE_HZ);
+            }
+        }
+    });
+    format!("vrpn://{place}/Head")
+}
+
+/// Where the head is then.
+fn pose(time: Duration) -> Vec<u8> {
+    let x = SWAY.0 * (SWAY.1 * time.as_secs_f64()).sin();
+    let mut payload = vec![0; 8];
+    for value in [x, 1.6, 0.0, 0.0, 0.0, 0.0, 1.0] {
+        payload.extend_from_slice(&value.to_be_bytes());
+    }
+    let (seconds, microseconds) = (1_000_000 + time.as_secs() as u32, time.subsec_micros());
+    wire::Message { seconds, microseconds, sender: 1, kind: 4, payload: &payload }.to_bytes()
+}
+
+#[test]
+fn a_tracked_head_is_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let listed = rapidity(&["devices", "--tracker", &serve(), "--seconds", "1.5"], folder.path());
+    let text = sentence(&listed.stdout);
+    assert!(listed.status.success(), "{}", sentence(&listed.stderr));
+    let device = text.lines().find(|line| line.starts_with("vrpn ")).unwrap_or_else(|| panic!("{text}"));
+    assert!(device.contains("Head") && device.contains(" 0 bad, 0 dropped"), "{device}");
+    let head = text.lines().find(|line| line.starts_with("head ")).unwrap_or_else(|| panic!("{text}"));
+    assert!(head.starts_with("head tracked") && head.contains("+1.600") && head.ends_with("0 rejected"), "{head}");
+
+    let other = serve().replace("Head", "Wand");
+    let text = sentence(&rapidity(&["devices", "--tracker", &other, "--seconds", "1.5"], folder.path()).stdout);
+    assert!(text.contains("head not seen yet") && text.contains("no such device, but Head"), "{text}");
+}
+
+#[test]
+fn a_ride_with_a_tracked_head_replays_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let tracker = serve();
+    let arguments = ["ride", "--scene", "lattice", "--realtime", "--seconds", "3", "--record", "r.mcap"];
+    let picture = ["--size", "64x36", "--samples", "1", "--out", "r.mp4", "--tracker", &tracker];
+    let ridden = rapidity(&[&arguments[..], &picture].concat(), folder.path());
+    assert!(ridden.status.success(), "{}", sentence(&ridden.stderr));
+
+    let recording = Recording::open(&folder.path().join("r.mcap")).unwrap();
+    let head = recording.header().desk.head.clone().expect("the header says how the head was tracked");
+    assert_eq!(head.url.to_string(), tracker);
+    let heads: Vec<_> = recording
+        .filter_map(|entry| match entry.unwrap() {
+            Entry::Controls(record) => record.controls.head,
+            _ => None,
+        })
+        .filter(|head| head.tracked == Tracking::Tracked)
+        .collect();
+    let fastest = heads.iter().map(|head| head.velocity_m_s.x.abs()).fold(0.0, f64::max);
+    let expected = SWAY.0 * SWAY.1;
+    // The mean of four frames, on a busy machine.
+    assert!((0.5 * expected..1.5 * expected).contains(&fastest), "{fastest} of {expected} in {} frames", heads.len());
+
+    let verified = rapidity(&["ride", "--replay", "r.mcap", "--verify"], folder.path());
+    assert!(verified.status.success(), "{}", sentence(&verified.stderr));
+    assert!(sentence(&verified.stdout).contains("identical to the bit"), "{}", sentence(&verified.stdout));
+}
+
+#[test]
+fn a_wrong_place_is_told_in_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = rapidity(&["ride", "--tracker", "vrpn://cave"], folder.path());
+    assert_eq!(refused.status.code(), Some(2));
+    let text = sentence(&refused.stderr);
+    assert!(text.contains("names no device of the server") && text.lines().count() == 1, "{text}");
+}
