@@ -173,6 +173,8 @@ fn every_source_tracks_and_a_tracker_that_goes_loses_the_head() {
         let before = desk.controls(at).head.unwrap();
         assert_eq!(before.tracked, Tracking::Tracked, "{url}");
         desk.feed(&samples[closed]);
+        let lost = desk.controls(at).head.unwrap().tracked == Tracking::Fading;
+        assert_eq!(lost, source != Source::Mouse, "{url}");
         let after = desk.controls(at + SECOND).head.unwrap();
         if source != Source::Mouse {
             assert_eq!((after.tracked, after.position_m), (Tracking::Lost, before.position_m));

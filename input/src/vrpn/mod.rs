@@ -238,6 +238,22 @@ mod tests {
     }
 
     #[test]
+    fn a_new_connection_begins_anew() {
+        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let stream = golden::session();
+        for half in 0..stream.len() {
+            decoder.bytes(0, &stream[..half], &mut actions);
+            decoder.reset(0);
+            decoder.take_poses();
+            // Numbers of before mean nothing, and half a message shifts nothing.
+            let unnamed = [golden::bytes(golden::COOKIE), golden::bytes(golden::IDENTITY)].concat();
+            decoder.bytes(0, &unnamed, &mut actions);
+            assert_eq!((decoder.take_poses(), decoder.faults().number()), (vec![], 0), "half {half}");
+            decoder.reset(0);
+        }
+    }
+
+    #[test]
     fn a_velocity_goes_with_the_poses_of_its_sensor() {
         let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
         let mut payload = [0; VELOCITY_LENGTH];
