@@ -227,7 +227,7 @@ mod tests {
         let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
         decoder.bytes(0, &golden::session(), &mut actions);
         assert_eq!(decoder.take_poses().len(), 1);
-        // Number 1 goes to another device; the next session's numbers are its own.
+        // Number 1 goes to another device; the next connection's numbers are its own.
         decoder.bytes(0, &description(DESCRIBES_SENDER, 1, "Wand"), &mut actions);
         decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
         assert_eq!(decoder.take_poses(), []);
