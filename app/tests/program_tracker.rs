@@ -1,6 +1,7 @@
 //! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is in the ride, and
 //! replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
 //! would have another the second time.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use std::io::Write;
 use std::net::TcpListener;
