@@ -82,7 +82,7 @@ pub struct DevicesOptions {
     /// The serial port of the instrumented bicycle, to be listed with the others.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
-    /// The tracker of the head, likewise: vrpn://HOST[:PORT]/DEVICE or dtrack://[ADDRESS][:PORT].
+    /// The tracker of the head, likewise: vrpn://HOST/DEVICE or dtrack://:5000.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
     /// How long to watch, in seconds [default: until Ctrl-C].

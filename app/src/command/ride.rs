@@ -117,7 +117,7 @@ pub struct DeviceOptions {
     /// Read a SpaceMouse, by itself or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
-    /// What tracks the head: vrpn://HOST[:PORT]/DEVICE, dtrack://[ADDRESS][:PORT], or mouse.
+    /// What tracks the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
 }
