@@ -226,7 +226,12 @@ impl Open {
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(pane, size),
-            WindowEvent::Focused(false) => self.ride.live.say(|at| Sample::closed(at, Source::Keyboard)),
+            WindowEvent::Focused(false) => {
+                self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
+                if self.mouse_moves_head {
+                    self.ride.live.say(|at| Sample::closed(at, Source::Mouse));
+                }
+            }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => {
                 if let PhysicalKey::Code(code) = event.physical_key {
                     let pressed = event.state == ElementState::Pressed;
