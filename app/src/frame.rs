@@ -61,6 +61,8 @@ pub struct Ride {
     not_finite: usize,
     /// That an eye is behind a screen.
     behind: Option<String>,
+    /// Whom a room's screens were drawn for last.
+    pub occupant: Option<Occupant>,
     /// The newest frame.
     pub frame: Option<Frame>,
     /// How far from their places things are drawn in it.
@@ -83,6 +85,7 @@ impl Ride {
             shown: None,
             not_finite: 0,
             behind: None,
+            occupant: None,
             frame: None,
             certainty: Certainty::default(),
             stored: Stored::UNSHIFTED,
@@ -157,6 +160,7 @@ impl Ride {
         self.pace.transformed(drawn.transform);
         self.not_finite = drawn.not_finite;
         self.certainty = drawn.certainty;
+        self.occupant = Some(*occupant);
         self.behind = drawn.behind.first().map(|(channel, behind)| format!("{channel} is black: {behind}"));
         self.pace.stage("draw");
         Ok(())

@@ -76,6 +76,9 @@ pub struct RideOptions {
     /// file (.toml, .mpcdi, .pvx).
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
+    /// Show that room itself in one window instead, with what its screens show: drag turns it, the wheel comes closer.
+    #[arg(long, help_heading = "Room", requires = "display")]
+    pub preview: bool,
     /// How the picture is drawn.
     #[command(flatten)]
     pub picture: PictureOptions,

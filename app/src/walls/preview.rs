@@ -58,6 +58,19 @@ impl Onlooker {
         }
     }
 
+    /// Goes round what is in the middle, by angles to the right and up, and comes so many times closer.
+    pub fn orbit(&mut self, right_rad: f64, up_rad: f64, closer: f64) {
+        /// From straight above or below.
+        const NEAREST_RAD: f64 = 0.05;
+        let from = self.from_m - self.towards_m;
+        let level = f64::hypot(from.x, from.z);
+        let limit = std::f64::consts::FRAC_PI_2 - NEAREST_RAD;
+        let height = (from.y.atan2(level) + up_rad).clamp(-limit, limit);
+        let bearing = from.x.atan2(from.z) + right_rad;
+        let direction = DVec3::new(bearing.sin() * height.cos(), height.sin(), bearing.cos() * height.cos());
+        self.from_m = self.towards_m + direction * (from.length() / closer).clamp(0.1, 1000.0);
+    }
+
     fn clip_from_room(&self, size: [u32; 2]) -> DMat4 {
         let camera = Camera::looking(self.towards_m - self.from_m, DVec3::Y, self.fov_degrees.to_radians());
         let view = camera.view(size, DVec2::ZERO, Celerity::ZERO, false, 1.0);

@@ -27,6 +27,7 @@ use crate::renderers::polygon::Pace;
 use crate::renderers::target::{Format, Radiance};
 use crate::ride;
 use crate::scene::Scene;
+use crate::walls::preview::{Onlooker, Preview};
 use crate::walls::{Quality, Walls};
 pub use hud::Readings;
 use input::{Action, MouseButton, MouseEvent, Sample, Source};
@@ -92,6 +93,17 @@ enum Scenery {
     Picture { radiance: Radiance, display: Box<Display>, adaptation: Adaptation },
     /// A room's channels, in as many windows as it names.
     Room(Box<Walls>),
+    /// The room itself, in one window.
+    Preview(Box<Previewed>),
+}
+
+/// A room that is looked at from outside.
+struct Previewed {
+    walls: Walls,
+    preview: Preview,
+    onlooker: Onlooker,
+    /// Whether a button holds it.
+    held: bool,
 }
 
 /// Open windows and all that draws in them.
@@ -145,11 +157,11 @@ impl Open {
         let display = ride::display(options)?;
         let title = format!("Rapidity: {}", scene.name);
         let attributes = match &display {
-            Some(display) => {
+            Some(display) if !options.preview => {
                 display.notices.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
                 display.windows.iter().map(|place| pane::attributes(events, place, &title)).collect()
             }
-            None => {
+            _ => {
                 let [width, height] = options.picture.size;
                 let size = PhysicalSize::new(width, height);
                 vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
@@ -190,7 +202,14 @@ impl Open {
         let scenery = match display {
             Some(display) => {
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
-                Scenery::Room(Box::new(Walls::new(&gpu, display, quality, screen_format)))
+                let walls = Walls::new(&gpu, display, quality, screen_format);
+                if options.preview {
+                    let preview = Preview::new(&gpu, &walls, screen_format);
+                    let onlooker = Onlooker::outside(&walls);
+                    Scenery::Preview(Box::new(Previewed { walls, preview, onlooker, held: false }))
+                } else {
+                    Scenery::Room(Box::new(walls))
+                }
             }
             None => Scenery::Picture {
                 radiance: Radiance::new(&gpu, panes[0].size(), format),
@@ -295,10 +314,23 @@ impl Open {
         }
     }
 
-    /// What the mouse does, for a head that it moves.
+    /// What the mouse does: it moves the head, or turns the room that is looked at.
     fn mouse(&mut self, event: MouseEvent) {
+        /// Radians a pixel.
+        const TURN_RAD: f64 = 0.005;
+        /// Times a notch.
+        const CLOSER: f64 = 1.1;
         if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
+        } else if let Scenery::Preview(room) = &mut self.scenery {
+            match event {
+                MouseEvent::Button { pressed, .. } => room.held = pressed,
+                MouseEvent::Moved { right, down } if room.held => {
+                    room.onlooker.orbit(-TURN_RAD * f64::from(right), TURN_RAD * f64::from(down), 1.0);
+                }
+                MouseEvent::Wheel(notches) => room.onlooker.orbit(0.0, 0.0, CLOSER.powf(f64::from(notches))),
+                _ => {}
+            }
         }
     }
 
@@ -371,6 +403,7 @@ impl Open {
         let canvas = match &mut self.scenery {
             Scenery::Picture { radiance, .. } => Canvas::Picture { target: radiance, fov: self.settings.fov },
             Scenery::Room(walls) => Canvas::Room(walls),
+            Scenery::Preview(room) => Canvas::Room(&mut room.walls),
         };
         let look = Pictured { canvas, effects: self.settings.effects, latency: self.settings.latency };
         let Some(events) = self.ride.frame(&self.gpu, look)? else { return Ok(false) };
@@ -386,6 +419,7 @@ impl Open {
                 self.gpu.queue.submit([encoder.finish()]);
             }
             Scenery::Room(walls) => walls.adapt(&self.gpu, &development, elapsed_s),
+            Scenery::Preview(room) => room.walls.adapt(&self.gpu, &development, elapsed_s),
         }
 
         for action in events {
@@ -398,6 +432,7 @@ impl Open {
                             photo::take(&self.gpu, radiance, adaptation, &development)
                         }
                         Scenery::Room(walls) => photo::take_room(&self.gpu, walls, &development),
+                        Scenery::Preview(room) => photo::take_room(&self.gpu, &mut room.walls, &development),
                     };
                     self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
                 }
@@ -422,6 +457,11 @@ impl Open {
                     let first_pixel = window.inner_position().map_or([0, 0], |place| [place.x, place.y]);
                     walls.show_window(&self.gpu, &mut encoder, *pane, &development, &screen, first_pixel);
                 }
+                Scenery::Preview(_) => {}
+            }
+            if let (Scenery::Preview(room), Some(occupant)) = (&mut self.scenery, &self.ride.occupant) {
+                let Previewed { walls, preview, onlooker, .. } = &mut **room;
+                preview.draw(&self.gpu, &mut encoder, walls, (occupant, onlooker), &development, &screen);
             }
             if *pane == 0 {
                 let size = [texture.texture.width(), texture.texture.height()];
