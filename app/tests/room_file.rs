@@ -192,6 +192,9 @@ fn screens_without_a_place_or_with_two_are_refused() {
     says(added("[[screen]]\nname = \"b\"\nsphere = { radius = 1, top = 91 }\n"), 19, &["pitches"]);
     let sweep = "[[screen]]\nname = \"b\"\nsweep = { width = 1, profile = [[0, 1], [0, 0], [1, 0]], bend = 2 }\n";
     says(added(sweep), 19, &["bend = 2", "corner 2"]);
+    // A table of its own, with a key of that name further below: the line is that of the screen itself.
+    let below = "[[screen]]\nname = \"b\"\n[screen.sweep]\nwidth = 0\nprofile = []\n[[screen]]\nname = \"c\"\nsweep = { width = 1, profile = [] }\n";
+    says(added(below), 17, &["screen \"b\", key sweep", "width = 0"]);
     let missing = added("[[screen]]\nname = \"b\"\nmesh = \"nowhere.obj\"\n").unwrap_err().to_string();
     assert!(missing.contains("nowhere.obj: cannot be read"), "{missing}");
 }

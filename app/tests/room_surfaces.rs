@@ -112,6 +112,19 @@ fn what_draws_the_room_gets_the_surface_itself() {
 }
 
 #[test]
+fn a_sheet_bends_without_a_kink() {
+    // A corner of 60° and one of 100°, rounded: each chord turns by at most 5°, and the two ends are where they were.
+    let profile = [DVec2::new(0.0, 2.0), DVec2::new(0.0, 0.0), DVec2::new(2.0, -3.4), DVec2::new(4.0, 1.0)];
+    let sheet = sweep(DVec3::ZERO, 1.0, &profile, 0.4).unwrap();
+    let line: Vec<DVec3> = sheet.points().iter().step_by(2).copied().collect();
+    for three in line.windows(3) {
+        let turn = (three[1] - three[0]).angle_between(three[2] - three[1]).to_degrees();
+        assert!(turn < 5.01, "{turn}° at {}", three[1]);
+    }
+    assert_eq!((line[0], line[line.len() - 1]), (DVec3::new(-0.5, 0.0, 2.0), DVec3::new(-0.5, 4.0, 1.0)));
+}
+
+#[test]
 fn from_the_rim_of_a_dome_rays_go_as_equation_4_8_says() {
     let sphere = Sphere {
         centre: DVec3::ZERO,
