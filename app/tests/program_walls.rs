@@ -1,6 +1,7 @@
 //! Law: a display's channels become pictures of their own, and windows of their own that show the same; a wrong display, head or folder is
 //! refused in one sentence. A program that changed the eyes over, or showed both alike, would fail here.
 #![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
 mod virtual_display;
 

@@ -5,12 +5,26 @@ override TONE: u32 = TONE_REINHARD;
 override GAMUT: u32 = GAMUT_DESATURATE;
 // Each pixel is multiplied by a factor of its own, and something is added to it.
 override GAINS: bool = false;
+// The screen's light is its signal to this power; 0: as sRGB has it.
+override GAMMA: f32 = 0.0;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> adaptation: Adaptation;
 @group(0) @binding(2) var<storage, read> curve: array<f32>;
 @group(0) @binding(3) var<uniform> placement: Placement;
 @group(0) @binding(4) var gains: texture_2d<f32>;
+
+// Gains are even enough to be tabled more coarsely than the picture, and mixed.
+fn gain_at(place: vec2<f32>) -> vec4<f32> {
+    let size = vec2<f32>(textureDimensions(gains));
+    let scaled = clamp(place * size / vec2<f32>(textureDimensions(radiance)) - 0.5, vec2(0.0), size - 1.0);
+    let first = vec2<i32>(scaled);
+    let last = min(first + 1, vec2<i32>(size) - 1);
+    let share = fract(scaled);
+    let above = mix(textureLoad(gains, first, 0), textureLoad(gains, vec2(last.x, first.y), 0), share.x);
+    let below = mix(textureLoad(gains, vec2(first.x, last.y), 0), textureLoad(gains, last, 0), share.x);
+    return mix(above, below, share.y);
+}
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
@@ -19,8 +33,11 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let exposed = clamp(seen * adaptation.exposure * placement.exposure, vec3(-BRIGHTEST), vec3(BRIGHTEST));
     var linear = in_gamut(toned(exposed));
     if (GAINS) {
-        let gain = textureLoad(gains, texel, 0);
+        let gain = gain_at(at.xy - placement.origin);
         linear = clamp(linear * gain.r + gain.g, vec3(0.0), vec3(1.0));
+    }
+    if (ENCODE && GAMMA > 0.0) {
+        return vec4(pow(linear, vec3(1.0 / GAMMA)), 1.0);
     }
     if (ENCODE) {
         return vec4(srgb(linear), 1.0);

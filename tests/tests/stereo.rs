@@ -40,9 +40,9 @@ fn assert_close(shown: [f64; 3], meant: [f64; 3], what: &str) {
 
 fn is_left(combine: Combine, column: u32, row: u32) -> bool {
     match combine {
-        Combine::Rows => row % 2 == 0,
-        Combine::Columns => column % 2 == 0,
-        _ => (row + column) % 2 == 0,
+        Combine::Rows => row.is_multiple_of(2),
+        Combine::Columns => column.is_multiple_of(2),
+        _ => (row + column).is_multiple_of(2),
     }
 }
 

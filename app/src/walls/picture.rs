@@ -14,6 +14,9 @@ use crate::views::{Camera, Field, Tangents, sample_offset};
 use glam::{DMat3, DQuat, DVec2};
 use physics::photo_surface::Eye as Vantage;
 
+/// Pixels along each side for which a gain is worked out.
+const COARSER_GAINS: u32 = 4;
+
 /// One channel's light.
 pub struct Picture {
     way: Way,
@@ -27,7 +30,7 @@ pub struct Picture {
 }
 
 enum Way {
-    Flat(Radiance),
+    Flat(Box<Radiance>),
     Curved(Box<Curved>),
 }
 
@@ -70,10 +73,13 @@ impl Picture {
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &display::Display) -> Self {
         let size = channel.size();
         let way = match channel.flat(display) {
-            Some(_) => Way::Flat(Radiance::new(gpu, size, quality.format)),
+            Some(_) => Way::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
             None => Way::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
         };
-        let gains = channel.gains(display, size).map(|gains| display::gains(gpu, &gains));
+        // Measured maps have edges; what is worked out has none.
+        let measured = channel.alpha.is_some() || channel.beta.is_some();
+        let finest = if measured { size } else { size.map(|side| side.div_ceil(COARSER_GAINS)) };
+        let gains = channel.gains(display, finest).map(|gains| display::gains(gpu, &gains));
         let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
         Self { way, sum, gains, developed: None, stored: Stored::UNSHIFTED }
     }
@@ -130,7 +136,7 @@ impl Picture {
         for sample in 0..quality.samples {
             let offset = sample_offset(sample, quality.samples);
             let (targets, offset): (Vec<_>, _) = match &self.way {
-                Way::Flat(target) => (vec![target], offset),
+                Way::Flat(target) => (vec![&**target], offset),
                 Way::Curved(curved) => {
                     (curved.facets.iter().map(|(_, target)| target).collect(), offset * quality.density)
                 }

@@ -137,7 +137,9 @@ impl Walls {
         let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
         let picture = &self.pictures[channel];
         let exposure = (first / picture.stored.scale) as f32;
-        let part = Part { viewport, over, exposure, gains: picture.gains.as_ref() };
+        let projector = self.display.channels[channel].projector(&self.display);
+        let gamma = projector.and_then(|projector| projector.gamma);
+        let part = Part { viewport, over, exposure, gains: picture.gains.as_ref(), gamma };
         self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
     }
 }

@@ -90,11 +90,18 @@ struct Application {
 /// What the windows show.
 enum Scenery {
     /// One picture, in the only window.
-    Picture { radiance: Radiance, display: Box<Display>, adaptation: Adaptation },
+    Picture(Box<Single>),
     /// A room's channels, in as many windows as it names.
     Room(Box<Walls>),
     /// The room itself, in one window.
     Preview(Box<Previewed>),
+}
+
+/// One picture, and the eye that is adapted to it.
+struct Single {
+    radiance: Radiance,
+    display: Display,
+    adaptation: Adaptation,
 }
 
 /// A room that is looked at from outside.
@@ -211,11 +218,11 @@ impl Open {
                     Scenery::Room(Box::new(walls))
                 }
             }
-            None => Scenery::Picture {
+            None => Scenery::Picture(Box::new(Single {
                 radiance: Radiance::new(&gpu, panes[0].size(), format),
-                display: Box::new(Display::new(&gpu, format.colour, screen_format)),
+                display: Display::new(&gpu, format.colour, screen_format),
                 adaptation: Adaptation::new(&gpu),
-            },
+            })),
         };
         Ok(Self {
             scenery,
@@ -368,9 +375,9 @@ impl Open {
 
     fn resize(&mut self, pane: usize, size: PhysicalSize<u32>) {
         if self.panes[pane].resize(&self.gpu, size)
-            && let Scenery::Picture { radiance, .. } = &mut self.scenery
+            && let Scenery::Picture(single) = &mut self.scenery
         {
-            *radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
+            single.radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
         }
     }
 
@@ -401,7 +408,7 @@ impl Open {
 
         // Devices to light, on one page: frame.rs.
         let canvas = match &mut self.scenery {
-            Scenery::Picture { radiance, .. } => Canvas::Picture { target: radiance, fov: self.settings.fov },
+            Scenery::Picture(single) => Canvas::Picture { target: &single.radiance, fov: self.settings.fov },
             Scenery::Room(walls) => Canvas::Room(walls),
             Scenery::Preview(room) => Canvas::Room(&mut room.walls),
         };
@@ -412,7 +419,8 @@ impl Open {
         let development = self.settings.development;
         let elapsed_s = self.ride.elapsed_s;
         match &mut self.scenery {
-            Scenery::Picture { radiance, display, adaptation } => {
+            Scenery::Picture(single) => {
+                let Single { radiance, display, adaptation } = &mut **single;
                 let seen = Seen { radiance: radiance.result(), stored: self.ride.stored, elapsed_s };
                 let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
                 display.adapt(&self.gpu, &mut encoder, adaptation, &seen, &development);
@@ -428,8 +436,8 @@ impl Open {
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
                     let taken = match &mut self.scenery {
-                        Scenery::Picture { radiance, adaptation, .. } => {
-                            photo::take(&self.gpu, radiance, adaptation, &development)
+                        Scenery::Picture(single) => {
+                            photo::take(&self.gpu, &single.radiance, &single.adaptation, &development)
                         }
                         Scenery::Room(walls) => photo::take_room(&self.gpu, walls, &development),
                         Scenery::Preview(room) => photo::take_room(&self.gpu, &mut room.walls, &development),
@@ -450,7 +458,8 @@ impl Open {
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
             let window = &self.panes[*pane].window;
             match &mut self.scenery {
-                Scenery::Picture { radiance, display, adaptation } => {
+                Scenery::Picture(single) => {
+                    let Single { radiance, display, adaptation } = &mut **single;
                     display.show(&self.gpu, &mut encoder, radiance.result(), adaptation, &development, &screen);
                 }
                 Scenery::Room(walls) => {

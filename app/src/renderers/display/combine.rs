@@ -31,6 +31,7 @@ impl Combiner {
 
     /// Writes both eyes' linear pictures to a part of the screen: x, y, width and height in pixels. `first_pixel`: where the screen's upper
     /// left pixel is on its monitor. `over`: the rest of the screen stays as it is.
+    #[expect(clippy::too_many_arguments, reason = "two pictures, and where they go")]
     pub fn show(
         &self,
         gpu: &Gpu,

@@ -34,7 +34,7 @@ pub const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 pub struct Display {
     accumulate: Pass,
     /// One for each way of developing that was asked for, with gains or without.
-    show: Vec<((Tone, Gamut, bool), Pass)>,
+    show: Vec<(Look, Pass)>,
     meter: Meter,
     sum_format: wgpu::TextureFormat,
     screen_format: wgpu::TextureFormat,
@@ -131,7 +131,8 @@ impl Display {
         screen: &wgpu::TextureView,
     ) {
         let size = screen.texture().size();
-        let whole = Part { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None };
+        let whole =
+            Part { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None, gamma: None };
         self.show_part(gpu, encoder, radiance, adaptation, development, screen, &whole);
     }
 
@@ -157,24 +158,26 @@ impl Display {
             placement.as_entire_binding(),
             wgpu::BindingResource::TextureView(part.gains.unwrap_or(radiance)),
         ];
-        let pass = self.shown_by(gpu, development, part.gains.is_some());
+        let pass = self.shown_by(gpu, development, part);
         pass.draw_part(gpu, encoder, screen, &resources, part.viewport, part.over);
     }
 
     /// The pass for a way of developing, compiled when it is first asked for.
-    fn shown_by(&mut self, gpu: &Gpu, development: &Development, gains: bool) -> &Pass {
+    fn shown_by(&mut self, gpu: &Gpu, development: &Development, part: &Part<'_>) -> &Pass {
         let Development { tone, gamut, .. } = *development;
-        let known = self.show.iter().position(|pass| pass.0 == (tone, gamut, gains));
+        let look = Look { tone, gamut, gains: part.gains.is_some(), gamma: part.gamma };
+        let known = self.show.iter().position(|pass| pass.0 == look);
         let index = known.unwrap_or_else(|| {
             let overrides = [
                 ("ENCODE", f64::from(u8::from(encodes(self.screen_format)))),
                 ("TONE", f64::from(tone as u32)),
                 ("GAMUT", f64::from(gamut as u32)),
-                ("GAINS", f64::from(u8::from(gains))),
+                ("GAINS", f64::from(u8::from(look.gains))),
+                ("GAMMA", look.gamma.unwrap_or(0.0)),
             ];
             let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED];
             let pass = Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format);
-            self.show.push(((tone, gamut, gains), pass));
+            self.show.push((look, pass));
             self.show.len() - 1
         });
         &self.show[index].1
@@ -192,6 +195,17 @@ pub struct Part<'a> {
     pub exposure: f32,
     /// A factor for each pixel, of what the screen shows in linear light.
     pub gains: Option<&'a wgpu::TextureView>,
+    /// The screen's light is its signal to this power; `None`: as sRGB has it.
+    pub gamma: Option<f64>,
+}
+
+/// What a pass is made for.
+#[derive(Clone, Copy, PartialEq)]
+struct Look {
+    tone: Tone,
+    gamut: Gamut,
+    gains: bool,
+    gamma: Option<f64>,
 }
 
 impl Accumulator {
