@@ -6,7 +6,7 @@
 //! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other is drawn into flat pictures around the eye
 //!    ([`facet`]), in which every pixel of the channel then looks its place up ([`curved`]).
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows; then each is developed, multiplied by
-//!    its projector's gains, and put into its window ([`show`]).
+//!    its projector's gains, and put into its window.
 
 pub mod curved;
 pub mod facet;
