@@ -66,7 +66,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 const FLAT: &str = "[[screen]]\nname = \"s\"\nlower_left = [-2.0, 0.5, -2.0]\nlower_right = [2.0, 0.5, -2.0]\nupper_left = [-2.0, 2.75, -2.0]\n";
-const BENT: &str = "[[screen]]\nname = \"s\"\n[screen.cylinder]\ncentre = [0.0, 0.0, 0.0]\nradius = 2.83\nfrom = 45.0\nto = -45.0\nbottom = 0.5\ntop = 2.75\n";
+const BENT: &str =
+    "[[screen]]\nname = \"s\"\ncylinder = { radius = 2.83, left = 45.0, right = -45.0, bottom = 0.5, top = 2.75 }\n";
 const CHANNEL: &str = "[[window]]\nname = \"w\"\nsize = [960, 540]\n[[channel]]\nname = \"c\"\nscreen = \"s\"\neye = \"centre\"\nwindow = \"w\"\n";
 
 /// Some walls of the built-in cave.
