@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use plotters::coord::Shift;
+use plotters::coord::combinators::BindKeyPoints;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
+use std::ops::Range;
 
 use super::pictures::Row;
 
@@ -94,7 +96,10 @@ fn draw<B: DrawingBackend>(
         .margin(14)
         .x_label_area_size(52)
         .y_label_area_size(70)
-        .build_cartesian_2d(across.clone().log_scale(), up.log_scale())
+        .build_cartesian_2d(
+            across.clone().log_scale().with_key_points(numbers(&across)),
+            up.clone().log_scale().with_key_points(numbers(&up)),
+        )
         .map_err(told)?;
     chart
         .configure_mesh()
@@ -154,11 +159,16 @@ fn draw<B: DrawingBackend>(
 }
 
 /// Numbers along a logarithmic axis: those that begin with 1, 2 or 5, for there is no room for more.
+fn numbers(range: &Range<f64>) -> Vec<f64> {
+    let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+    let all = decades.flat_map(|power| [1.0, 2.0, 5.0].map(|first| first * 10.0_f64.powi(power)));
+    all.filter(|number| range.contains(number)).collect()
+}
+
+/// As many digits as such a number needs.
 fn label(value: &f64) -> String {
-    let power = value.log10().floor();
-    let first = (value / 10.0_f64.powf(power)).round();
-    let digits = (-power).max(0.0) as usize;
-    if [1.0, 2.0, 5.0, 10.0].contains(&first) { format!("{value:.digits$}") } else { String::new() }
+    let digits = (-(value.log10() + 1e-9).floor()).max(0.0) as usize;
+    format!("{value:.digits$}")
 }
 
 #[cfg(test)]
@@ -168,8 +178,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_third_number_is_written() {
-        let values = [0.05, 0.1, 0.30000000000000004, 0.5, 1.0, 2.0, 3.0, 5.000000000000001, 900.0, 1000.0];
-        assert_eq!(values.map(|value| label(&value)), ["0.05", "0.1", "", "0.5", "1", "2", "", "5", "", "1000"]);
+    fn numbers_along_an_axis_begin_with_one_two_or_five() {
+        let written = |range: Range<f64>| numbers(&range).iter().map(label).collect::<Vec<_>>();
+        assert_eq!(written(0.03..7.0), ["0.05", "0.1", "0.2", "0.5", "1", "2", "5"]);
+        assert_eq!(written(90.0..1999.0), ["100", "200", "500", "1000"]);
     }
 }
