@@ -52,7 +52,7 @@ impl Onlooker {
         let reach = (high - low).length();
         let towards_m = 0.5 * (low + high);
         Self {
-            from_m: towards_m + DVec3::new(0.45, 0.35, 1.0).normalize() * (0.85 * reach),
+            from_m: towards_m + DVec3::new(0.45, 0.35, 1.0).normalize() * (0.95 * reach),
             towards_m,
             fov_degrees: 55.0,
         }
