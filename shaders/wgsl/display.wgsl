@@ -5,8 +5,8 @@ override TONE: u32 = TONE_REINHARD;
 override GAMUT: u32 = GAMUT_DESATURATE;
 // Each pixel is multiplied by a factor of its own, and something is added to it.
 override GAINS: bool = false;
-// The screen's light is its signal to this power; 0: as sRGB has it.
-override GAMMA: f32 = 0.0;
+// The screen's signal is its light to this power; 0: as sRGB has it.
+override SIGNAL_POWER: f32 = 0.0;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> adaptation: Adaptation;
@@ -36,8 +36,8 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
         let gain = gain_at(at.xy - placement.origin);
         linear = clamp(linear * gain.r + gain.g, vec3(0.0), vec3(1.0));
     }
-    if (ENCODE && GAMMA > 0.0) {
-        return vec4(pow(linear, vec3(1.0 / GAMMA)), 1.0);
+    if (ENCODE && SIGNAL_POWER > 0.0) {
+        return vec4(pow(linear, vec3(SIGNAL_POWER)), 1.0);
     }
     if (ENCODE) {
         return vec4(srgb(linear), 1.0);

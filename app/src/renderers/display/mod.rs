@@ -173,7 +173,7 @@ impl Display {
                 ("TONE", f64::from(tone as u32)),
                 ("GAMUT", f64::from(gamut as u32)),
                 ("GAINS", f64::from(u8::from(look.gains))),
-                ("GAMMA", look.gamma.unwrap_or(0.0)),
+                ("SIGNAL_POWER", look.gamma.map_or(0.0, f64::recip)),
             ];
             let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED];
             let pass = Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format);
