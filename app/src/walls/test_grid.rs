@@ -26,10 +26,10 @@ const CIRCLE: f64 = 0.8;
 /// Radius of corners' marks in the picture's smaller side.
 const MARK: f64 = 0.05;
 
-/// Light of lines, of what lies between them, and of the marks; white is 1.
+/// Light between lines; white is 1. Not quite black, so that the picture's extent shows.
 const BETWEEN: f64 = 0.01;
+/// Light of lines but the middle ones.
 const LINE: f64 = 0.2;
-const BRIGHT: f64 = 1.0;
 
 /// The grids of all channels, and an eye that does not adapt to them.
 pub struct Grids {
@@ -65,25 +65,9 @@ fn marked(calibration: &Calibration, channel: usize) -> Option<usize> {
     (of_channel == channel).then_some(corner)
 }
 
-/// A channel's grid, pixel by pixel of its viewport.
+/// A channel's grid, where the device reads it.
 fn light(gpu: &Gpu, channel: &Channel, chosen: Option<usize>) -> wgpu::TextureView {
     let [width, height] = channel.size();
-    let size = DVec2::new(f64::from(width), f64::from(height));
-    let colour = colour(channel.eye);
-    let texels: Vec<[f16; 4]> = (0..height)
-        .into_par_iter()
-        .flat_map_iter(|row| {
-            (0..width).map(move |column| {
-                let viewport = (DVec2::new(f64::from(column), f64::from(row)) + 0.5) / size;
-                let place = match &channel.warp {
-                    Some(warp) => warp.picture(viewport),
-                    None => Some(viewport),
-                };
-                let light = colour * place.map_or(0.0, |place| brightness(place, size, chosen));
-                [light.x, light.y, light.z, 1.0].map(f16::from_f64)
-            })
-        })
-        .collect();
     let descriptor = wgpu::TextureDescriptor {
         label: Some("test grid"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -94,10 +78,25 @@ fn light(gpu: &Gpu, channel: &Channel, chosen: Option<usize>) -> wgpu::TextureVi
         usage: wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     };
+    let texels = texels(channel, chosen);
     let bytes = bytemuck::cast_slice(&texels);
     gpu.device
         .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
         .create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Linear light of the pixels of a channel's viewport, row by row from the upper left; black where nothing of the picture is.
+fn texels(channel: &Channel, chosen: Option<usize>) -> Vec<[f16; 4]> {
+    let [width, height] = channel.size();
+    let size = DVec2::new(f64::from(width), f64::from(height));
+    let colour = colour(channel.eye);
+    let texel = |column: u32, row: u32| {
+        let viewport = (DVec2::new(f64::from(column), f64::from(row)) + 0.5) / size;
+        let place = channel.picture(viewport);
+        let light = colour * place.map_or(0.0, |place| brightness(place, size, chosen));
+        [light.x, light.y, light.z, 1.0].map(f16::from_f64)
+    };
+    (0..height).into_par_iter().flat_map_iter(|row| (0..width).map(move |column| texel(column, row))).collect()
 }
 
 /// Linear sRGB that tells the eyes apart.
@@ -118,7 +117,7 @@ fn brightness(place: DVec2, size: DVec2, chosen: Option<usize>) -> f64 {
     // Lines every tenth, the middle ones brighter.
     let nearest = (place * PARTS).round();
     let off = (pixels - nearest / PARTS * size).abs();
-    let weight = |number: f64| if number * 2.0 == PARTS { BRIGHT } else { LINE };
+    let weight = |number: f64| if number * 2.0 == PARTS { 1.0 } else { LINE };
     let mut light = BETWEEN.max(line(off.x) * weight(nearest.x)).max(line(off.y) * weight(nearest.y));
 
     // The circle.
@@ -135,4 +134,80 @@ fn brightness(place: DVec2, size: DVec2, chosen: Option<usize>) -> f64 {
         light = light.max(if chosen == Some(index) { (0.5 - beyond).clamp(0.0, 1.0) } else { line(beyond) });
     }
     light
+}
+
+#[cfg(test)]
+mod tests {
+    //! The grid shows where the picture ends: a wrong program would draw its frame elsewhere than where the corners are, or mark
+    //! another corner than the one that keys move.
+
+    use super::*;
+    use crate::room::{Corners, Warp};
+
+    /// A channel of 200 × 100 pixels.
+    fn channel() -> Channel {
+        let mut channel = Display::built_in("window").unwrap().channels[0].clone();
+        channel.viewport = [0, 0, 200, 100];
+        channel
+    }
+
+    /// Green of a pixel, which is its brightness for the point between the eyes.
+    fn green(texels: &[[f16; 4]], column: usize, row: usize) -> f64 {
+        texels[row * 200 + column][1].to_f64()
+    }
+
+    #[test]
+    fn the_frame_is_the_pictures_edge() {
+        let texels = texels(&channel(), None);
+        for column in 0..200 {
+            assert_eq!((green(&texels, column, 0), green(&texels, column, 99)), (1.0, 1.0), "column {column}");
+        }
+        for row in 0..100 {
+            assert_eq!((green(&texels, 0, row), green(&texels, 199, row)), (1.0, 1.0), "row {row}");
+        }
+    }
+
+    #[test]
+    fn the_frame_goes_with_the_corners() {
+        let size = DVec2::new(200.0, 100.0);
+        let [upper_left, lower_left] = [DVec2::new(20.0, 10.0), DVec2::new(20.0, 100.0)];
+        let places = [upper_left, DVec2::new(200.0, 10.0), size, lower_left];
+        let mut channel = channel();
+        channel.warp = Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()));
+        let texels = texels(&channel, None);
+        for column in 20..200 {
+            assert_eq!((green(&texels, column, 9), green(&texels, column, 10)), (0.0, 1.0), "column {column}");
+        }
+        for row in 10..100 {
+            assert_eq!((green(&texels, 19, row), green(&texels, 20, row)), (0.0, 1.0), "row {row}");
+        }
+    }
+
+    #[test]
+    fn the_chosen_corner_alone_is_filled() {
+        // Within the marks, whose radius is 5 pixels, and beyond the frame.
+        let within = [(3, 3), (196, 3), (196, 96), (3, 96)];
+        for chosen in 0..4 {
+            let texels = texels(&channel(), Some(chosen));
+            for (corner, (column, row)) in within.into_iter().enumerate() {
+                let filled = green(&texels, column, row) == 1.0;
+                assert_eq!(filled, corner == chosen, "corner {corner} of {chosen}");
+            }
+        }
+    }
+
+    #[test]
+    fn eyes_differ_and_grids_are_symmetric() {
+        let [mut left, mut right] = [channel(), channel()];
+        (left.eye, right.eye) = (Eye::Left, Eye::Right);
+        let [left, right] = [left, right].map(|channel| texels(&channel, None));
+        assert!(left[0][0] > left[0][2] && right[0][2] > right[0][0]);
+        for row in 0..100 {
+            for column in 0..200 {
+                let mirrored = [(199 - column, row), (column, 99 - row)].map(|(x, y)| green(&left, x, y));
+                // Rounding of places.
+                assert!(mirrored.iter().all(|light| (light - green(&left, column, row)).abs() < 1e-3));
+            }
+        }
+    }
 }

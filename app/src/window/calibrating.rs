@@ -1,14 +1,18 @@
 //! Moving corners in the windows of a room: the keyboard's keys, the file, and what is said of it in the first window.
 
+use super::{Open, Scenery};
 use crate::room::{Display, file};
 use crate::walls::calibration::{Calibration, Key};
 use egui::{Align2, Area, Frame, Grid, Id, RichText, Ui};
+use input::{Sample, Source};
 use winit::keyboard::KeyCode;
 
 /// Corners that are being moved.
 pub struct Calibrating {
-    /// Where they are.
-    pub calibration: Calibration,
+    /// Where they are, as long as the ride lasts.
+    calibration: Calibration,
+    /// Grids are shown, and keys move corners.
+    pub active: bool,
     /// What the display was named: a file, or one that comes with the program.
     name: Option<String>,
     /// What came of the last key, where that has to be said.
@@ -17,12 +21,12 @@ pub struct Calibrating {
 
 impl Calibrating {
     /// Of a display that was named so, if it was.
-    pub fn new(name: Option<String>, display: &Display) -> Self {
-        Self { calibration: Calibration::new(display), name, said: String::new() }
+    fn new(name: Option<String>, display: &Display) -> Self {
+        Self { calibration: Calibration::new(display), active: false, name, said: String::new() }
     }
 
     /// Does what a key does; returns the channels whose grids change by it.
-    pub fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
+    fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
         let Some(key) = key(code) else { return Vec::new() };
         let before = self.calibration.chosen();
         let moved = self.calibration.press(key, shift);
@@ -41,7 +45,7 @@ impl Calibrating {
     }
 
     /// Writes what has moved into the display's file.
-    pub fn save(&mut self) {
+    fn save(&mut self) {
         let changed = self.calibration.changed();
         // A display that nobody has named is the built-in window.
         let name = self.name.as_deref().unwrap_or(crate::ride::WINDOW);
@@ -56,6 +60,45 @@ impl Calibrating {
                 Err(error) => error.to_string(),
             }
         };
+    }
+}
+
+impl Open {
+    /// Whether corners are being moved.
+    pub fn calibrates(&self) -> bool {
+        self.calibrating.as_ref().is_some_and(|calibrating| calibrating.active)
+    }
+
+    /// Begins moving the corners of a room's channels, or goes on with it.
+    pub fn calibrate(&mut self) {
+        let Scenery::Room(walls) = &mut self.scenery else {
+            self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
+            return;
+        };
+        let begun = || Calibrating::new(self.display_name.clone(), &walls.display);
+        let calibrating = self.calibrating.get_or_insert_with(begun);
+        calibrating.active = true;
+        walls.show_grids(&self.gpu, &calibrating.calibration);
+        // The vehicle hears of no key until this is over.
+        self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
+    }
+
+    /// What a key that is pressed does meanwhile.
+    pub fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
+        let (Scenery::Room(walls), Some(calibrating)) = (&mut self.scenery, &mut self.calibrating) else { return };
+        match code {
+            KeyCode::F4 | KeyCode::Escape if !repeated => {
+                walls.show_light(&self.gpu);
+                calibrating.active = false;
+            }
+            KeyCode::F11 if !repeated => self.fill_monitors(),
+            KeyCode::KeyS if !repeated => calibrating.save(),
+            _ => {
+                for channel in calibrating.press(code, self.shift) {
+                    walls.show_grid(&self.gpu, &calibrating.calibration, channel);
+                }
+            }
+        }
     }
 }
 

@@ -128,7 +128,7 @@ struct Open {
     mouse_moves_head: bool,
     /// A Shift key is down.
     shift: bool,
-    /// What the display was named, and the moving of its corners while that goes on.
+    /// What the display was named, and where its corners have been moved to.
     display_name: Option<String>,
     calibrating: Option<Calibrating>,
     cursor: Option<PhysicalPosition<f64>>,
@@ -259,7 +259,7 @@ impl Open {
     fn event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) -> Result<(), Error> {
         let Some(pane) = self.panes.iter().position(|pane| pane.window.id() == window) else { return Ok(()) };
         // While corners are moved, no slider takes the keys.
-        let offered = pane == 0 && (self.calibrating.is_none() || !matches!(event, WindowEvent::KeyboardInput { .. }));
+        let offered = pane == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
         let taken = offered && self.interface.event(&self.panes[0].window, &event);
         match event {
             WindowEvent::CloseRequested => events.exit(),
@@ -271,7 +271,7 @@ impl Open {
                 }
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. }
-                if self.calibrating.is_some() && event.state == ElementState::Pressed =>
+                if self.calibrates() && event.state == ElementState::Pressed =>
             {
                 if let PhysicalKey::Code(code) = event.physical_key {
                     self.calibration_key(code, event.repeat);
@@ -390,38 +390,6 @@ impl Open {
         }
     }
 
-    /// Begins moving the corners of a room's channels.
-    fn calibrate(&mut self) {
-        let Scenery::Room(walls) = &mut self.scenery else {
-            self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
-            return;
-        };
-        let calibrating = Calibrating::new(self.display_name.clone(), &walls.display);
-        walls.show_grids(&self.gpu, &calibrating.calibration);
-        self.calibrating = Some(calibrating);
-        // The vehicle hears of no key until this is over.
-        self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
-    }
-
-    /// Keys while corners are moved.
-    fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
-        let (Scenery::Room(walls), Some(calibrating)) = (&mut self.scenery, &mut self.calibrating) else { return };
-        match code {
-            KeyCode::F4 | KeyCode::Escape if !repeated => {
-                walls.show_light(&self.gpu);
-                self.calibrating = None;
-            }
-            KeyCode::F11 if !repeated => self.fill_monitors(),
-            KeyCode::KeyS if !repeated => calibrating.save(),
-            _ => {
-                let redrawn = calibrating.press(code, self.shift);
-                for channel in redrawn {
-                    walls.show_grid(&self.gpu, &calibrating.calibration, channel);
-                }
-            }
-        }
-    }
-
     /// Makes the picture brighter by `stops`, and says so.
     fn expose(&mut self, stops: f32) {
         let exposure = self.settings.development.exposure.changed(stops);
@@ -507,7 +475,8 @@ impl Open {
         // Light to the windows, and the interface over the first.
         let readings = self.ride.readings();
         let panel = self.ride.panel(&self.gpu);
-        let (settings, calibrating) = (&mut self.settings, &self.calibrating);
+        let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
+        let settings = &mut self.settings;
         let mut wanted = Vec::new();
         for (pane, texture) in &screens {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
