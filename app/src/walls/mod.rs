@@ -189,6 +189,7 @@ impl Walls {
         let moves = !matches!(self.display.channels[channel].warp, Some(Warp::Grid(_)));
         if moves && self.display.channels[channel].warp != warp {
             self.display.channels[channel].warp = warp;
+            grids.moved = true;
             self.pictures[channel].brighten(gpu, &self.display, &self.display.channels[channel]);
         }
         grids.update(gpu, &self.display, calibration, channel);
@@ -196,7 +197,9 @@ impl Walls {
 
     /// Shows light again. Tables and gains follow corners that were moved, others' gains too where channels share a screen.
     pub fn show_light(&mut self, gpu: &Gpu) {
-        self.grids = None;
+        if !self.grids.take().is_some_and(|grids| grids.moved) {
+            return;
+        }
         let Self { display, quality, passes, .. } = &*self;
         let picture = |channel: &Channel| Picture::new(gpu, display, channel, quality, passes);
         self.pictures = display.channels.iter().map(picture).collect();

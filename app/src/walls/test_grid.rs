@@ -37,6 +37,8 @@ pub struct Grids {
     pub lights: Vec<wgpu::TextureView>,
     /// What shows them as they are.
     pub adaptation: Adaptation,
+    /// Corners have been moved since they are shown.
+    pub moved: bool,
 }
 
 impl Grids {
@@ -50,7 +52,7 @@ impl Grids {
         let seen: Vec<_> = lights.iter().take(1).map(seen).collect();
         passes.adapt_to_all(gpu, &mut encoder, &mut adaptation, &seen, &DEVELOPMENT);
         gpu.queue.submit([encoder.finish()]);
-        Self { lights, adaptation }
+        Self { lights, adaptation, moved: false }
     }
 
     /// Draws a channel's anew.

@@ -124,14 +124,15 @@ const KEYS: [(&str, &str); 5] = [
     ("F4", "leave"),
 ];
 
-/// Says which corner is chosen and what the keys do, in the middle, where no corner is.
+/// Says which corner is chosen and what the keys do, below the middle, where neither a corner nor the middle is hidden.
 pub fn show(ui: &Ui, calibrating: &Calibrating) {
-    Area::new(Id::unique("calibration")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).interactable(false).show(
+    let below = 0.25 * ui.ctx().content_rect().height();
+    Area::new(Id::unique("calibration")).anchor(Align2::CENTER_CENTER, [0.0, below]).interactable(false).show(
         ui.ctx(),
         |ui| {
             Frame::window(ui.style()).show(ui, |ui| {
-                ui.set_max_width(420.0);
-                ui.label(RichText::new(calibrating.calibration.sentence()).heading());
+                ui.set_max_width(470.0);
+                ui.label(RichText::new(calibrating.calibration.sentence()).heading().strong());
                 if !calibrating.said.is_empty() {
                     ui.label(RichText::new(&calibrating.said).strong());
                 }
