@@ -187,12 +187,14 @@ mod tests {
 
     #[test]
     fn the_chosen_corner_alone_is_filled() {
-        // Within the marks, whose radius is 5 pixels, and beyond the frame.
-        let within = [(3, 3), (196, 3), (196, 96), (3, 96)];
+        // Within the marks, whose radius is 10 pixels, and beyond the frame.
+        let within = [(5, 5), (394, 5), (394, 194), (5, 194)];
+        let mut channel = channel();
+        channel.viewport = [0, 0, 400, 200];
         for chosen in 0..4 {
-            let texels = texels(&channel(), Some(chosen));
+            let texels = texels(&channel, Some(chosen));
             for (corner, (column, row)) in within.into_iter().enumerate() {
-                let filled = green(&texels, column, row) == 1.0;
+                let filled = texels[row * 400 + column][1] == f16::ONE;
                 assert_eq!(filled, corner == chosen, "corner {corner} of {chosen}");
             }
         }
