@@ -1,7 +1,7 @@
 //! Display files: TOML in, a checked [`Display`] out. docs/DISPLAYS.md lists every key.
 //!
 //! `schema` has the tables as written, `screens` and `channels` resolve them, and `check` compares what only the whole can show.
-//! [`save`] is the way back, for corners.
+//! [`save()`] is the way back, for corners.
 
 mod channels;
 mod check;
