@@ -124,17 +124,25 @@ const KEYS: [(&str, &str); 5] = [
     ("F4", "leave"),
 ];
 
+/// Width and height of a window, points, in which the list of keys would hide no corner.
+const ROOM_FOR_KEYS: (f32, f32) = (500.0, 400.0);
+
 /// Says which corner is chosen and what the keys do, below the middle, where neither a corner nor the middle is hidden.
 pub fn show(ui: &Ui, calibrating: &Calibrating) {
-    let below = 0.25 * ui.ctx().content_rect().height();
+    let window = ui.ctx().content_rect().size();
+    let below = 0.25 * window.y;
+    let has_room = window.x > ROOM_FOR_KEYS.0 && window.y > ROOM_FOR_KEYS.1;
     Area::new(Id::unique("calibration")).anchor(Align2::CENTER_CENTER, [0.0, below]).interactable(false).show(
         ui.ctx(),
         |ui| {
             Frame::window(ui.style()).show(ui, |ui| {
-                ui.set_max_width(470.0);
+                ui.set_max_width(470.0_f32.min(window.x - 40.0));
                 ui.label(RichText::new(calibrating.calibration.sentence()).heading().strong());
                 if !calibrating.said.is_empty() {
                     ui.label(RichText::new(&calibrating.said).strong());
+                }
+                if !has_room {
+                    return;
                 }
                 ui.separator();
                 Grid::new("calibration keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
