@@ -27,7 +27,7 @@ use std::sync::Arc;
 const FILM: &str = "ride.mp4";
 
 /// The display that a tracked head sees where none is named.
-const WINDOW: &str = "window";
+pub const WINDOW: &str = "window";
 
 /// Key of a recording's setting that tells its scene from others.
 const FINGERPRINT: &str = "scene_fingerprint";

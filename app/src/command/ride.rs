@@ -73,7 +73,7 @@ pub struct RideOptions {
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
     /// Show it on the surfaces of a room, in as many windows as that names: window, stereo-wall, cave4, cave6, curved, dome6, or a display
-    /// file (.toml, .mpcdi, .pvx).
+    /// file (.toml, .mpcdi, .pvx). F4 shows test grids, and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
     /// Show that room itself in one window instead, with what its screens show: drag turns it, the wheel comes closer.

@@ -134,7 +134,8 @@ impl Channel {
         Some((picture, hit.point, hit.normal))
     }
 
-    fn picture(&self, viewport: DVec2) -> Option<DVec2> {
+    /// The place of the picture that a place of the viewport shows; both 0 to 1, y down.
+    pub fn picture(&self, viewport: DVec2) -> Option<DVec2> {
         self.warp.as_ref().map_or(Some(viewport), |warp| warp.picture(viewport))
     }
 

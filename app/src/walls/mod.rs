@@ -8,12 +8,14 @@
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows; then each is developed, multiplied by
 //!    its projector's gains, and put into its window.
 
+pub mod calibration;
 pub mod curved;
 pub mod facet;
 pub mod head;
 mod picture;
 pub mod preview;
 mod show;
+mod test_grid;
 pub mod tracker;
 
 pub use head::{Head, Occupant, OccupantEye};
@@ -23,10 +25,12 @@ use crate::renderers::certainty::Certainty;
 use crate::renderers::display::{self, Adaptation, Combiner, Development, Pass, Seen};
 use crate::renderers::target::Format;
 use crate::renderers::{Effects, SceneRenderer};
-use crate::room::{Channel, Display, Eye, EyeBehind, WindowPlace};
+use crate::room::{Channel, Display, Eye, EyeBehind, Warp, WindowPlace};
+use calibration::Calibration;
 use physics::photo_surface::{Eye as Vantage, PhotoSurfaceError};
 use picture::{Picture, Sitting};
 use std::time::Duration;
+use test_grid::Grids;
 use thiserror::Error;
 
 /// Why a display cannot show anything.
@@ -79,6 +83,8 @@ pub struct Walls {
     combiners: Vec<Option<Combiner>>,
     resample: Pass,
     adaptation: Adaptation,
+    /// What is shown instead of light.
+    grids: Option<Grids>,
 }
 
 impl Walls {
@@ -94,13 +100,14 @@ impl Walls {
             linear_passes: display::Display::new(gpu, colour, display::LINEAR_FORMAT),
             resample: display::resample(gpu, colour, quality.smooth),
             adaptation: Adaptation::new(gpu),
+            grids: None,
             passes,
             quality,
             display,
         }
     }
 
-    /// Draws the light of every channel, as an occupant sees it.
+    /// Draws the light of every channel, as an occupant sees it; nothing while they show test grids.
     ///
     /// # Errors
     /// [`WallsError`]: an eye that is nowhere, or a lost device.
@@ -111,6 +118,9 @@ impl Walls {
         occupant: &Occupant,
         effects: Effects,
     ) -> Result<Drawn, WallsError> {
+        if self.grids.is_some() {
+            return Ok(Drawn::default());
+        }
         // Each eye's photo-surface, the later ones beside the drawing of the first.
         let mut eyes = Vec::new();
         for side in [Eye::Left, Eye::Right, Eye::Centre] {
@@ -154,6 +164,9 @@ impl Walls {
 
     /// Adapts the viewer to what the channels show now.
     pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
+        if self.grids.is_some() {
+            return;
+        }
         let seen = |picture: &Picture| (picture.light().clone(), picture.stored);
         let lights: Vec<_> = self.pictures.iter().map(seen).collect();
         let seen: Vec<_> =
@@ -161,5 +174,34 @@ impl Walls {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.passes.adapt_to_all(gpu, &mut encoder, &mut self.adaptation, &seen, development);
         gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Shows test grids from now on, the chosen corner marked.
+    pub fn show_grids(&mut self, gpu: &Gpu, calibration: &Calibration) {
+        self.grids = Some(Grids::new(gpu, &self.display, &self.passes, calibration));
+    }
+
+    /// Moves a channel's corners to where `calibration` has them, and draws its grid anew: at once what is worked out from the
+    /// channel alone, the rest when its light is [shown](Self::show_light) again.
+    pub fn show_grid(&mut self, gpu: &Gpu, calibration: &Calibration, channel: usize) {
+        let Some(grids) = &mut self.grids else { return };
+        let warp = calibration.warp(channel);
+        let moves = !matches!(self.display.channels[channel].warp, Some(Warp::Grid(_)));
+        if moves && self.display.channels[channel].warp != warp {
+            self.display.channels[channel].warp = warp;
+            grids.moved = true;
+            self.pictures[channel].brighten(gpu, &self.display, &self.display.channels[channel]);
+        }
+        grids.update(gpu, &self.display, calibration, channel);
+    }
+
+    /// Shows light again. Tables and gains follow corners that were moved, others' gains too where channels share a screen.
+    pub fn show_light(&mut self, gpu: &Gpu) {
+        if !self.grids.take().is_some_and(|grids| grids.moved) {
+            return;
+        }
+        let Self { display, quality, passes, .. } = &*self;
+        let picture = |channel: &Channel| Picture::new(gpu, display, channel, quality, passes);
+        self.pictures = display.channels.iter().map(picture).collect();
     }
 }

@@ -76,12 +76,18 @@ impl Picture {
             Some(_) => Way::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
             None => Way::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
         };
+        let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
+        let mut picture = Self { way, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
+        picture.brighten(gpu, display, channel);
+        picture
+    }
+
+    /// Works out what its pixels are multiplied by.
+    pub fn brighten(&mut self, gpu: &Gpu, display: &Display, channel: &Channel) {
         // Measured maps have edges; what is worked out has none.
         let measured = channel.alpha.is_some() || channel.beta.is_some();
-        let finest = if measured { size } else { size.map(|side| side.div_ceil(COARSER_GAINS)) };
-        let gains = channel.gains(display, finest).map(|gains| display::gains(gpu, &gains));
-        let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
-        Self { way, sum, gains, developed: None, stored: Stored::UNSHIFTED }
+        let finest = if measured { channel.size() } else { channel.size().map(|side| side.div_ceil(COARSER_GAINS)) };
+        self.gains = channel.gains(display, finest).map(|gains| display::gains(gpu, &gains));
     }
 
     /// The light of the newest sample.

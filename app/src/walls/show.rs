@@ -1,6 +1,7 @@
 //! From the channels' light to windows and pictures.
 
 use super::preview::{Onlooker, Preview};
+use super::test_grid::DEVELOPMENT;
 use super::{Occupant, Walls};
 use crate::gpu::{Gpu, GpuError};
 use crate::renderers::display::{self, Development, Part};
@@ -140,6 +141,15 @@ impl Walls {
         let projector = self.display.channels[channel].projector(&self.display);
         let gamma = projector.and_then(|projector| projector.gamma);
         let part = Part { viewport, over, exposure, gains: picture.gains.as_ref(), gamma };
-        self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
+        match &self.grids {
+            None => {
+                self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
+            }
+            Some(grids) => {
+                let part = Part { exposure: 1.0, ..part };
+                let light = &grids.lights[channel];
+                self.passes.show_part(gpu, encoder, light, &grids.adaptation, &DEVELOPMENT, screen, &part);
+            }
+        }
     }
 }

@@ -6,6 +6,7 @@
 //! skipped; a surface that was lost is made again. A room with screens has a window, or several, for its channels; they are drawn together,
 //! and the first has the interface.
 
+mod calibrating;
 mod hud;
 mod interface;
 mod keys;
@@ -29,6 +30,7 @@ use crate::ride;
 use crate::scene::Scene;
 use crate::walls::preview::{Onlooker, Preview};
 use crate::walls::{Quality, Walls};
+use calibrating::Calibrating;
 pub use hud::Readings;
 use input::{Action, MouseButton, MouseEvent, Sample, Source};
 use interface::Interface;
@@ -124,6 +126,11 @@ struct Open {
     settings: Settings,
     /// Whether the mouse moves the head, and where it was last.
     mouse_moves_head: bool,
+    /// A Shift key is down.
+    shift: bool,
+    /// What the display was named, and where its corners have been moved to.
+    display_name: Option<String>,
+    calibrating: Option<Calibrating>,
     cursor: Option<PhysicalPosition<f64>>,
     ride: Ride,
     /// Set by Ctrl-C: the recording is completed all the same.
@@ -236,6 +243,9 @@ impl Open {
                 development: options.picture.development(),
             },
             mouse_moves_head: ride::mouse_moves_head(options)?,
+            shift: false,
+            display_name: options.display.clone(),
+            calibrating: None,
             cursor: None,
             ride: Ride::new(renderer, live()?),
             stop: interrupted(),
@@ -248,7 +258,9 @@ impl Open {
 
     fn event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) -> Result<(), Error> {
         let Some(pane) = self.panes.iter().position(|pane| pane.window.id() == window) else { return Ok(()) };
-        let taken = pane == 0 && self.interface.event(&self.panes[0].window, &event);
+        // While corners are moved, no slider takes the keys.
+        let offered = pane == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
+        let taken = offered && self.interface.event(&self.panes[0].window, &event);
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(pane, size),
@@ -256,6 +268,13 @@ impl Open {
                 self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
                 if self.mouse_moves_head {
                     self.ride.live.say(|at| Sample::closed(at, Source::Mouse));
+                }
+            }
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. }
+                if self.calibrates() && event.state == ElementState::Pressed =>
+            {
+                if let PhysicalKey::Code(code) = event.physical_key {
+                    self.calibration_key(code, event.repeat);
                 }
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !event.repeat => {
@@ -299,6 +318,7 @@ impl Open {
                 self.mouse(MouseEvent::Wheel(notches));
             }
             WindowEvent::ModifiersChanged(modifiers) => {
+                self.shift = modifiers.state().shift_key();
                 self.mouse(MouseEvent::Shift(modifiers.state().shift_key()));
             }
             // All windows are drawn together.
@@ -346,6 +366,7 @@ impl Open {
         match code {
             KeyCode::Escape => events.exit(),
             KeyCode::F3 => self.settings.open = !self.settings.open,
+            KeyCode::F4 => self.calibrate(),
             KeyCode::F2 => self.settings.readings = !self.settings.readings,
             KeyCode::KeyG => self.settings.effects.geometry = !self.settings.effects.geometry,
             KeyCode::KeyB => self.settings.effects.doppler = !self.settings.effects.doppler,
@@ -357,12 +378,15 @@ impl Open {
             }
             KeyCode::BracketLeft => self.expose(-STOPS_PER_PRESS),
             KeyCode::BracketRight => self.expose(STOPS_PER_PRESS),
-            KeyCode::F11 => {
-                for Pane { window, .. } in &self.panes {
-                    window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
-                }
-            }
+            KeyCode::F11 => self.fill_monitors(),
             _ => {}
+        }
+    }
+
+    /// All windows over their whole monitors, or back.
+    fn fill_monitors(&self) {
+        for Pane { window, .. } in &self.panes {
+            window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
         }
     }
 
@@ -451,6 +475,7 @@ impl Open {
         // Light to the windows, and the interface over the first.
         let readings = self.ride.readings();
         let panel = self.ride.panel(&self.gpu);
+        let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let settings = &mut self.settings;
         let mut wanted = Vec::new();
         for (pane, texture) in &screens {
@@ -475,6 +500,10 @@ impl Open {
             if *pane == 0 {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
+                    if let Some(calibrating) = calibrating {
+                        calibrating::show(ui, calibrating);
+                        return;
+                    }
                     if settings.readings {
                         hud::show(ui, &readings);
                     }

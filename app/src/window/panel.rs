@@ -162,7 +162,7 @@ fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
 }
 
 /// What each key does; the same list as in the README.
-const KEYS: [(&str, &str); 20] = [
+const KEYS: [(&str, &str); 21] = [
     ("W S  ↑ ↓", "pedal, push back; thrust; nose down, up when flying"),
     ("A D  ← →", "steer; thrust sideways"),
     ("R F", "thrust up, down when flying"),
@@ -181,6 +181,7 @@ const KEYS: [(&str, &str); 20] = [
     ("Backspace", "back to the start"),
     ("F2", "hide the display"),
     ("F3", "settings"),
+    ("F4", "move the corners of a room's pictures"),
     ("F11", "full screen"),
     ("Esc", "leave"),
 ];

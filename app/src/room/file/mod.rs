@@ -1,13 +1,17 @@
 //! Display files: TOML in, a checked [`Display`] out. docs/DISPLAYS.md lists every key.
 //!
 //! `schema` has the tables as written, `screens` and `channels` resolve them, and `check` compares what only the whole can show.
+//! [`save()`] is the way back, for corners.
 
 mod channels;
 mod check;
 mod projectors;
+mod save;
 mod schema;
 mod screens;
 mod text;
+
+pub use save::{NudgedCorners, SaveError, save, saved};
 
 use super::{At, Combine, Display, DisplayError, Monitor, Viewer, WindowPlace, read};
 use glam::DVec3;

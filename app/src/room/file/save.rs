@@ -1,0 +1,155 @@
+//! Nudged corners back into the display file they came from, which else stays as it is, to the letter.
+
+use crate::room::{DisplayError, built_in, import, read};
+use glam::DVec2;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Value};
+
+/// The keys of `corners`, in the order of [`Corners::places`](crate::room::Corners).
+const KEYS: [&str; 4] = ["upper_left", "upper_right", "lower_right", "lower_left"];
+
+/// Why corners are not saved.
+#[derive(Debug, Error)]
+pub enum SaveError {
+    /// A display that comes with the program.
+    #[error(
+        "{name} is built in, so there is no file to save in: copy its file, app/displays/{name}.toml, and name the copy with --display"
+    )]
+    BuiltIn {
+        /// Its name.
+        name: String,
+    },
+    /// A file that is only read.
+    #[error("{}: files of other programs are only read; describe the display in a .toml file, where corners can be saved", path.display())]
+    Imported {
+        /// The file.
+        path: PathBuf,
+    },
+    /// No TOML any more.
+    #[error("the file cannot be understood any more: {0}")]
+    Syntax(#[from] toml_edit::TomlError),
+    /// The file has no such channel any more.
+    #[error("the file has no channel {name:?} any more; start the ride again")]
+    NoChannel {
+        /// Its name.
+        name: String,
+    },
+    /// A channel whose corners are no table.
+    #[error("channel {name:?}: its corners are no table {{ upper_left = [x, y], … }}; mend the file")]
+    NoTable {
+        /// Its name.
+        name: String,
+    },
+    /// What would be saved cannot be read again, or what is there cannot be read.
+    #[error("nothing was saved: {0}")]
+    Display(#[from] Box<DisplayError>),
+    /// The operating system refuses.
+    #[error("{} cannot be written: {error}; check the folder, its permissions and the space left", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+}
+
+/// Corners of one channel, in pixels from its viewport's upper left; `None`: those of the viewport.
+pub type NudgedCorners<'a> = (&'a str, Option<[DVec2; 4]>);
+
+/// A display file's text with other corners, in the order upper left, upper right, lower right, lower left. Comments, order and all
+/// other keys stay as they are, and so do corners that are where they were.
+///
+/// # Errors
+/// [`SaveError`]: no TOML, or no such channel.
+pub fn saved(text: &str, corners: &[NudgedCorners<'_>]) -> Result<String, SaveError> {
+    let mut document: DocumentMut = text.parse()?;
+    for (name, places) in corners {
+        let channel = channel(&mut document, name).ok_or_else(|| SaveError::NoChannel { name: (*name).to_owned() })?;
+        let Some(places) = places else {
+            channel.remove("corners");
+            continue;
+        };
+        let table = channel.entry("corners").or_insert_with(|| Item::Value(InlineTable::new().into()));
+        let table = table.as_table_like_mut().ok_or_else(|| SaveError::NoTable { name: (*name).to_owned() })?;
+        for (key, place) in KEYS.into_iter().zip(places) {
+            put(table, key, *place);
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// Saves corners in the file of the display that was named so; see [`saved`]. The file changes at once and whole, or not at all.
+///
+/// # Errors
+/// [`SaveError`].
+pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveError> {
+    if built_in::text(name).is_some() {
+        return Err(SaveError::BuiltIn { name: name.to_owned() });
+    }
+    if import::is_imported(Path::new(name)) {
+        return Err(SaveError::Imported { path: name.into() });
+    }
+    // What a link points to is written, not the link.
+    let cannot = |error| SaveError::Write { path: name.into(), error };
+    let path = std::fs::canonicalize(name).map_err(cannot)?;
+    let refuse = |reason| Box::new(DisplayError::Read { path: name.into(), reason });
+    let text = saved(&read::text(&path).map_err(refuse)?, corners)?;
+    super::parse(&text, name, path.parent().unwrap_or(Path::new(""))).map_err(Box::new)?;
+
+    let mut partial = path.clone().into_os_string();
+    partial.push(".part");
+    let partial = PathBuf::from(partial);
+    let written = std::fs::metadata(&path).and_then(|before| {
+        let mut file = std::fs::File::create(&partial)?;
+        std::io::Write::write_all(&mut file, text.as_bytes())?;
+        file.set_permissions(before.permissions())?;
+        file.sync_all()?;
+        std::fs::rename(&partial, &path)
+    });
+    if let Err(error) = written {
+        // What has failed has been said; a file that cannot be removed either says nothing new.
+        let _ = std::fs::remove_file(&partial);
+        return Err(cannot(error));
+    }
+    Ok(path)
+}
+
+/// The table of a channel, `[[channel]]` or `channel = [{ … }]`.
+fn channel<'a>(document: &'a mut DocumentMut, name: &str) -> Option<&'a mut dyn TableLike> {
+    let named = |table: &dyn TableLike| table.get("name").and_then(Item::as_str) == Some(name);
+    match document.get_mut("channel")? {
+        Item::ArrayOfTables(tables) => {
+            tables.iter_mut().map(|table| -> &mut dyn TableLike { table }).find(|table| named(&**table))
+        }
+        Item::Value(Value::Array(tables)) => tables
+            .iter_mut()
+            .filter_map(|table| table.as_inline_table_mut().map(|table| -> &mut dyn TableLike { table }))
+            .find(|table| named(&**table)),
+        _ => None,
+    }
+}
+
+/// Writes a corner, unless it is there already.
+fn put(corners: &mut dyn TableLike, key: &str, place: DVec2) {
+    let before = corners.get(key).and_then(Item::as_value);
+    if before.and_then(coordinates) == Some(place) {
+        return;
+    }
+    let written = |coordinate: f64| Value::Float(Formatted::new(coordinate));
+    let mut value = Value::Array(Array::from_iter([written(place.x), written(place.y)]));
+    // What is around it stays: a comment behind it, in a table of its own.
+    if let Some(before) = before {
+        *value.decor_mut() = before.decor().clone();
+    }
+    corners.insert(key, Item::Value(value));
+}
+
+fn coordinates(value: &Value) -> Option<DVec2> {
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    let array = value.as_array()?;
+    Some(DVec2::new(number(array.get(0)?)?, number(array.get(1)?)?))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+//! What is saved is what was nudged, and nothing else: a wrong program would lose comments, put other keys in order, or write what is
+//! read back as other corners.
+
+use super::*;
+use crate::room::file::parse;
+use crate::room::{Corners, Warp};
+
+/// A file as somebody has written it: comments, an odd order, corners of every form.
+const FILE: &str = r#"# our wall, measured in May
+name = "wall"   # the large one
+
+[[window]]
+size = [400, 200]
+name = "w"
+
+[[screen]]   # plaster
+name = "s"
+centre = [0, 1.5, -2]
+size = [4.0, 2.0]
+
+[[channel]]
+name = "a"      # no corners yet
+screen = "s"
+window = "w"
+viewport = [0, 0, 200, 200]
+
+# the right half
+[[channel]]
+name = "b"
+corners = { upper_left = [1.5, 2], lower_right = [199, 198.25] }   # by eye
+screen = "s"
+window = "w"
+viewport = [200, 0, 100, 200]
+
+[[channel]]
+screen = "s"
+name = "c"
+window = "w"
+viewport = [300, 0, 100, 200]
+[channel.corners]
+upper_left = [3, 3]  # near the door
+"#;
+
+/// Corners of a viewport of 200 × 200 pixels, moved a little.
+const PLACES: [DVec2; 4] =
+    [DVec2::new(1.5, 2.0), DVec2::new(190.0, 0.0), DVec2::new(199.0, 198.25), DVec2::new(-3.0, 200.0)];
+
+fn corners(text: &str, channel: usize) -> Option<Warp> {
+    parse(text, "d.toml", Path::new("")).unwrap().channels[channel].warp.clone()
+}
+
+/// As a display has them.
+fn warp(places: [DVec2; 4], size: DVec2) -> Option<Warp> {
+    Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()))
+}
+
+#[test]
+fn nothing_nudged_changes_nothing() {
+    assert_eq!(saved(FILE, &[]).unwrap(), FILE);
+}
+
+#[test]
+fn nudged_corners_come_back_and_all_other_lines_stay() {
+    let text = saved(FILE, &[("a", Some(PLACES))]).unwrap();
+    assert_eq!(corners(&text, 0), warp(PLACES, DVec2::splat(200.0)));
+    let added: Vec<_> = text.lines().filter(|line| !FILE.lines().any(|before| before == *line)).collect();
+    assert_eq!(added.len(), 1, "{added:?}");
+    let without: String = text.lines().filter(|line| *line != added[0]).map(|line| format!("{line}\n")).collect();
+    assert_eq!(without, FILE);
+}
+
+#[test]
+fn corners_that_are_there_keep_their_comments_and_what_has_not_moved() {
+    let size = DVec2::new(100.0, 200.0);
+    let places = [DVec2::new(1.5, 2.0), DVec2::new(98.0, 1.0), DVec2::new(99.0, 198.25), DVec2::new(0.0, 200.0)];
+    let text = saved(FILE, &[("b", Some(places)), ("c", Some(places))]).unwrap();
+    for channel in [1, 2] {
+        assert_eq!(corners(&text, channel), warp(places, size));
+    }
+    assert!(text.contains("corners = { upper_left = [1.5, 2], lower_right = [99.0, 198.25]"), "{text}");
+    assert!(text.contains("}   # by eye\n"), "{text}");
+    assert!(text.contains("upper_left = [1.5, 2.0]  # near the door\n"), "{text}");
+    // What is saved once more is the same.
+    assert_eq!(saved(&text, &[("b", Some(places)), ("c", Some(places))]).unwrap(), text);
+}
+
+#[test]
+fn the_viewports_corners_need_no_key() {
+    for (name, channel) in [("b", 1), ("c", 2)] {
+        let text = saved(FILE, &[(name, None)]).unwrap();
+        assert_eq!(corners(&text, channel), None);
+        assert!(text.contains("# our wall") && text.contains("# the right half"), "{text}");
+    }
+}
+
+#[test]
+fn channels_in_one_line_are_found_too() {
+    let (head, _) = FILE.split_once("[[channel]]").unwrap();
+    let inline = format!("channel = [{{ name = \"a\", screen = \"s\", window = \"w\" }}]\n{head}");
+    let text = saved(&inline, &[("a", Some(PLACES))]).unwrap();
+    assert_eq!(corners(&text, 0), warp(PLACES, DVec2::new(400.0, 200.0)));
+}
+
+#[test]
+fn a_channel_that_is_not_there_is_an_error() {
+    let missing = saved(FILE, &[("a", Some(PLACES)), ("d", None)]);
+    assert!(matches!(missing, Err(SaveError::NoChannel { name }) if name == "d"));
+    assert!(matches!(saved("channel = 3", &[("a", None)]), Err(SaveError::NoChannel { .. })));
+    assert!(matches!(saved("[[channel", &[]), Err(SaveError::Syntax(_))));
+    let odd = FILE.replace("name = \"a\" ", "corners = 3\nname = \"a\"");
+    assert!(matches!(saved(&odd, &[("a", Some(PLACES))]), Err(SaveError::NoTable { .. })));
+}
+
+#[test]
+fn a_file_is_written_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wall.toml");
+    std::fs::write(&path, FILE).unwrap();
+    let name = path.to_str().unwrap();
+    save(name, &[("a", Some(PLACES))]).unwrap();
+    let written = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(written, saved(FILE, &[("a", Some(PLACES))]).unwrap());
+
+    // Corners that no picture has are not written, and nothing is left behind.
+    let crossed = [PLACES[2], PLACES[1], PLACES[0], PLACES[3]];
+    assert!(matches!(save(name, &[("a", Some(crossed))]), Err(SaveError::Display(_))));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn what_has_no_file_of_ours_says_how_to_get_one() {
+    let built_in = save("stereo-wall", &[]).unwrap_err().to_string();
+    assert!(built_in.contains("app/displays/stereo-wall.toml"), "{built_in}");
+    let imported = save("cave.pvx", &[]).unwrap_err().to_string();
+    assert!(imported.contains("only read"), "{imported}");
+}

@@ -1,0 +1,170 @@
+//! Moving corners: which one is chosen, where all of them are, and what each key does. No window and no device here.
+
+use crate::room::{Corners, Display, NotConvex, Warp};
+use glam::DVec2;
+use thiserror::Error;
+
+/// Pixels that a press moves a corner by.
+pub const STEP: f64 = 1.0;
+/// The same with Shift.
+pub const LONG_STEP: f64 = 10.0;
+/// Parts of a pixel that places are rounded to: a file's numbers survive being divided by the viewport's size and multiplied again.
+const PER_PIXEL: f64 = 1e6;
+
+/// What the corners are called, in the order of [`Corners::places`].
+pub const NAMES: [&str; 4] = ["upper left", "upper right", "lower right", "lower left"];
+
+/// What moves and chooses corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// The next corner, or with Shift the one before; after a channel's last one comes the next channel.
+    Tab,
+    /// Moves the corner to the right.
+    Right,
+    /// To the left.
+    Left,
+    /// Up.
+    Up,
+    /// Down.
+    Down,
+    /// Puts the corner where the file has it; with Shift, into its corner of the viewport.
+    Back,
+}
+
+/// Why a key does nothing.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum CalibrationError {
+    /// A channel that a measured grid warps.
+    #[error("channel {channel} has a measured warp, so its corners cannot be moved")]
+    Measured {
+        /// Its name.
+        channel: String,
+    },
+    /// A corner that would go past others.
+    #[error("channel {channel}: {error}")]
+    NotConvex {
+        /// Its name.
+        channel: String,
+        /// Why.
+        error: NotConvex,
+    },
+}
+
+/// The corners of all channels of a display, one of them chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    channels: Vec<Nudged>,
+    channel: usize,
+    corner: usize,
+}
+
+/// The corners of one channel; pixels from the viewport's upper left, y down.
+#[derive(Clone, Debug, PartialEq)]
+struct Nudged {
+    name: String,
+    viewport: [DVec2; 4],
+    in_file: [DVec2; 4],
+    now: [DVec2; 4],
+    /// A measured grid warps it.
+    measured: bool,
+}
+
+impl Calibration {
+    /// Of a display as its file has it, its first corner chosen.
+    pub fn new(display: &Display) -> Self {
+        let nudged = |channel: &crate::room::Channel| {
+            let [width, height] = channel.size().map(f64::from);
+            let viewport = [DVec2::ZERO, DVec2::new(width, 0.0), DVec2::new(width, height), DVec2::new(0.0, height)];
+            let pixels = |place: DVec2| (place * DVec2::new(width, height) * PER_PIXEL).round() / PER_PIXEL;
+            let corners = match &channel.warp {
+                Some(Warp::Corners(corners)) => corners.places.map(pixels),
+                _ => viewport,
+            };
+            let measured = matches!(channel.warp, Some(Warp::Grid(_)));
+            Nudged { name: channel.name.clone(), viewport, in_file: corners, now: corners, measured }
+        };
+        Self { channels: display.channels.iter().map(nudged).collect(), channel: 0, corner: 0 }
+    }
+
+    /// Index of the channel and of its corner that keys act on.
+    pub fn chosen(&self) -> (usize, usize) {
+        (self.channel, self.corner)
+    }
+
+    /// Does what a key does. Returns the channel whose corners have moved, if any have.
+    ///
+    /// # Errors
+    /// [`CalibrationError`]: the corner stays where it is.
+    pub fn press(&mut self, key: Key, shift: bool) -> Result<Option<usize>, CalibrationError> {
+        if key == Key::Tab {
+            self.choose(shift);
+            return Ok(None);
+        }
+        let step = if shift { LONG_STEP } else { STEP };
+        let (nudged, corner) = (&mut self.channels[self.channel], self.corner);
+        if nudged.measured {
+            return Err(CalibrationError::Measured { channel: nudged.name.clone() });
+        }
+        let mut moved = nudged.now;
+        moved[corner] = match key {
+            Key::Tab => moved[corner],
+            Key::Right => moved[corner] + DVec2::new(step, 0.0),
+            Key::Left => moved[corner] - DVec2::new(step, 0.0),
+            Key::Down => moved[corner] + DVec2::new(0.0, step),
+            Key::Up => moved[corner] - DVec2::new(0.0, step),
+            Key::Back if shift => nudged.viewport[corner],
+            Key::Back => nudged.in_file[corner],
+        };
+        if moved == nudged.now {
+            return Ok(None);
+        }
+        nudged.warp_of(moved).map_err(|error| CalibrationError::NotConvex { channel: nudged.name.clone(), error })?;
+        nudged.now = moved;
+        Ok(Some(self.channel))
+    }
+
+    /// How a channel is warped now; `None`: not at all.
+    pub fn warp(&self, channel: usize) -> Option<Warp> {
+        let nudged = &self.channels[channel];
+        nudged.warp_of(nudged.now).expect("corners that no picture has are refused").map(Warp::Corners)
+    }
+
+    /// Names and corners (pixels) of the channels whose corners are not where the file has them; `None`: those of the viewport.
+    pub fn changed(&self) -> Vec<(&str, Option<[DVec2; 4]>)> {
+        let changed = self.channels.iter().filter(|nudged| nudged.now != nudged.in_file);
+        changed.map(|nudged| (nudged.name.as_str(), (nudged.now != nudged.viewport).then_some(nudged.now))).collect()
+    }
+
+    /// The file has them now.
+    pub fn saved(&mut self) {
+        for nudged in &mut self.channels {
+            nudged.in_file = nudged.now;
+        }
+    }
+
+    /// Which corner is chosen, and where it is.
+    pub fn sentence(&self) -> String {
+        let nudged = &self.channels[self.channel];
+        let DVec2 { x, y } = nudged.now[self.corner];
+        let unsaved = if nudged.now == nudged.in_file { "" } else { ", not saved" };
+        format!("{}: {} corner at {x}, {y} pixels{unsaved}", nudged.name, NAMES[self.corner])
+    }
+
+    fn choose(&mut self, backwards: bool) {
+        let count = self.channels.len() * 4;
+        let step = if backwards { count - 1 } else { 1 };
+        let chosen = (self.channel * 4 + self.corner + step) % count;
+        (self.channel, self.corner) = (chosen / 4, chosen % 4);
+    }
+}
+
+impl Nudged {
+    /// The map of corners, as a file would have it.
+    fn warp_of(&self, pixels: [DVec2; 4]) -> Result<Option<Corners>, NotConvex> {
+        let size = self.viewport[2];
+        if pixels == self.viewport { Ok(None) } else { Corners::new(pixels.map(|place| place / size)).map(Some) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,115 @@
+//! Law: F4 shows a grid whose frame is where the corners are; keys move them, S puts them into the file and nothing else, and what
+//! is drawn from that file then has them. A program that rode on the arrows, or lost a comment, would fail here.
+#![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
+
+mod virtual_display;
+
+use image::{Rgb, RgbImage};
+use input::recording::{Entry, Recording};
+use input::{Key, Sample};
+use std::path::Path;
+use std::process::Command;
+use virtual_display::{Display, rapidity, wait_for};
+
+const FILE: &str = r#"# Measured by hand.
+[[screen]]
+name = "front"
+lower_left  = [-1.0, 0.9, -1.2]
+lower_right = [ 1.0, 0.9, -1.2]
+upper_left  = [-1.0, 2.4, -1.2]
+
+[[window]]
+name = "w"
+position = [0, 0]
+size = [640, 480]
+
+[[channel]]   # the only one
+name = "c"
+screen = "front"
+window = "w"
+"#;
+
+/// A reading of the screen; `None` while the server is not ready.
+fn screen(display: &Display, folder: &Path) -> Option<RgbImage> {
+    let shot = folder.join("screen.png");
+    let grabbed = Command::new("ffmpeg")
+        .args(["-loglevel", "error", "-y", "-f", "x11grab", "-video_size", "640x480", "-i", &display.name])
+        .args(["-frames:v", "1"])
+        .arg(&shot)
+        .status();
+    grabbed.expect("ffmpeg is installed (on Debian or Ubuntu: apt-get install ffmpeg)").success().then_some(())?;
+    Some(image::open(shot).unwrap().into_rgb8())
+}
+
+#[test]
+fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
+    const WHITE: Rgb<u8> = Rgb([255; 3]);
+    const BLACK: Rgb<u8> = Rgb([0; 3]);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("room.toml");
+    std::fs::write(&file, FILE).unwrap();
+    let display = Display::open([640, 480]);
+    let ride = [
+        "ride",
+        "--scene",
+        "lattice",
+        "--edge",
+        "4",
+        "--display",
+        "room.toml",
+        "--record",
+        "r.mcap",
+        "--size",
+        "64x48",
+    ];
+    let mut program = rapidity(folder.path(), &display.name, &ride).spawn().unwrap();
+    let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
+    wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
+
+    // The frame is the window's edge at first.
+    let white = |at: [u32; 2], corner: [u32; 2]| {
+        wait_for("the grid's frame", || {
+            let screen = screen(&display, folder.path())?;
+            let [x, y] = at;
+            let outside = corner.map(|pixel| pixel.checked_sub(2));
+            let outside = outside[0].zip(outside[1]).map(|(x, y)| *screen.get_pixel(x, y));
+            (*screen.get_pixel(x, y) == WHITE && outside.is_none_or(|pixel| pixel == BLACK)).then_some(())
+        });
+    };
+    display.tool(&["key", "F4"]);
+    white([0, 240], [0, 0]);
+
+    // The upper left corner by (13, 10).
+    display.tool(&["key", "shift+Right"]);
+    for key in ["Right", "Right", "Right"] {
+        display.tool(&["key", key]);
+    }
+    display.tool(&["key", "shift+Down"]);
+    white([14, 12], [13, 10]);
+    display.tool(&["key", "s"]);
+    let saved = wait_for("saved corners", || {
+        let text = std::fs::read_to_string(&file).unwrap();
+        (text != FILE).then_some(text)
+    });
+    let status = wait_for("end", || {
+        display.tool(&["key", "Escape"]);
+        program.try_wait().unwrap()
+    });
+    assert!(status.success());
+
+    // No key was pressed for the vehicle.
+    for entry in Recording::open(&folder.path().join("r.mcap")).unwrap() {
+        if let Entry::Sample(sample) = entry.unwrap() {
+            assert!(Key::ALL.iter().all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
+        }
+    }
+
+    // The file has them, in one line more.
+    let added: Vec<_> = saved.lines().filter(|line| !FILE.lines().any(|before| before == *line)).collect();
+    assert_eq!(added.len(), 1, "{saved}");
+    assert!(added[0].starts_with("corners = { upper_left = [13.0, 10.0],"), "{saved}");
+    assert!(FILE.lines().all(|line| saved.lines().any(|after| after == line)), "{saved}");
+    let checked = rapidity(folder.path(), "", &["check", "room.toml"]).output().unwrap();
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+}
