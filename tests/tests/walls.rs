@@ -185,6 +185,12 @@ fn a_curved_screen_shows_what_the_eye_sees_by_maps() {
 }
 
 #[test]
+fn every_projector_of_a_dome_shows_what_the_eye_sees() {
+    // Six pictures that are each where they should be agree where they overlap.
+    assert_walls("dome6", 8, Method::Polygon, &REFINED);
+}
+
+#[test]
 fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let display = display("cave4", 8);
     let fast = DVec3::new(-0.9, 0.4, -1.5);
