@@ -43,7 +43,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     let quality = Quality {
         format: Studio::format(gpu),
         samples: picture.samples,
-        density: if picture.samples == 1 { 2.0 } else { 1.0 },
+        density: if picture.samples == 1 { 3.0 } else { 1.0 },
         smooth: false,
     };
     // What is drawn finely already needs a map that is no finer.
