@@ -28,17 +28,8 @@ impl Curved {
     /// Of a channel. Its pixels' points do not depend on the eye, so that they are worked out once.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
         let size @ [width, height] = channel.size();
-        let point = |x: f64, y: f64| channel.point(display, DVec2::new(x, y));
-        let texels: Vec<[f32; 4]> = (0..height)
-            .into_par_iter()
-            .flat_map_iter(|row| {
-                (0..width).map(move |column| {
-                    let place =
-                        [(column, width), (row, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side));
-                    point(place[0], place[1]).map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array())
-                })
-            })
-            .collect();
+        let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
+        let texels: Vec<[f32; 4]> = channel.points(display, size).into_iter().map(texel).collect();
         let descriptor = wgpu::TextureDescriptor {
             label: Some("points"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -53,7 +44,7 @@ impl Curved {
         let points = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
 
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
-        let place = |index: usize| point(at(index % (GRID + 1)), at(index / (GRID + 1)));
+        let place = |index: usize| channel.point(display, DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
         let grid = Grid {
             size: [GRID + 1; 2],
             points: (0..(GRID + 1) * (GRID + 1)).into_par_iter().map(place).collect(),
@@ -107,12 +98,5 @@ impl Curved {
             ];
             pass.draw_part(gpu, encoder, &self.shown, &resources, [0, 0, width, height], number > 0);
         }
-    }
-
-    /// Texels of a facet for each pixel of the viewport, about.
-    pub fn texels_per_pixel(&self) -> f64 {
-        let texels: f64 =
-            self.facets.iter().map(|(facet, _)| f64::from(facet.size[0]) * f64::from(facet.size[1])).sum();
-        (texels / (f64::from(self.size[0]) * f64::from(self.size[1]))).sqrt()
     }
 }
