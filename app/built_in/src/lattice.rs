@@ -1,6 +1,6 @@
 //! A lattice of boxes: the plainest scene that shows how straight lines bend, and the one that tests know exactly.
 
-use super::{Lighting, Material, Mesh, Scene, Start};
+use scene::{Lighting, Material, Mesh, Scene, Start};
 use glam::{DVec3, Vec2, Vec3};
 
 /// What a lattice is made of.

@@ -8,8 +8,8 @@ use physics::Aberration;
 use physics::bend::Bend;
 
 use super::Shot;
-use crate::scene::Scene;
-use crate::scene::cut::{Chord, Cut, Sight};
+use scene::Scene;
+use scene::cut::{Chord, Cut, Sight};
 
 /// Edges that are looked at.
 const SAMPLES: usize = 512;
@@ -252,10 +252,10 @@ mod tests {
     //! What is said of a picture must be what is so: coarse edges are told in pixels, fine ones are not, and the map's loss astern is found.
 
     use super::*;
-    use crate::renderers::Effects;
-    use crate::scene::lattice::Lattice;
-    use crate::scene::refine::refine;
-    use crate::views::Camera;
+    use view::Effects;
+    use built_in::lattice::Lattice;
+    use scene::refine::refine;
+    use view::Camera;
     use physics::photo_surface::Eye;
 
     fn of(scene: &Scene, speed: f64, look: DVec3, drawn: Drawn) -> Certainty {

@@ -8,8 +8,8 @@ use super::image::MapQuality;
 use super::polygon::{Pace, Tolerance};
 use crate::command::Renderer;
 use crate::progress;
-use crate::scene::Scene;
-use crate::scene::refine::{RefineError, cut_beyond, refine};
+use scene::Scene;
+use scene::refine::{RefineError, cut_beyond, refine};
 use std::borrow::Cow;
 
 /// A scene that has to be cut into so many times as many triangles is coarse.
@@ -100,8 +100,8 @@ mod tests {
     //! Who says how he wants it gets it; who does not gets what was measured to be best.
 
     use super::*;
-    use crate::scene::lattice::Lattice;
-    use crate::scene::motion::{Motion, Uniform};
+    use built_in::lattice::Lattice;
+    use scene::motion::{Motion, Uniform};
     use physics::{Celerity, Event};
 
     #[test]

@@ -5,8 +5,8 @@
 //! taken in the body's axes (W 5.1.2). What is animated is seen in the observer's own axes, since its places are solved for one by one, with
 //! their Doppler factors. Depth is common to all: along one line of sight the nearer apparent position is the later emission.
 
-use crate::scene::motion::{Animated, Motion, SeenBy};
-use crate::views::matrix;
+use scene::motion::{Animated, Motion, SeenBy};
+use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
 use physics::photo_surface::Eye;
 use physics::{Celerity, Observer};

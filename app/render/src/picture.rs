@@ -4,7 +4,7 @@ use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, 
 use super::target::{Format, Radiance};
 use super::{SceneRenderer, Shot, Subject};
 use crate::gpu::{Gpu, GpuError};
-use crate::views::sample_offset;
+use view::sample_offset;
 use glam::{DVec3, Vec3};
 use half::f16;
 use image::{Rgb32FImage, RgbaImage};

@@ -9,57 +9,13 @@ use super::target::{Format, Radiance};
 use super::world::{Draws, Mode, Part, World};
 use super::{Effects, polygon};
 use crate::gpu::{Gpu, GpuError};
-use crate::scene::Scene;
-use crate::scene::cut::Sight;
-use crate::scene::motion::Motion;
-use crate::views::{Camera, matrix};
+use scene::Scene;
+use scene::cut::Sight;
+use scene::motion::Motion;
+use crate::view_matrix::{matrix, shader_view};
 use glam::{DMat4, DVec2, Vec4};
 use physics::photo_surface::{Eye, PhotoSurfaceError};
 use physics::{Celerity, Event, Observer};
-
-/// What one picture shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
-    /// Where the eye points.
-    pub camera: Camera,
-    /// Place and celerity of the eye, world axes.
-    pub eye: Eye,
-    /// World time of the look, metres of light travel.
-    pub ct: f64,
-    /// What relativity does to the picture.
-    pub effects: Effects,
-    /// What radiance is multiplied by, instead of [`Shot::scale`]'s own choice: for pictures that are put together.
-    pub stored_scale: Option<f64>,
-}
-
-impl Shot {
-    /// Who looks, when, and from where.
-    pub fn observer(&self) -> Observer {
-        let event = Event { ct: self.ct, position: self.eye.position() };
-        Observer { event, celerity: self.celerity() }
-    }
-
-    /// How the eye moves.
-    pub fn celerity(&self) -> Celerity {
-        Celerity::new(self.eye.celerity()).unwrap_or_default()
-    }
-
-    /// What radiance is multiplied by so that short floats can hold it: the searchlight effect undone, as it is in the mean of a picture of
-    /// usual shape.
-    pub fn scale(&self) -> f64 {
-        if let Some(scale) = self.stored_scale {
-            return scale;
-        }
-        if !self.effects.searchlight {
-            return 1.0;
-        }
-        let steps = [-0.8, -0.4, 0.0, 0.4, 0.8];
-        let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x, y)));
-        let logs = places.map(|place| self.camera.doppler_at(place, self.celerity(), self.effects.geometry).ln());
-        let mean = logs.sum::<f64>() / (steps.len() * steps.len()) as f64;
-        (-4.0 * mean).exp().clamp(1e-30, 1e30)
-    }
-}
 
 /// What a picture shows of the surfaces that are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,11 +4,10 @@
 //! whose weights are linear sRGB; each spectrum that a material or the illuminant names adds one. The shift table of all
 //! carriers is worked out once, on all cores, and the shaders look it up (B eq. 2.16, 2.17).
 
-use crate::gpu::Gpu;
-use crate::scene::{Material, Scene};
+use crate::material::Material;
+use crate::scene::Scene;
 use glam::DVec3;
-use physics::colour::{Carrier, ShiftTable};
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use physics::colour::Carrier;
 
 /// The carrier whose weights are linear sRGB: of plain colours, of a background and of a panorama.
 pub const WHITE: usize = 0;
@@ -59,39 +58,13 @@ impl Spectra {
         Self { carriers, materials, sky, white_luminance: scene.white_luminance(), luminances }
     }
 
+    /// Luminance of each carrier at rest with weights of 1, cd/m².
+    pub fn luminances(&self) -> &[f64] {
+        &self.luminances
+    }
+
     /// What weights on a carrier are multiplied by to be relative to the scene's white.
     pub fn factor(&self, carrier: usize) -> f32 {
         (self.luminances[carrier] / self.white_luminance) as f32
-    }
-
-    /// The shift table for the shaders: of weights relative to white.
-    pub fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
-        let table = ShiftTable::new(&self.carriers, shaders::SHIFT_NODES as usize);
-        let rows_of_a_carrier = 3 * shaders::SHIFT_NODES as usize;
-        let carriers = table.texels().chunks_exact(rows_of_a_carrier).zip(&self.luminances);
-        let texels: Vec<[f32; 4]> = carriers
-            .flat_map(|(texels, luminance)| {
-                let log = luminance.log2() as f32;
-                texels.iter().map(move |&[red, green, blue, log_y]| [red, green, blue, log_y - log])
-            })
-            .collect();
-        let descriptor = wgpu::TextureDescriptor {
-            label: Some("shift table"),
-            size: wgpu::Extent3d {
-                width: shaders::SHIFT_NODES,
-                height: 3 * self.carriers.len() as u32,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        };
-        let bytes = bytemuck::cast_slice(&texels);
-        gpu.device
-            .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
-            .create_view(&wgpu::TextureViewDescriptor::default())
     }
 }

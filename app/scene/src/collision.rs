@@ -13,8 +13,9 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
 
-use super::{Scene, SceneFault};
-use crate::vehicle::{Ground, Surroundings, Wall};
+use crate::scene::Scene;
+use crate::surroundings::{Ground, Surroundings, Wall};
+use crate::validate::SceneFault;
 
 /// The highest step that a vehicle climbs, in metres.
 pub const STEP: f64 = 0.2;
@@ -190,7 +191,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::scene::{Material, Mesh};
+    use crate::material::Material;
+    use crate::mesh::Mesh;
 
     /// f32 coordinates of a few metres, computed with in f64.
     const TOLERANCE: f64 = 1e-6;

@@ -6,8 +6,8 @@
 //! seen, along its axes. Colours stay weights on the sky's carrier: after a shift, those
 //! that look the same to the standard observer.
 
-use super::Lighting;
-use super::motion::Animated;
+use crate::lighting::Lighting;
+use crate::motion::Animated;
 use glam::{DMat3, DVec3, DVec4, Vec3};
 use physics::colour::Carrier;
 use physics::{Aberration, Celerity, Observer};

@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::Texture;
+use crate::material::Texture;
 
 /// Weight of a fully transparent pixel's colour beside an opaque one's: small enough to vanish among opaque pixels,
 /// large enough that a wholly transparent area keeps its mean colour.
@@ -115,7 +115,7 @@ fn taps(index: usize, source: usize, target: usize) -> [(usize, f32); 3] {
 }
 
 /// IEC 61966-2-1.
-pub(crate) fn linear_from_srgb(value: f32) -> f32 {
+pub fn linear_from_srgb(value: f32) -> f32 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 

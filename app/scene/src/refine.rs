@@ -19,7 +19,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{MAX_TRIANGLES, Mesh, Scene, SceneFault};
+use crate::mesh::Mesh;
+use crate::scene::{MAX_TRIANGLES, Scene};
+use crate::validate::SceneFault;
 
 /// Metres from the circuit within which edges are as short as asked for.
 pub const NEAR_M: f64 = 4.0;
@@ -241,7 +243,7 @@ fn midpoint(a: Vec3, b: Vec3) -> Vec3 {
 /// Hands on the triangles that one becomes, by its edges' midpoints (0–1, 1–2, 2–0). Winding is kept.
 ///
 /// A quadrilateral is cut along its shorter diagonal, which keeps the angles wide.
-pub(super) fn divide<V: Copy>(
+pub(crate) fn divide<V: Copy>(
     [a, b, c]: [V; 3],
     midpoints: [Option<V>; 3],
     distance: impl Fn(V, V) -> f64,
@@ -341,7 +343,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::scene::Material;
+    use crate::material::Material;
 
     /// Relative; each split rounds positions to f32.
     const AREA_TOLERANCE: f64 = 1e-5;

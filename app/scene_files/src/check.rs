@@ -9,11 +9,10 @@ use std::path::Path;
 use glam::DVec3;
 use physics::colour::Spectrum;
 
-use super::collision::Collision;
-use super::motion::Motion;
-use super::source::{LoadError, read};
-use super::{Material, Scene, SceneFault};
-use crate::vehicle::Surroundings;
+use crate::read::{LoadError, read};
+use scene::collision::Collision;
+use scene::motion::Motion;
+use scene::{Material, Scene, SceneFault, Surroundings};
 
 /// Scenes smaller or larger than this, in metres, are probably not measured in metres.
 const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
@@ -311,7 +310,7 @@ mod tests {
     use glam::{Vec2, Vec3};
 
     use super::*;
-    use crate::scene::{Material, Mesh, Texture};
+    use scene::{Material, Mesh, Texture};
 
     /// A square of ground, 10 m wide, in two triangles.
     fn ground() -> Scene {
@@ -340,7 +339,7 @@ mod tests {
             textures: vec![texture],
             materials: vec![Material::default()],
             meshes: vec![mesh],
-            start: crate::scene::Start { position: DVec3::new(0.0, 100.0, 0.0), look: DVec3::NEG_Z },
+            start: scene::Start { position: DVec3::new(0.0, 100.0, 0.0), look: DVec3::NEG_Z },
             circuit: vec![DVec3::new(1.0, 100.0, 1.0)],
             ..Scene::default()
         }
@@ -396,7 +395,7 @@ mod tests {
     fn a_file_is_reported_as_it_is_drawn() {
         let folder = tempfile::TempDir::new().unwrap();
         let path = folder.path().join("meadow.glb");
-        crate::scene::export::write_glb(&ground(), &path).unwrap();
+        crate::export::write_glb(&ground(), &path).unwrap();
         let mut expected = Report::new(&ground()).unwrap();
         // The texture is drawn by no material, so it is not loaded.
         (expected.textures, expected.texture_bytes) = (0, 0);

@@ -1,4 +1,4 @@
-//! Scenes to binary glTF 2.0, for other programs and for [`super::gltf::load`], which gives back the same scene.
+//! Scenes to binary glTF 2.0, for other programs and for [`crate::gltf::load`], which gives back the same scene.
 //!
 //! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG, a panorama as EXR. What glTF has no words
 //! for (light, white, start, circuit, what is solid) goes into `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a
@@ -15,11 +15,11 @@ use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
-use super::gltf::spectrum;
-use super::motion::{Motion, Uniform};
-use super::panorama::is_equirectangular;
-use super::{Alpha, Lamp, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
+use crate::gltf::extras::{COLOURS, LightExtras, NodeExtras, SceneExtras};
+use crate::gltf::spectrum;
+use crate::panorama::is_equirectangular;
+use scene::motion::{Motion, Uniform};
+use scene::{Alpha, Lamp, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
 /// `componentType` of 32-bit floats.
 const FLOAT: u32 = 5126;

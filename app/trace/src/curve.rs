@@ -9,7 +9,7 @@
 use glam::{DMat3, DVec3};
 use physics::Observer;
 
-use crate::scene::motion::{Animated, Ball};
+use scene::motion::{Animated, Ball};
 
 /// How far a chord may be from the curve, and by how much boxes are wide: in radii of the body.
 pub const SLACK: f64 = 1e-2;

@@ -4,7 +4,7 @@
 //! its index of refraction; of what enters, glass lets a share through (`KHR_materials_transmission`), bent where it has a volume
 //! (`KHR_materials_volume`) and straight on where it is a pane, and all else is diffuse.
 
-use crate::scene::Material;
+use scene::Material;
 use glam::DVec3;
 
 /// Rougher than this is not a mirror.

@@ -8,10 +8,10 @@ mod onward;
 
 use super::curve::{Chord, Curve, SLACK};
 use super::surface::Surfaces;
-use crate::renderers::Shot;
-use crate::scene::falling::Falling;
-use crate::scene::motion::{Animated, Ball, Motion, SeenBy};
-use crate::scene::{Alpha, Scene};
+use view::Shot;
+use scene::falling::Falling;
+use scene::motion::{Animated, Ball, Motion, SeenBy};
+use scene::{Alpha, Scene};
 use glam::{DMat3, DQuat, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;

@@ -6,7 +6,7 @@
 //! Where in the lens and when a sample looks is a point of a low-discrepancy sequence in three dimensions, the same in every pixel but turned
 //! round by a hash of the pixel's place: noise instead of patterns, and the same picture on any number of threads.
 
-use crate::renderers::Shot;
+use view::Shot;
 use glam::{DVec2, DVec3};
 use physics::{Boost, FourVector, Observer};
 use std::f64::consts::TAU;

@@ -4,9 +4,9 @@
 //! that the shaders have, or integrated for every single ray. The searchlight effect multiplies by D⁴ (W eq. 4.13).
 
 use super::path::Seen;
-use crate::renderers::Effects;
-use crate::renderers::world::Spectra;
-use crate::scene::{Lamp, Scene};
+use view::Effects;
+use scene::carriers::Spectra;
+use scene::{Lamp, Scene};
 use glam::{DMat3, DVec3};
 use physics::colour::{Carrier, ShiftTable, Spectrum, luminance};
 

@@ -4,10 +4,10 @@
 //! of what it shows, channel by channel, as a coloured surface does of the light that falls on it. After its last turn a ray takes a smooth surface
 //! as if it were rough.
 
-use super::RayTracer;
+use super::tracer::RayTracer;
 use super::finish::{Shares, fresnel, mirrored, refracted};
 use super::hits::{Found, Hit, Sight, Turn};
-use crate::renderers::Effects;
+use view::Effects;
 use glam::DVec3;
 use std::ops::{Add, AddAssign, Mul};
 

@@ -5,11 +5,11 @@
 use super::finish::Finish;
 use super::hits::{Bodies, Emission, Hit};
 use super::light::{Light, Sent};
-use crate::renderers::world::{Spectra, WHITE};
-use crate::scene::falling::Falling;
-use crate::scene::mipmap::linear_from_srgb;
-use crate::scene::motion::Motion;
-use crate::scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
+use scene::carriers::{Spectra, WHITE};
+use scene::falling::Falling;
+use scene::mipmap::linear_from_srgb;
+use scene::motion::Motion;
+use scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
 use glam::{DVec3, DVec4, Vec3, Vec4};
 use physics::Observer;
 use physics::colour::luminance;

@@ -9,7 +9,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3, Vec3Swizzles, vec2, vec3};
 
 use super::sheet::Sheet;
-use crate::scene::turn::circle;
+use crate::turn::circle;
 
 /// Share of light that everything in a room returns.
 const ALBEDO: f32 = 0.7;

@@ -16,8 +16,8 @@ use physics::colour::Spectrum;
 
 use self::lamp::{Body, Room};
 use self::sheet::Sheet;
-use super::turn::circle;
-use super::{Lighting, Material, Mesh, Scene, Start};
+use crate::turn::circle;
+use scene::{Lighting, Material, Mesh, Scene, Start};
 
 /// Temperatures of the rooms, from the gate on, kelvin.
 pub const ROOM_KELVIN: [f64; 3] = [2800.0, 5900.0, 10000.0];
@@ -294,9 +294,9 @@ mod tests {
     //! another, or have a wall in the way.
 
     use super::*;
-    use crate::scene::check::Report;
-    use crate::scene::collision::Collision;
-    use crate::vehicle::Surroundings;
+    use scene_files::check::Report;
+    use scene::collision::Collision;
+    use scene::Surroundings;
 
     #[test]
     fn nothing_is_wrong_with_it() {

@@ -6,7 +6,7 @@
 
 use physics::colour::Spectrum;
 
-use crate::scene::{Texture, Wrap};
+use scene::{Texture, Wrap};
 
 /// Reflectance of the paint where it hides what is below, nm.
 const PAINT: [[f64; 2]; 17] = [

@@ -3,8 +3,8 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
 
-use crate::scene::Mesh;
-use crate::scene::turn::circle;
+use scene::Mesh;
+use crate::turn::circle;
 
 /// Sides of round bodies.
 const SIDES: u32 = 48;

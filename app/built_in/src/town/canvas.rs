@@ -8,7 +8,7 @@
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2, vec2};
 use rayon::prelude::*;
 
-use crate::scene::{Texture, Wrap};
+use scene::{Texture, Wrap};
 
 /// A picture while it is being painted.
 pub(super) struct Canvas {

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::builder::{Builder, Corner, Frame};
 use super::surface::Surface;
-use crate::scene::turn::circle;
+use crate::turn::circle;
 
 const OAK: Vec3 = vec3(1.0, 0.9, 0.8);
 

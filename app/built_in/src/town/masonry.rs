@@ -5,7 +5,7 @@ use glam::{Vec3, vec2, vec3};
 use super::builder::{Builder, Corner, Frame, Tint};
 use super::paint::timber;
 use super::surface::Surface;
-use crate::scene::turn::circle;
+use crate::turn::circle;
 
 /// Pieces of a half circle in an arch.
 const VOUSSOIRS: u32 = 8;

@@ -28,10 +28,13 @@ use glam::{DVec3, Vec3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::scene::{Lighting, Scene, Start};
+use scene::{Lighting, Scene, Start};
 use builder::{Builder, Frame};
 use house::Builders;
 use plan::{Plan, Use, on_ground};
+
+/// Seed of the town that everybody sees.
+pub const TOWN_SEED: u64 = 1;
 
 /// Dice for one part of the town, independent of how often any other part rolled its own.
 fn dice(seed: u64, part: u64) -> ChaCha8Rng {

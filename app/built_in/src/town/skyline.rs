@@ -12,7 +12,7 @@ use super::paint::timber::FRONTS;
 use super::plan::{Lot, Plan, SQUARE, Use, on_ground};
 use super::roof::Roof;
 use super::surface::Surface;
-use crate::scene::turn::circle;
+use crate::turn::circle;
 
 /// Semi-axes of the town wall, its height and number of stretches.
 const WALL: Vec2 = vec2(112.0, 98.0);

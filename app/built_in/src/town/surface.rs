@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::canvas::Canvas;
 use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
-use crate::scene::{Alpha, Material, Texture, Wrap};
+use scene::{Alpha, Material, Texture, Wrap};
 
 /// A kind of surface.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]

@@ -15,23 +15,6 @@ use bytemuck::bytes_of;
 /// Seconds of the observer's own time in which the eye adapts by 1 − 1/e of the way.
 pub const TIME_CONSTANT_S: f64 = 0.5;
 
-/// How a texture holds radiance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stored {
-    /// Luminance in cd/m² of what is white at rest.
-    pub white: f64,
-    /// The texture's red, green and blue are linear sRGB, relative to that white, times this.
-    pub scale: f64,
-    /// Whether Doppler shift or searchlight effect changed the light. Then the texture's alpha is the luminance that the same
-    /// surface has unshifted, relative to white and not scaled.
-    pub shifted: bool,
-}
-
-impl Stored {
-    /// Light that is as it was sent out.
-    pub const UNSHIFTED: Self = Self { white: 1.0, scale: 1.0, shifted: false };
-}
-
 /// What an eye sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {

@@ -1,7 +1,7 @@
 //! Where the map's panes are drawn: one texture, a layer for each carrier of the scene's light, and one depth.
 
 use crate::gpu::Gpu;
-use crate::renderers::target::{DEPTH_FORMAT, Format, texture};
+use crate::target::{DEPTH_FORMAT, Format, texture};
 
 /// Room beyond what is needed now, in parts of it: a little more speed should not ask for another texture.
 const SPARE: u32 = 8;

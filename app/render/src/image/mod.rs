@@ -18,7 +18,7 @@ use super::target::Format;
 use super::world::{Draws, Mode, Part, World, bind_group, effect_constants, layout};
 use super::{Effects, Shot, Subject};
 use crate::gpu::Gpu;
-use crate::views::NEAR_M;
+use crate::view_matrix::NEAR_M;
 use atlas::Atlas;
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};

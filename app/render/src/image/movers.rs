@@ -2,13 +2,13 @@
 
 use super::MapQuality;
 use crate::gpu::Gpu;
-use crate::renderers::Shot;
-use crate::renderers::certainty::Edges;
-use crate::renderers::polygon::{Adaptive, Pace, Tolerance};
-use crate::renderers::target::Format;
-use crate::renderers::world::{Draws, Mode, Part, World};
-use crate::scene::cut::Sight;
-use crate::scene::{Mesh, Scene};
+use view::Shot;
+use crate::certainty::Edges;
+use crate::polygon::{Adaptive, Pace, Tolerance};
+use crate::target::Format;
+use crate::world::{Draws, Mode, Part, World};
+use scene::cut::Sight;
+use scene::{Mesh, Scene};
 
 /// Texels by which anything may be drawn from its place: as many as the map is off.
 const TOLERANCE_TEXELS: f64 = 0.5;
@@ -87,7 +87,7 @@ fn moving_part(scene: &Scene) -> Option<Scene> {
         meshes,
         motions: scene.motions.clone(),
         // No shadow falls on what moves.
-        light: crate::scene::Lighting { shadows: false, ..scene.light },
+        light: scene::Lighting { shadows: false, ..scene.light },
         illuminant: scene.illuminant.clone(),
         white: Some(scene.white_luminance()),
         ..Scene::default()

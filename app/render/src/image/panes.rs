@@ -5,7 +5,7 @@
 //! left are windows of very different size on the faces: panes.
 
 use super::sight::{Extent, FACES, Part, Sight};
-use crate::views::matrix;
+use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shaders::{Map, Pane, View};
 
@@ -347,7 +347,7 @@ mod tests {
     //! out shows a stretched neighbour there, one that is too coarse shows blocks, one that is too fine costs more the faster one goes.
 
     use super::*;
-    use crate::views::Camera;
+    use view::Camera;
     use physics::{Aberration, Celerity};
 
     const SIZE: [u32; 2] = [320, 180];

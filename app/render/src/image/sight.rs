@@ -5,7 +5,7 @@
 //! that the observer sees is known exactly from two points on the meridian through the motion; it is conservative, so that no
 //! pixel looks for a pane in vain.
 
-use crate::views::Camera;
+use view::Camera;
 use glam::{DMat3, DVec2, DVec3};
 use physics::Celerity;
 

@@ -13,11 +13,11 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use rayon::prelude::*;
 
 use crate::gpu::Gpu;
-use crate::renderers::Shot;
-use crate::renderers::certainty::Edges;
-use crate::renderers::world::{Prepared, World, stream_count, stream_stride};
-use crate::scene::Scene;
-use crate::scene::cut::{Cut, Fineness, Sight, Viewpoint};
+use view::Shot;
+use crate::certainty::Edges;
+use crate::world::{Prepared, World, stream_count, stream_stride};
+use scene::Scene;
+use scene::cut::{Cut, Fineness, Sight, Viewpoint};
 
 /// The most triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;

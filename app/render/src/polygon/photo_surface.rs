@@ -14,9 +14,9 @@
 //! What is animated is no matter of the kernel: its vertices are solved for one by one, and written into the same streams and one of log2 D.
 
 use crate::gpu::{Gpu, GpuError};
-use crate::renderers::world::{stream_count, stream_stride};
-use crate::scene::Scene;
-use crate::scene::motion::{Animated, Course};
+use crate::world::{stream_count, stream_stride};
+use scene::Scene;
+use scene::motion::{Animated, Course};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use glam::DVec3;
 use physics::Observer;

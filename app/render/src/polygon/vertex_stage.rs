@@ -5,8 +5,8 @@
 //! kernel on the CPU, in f64 where it matters, and handed over. The streams hold those; for all others they hold [`shaders::NOT_BENT`].
 
 use crate::gpu::Gpu;
-use crate::renderers::world::stream_stride;
-use crate::scene::Scene;
+use crate::world::stream_stride;
+use scene::Scene;
 use glam::{DVec3, Vec4};
 use physics::photo_surface::{CHUNK, Eye, Kernel, PhotoSurfaceError, Surface, Vertices};
 

@@ -1,9 +1,9 @@
 //! The scene on the GPU: static attributes, indices, and the list of draws.
 
 use crate::gpu::Gpu;
-use crate::scene::cut::Cut;
-use crate::scene::motion::Motion;
-use crate::scene::{Alpha, Scene};
+use scene::cut::Cut;
+use scene::motion::Motion;
+use scene::{Alpha, Scene};
 use bytemuck::{Pod, Zeroable, cast_slice};
 use glam::{DVec3, Vec3};
 use std::ops::Range;

@@ -2,8 +2,8 @@
 
 use super::spectra::{Spectra, WHITE};
 use crate::gpu::Gpu;
-use crate::scene::mipmap::mipmap;
-use crate::scene::{Alpha, Material, Scene, Texture, Wrap};
+use scene::mipmap::mipmap;
+use scene::{Alpha, Material, Scene, Texture, Wrap};
 use bytemuck::bytes_of;
 use glam::Vec4;
 use rayon::prelude::*;

@@ -16,10 +16,10 @@ pub use spectra::{Spectra, WHITE};
 
 use super::target::Format;
 use crate::gpu::Gpu;
-use crate::scene::cut::Sight;
-use crate::scene::falling::Falling;
-use crate::scene::motion::Animated;
-use crate::scene::{Lighting, Scene};
+use scene::cut::Sight;
+use scene::falling::Falling;
+use scene::motion::Animated;
+use scene::{Lighting, Scene};
 use bytemuck::bytes_of;
 use geometry::{Draw, Geometry, Group};
 use glam::DVec3;

@@ -1,7 +1,7 @@
 //! The picture of everything around, on the GPU.
 
 use crate::gpu::Gpu;
-use crate::scene::Panorama;
+use scene::Panorama;
 use half::f16;
 use rayon::prelude::*;
 use wgpu::util::{DeviceExt, TextureDataOrder};

@@ -7,9 +7,9 @@ use super::geometry::Attributes;
 use super::materials::Materials;
 use super::spectra::{Spectra, WHITE};
 use crate::gpu::Gpu;
-use crate::renderers::Effects;
-use crate::renderers::target::{DEPTH_FORMAT, Format};
-use crate::scene::{Alpha, Material, Scene};
+use view::Effects;
+use crate::target::{DEPTH_FORMAT, Format};
+use scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
 
 /// What is drawn of the world.

@@ -2,10 +2,10 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::error::At;
-use crate::room::maps::{self, MapError};
-use crate::room::read;
-use crate::room::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
+use crate::error::At;
+use crate::maps::{self, MapError};
+use crate::read;
+use crate::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
 use glam::{DVec2, DVec4};
 use std::path::Path;
 use toml::Spanned;

@@ -1,7 +1,7 @@
 //! What only the whole display can show: pixels that two channels want, eyes behind their screens.
 
-use crate::room::frustum::EyeBehind;
-use crate::room::{At, Channel, Combine, Display, DisplayError, Eye};
+use crate::frustum::EyeBehind;
+use crate::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
 /// Compares everything with everything; `at` says where a key of a channel is.

@@ -2,8 +2,8 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::projector::{Lens, Projector, Table};
-use crate::room::{At, DisplayError, room_from_turned};
+use crate::projector::{Lens, Projector, Table};
+use crate::{At, DisplayError, room_from_turned};
 use glam::DVec2;
 use std::path::Path;
 use toml::Spanned;
@@ -171,8 +171,8 @@ impl Form<'_> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
         let read = || -> Result<Lens, String> {
-            let text = crate::room::read::text(&path)?;
-            let (columns, rows, angles) = crate::room::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
+            let text = crate::read::text(&path)?;
+            let (columns, rows, angles) = crate::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
             Ok(Lens::Table(Table::new(columns, rows, angles)))
         };

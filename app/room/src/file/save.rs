@@ -1,12 +1,12 @@
 //! Nudged corners back into the display file they came from, which else stays as it is, to the letter.
 
-use crate::room::{DisplayError, built_in, import, read};
+use crate::{DisplayError, built_in, import, read};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Value};
 
-/// The keys of `corners`, in the order of [`Corners::places`](crate::room::Corners).
+/// The keys of `corners`, in the order of [`Corners::places`](crate::Corners).
 const KEYS: [&str; 4] = ["upper_left", "upper_right", "lower_right", "lower_left"];
 
 /// Why corners are not saved.

@@ -2,8 +2,8 @@
 
 use super::schema;
 use super::text::Text;
-use crate::room::surface::{mesh_file, sweep};
-use crate::room::{Cylinder, DisplayError, Flat, Reflection, Screen, Sphere, Surface};
+use crate::surface::{mesh_file, sweep};
+use crate::{Cylinder, DisplayError, Flat, Reflection, Screen, Sphere, Surface};
 use glam::{DVec2, DVec3};
 use std::path::Path;
 use toml::Spanned;
@@ -33,7 +33,7 @@ struct Form<'a> {
 }
 
 impl Form<'_> {
-    fn at(&self, key: &str) -> Box<crate::room::At> {
+    fn at(&self, key: &str) -> Box<crate::At> {
         self.text.at(self.start, &format!("screen {:?}", self.given.name), key)
     }
 

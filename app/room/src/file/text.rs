@@ -1,6 +1,6 @@
 //! The file's text: what line something is on, and how the parser's words become ours.
 
-use crate::room::error::{At, DisplayError, nearest};
+use crate::error::{At, DisplayError, nearest};
 
 /// A file's name and text.
 pub(super) struct Text<'a> {

@@ -5,9 +5,9 @@
 //! which place of the region's picture each pixel shows; where that picture is in the room is left open.
 
 use super::{file_name, xml};
-use crate::room::maps;
-use crate::room::read;
-use crate::room::{
+use crate::maps;
+use crate::read;
+use crate::{
     Channel, Combine, Display, Eye, Flat, Map, Mesh, Monitor, Part, Reflection, Screen, Surface, Viewer, Warp,
     WindowPlace,
 };
@@ -196,7 +196,7 @@ impl<'a> Import<'a> {
         };
         let origin = file.and_then(|file| xml::text(file, "originOf3DData")).unwrap_or("unknown");
         match origin.to_ascii_lowercase().as_str() {
-            "floorcenter" => self.display.viewer.head_m = crate::room::viewer::HEAD_M,
+            "floorcenter" => self.display.viewer.head_m = crate::viewer::HEAD_M,
             "idealeyepoint" => self.display.viewer.head_m = DVec3::ZERO,
             _ => {
                 self.display.viewer.head_m = DVec3::ZERO;

@@ -1,7 +1,7 @@
 //! ParaView's wall and CAVE files: one flat screen for each `Machine`, by three corners; metres, y up, −z ahead, the eyes at the origin.
 
 use super::{file_name, xml};
-use crate::room::{
+use crate::{
     Channel, Combine, Display, Eye, Flat, Monitor, Part, Reflection, Screen, Surface, Viewer, WindowPlace,
 };
 use glam::{DVec2, DVec3};

@@ -3,7 +3,7 @@
 //! Directions are in the projector's axes: x right, y up as in its upright picture, −z along the optical axis. Places run from 0 to 1, x right
 //! and y down from the picture's upper left, as it leaves the projector.
 
-use crate::room::net::{Grid, Net};
+use crate::net::{Grid, Net};
 use glam::{DVec2, DVec3};
 
 /// φ_p of B eq. 4.1.

@@ -1,7 +1,7 @@
 //! A rectangle.
 
 use super::{EDGE, Hit, NEAREST};
-use crate::room::room_from_turned;
+use crate::room_from_turned;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 

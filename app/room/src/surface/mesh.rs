@@ -1,7 +1,7 @@
 //! Any surface at all, as triangles.
 
 use super::{EDGE, Hit, NEAREST};
-use crate::room::net::{Grid, Net, Within};
+use crate::net::{Grid, Net, Within};
 use glam::{DVec2, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;

@@ -9,8 +9,8 @@ use std::path::Path;
 const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads `path`: `.obj` or `.csv`. What is wrong is said in words that follow the file's name.
-pub(in crate::room) fn load(path: &Path) -> Result<Mesh, String> {
-    let text = crate::room::read::text(path)?;
+pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
+    let text = crate::read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
@@ -80,7 +80,7 @@ fn nth(part: &str, count: usize) -> Option<usize> {
 
 /// Lines `u, v, x, y, z`.
 fn csv(text: &str) -> Result<Mesh, String> {
-    let (columns, rows, points) = crate::room::grid_file::read::<3>(text, "u, v, x, y, z")?;
+    let (columns, rows, points) = crate::grid_file::read::<3>(text, "u, v, x, y, z")?;
     good(Mesh::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
 }
 

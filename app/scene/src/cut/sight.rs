@@ -5,7 +5,7 @@ use physics::bend::Bend;
 use physics::{Celerity, Observer};
 
 use crate::scene::Scene;
-use crate::scene::motion::{Course, Motion, Seen};
+use crate::motion::{Course, Motion, Seen};
 
 /// How an observer sees what rests in one frame, or what is animated.
 #[derive(Clone, Debug)]

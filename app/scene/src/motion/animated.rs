@@ -18,9 +18,9 @@ pub struct Animated {
     pub name: String,
     /// From the root down; the last one's own frame is the body's.
     links: Vec<Link>,
-    pub(super) speed_of_light_m_s: f64,
+    pub(crate) speed_of_light_m_s: f64,
     /// All of the body, in its own frame.
-    pub(super) ball: Ball,
+    pub(crate) ball: Ball,
 }
 
 /// One transform of a chain.

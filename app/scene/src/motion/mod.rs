@@ -6,33 +6,12 @@
 
 mod animated;
 mod course;
-mod limit;
+mod mesh_motion;
 mod track;
 mod uniform;
 
 pub use animated::{Animated, Ball, Keyed, Link, Pose};
 pub use course::{Course, Seen};
-pub use limit::{Fastest, TooFast};
+pub use mesh_motion::Motion;
 pub use track::{KeyFault, Keys, Track};
 pub use uniform::{SeenBy, Uniform};
-
-use std::sync::Arc;
-
-/// How meshes move.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
-    /// Always at one celerity.
-    Uniform(Uniform),
-    /// As keys say.
-    Animated(Arc<Animated>),
-}
-
-impl Motion {
-    /// The chain of transforms, if keys say how it moves.
-    pub fn animated(&self) -> Option<&Arc<Animated>> {
-        match self {
-            Self::Uniform(_) => None,
-            Self::Animated(animated) => Some(animated),
-        }
-    }
-}

@@ -274,7 +274,7 @@ impl Track<DQuat> {
 }
 
 impl<V: Copy> Track<V> {
-    pub(super) fn keys(&self) -> Option<&Keys<V>> {
+    pub(crate) fn keys(&self) -> Option<&Keys<V>> {
         match self {
             Self::Fixed(_) => None,
             Self::Keyed(keys) => Some(keys),

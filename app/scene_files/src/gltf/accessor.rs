@@ -8,7 +8,8 @@ use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::validation::Checked;
 
 use super::container::{Document, range};
-use super::{GltfError, MAX_TRIANGLES};
+use super::error::GltfError;
+use scene::MAX_TRIANGLES;
 
 /// The components of an accessor's elements, one after the other.
 pub(super) struct Numbers<T> {

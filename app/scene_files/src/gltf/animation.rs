@@ -12,8 +12,9 @@ use glam::{DQuat, DVec3};
 
 use super::accessor::{self, Purpose};
 use super::container::Document;
-use super::{GltfError, Notices};
-use crate::scene::motion::{KeyFault, Keys};
+use super::error::GltfError;
+use super::notices::Notices;
+use scene::motion::{KeyFault, Keys};
 
 /// First and last pose of an animation that repeats are the same, to what f32 and exporters leave: metres for each metre of size, and in a
 /// rotation's components.

@@ -6,14 +6,14 @@
 
 use std::borrow::Cow;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use ::gltf::json;
 use serde::Deserialize;
 
 use super::extras::SceneExtras;
-use super::spectrum::stays_below;
-use super::{EXTENSIONS, GltfError, Notices};
+use super::error::GltfError;
+use super::notices::{EXTENSIONS, Notices};
 
 /// The largest file that is read, in bytes: a `.glb` cannot count further.
 const MAX_FILE: u64 = u32::MAX as u64;
@@ -227,4 +227,9 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     }
     let (kind, blob) = chunk(next).ok_or("its second chunk is cut short")?;
     Ok((text, (kind == b"BIN\0").then_some(blob)))
+}
+
+/// Whether a relative path stays in the folder that it starts from.
+pub(super) fn stays_below(path: &Path) -> bool {
+    path.components().all(|component| matches!(component, Component::Normal(_) | Component::CurDir))
 }

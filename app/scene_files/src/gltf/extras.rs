@@ -7,32 +7,32 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::scene::{Lighting, Start};
+use scene::{Lighting, Start};
 
 /// How far a unit vector's squared length may be off before it is normalised: f32 rounding. Below that it is kept as written, so that a
 /// scene which is saved and loaded stays the same to the bit.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
 /// The vertex attribute, without its leading underscore, that has colours above 1 where glTF's own must be clamped.
-pub(in crate::scene) const COLOURS: &str = "RAPIDITY_COLOR";
+pub(crate) const COLOURS: &str = "RAPIDITY_COLOR";
 
 /// `extras.rapidity` of a glTF scene.
 #[derive(Debug, Default, PartialEq)]
-pub(in crate::scene) struct SceneExtras {
-    pub(in crate::scene) origin: Option<[f64; 3]>,
-    pub(in crate::scene) light: LightExtras,
+pub(crate) struct SceneExtras {
+    pub(crate) origin: Option<[f64; 3]>,
+    pub(crate) light: LightExtras,
     /// Luminance shown as white, cd/m².
-    pub(in crate::scene) white: Option<f64>,
+    pub(crate) white: Option<f64>,
     /// Name of a file beside the scene, or a picture within it.
-    pub(in crate::scene) panorama: Option<Value>,
-    pub(in crate::scene) start: Option<Start>,
-    pub(in crate::scene) circuit: Vec<[f64; 3]>,
+    pub(crate) panorama: Option<Value>,
+    pub(crate) start: Option<Start>,
+    pub(crate) circuit: Vec<[f64; 3]>,
 }
 
 /// `extras.rapidity` of a glTF node.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(in crate::scene) struct NodeExtras {
-    pub(in crate::scene) solid: Option<bool>,
+pub(crate) struct NodeExtras {
+    pub(crate) solid: Option<bool>,
 }
 
 /// The same as JSON: plain numbers.
@@ -56,7 +56,7 @@ struct SceneJson {
 /// `light` of a scene's `extras.rapidity`; what it does not mention stays as it is.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub(in crate::scene) struct LightExtras {
+pub(crate) struct LightExtras {
     #[serde(skip_serializing_if = "Option::is_none")]
     sun_direction: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,7 +78,7 @@ pub(in crate::scene) struct LightExtras {
 
 impl LightExtras {
     /// All of a scene's light, its spectrum as `spectrum::to_json` writes it.
-    pub(in crate::scene) fn of(light: Lighting, spectrum: Option<Value>) -> Self {
+    pub(crate) fn of(light: Lighting, spectrum: Option<Value>) -> Self {
         Self {
             sun_direction: Some(light.sun_direction.to_array()),
             sun: Some(light.sun),
@@ -156,7 +156,7 @@ impl NodeExtras {
         read(extras)
     }
 
-    pub(in crate::scene) fn to_json(&self) -> serde_json::Value {
+    pub(crate) fn to_json(&self) -> serde_json::Value {
         serde_json::json!({ "rapidity": self })
     }
 }
@@ -194,7 +194,7 @@ impl SceneExtras {
         })
     }
 
-    pub(in crate::scene) fn into_json(self) -> serde_json::Value {
+    pub(crate) fn into_json(self) -> serde_json::Value {
         let start =
             self.start.map(|start| StartJson { position: start.position.to_array(), look: start.look.to_array() });
         let (origin, light, white) = (self.origin, Some(self.light), self.white);

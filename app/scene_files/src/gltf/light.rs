@@ -15,8 +15,9 @@ use super::container::Document;
 use super::extras::SceneExtras;
 use super::nodes::Placement;
 use super::spectrum::{Spectra, in_extras};
-use super::{GltfError, Notices};
-use crate::scene::{Lamp, Lighting, Spot};
+use super::error::GltfError;
+use super::notices::Notices;
+use scene::{Lamp, Lighting, Spot};
 
 /// All that shines.
 pub(super) struct Lights {

@@ -9,8 +9,9 @@ use glam::{Mat2, Vec2};
 
 use super::container::Document;
 use super::spectrum::Spectra;
-use super::{GltfError, Notices};
-use crate::scene::{Alpha, Material};
+use super::error::GltfError;
+use super::notices::Notices;
+use scene::{Alpha, Material};
 
 /// Where a mesh's texture coordinates come from.
 #[derive(Clone, Copy, Debug, PartialEq)]

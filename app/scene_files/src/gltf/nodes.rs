@@ -8,11 +8,15 @@ use super::animation::{self, Moved};
 use super::container::{Document, Transform};
 use super::extras::{NodeExtras, celerity};
 use super::primitive::Primitive;
-use super::{GltfError, NEAR, Notices};
-use crate::scene::Start;
-use crate::scene::motion::{Animated, Keyed, Link, Track, Uniform};
+use super::error::GltfError;
+use super::notices::Notices;
+use scene::Start;
+use scene::motion::{Animated, Keyed, Link, Track, Uniform};
 use physics::Event;
 use std::sync::Arc;
+
+/// Up to this distance from the file's origin, in metres, f32 keeps a quarter of a millimetre, and positions stay as the file has them.
+const NEAR: f64 = 4096.0;
 
 /// A node that bears something.
 pub(super) struct Placement {

@@ -13,8 +13,10 @@ use rayon::prelude::*;
 
 use super::container::Document;
 use super::material::textures_used;
-use super::{GltfError, Notices, Progress, Stage};
-use crate::scene::{Material, Texture, Wrap};
+use super::error::GltfError;
+use super::notices::Notices;
+use super::progress::{Progress, Stage};
+use scene::{Material, Texture, Wrap};
 
 /// The longest side of a picture, in pixels: what graphics processors take.
 const MAX_SIDE: u32 = 16384;

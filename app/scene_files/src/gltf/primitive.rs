@@ -10,8 +10,9 @@ use super::accessor::{self, Purpose};
 use super::container::Document;
 use super::extras::COLOURS;
 use super::material::Channel;
-use super::{GltfError, Notices};
-use crate::scene::Mesh;
+use super::error::GltfError;
+use super::notices::Notices;
+use scene::Mesh;
 
 /// How far a normal's squared length may be off before it is normalised: f32 rounding.
 const UNIT_TOLERANCE: f64 = 1e-6;

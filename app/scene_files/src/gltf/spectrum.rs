@@ -4,36 +4,18 @@
 //! `{"gray": true}`; `"paint.csv"` and `"gray"` alone say the same. Someone who writes these by hand makes more than one mistake at a time,
 //! so all of a file's are collected and told together.
 
-use std::fmt;
-use std::path::{Component, Path};
+use std::path::Path;
 
 use ::gltf::json::Extras;
 use physics::colour::{Spectrum, SpectrumError};
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
-use super::GltfError;
 use super::container::Document;
+use super::error::{GltfError, SpectrumFault};
 
 /// What a spectrum may be.
 const KINDS: [&str; 4] = ["planck", "sampled", "rgb", "gray"];
-
-/// What is wrong with one spectrum of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SpectrumFault {
-    /// The material, light, node or scene, as it is numbered and called in the file.
-    pub owner: String,
-    /// Keys from there to what is wrong, with dots between them.
-    pub key: String,
-    /// What is wrong, and what was expected.
-    pub fault: String,
-}
-
-impl fmt::Display for SpectrumFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, {}: {}", self.owner, self.key, self.fault)
-    }
-}
 
 /// Reads the spectra of a file and remembers what is wrong with them.
 pub(super) struct Spectra<'a> {
@@ -152,7 +134,7 @@ pub(super) fn in_extras(extras: &Extras) -> Option<Value> {
 }
 
 /// A spectrum as it is read back to the bit.
-pub(in crate::scene) fn to_json(spectrum: &Spectrum) -> Value {
+pub(crate) fn to_json(spectrum: &Spectrum) -> Value {
     match spectrum {
         Spectrum::Planck { kelvin } => json!({ "planck": kelvin }),
         Spectrum::Sampled(sampled) => json!({ "sampled": sampled.samples() }),
@@ -163,11 +145,6 @@ pub(in crate::scene) fn to_json(spectrum: &Spectrum) -> Value {
 
 fn is_csv(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
-}
-
-/// Whether a relative path stays in the folder that it starts from.
-pub(super) fn stays_below(path: &Path) -> bool {
-    path.components().all(|component| matches!(component, Component::Normal(_) | Component::CurDir))
 }
 
 fn number(number: &serde_json::Number) -> f64 {
@@ -210,6 +187,7 @@ fn samples_of_csv(text: &str) -> Result<Vec<(usize, [f64; 2])>, String> {
 mod tests {
     //! A wrong reader of tables would take a heading for data or the other way round, lose a line, or point at the wrong one.
 
+    use super::super::container::stays_below;
     use super::*;
 
     #[test]

@@ -8,7 +8,7 @@ use std::f32::consts::{PI, TAU};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::scene::Panorama;
+use scene::Panorama;
 
 /// Pixels round the horizon for each along a face's edge: as many as there are on the four faces round it.
 pub(super) const WIDTH_PER_SIDE: u32 = 4;

@@ -14,8 +14,8 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
 use self::cube::Unfolding;
-use super::mipmap::linear_from_srgb;
-use super::{Lighting, Panorama, Scene};
+use scene::mipmap::linear_from_srgb;
+use scene::{Lighting, Panorama, Scene};
 
 /// How the names of pictures end.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];

@@ -5,9 +5,9 @@
 //! comes with one more Doppler factor. In his own body's frame he is put where the ray met the surface, to the last bit.
 
 use super::{Bend, Bodies, Found, Hit, Seer, Sight};
-use crate::renderers::raytrace::surface::Surfaces;
-use crate::scene::Scene;
-use crate::scene::motion::{Motion, Uniform};
+use crate::surface::Surfaces;
+use scene::Scene;
+use scene::motion::{Motion, Uniform};
 use glam::{DMat3, DQuat, DVec3};
 use physics::{Aberration, Beta, Boost, Celerity, Event, Observer};
 

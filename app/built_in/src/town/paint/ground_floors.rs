@@ -5,19 +5,19 @@ use glam::{Vec2, Vec3, ivec2, vec2, vec3};
 use super::masonry::{ashlar_at, plaster_at, rubble_at};
 use super::openings::{Door, Window, door, window};
 use super::timber::{beam, join};
-use crate::scene::town::canvas::{Area, Canvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{Area, Canvas, chance, cloud, noise, smoothstep};
 
 /// Width of a bay and height of a ground floor, metres.
 const BAY: f32 = 2.4;
 const HEIGHT: f32 = 3.1;
 /// What a strip of ground floor covers.
-pub(in crate::scene::town) const STRIP: Vec2 = vec2(6.0 * BAY, HEIGHT);
+pub(in crate::town) const STRIP: Vec2 = vec2(6.0 * BAY, HEIGHT);
 /// The bays of a ground floor.
-pub(in crate::scene::town) const DOOR: usize = 0;
-pub(in crate::scene::town) const GROUND_WINDOWS: [usize; 2] = [1, 4];
-pub(in crate::scene::town) const SHOP: usize = 2;
-pub(in crate::scene::town) const ARCH: usize = 3;
-pub(in crate::scene::town) const BARE: usize = 5;
+pub(in crate::town) const DOOR: usize = 0;
+pub(in crate::town) const GROUND_WINDOWS: [usize; 2] = [1, 4];
+pub(in crate::town) const SHOP: usize = 2;
+pub(in crate::town) const ARCH: usize = 3;
+pub(in crate::town) const BARE: usize = 5;
 
 /// What a ground floor is made of.
 #[derive(Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ enum Wall {
 }
 
 /// Materials and colours of a ground floor.
-pub(in crate::scene::town) struct GroundFloor {
+pub(in crate::town) struct GroundFloor {
     wall: Wall,
     stone: Vec3,
     door: Vec3,
@@ -38,7 +38,7 @@ pub(in crate::scene::town) struct GroundFloor {
 }
 
 /// The ground floors of the town.
-pub(in crate::scene::town) const GROUND_FLOORS: [GroundFloor; 5] = [
+pub(in crate::town) const GROUND_FLOORS: [GroundFloor; 5] = [
     GroundFloor {
         wall: Wall::Ashlar,
         stone: vec3(0.66, 0.55, 0.45),
@@ -72,7 +72,7 @@ pub(in crate::scene::town) const GROUND_FLOORS: [GroundFloor; 5] = [
 ];
 
 /// Paints a ground floor: a strip of six bays, bare wall where they meet.
-pub(in crate::scene::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
+pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
     let courses = ivec2(20, 9);
     let mut canvas = Canvas::new([2048, 512], STRIP, |p| {
         let base = match style.wall {

@@ -2,7 +2,7 @@
 
 use glam::{IVec2, Vec2, Vec3, ivec2, vec2, vec3};
 
-use crate::scene::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
 
 /// The stone of a course at a point.
 struct Stone {
@@ -50,7 +50,7 @@ fn dome(stone: &Stone, edge: f32) -> f32 {
 }
 
 /// Street cobbles in rows across the way.
-pub(in crate::scene::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let wobble = vec2(noise(p * 4.0, ivec2(20, 20), seed), noise(p * 4.0, ivec2(20, 20), seed + 9)) * 0.012;
         let stone = course(p + wobble, tile, ivec2(26, 33), 0.45, 0.045, 0.016, seed);
@@ -69,7 +69,7 @@ pub(in crate::scene::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32)
 }
 
 /// Small setts laid in overlapping arcs, as on market squares.
-pub(in crate::scene::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     // Width of an arc, and its rise as a share of that.
     const SPAN: f32 = 1.44;
     const RISE: f32 = 0.2;
@@ -105,7 +105,7 @@ pub(in crate::scene::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -
 }
 
 /// Pavement slabs.
-pub(in crate::scene::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(5, 8), 0.5, 0.012, 0.014, seed);
         let own = chance(stone.id.x, stone.id.y, seed + 1);
@@ -118,7 +118,7 @@ pub(in crate::scene::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -
 }
 
 /// Squared sandstone in courses.
-pub(in crate::scene::town) fn ashlar(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn ashlar(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| ashlar_at(p, tile, ivec2(6, 11), seed))
 }
 
@@ -143,7 +143,7 @@ pub(super) fn ashlar_at(p: Vec2, tile: Vec2, cells: IVec2, seed: u32) -> Vec3 {
 }
 
 /// Irregular fieldstones in mortar.
-pub(in crate::scene::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| rubble_at(p, tile, seed))
 }
 
@@ -180,7 +180,7 @@ pub(super) fn rubble_at(p: Vec2, tile: Vec2, seed: u32) -> Vec3 {
 }
 
 /// Lime plaster, nearly white, to be tinted.
-pub(in crate::scene::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| Vec3::splat(0.92) * plaster_at(p, tile, seed))
 }
 
@@ -199,7 +199,7 @@ pub(super) fn plaster_at(p: Vec2, tile: Vec2, seed: u32) -> f32 {
 }
 
 /// Beaver-tail roof tiles, each course overlapping the one below.
-pub(in crate::scene::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     let cells = ivec2(24, 27);
     let cell = tile / cells.as_vec2();
     Canvas::new(pixels, tile, |p| {
@@ -239,7 +239,7 @@ pub(in crate::scene::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -
 }
 
 /// Slates for spires.
-pub(in crate::scene::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(14, 18), 0.25, 0.03, 0.008, seed);
         let own = chance(stone.id.x, stone.id.y, seed + 1);
@@ -250,7 +250,7 @@ pub(in crate::scene::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -
 }
 
 /// Weathered boards running up the picture.
-pub(in crate::scene::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let board = (p.x / 0.2).floor();
         let within = p.x / 0.2 - board;
@@ -263,7 +263,7 @@ pub(in crate::scene::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) 
 }
 
 /// Staves of a barrel with four hoops, from its foot to its rim.
-pub(in crate::scene::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let q = p / tile;
         let stave = (q.x * 6.0).floor();

@@ -2,8 +2,8 @@
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
-use crate::scene::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
-use crate::scene::turn::circle;
+use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
+use crate::turn::circle;
 
 /// The topmost of many scattered things at a point: `layers` sheets of them, each on a jittered lattice of `cells` per unit.
 ///
@@ -35,7 +35,7 @@ fn leaf(p: Vec2) -> f32 {
 }
 
 /// A spray of foliage in a unit square; nothing between the leaves.
-pub(in crate::scene::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let ragged = 0.40 + 0.16 * cloud(p * 5.0, ivec2(64, 64), 3, seed);
@@ -51,7 +51,7 @@ pub(in crate::scene::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) 
 }
 
 /// A hanging mat of ivy.
-pub(in crate::scene::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let edge = p.x.min(1.0 - p.x).min(p.y + 0.3).min(1.0 - p.y);
@@ -66,7 +66,7 @@ pub(in crate::scene::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> 
 }
 
 /// Geraniums and their leaves over the edge of a box, in a unit square that is full below and ragged above.
-pub(in crate::scene::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let crest = 0.62 + 0.36 * noise(vec2(p.x * 9.0, 0.5), ivec2(9, 9), seed);
@@ -94,7 +94,7 @@ pub(in crate::scene::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32)
 }
 
 /// Grass seen from above.
-pub(in crate::scene::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let broad = cloud(p / 1.5, ivec2(6, 6), 4, seed);
         let blade = noise(p * vec2(24.0, 12.0), ivec2(216, 108), seed + 1)
@@ -104,7 +104,7 @@ pub(in crate::scene::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -
 }
 
 /// Wooded slopes seen from afar.
-pub(in crate::scene::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let crowns = noise(p * 0.2, ivec2(12, 12), seed) * 0.5 + noise(p * 0.6, ivec2(36, 36), seed + 1);
         vec3(0.50, 0.58, 0.36) * (1.0 + 0.25 * crowns)
@@ -112,7 +112,7 @@ pub(in crate::scene::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -
 }
 
 /// Rippled water that mirrors the sky.
-pub(in crate::scene::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let ripple =
             noise(p * vec2(5.0, 9.0), ivec2(15, 27), seed) + 0.6 * noise(p * vec2(13.0, 10.0), ivec2(39, 30), seed + 1);
@@ -121,7 +121,7 @@ pub(in crate::scene::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -
 }
 
 /// Bark of a lime tree.
-pub(in crate::scene::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let ridge =
             noise(p * vec2(10.0, 2.0), ivec2(20, 4), seed) + 0.6 * noise(p * vec2(24.0, 6.0), ivec2(48, 12), seed + 1);
@@ -130,7 +130,7 @@ pub(in crate::scene::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) ->
 }
 
 /// Heaps of fruit and vegetables, four kinds side by side in a unit square.
-pub(in crate::scene::town) fn produce(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn produce(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     const KINDS: [[Vec3; 2]; 4] = [
         [vec3(0.72, 0.13, 0.10), vec3(0.80, 0.34, 0.14)],
         [vec3(0.90, 0.55, 0.12), vec3(0.92, 0.74, 0.20)],

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use crate::scene::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
+use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
 
 /// A window to be painted.
 pub(super) struct Window {

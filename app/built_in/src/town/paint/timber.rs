@@ -7,21 +7,21 @@ use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::masonry::plaster_at;
 use super::openings::{Window, window};
-use crate::scene::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
+use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
 
 /// Bays of a strip.
-pub(in crate::scene::town) const BAYS: usize = 6;
+pub(in crate::town) const BAYS: usize = 6;
 /// Width of a bay and height of a storey, metres.
 const BAY: f32 = 2.4;
 const HEIGHT: f32 = 2.7;
 /// What a strip covers.
-pub(in crate::scene::town) const STRIP: Vec2 = vec2(BAY * BAYS as f32, HEIGHT);
+pub(in crate::town) const STRIP: Vec2 = vec2(BAY * BAYS as f32, HEIGHT);
 /// Bays with a window, and without.
-pub(in crate::scene::town) const WINDOWS: [usize; 4] = [0, 1, 3, 4];
-pub(in crate::scene::town) const BLIND: [usize; 2] = [2, 5];
+pub(in crate::town) const WINDOWS: [usize; 4] = [0, 1, 3, 4];
+pub(in crate::town) const BLIND: [usize; 2] = [2, 5];
 
 /// Colours of a front.
-pub(in crate::scene::town) struct Front {
+pub(in crate::town) struct Front {
     plaster: Vec3,
     /// None for a front that is plastered all over.
     timber: Option<Vec3>,
@@ -38,13 +38,13 @@ const GREY: Vec3 = vec3(0.40, 0.36, 0.33);
 const WHITE: Vec3 = vec3(0.90, 0.88, 0.83);
 
 /// How many fronts houses choose from; the town hall's comes after them.
-pub(in crate::scene::town) const HOUSE_FRONTS: usize = 8;
-pub(in crate::scene::town) const TOWN_HALL: usize = 8;
+pub(in crate::town) const HOUSE_FRONTS: usize = 8;
+pub(in crate::town) const TOWN_HALL: usize = 8;
 /// Width of a window with its frame in the second bay, and the heights it lies between, metres.
-pub(in crate::scene::town) const WINDOW_OUTLINE: [f32; 3] = [1.34, 0.83, 2.32];
+pub(in crate::town) const WINDOW_OUTLINE: [f32; 3] = [1.34, 0.83, 2.32];
 
 /// The fronts of the town.
-pub(in crate::scene::town) const FRONTS: [Front; 9] = [
+pub(in crate::town) const FRONTS: [Front; 9] = [
     Front {
         plaster: vec3(0.91, 0.86, 0.74),
         timber: Some(OAK),
@@ -106,12 +106,12 @@ pub(in crate::scene::town) const FRONTS: [Front; 9] = [
 
 impl Front {
     /// sRGB colour of the plaster, for walls that have no picture of their own.
-    pub(in crate::scene::town) fn plaster(&self) -> Vec3 {
+    pub(in crate::town) fn plaster(&self) -> Vec3 {
         self.plaster
     }
 
     /// Whether it shows timber.
-    pub(in crate::scene::town) fn is_timbered(&self) -> bool {
+    pub(in crate::town) fn is_timbered(&self) -> bool {
         self.timber.is_some()
     }
 }
@@ -180,7 +180,7 @@ pub(super) fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32)
 }
 
 /// Paints one storey of a house front.
-pub(in crate::scene::town) fn front(style: &Front, seed: u32) -> Canvas {
+pub(in crate::town) fn front(style: &Front, seed: u32) -> Canvas {
     let mut canvas = Canvas::new([2048, 512], STRIP, |p| {
         let damp = 1.0 - 0.10 * smoothstep(HEIGHT - 0.5, HEIGHT, p.y);
         style.plaster * plaster_at(p, STRIP, seed) * damp

@@ -4,13 +4,13 @@ use glam::{Vec2, ivec2, vec2, vec3};
 
 use super::masonry::ashlar_at;
 use super::openings::{Door, door};
-use crate::scene::town::canvas::{Area, Canvas, chance, smoothstep};
+use crate::town::canvas::{Area, Canvas, chance, smoothstep};
 
 /// What a church window covers.
-pub(in crate::scene::town) const LANCET: Vec2 = vec2(1.6, 4.2);
+pub(in crate::town) const LANCET: Vec2 = vec2(1.6, 4.2);
 
 /// A pointed church window with tracery; outside its outline there is nothing.
-pub(in crate::scene::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     let half = size.x / 2.0;
     let pointed = move |p: Vec2, inset: f32| {
         // Two circles about the opposite springers.
@@ -44,10 +44,10 @@ pub(in crate::scene::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) 
 }
 
 /// What the church's portal covers.
-pub(in crate::scene::town) const PORTAL: Vec2 = vec2(3.6, 4.4);
+pub(in crate::town) const PORTAL: Vec2 = vec2(3.6, 4.4);
 
 /// A stepped round portal with a double door.
-pub(in crate::scene::town) fn portal(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn portal(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     let opening = Area::new(0.8, 0.0, 2.0, 3.1);
     let mut canvas = Canvas::new(pixels, size, |p| {
         let wall = ashlar_at(p, size, ivec2(5, 12), seed);

@@ -2,8 +2,8 @@
 //! read back as other corners.
 
 use super::*;
-use crate::room::file::parse;
-use crate::room::{Corners, Warp};
+use crate::file::parse;
+use crate::{Corners, Warp};
 
 /// A file as somebody has written it: comments, an odd order, corners of every form.
 const FILE: &str = r#"# our wall, measured in May

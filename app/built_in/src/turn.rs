@@ -5,7 +5,7 @@ use glam::{Vec2, vec2};
 /// (cos, sin) of an angle given in turns.
 ///
 /// *Accuracy*: 1e-6, by the Taylor series on ±1/8 turn.
-pub(in crate::scene) fn circle(turns: f32) -> Vec2 {
+pub fn circle(turns: f32) -> Vec2 {
     let quarters = (turns * 4.0).round();
     let x = (turns * 4.0 - quarters) * std::f32::consts::FRAC_PI_2;
     let q = x * x;

@@ -7,8 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::animated::{Animated, Ball, Link};
-use super::{Motion, Uniform};
+use crate::motion::{Animated, Ball, Link, Motion, Uniform};
 use crate::scene::Scene;
 
 /// Looks between two keys.

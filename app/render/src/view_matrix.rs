@@ -1,0 +1,60 @@
+//! A camera as the shaders take it: projection, the directions of pixels, motion.
+
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
+use physics::Celerity;
+use view::Camera;
+
+/// Metres in front of the eye, at rest, nearer than which nothing is drawn.
+pub const NEAR_M: f64 = 0.02;
+
+/// What the shaders need to draw one picture.
+///
+/// # Arguments
+/// * `size` — pixels.
+/// * `offset` — of the sampled point from each pixel's centre, in pixels, x right and y down.
+/// * `motion` — the eye's celerity.
+/// * `geometry` — whether its aberration is to be drawn.
+/// * `scale` — what radiance is multiplied by, so that the target can hold it.
+pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::View {
+    let [width, height] = size.map(f64::from);
+    let tangents = camera.tangents(size);
+    let (middle, half) = (tangents.middle(), tangents.half());
+    let kappa_of_light = motion.gamma() + motion.magnitude();
+    let kappa = if geometry { kappa_of_light } else { 1.0 };
+
+    // Reversed depth with an infinite far plane keeps f32's relative precision at every distance; astern the
+    // photo-surface comes closer by 1/(2κ), and the near plane with it.
+    let near = NEAR_M / kappa;
+    let projection = DMat4::from_cols(
+        DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 1.0 / half.y, 0.0, 0.0),
+        DVec4::new(middle.x / half.x, middle.y / half.y, 0.0, -1.0),
+        DVec4::new(0.0, 0.0, near, 0.0),
+    );
+    let shift = DVec3::new(-2.0 * offset.x / width, 2.0 * offset.y / height, 0.0);
+    let clip_from_observer =
+        DMat4::from_translation(shift) * projection * DMat4::from_quat(camera.observer_from_eye.conjugate());
+
+    // A pixel at `place` sees along forward + place.x right + place.y up.
+    let right = camera.observer_from_eye * DVec3::X * half.x;
+    let up = camera.observer_from_eye * DVec3::Y * half.y;
+    let forward = camera.observer_from_eye * middle.extend(-1.0) - shift.x * right - shift.y * up;
+    let along = motion.vector().normalize_or(DVec3::NEG_Z);
+    shaders::View {
+        clip_from_observer: matrix(&clip_from_observer),
+        forward: forward.as_vec3().extend(0.0),
+        right: right.as_vec3().extend(0.0),
+        up: up.as_vec3().extend(0.0),
+        motion: along.as_vec3().extend(kappa as f32),
+        shift: DVec4::new(kappa_of_light, scale, 2.0 / width, 2.0 / height).as_vec4(),
+        layer: Vec4::ZERO,
+        source: Vec4::new(0.0, 0.0, -1.0, 1.0),
+        eye: Vec4::ZERO,
+        eye_rest: Vec4::ZERO,
+    }
+}
+
+/// Rounds a matrix to what the GPU takes.
+pub fn matrix(matrix: &DMat4) -> Mat4 {
+    matrix.as_mat4()
+}

@@ -1,0 +1,33 @@
+//! What there is to see: flattened meshes, at rest in the world or moving, their materials, the light that falls on them.
+//!
+//! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
+//! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
+//! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
+//!
+//! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
+//! the world's origin keeps its millimetres.
+
+pub mod carriers;
+pub mod collision;
+pub mod cut;
+pub mod falling;
+mod lamp;
+mod lighting;
+mod material;
+mod mesh;
+pub mod mipmap;
+pub mod motion;
+pub mod refine;
+mod scene;
+mod speed_limit;
+mod surroundings;
+mod validate;
+
+pub use lamp::{Lamp, Lamplight, Spot};
+pub use lighting::{Lighting, Panorama};
+pub use material::{Alpha, Material, Texture, Wrap};
+pub use mesh::Mesh;
+pub use scene::{MAX_SPECTRA, MAX_TRIANGLES, Scene, Start};
+pub use speed_limit::{Fastest, TooFast};
+pub use surroundings::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};
+pub use validate::SceneFault;

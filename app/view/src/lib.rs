@@ -1,0 +1,13 @@
+//! Who looks, when, and through what: the observer's eye, its camera, the effects of relativity on its picture.
+//!
+//! No scene and no device is known here; whoever draws or traces a picture is asked for it in these words.
+
+mod camera;
+mod effects;
+mod sampling;
+mod shot;
+
+pub use camera::{Camera, Field, Tangents};
+pub use effects::{Effects, EffectsError};
+pub use sampling::sample_offset;
+pub use shot::{Gaze, Shot, Stored};
