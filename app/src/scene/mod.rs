@@ -1,8 +1,8 @@
-//! What there is to see: flattened meshes, at rest in the world or moving, their materials, the light that falls on them.
+//! A scene: flattened meshes, at rest in the world or moving, their materials, and the light that falls on them.
 //!
-//! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
-//! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
-//! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
+//! A scene is plain data. Files are read by `gltf` and `panorama`; built-in scenes are made by `town`, `spectra` and
+//! `lattice`. Each gives a [`Scene`], which everything else reads: refinement, collision, renderers, export.
+//! Instances are flattened (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
 //!
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.
@@ -29,52 +29,56 @@ pub use lamp::{Lamp, Lamplight, Spot};
 use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Spectrum;
 
-/// The most triangles, and three times as many vertices, that a scene may have: about 10 GB of arrays. What would be more is refused
-/// before memory is asked for.
+/// Largest number of triangles in a scene; three times as many vertices are allowed: about 10 GB of arrays. A larger
+/// scene is refused before memory is asked for.
 pub const MAX_TRIANGLES: usize = 50_000_000;
 
-/// The most different spectra that a scene's materials may have: each takes a fifth of a second to prepare, and a layer of the map.
+/// Largest number of different spectra among a scene's materials. Each takes a fifth of a second to prepare, and one
+/// layer of the map.
 pub const MAX_SPECTRA: usize = 64;
 
-/// A world at rest: geometry, materials, light, and a place to start from.
+/// Scene: geometry, its motions, materials, light, and a place to start from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// What to call it in titles and messages.
+    /// Name of the scene in titles and messages.
     pub name: String,
-    /// World position, in metres, that every mesh position is relative to.
+    /// World position that every mesh position is relative to, metres.
     pub origin: DVec3,
     /// Pictures that materials refer to by index.
     pub textures: Vec<Texture>,
     /// Surfaces that meshes refer to by index.
     pub materials: Vec<Material>,
-    /// Triangles, one entry per primitive and instance.
+    /// Meshes, one for each primitive and instance.
     pub meshes: Vec<Mesh>,
-    /// How some of them move.
+    /// Motions that meshes refer to by index.
     pub motions: Vec<motion::Motion>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
-    /// Lamps at rest in the world, which the ray tracer alone draws.
+    /// Lamps at rest in the world; only the ray tracer draws them.
     pub lamps: Vec<Lamp>,
-    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: that of the colours themselves.
+    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum of
+    /// the colours themselves.
     pub illuminant: Option<Spectrum>,
-    /// Luminance in cd/m² that is shown as white at rest. `None`: that of the brightest spectrum at rest; 1 where there is none.
+    /// Luminance that is shown as white at rest, cd/m². `None`: luminance of the brightest spectrum at rest; 1 if
+    /// there is no spectrum.
     pub white: Option<f64>,
-    /// What is seen where no surface is, instead of the sky.
+    /// Picture at infinity, seen instead of the sky where no surface is.
     pub panorama: Option<Panorama>,
-    /// Where a visitor begins.
+    /// Starting place and view of an observer.
     pub start: Start,
-    /// A closed way round the scene (world metres, on the ground), if it has one: the built-in tour follows it.
+    /// Closed route round the scene (world metres, on the ground) that the built-in tour follows; empty if there is
+    /// none.
     pub circuit: Vec<DVec3>,
-    /// What the file asked for and this program does not draw, one sentence each.
+    /// Features that the file asks for and this program does not draw, one sentence each.
     pub notices: Vec<String>,
 }
 
-/// Where a visitor stands at first and which way he looks.
+/// Starting place of an observer and first direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// A point on the ground, world metres.
+    /// Point on the ground, world metres.
     pub position: DVec3,
-    /// Unit vector, world axes.
+    /// Direction of view, unit vector, world axes.
     pub look: DVec3,
 }
 
@@ -84,63 +88,66 @@ impl Default for Start {
     }
 }
 
-/// Triangles of one material.
+/// Mesh of triangles that have one material.
 ///
 /// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// From the file's node and mesh, for messages.
+    /// Name from the file's node and mesh, for messages.
     pub name: String,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Metres, relative to [`Scene::origin`]; of what moves, in its own frame, and of what is animated without that origin (see [`motion`]).
+    /// Positions of the vertices, metres, relative to [`Scene::origin`].
+    /// Uniformly moving meshes have them in their own frame; animated meshes in their body's frame, without that
+    /// origin (see [`motion`]).
     pub positions: Vec<Vec3>,
-    /// Unit vectors, world axes.
+    /// Normals of the vertices, unit vectors, world axes.
     pub normals: Vec<Vec3>,
     /// Texture coordinates, origin at the picture's upper left (glTF).
     pub uvs: Vec<Vec2>,
-    /// Linear colour and opacity, multiplied into the base colour.
+    /// Linear colours and opacities of the vertices, multiplied into the base colour.
     pub colours: Vec<[f32; 4]>,
-    /// Three per triangle.
+    /// Indices of vertices, three per triangle.
     pub indices: Vec<u32>,
-    /// Whether a vehicle collides with it and rides on it; foliage and signs do not count.
+    /// True if a vehicle collides with the mesh and rides on it; false for foliage and signs.
     pub solid: bool,
-    /// Index into [`Scene::motions`]; `None`: it rests in the world.
+    /// Index into [`Scene::motions`]; `None` if the mesh rests in the world.
     pub motion: Option<usize>,
 }
 
-/// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
+/// Surface and how it sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// From the file, for messages.
+    /// Name from the file, for messages.
     pub name: String,
     /// Linear factor of the base colour, and opacity.
     pub base_colour: [f32; 4],
     /// Index into [`Scene::textures`]; its colour multiplies the factor.
     pub base_colour_texture: Option<usize>,
-    /// Linear radiance sent out on its own.
+    /// Linear radiance that the surface emits.
     pub emissive: [f32; 3],
     /// Index into [`Scene::textures`]; its colour multiplies `emissive`.
     pub emissive_texture: Option<usize>,
-    /// The base colour is the radiance itself: no light falls on it (KHR_materials_unlit).
+    /// True if the base colour is the radiance itself and no light falls on the surface (KHR_materials_unlit).
     pub unlit: bool,
-    /// Drawn from behind as well.
+    /// True if the surface is drawn from behind as well.
     pub double_sided: bool,
-    /// How much of it is metal, 0 to 1. This and all up to `alpha` the ray tracer alone draws, where it is to follow mirrors.
+    /// Share of metal in the surface, 0 to 1. Only the ray tracer draws this and the fields up to `alpha`, and only
+    /// when it follows mirrors.
     pub metallic: f32,
-    /// 0 is a mirror, 1 quite rough.
+    /// Roughness of the surface: 0 for a mirror, 1 for a quite rough surface.
     pub roughness: f32,
-    /// Of what lies behind the surface (KHR_materials_ior); 1 or more.
+    /// Refractive index of the matter behind the surface (KHR_materials_ior); 1 or more.
     pub index_of_refraction: f32,
-    /// Share of the light that enters and goes through (KHR_materials_transmission), 0 to 1.
+    /// Share of the entering light that is transmitted (KHR_materials_transmission), 0 to 1.
     pub transmission: f32,
-    /// Whether what goes through is bent, by a volume behind the surface (KHR_materials_volume), and not by a thin pane.
+    /// True if a volume behind the surface (KHR_materials_volume) bends the transmitted light; false for a thin pane.
     pub solid_glass: bool,
-    /// What the opacity does.
+    /// Treatment of the opacity.
     pub alpha: Alpha,
-    /// Instead of colours: on an unlit or emissive material the radiance sent out, on any other the reflectance, times the base
-    /// colour's luminance.
+    /// Spectrum that replaces the colours: the emitted radiance of an unlit or emissive material, the reflectance of
+    /// any other, times the base colour's luminance.
     pub spectrum: Option<Spectrum>,
 }
 
@@ -166,67 +173,68 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Whether the spectrum is of light that the material sends out, not of what it returns.
+    /// True if the spectrum is that of emitted light, false if it is a reflectance.
     pub fn is_source(&self) -> bool {
         self.unlit || self.emissive != [0.0; 3]
     }
 }
 
-/// What a material's opacity does (glTF `alphaMode`).
+/// Treatment of a material's opacity (glTF `alphaMode`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Alpha {
-    /// Ignored.
+    /// Opacity is ignored.
     #[default]
     Opaque,
-    /// Below the threshold a fragment is not drawn.
+    /// Fragments with an opacity below this threshold are not drawn.
     Mask(f32),
-    /// Mixed with what lies behind.
+    /// Surface is mixed with the things behind it.
     Blend,
 }
 
-/// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
+/// Texture of a surface: 8-bit sRGB with straight alpha, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// From the file, for messages.
+    /// Name from the file, for messages.
     pub name: String,
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
-    /// `width * height` times four bytes: R, G, B, A.
+    /// Pixels: `width * height` times four bytes, R, G, B, A.
     pub rgba: Vec<u8>,
-    /// Beyond 0…1 along u, along v.
+    /// Continuation beyond 0…1 along u and along v.
     pub wrap: [Wrap; 2],
-    /// Sampled without filtering when magnified.
+    /// True if the texture is sampled without filtering when magnified.
     pub nearest: bool,
 }
 
-/// A picture of everything around, infinitely far away, in the world frame.
+/// Panorama: a picture of all directions, infinitely far away, in the world frame.
 ///
-/// Equirectangular: the first row is straight up, the last straight down; columns go once round to the right, the middle one is −z.
+/// The projection is equirectangular: the first row is straight up, the last straight down. Columns go once round to
+/// the right; the middle one is −z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panorama {
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
-    /// `width * height` linear sRGB radiances, on the scale where white is 1.
+    /// Radiances of the pixels, `width * height`, linear sRGB, on the scale where white is 1.
     pub rgb: Vec<[f32; 3]>,
 }
 
-/// What a texture shows beyond its edges.
+/// Continuation of a texture beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// Itself again.
+    /// Texture repeats.
     #[default]
     Repeat,
-    /// Its mirror image.
+    /// Texture repeats, mirrored every other time.
     Mirror,
-    /// Its border pixels.
+    /// Border pixels continue.
     Clamp,
 }
 
-/// Daylight in the world frame: what falls on lit materials, and what is seen where no surface is.
+/// Daylight in the world frame: the light on lit materials, and the sky seen where no surface is.
 ///
 /// Colours are linear radiance on the scale where a white unlit surface is 1. A lit surface of albedo ρ sends out
 /// ρ (sun · max(0, n·s) · visibility + sky hemisphere), so sun + sky near 1 keeps whites just below clipping.
@@ -244,12 +252,12 @@ pub struct Lighting {
     pub zenith: [f32; 3],
     /// Sky seen at the horizon.
     pub horizon: [f32; 3],
-    /// Whether the sun casts shadows.
+    /// True if the sun casts shadows.
     pub shadows: bool,
 }
 
 impl Default for Lighting {
-    /// A clear late morning.
+    /// Light of a clear late morning.
     fn default() -> Self {
         Self {
             sun_direction: Vec3::new(0.45, 0.75, 0.48).normalize(),
@@ -263,20 +271,20 @@ impl Default for Lighting {
     }
 }
 
-/// A scene that breaks a promise of its types.
+/// Fault in a scene that breaks a promise of its types.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("scene \"{scene}\" is damaged: {fault}; make it anew or load it from a file")]
 pub struct SceneFault {
     /// Name of the scene.
     pub scene: String,
-    /// What is wrong, and with which mesh, material or texture.
+    /// Description of the fault, with its mesh, material or texture.
     pub fault: String,
 }
 
 impl Scene {
-    /// A number that tells this scene's solid part from another's: FNV-1a over every coordinate and index.
+    /// Fingerprint of the scene's solid part: FNV-1a over every coordinate and index of the solid meshes.
     ///
-    /// Whoever stands on it and runs into it depends on nothing else, so a recording names it.
+    /// Standing on a scene and colliding with it depends on nothing else, so a recording stores this number.
     pub fn fingerprint(&self) -> u64 {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         let mut take = |value: u32| {
@@ -291,8 +299,8 @@ impl Scene {
         hash
     }
 
-    /// The luminance that is shown as white at rest, cd/m²: [`Scene::white`], else that of the brightest spectrum, be it sent out or that of a
-    /// white surface in the scene's light; 1 where colours are all there is.
+    /// Luminance that is shown as white at rest, cd/m²: [`Scene::white`], else that of the brightest spectrum.
+    /// Candidates are the emitted spectra, and a white surface in the scene's light. 1 if the scene has colours only.
     pub fn white_luminance(&self) -> f64 {
         let luminance = |spectrum: &Spectrum| spectrum.xyz(1.0).y;
         let sources = self.materials.iter().filter(|material| material.is_source()).filter_map(|material| {
@@ -318,10 +326,10 @@ impl Scene {
 
     /// Checks what these types promise: array lengths and indices, not coordinates.
     ///
-    /// Loaders keep the promises; this is the door for scenes made by hand, so that what lies behind it may index freely.
+    /// Loaders keep the promises. This check is for scenes made by hand; after it, code may index freely.
     ///
     /// # Errors
-    /// The first broken promise.
+    /// The first broken promise, as a [`SceneFault`].
     pub fn validate(&self) -> Result<(), SceneFault> {
         match self.fault() {
             None => Ok(()),
@@ -338,7 +346,7 @@ impl Scene {
             })
         };
         let spectrum = |spectrum: &Option<Spectrum>, of: &str| {
-            // Built by its own constructors a spectrum is good; its fields can be written without them.
+            // A spectrum from its own constructors is valid, but its public fields can be set without them.
             let checked = match spectrum.as_ref()? {
                 Spectrum::Planck { kelvin } => Spectrum::planck(*kelvin),
                 Spectrum::Rgb(rgb) => Spectrum::rgb(*rgb),

@@ -1,12 +1,13 @@
 //! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
 //!
-//! A file passes several doors, each in a module of its own: `container` (the file, its chunks and buffers), `accessor`
-//! (numbers in buffers), `animation` (keys), `primitive` (triangles), `nodes` (where they stand), `picture`, `material`, `light` and `spectrum`. The `gltf` crate only reads
-//! the JSON; every index, offset and length in it is looked up with a check here, because a file may come from
-//! anywhere and none may bring the program down or make it ask for more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
+//! A file is read in several steps, each in a module of its own: `container` (the file, its chunks and buffers),
+//! `accessor` (numbers in buffers), `animation` (keys), `primitive` (triangles), `nodes` (placements), `picture`,
+//! `material`, `light` and `spectrum`. The `gltf` crate only reads the JSON. Every index, offset and length in it is
+//! looked up with a check here: a file may come from any source, and none may crash the program or make it ask for
+//! more memory than [`MAX_TRIANGLES`] and the limits in `picture` allow.
 //!
-//! Node transforms are composed in f64, from the digits in the file, and only what is left after subtracting
-//! [`Scene::origin`] becomes f32: a street 1000 km from the file's origin keeps its millimetres.
+//! Node transforms are composed in f64, from the digits in the file. Positions become f32 only after
+//! [`Scene::origin`] is subtracted: a street 1000 km from the file's origin keeps its millimetres.
 
 mod accessor;
 mod animation;
@@ -40,88 +41,89 @@ use super::panorama::{self, PanoramaError};
 use super::{MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
 use crate::vehicle::Surroundings;
 
-/// The most meshes a scene may have, one for each primitive and instance.
+/// Largest number of meshes in a scene, one for each primitive and instance.
 const MAX_MESHES: usize = 1_000_000;
 
-/// Up to this distance from the file's origin, in metres, f32 keeps a quarter of a millimetre, and positions stay as the file has them.
+/// Distance from the file's origin, metres, up to which f32 keeps a quarter of a millimetre and positions stay as the
+/// file has them.
 const NEAR: f64 = 4096.0;
 
-/// Why a file gives no scene. Every message says what is wrong, where, and what to do.
+/// Reason why a file gives no scene. Every message says what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum GltfError {
-    /// The operating system refuses.
+    /// A file that the operating system cannot read.
     #[error("cannot read {path}: {error}; check the name and the permissions")]
     Read {
-        /// The scene or a file it refers to.
+        /// Path of the scene or of a file it refers to.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
     /// A directory or a device.
     #[error("{path} is not a file; name a .gltf or .glb file")]
     NotAFile {
-        /// The scene or a file it refers to.
+        /// Path of the scene or of a file it refers to.
         path: PathBuf,
     },
-    /// Nothing in it.
+    /// An empty file.
     #[error("{path} is empty; export or download it again")]
     Empty {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
     },
-    /// Not this format, or another version of it.
+    /// A file of another format, or of another version of glTF.
     #[error("{path} is not glTF 2.0: {fault}; export the scene as .glb or .gltf")]
     NotGltf {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// What is wrong.
+        /// Description of what is wrong.
         fault: String,
     },
-    /// The file cannot be shown without something that this program lacks.
+    /// A required extension that this program lacks.
     #[error("{path} requires the extension {name}, which this program does not know; export the scene without it")]
     Extension {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// As in `extensionsRequired`.
+        /// Name of the extension, as in `extensionsRequired`.
         name: String,
     },
-    /// The file contradicts itself or the format.
+    /// A file that contradicts itself or the format.
     #[error("{path} is damaged at {place}: {fault}; export the scene again")]
     Damaged {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// Where in its JSON.
+        /// Place of the fault in its JSON.
         place: String,
-        /// What is wrong.
+        /// Description of what is wrong.
         fault: String,
     },
-    /// More than this program takes.
+    /// A scene beyond the limits of this program.
     #[error("{path} is too large at {place}: {fault}; export a smaller part or a coarser version of the scene")]
     TooLarge {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// Where in its JSON.
+        /// Place of the excess in its JSON.
         place: String,
-        /// What is too large, and the limit.
+        /// Description of what is too large, and the limit.
         fault: String,
     },
-    /// No triangles.
+    /// A scene without triangles.
     #[error("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}")]
     Nothing {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// What there is instead.
+        /// Objects found instead of triangles.
         found: &'static str,
     },
-    /// Spectra that are none: a sentence for each.
+    /// Spectra that are not valid, with a sentence for each.
     #[error("{}", sentences(path, faults))]
     Spectra {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// All that are wrong, in the file's order.
+        /// Faults of all invalid spectra, in the file's order.
         faults: Vec<SpectrumFault>,
     },
-    /// A panorama that is none.
+    /// A panorama that cannot be used.
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
 }
@@ -131,45 +133,46 @@ fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
     faults.iter().map(sentence).collect::<Vec<_>>().join("\n")
 }
 
-/// What `load` is doing.
+/// Stage of `load`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Decoding pictures.
+    /// Decoding of pictures.
     Pictures,
-    /// Placing meshes.
+    /// Placing of meshes.
     Meshes,
 }
 
-/// How far `load` is.
+/// Progress of `load`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// What is being done.
+    /// Current stage.
     pub stage: Stage,
-    /// Pictures or meshes that are ready.
+    /// Number of pictures or meshes that are ready.
     pub done: usize,
-    /// Pictures or meshes in all.
+    /// Total number of pictures or meshes.
     pub total: usize,
 }
 
-/// Reads a scene.
+/// Loads a scene from a file.
 ///
-/// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
-/// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
-/// The first directional light of `KHR_lights_punctual` is the sun, others are lamps; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
-/// tells all of it. What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
-/// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
-/// first camera, else at the origin or in front of the scene.
+/// Triangles (lists, strips, fans) are drawn with base colour, emission, vertex colours, opacity and
+/// `KHR_materials_unlit`, `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; if
+/// there are several scenes, the default one is loaded. The first directional light of `KHR_lights_punctual` is the
+/// sun, others are lamps; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md describes all of
+/// it. Further requests of a file are named in [`Scene::notices`]. Opaque meshes are solid unless
+/// `extras.rapidity.solid` says otherwise. An observer starts where `extras.rapidity.start` of the scene says, else
+/// on the ground below the first camera, else at the origin or in front of the scene.
 ///
 /// `progress` is called from several threads at once.
 ///
 /// # Errors
-/// [`GltfError`]. A picture that is missing is a notice, a picture that is damaged an error.
+/// [`GltfError`]. A missing picture is a notice, a damaged picture an error.
 pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, GltfError> {
     let document = Document::open(path)?;
     let mut notices = Notices::default();
     note_what_is_not_drawn(&document, &mut notices);
 
-    // Find what stands where, and refuse what would be too much before any of it is unpacked.
+    // Find the placements, and refuse a scene that is too large before any of it is unpacked.
     let scene_index = document.scene_index(&mut notices)?;
     let extras = document.scene_extras(scene_index)?;
     let placements = nodes::placements(&document, scene_index, &mut notices)?;
@@ -238,7 +241,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
                 motions.len() - 1
             })
         });
-        // Nobody rides on what passes by.
+        // Vehicles do not ride on moving or animated meshes.
         mesh.solid = mesh.motion.is_none() && instance.placement.solid.unwrap_or(opaque);
         meshes.push(mesh);
     }
@@ -268,7 +271,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     Ok(scene)
 }
 
-/// The panorama that the scene names: a file beside it, or a picture in a buffer view.
+/// Panorama that the scene names: a file beside it, or a picture in a buffer view.
 fn around(
     document: &Document,
     scene: Option<usize>,
@@ -289,7 +292,7 @@ fn around(
     Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
 }
 
-/// A primitive of a mesh, at a node.
+/// Primitive of a mesh, placed at a node.
 struct Instance<'a> {
     placement: &'a Placement,
     mesh: usize,
@@ -297,7 +300,7 @@ struct Instance<'a> {
     name: String,
 }
 
-/// Everything that will be drawn, after checking that it is not too much.
+/// Instances of all primitives that are drawn, checked against the limits.
 fn instances<'a>(
     document: &Document,
     placements: &'a [Placement],
@@ -328,7 +331,8 @@ fn instances<'a>(
     Ok(instances)
 }
 
-/// The names of node and mesh (once if they are the same) and, where there are several, the primitive's number.
+/// Name of an instance: the names of node and mesh (once if they are the same) and, if there are several, the
+/// primitive's number.
 fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize) -> String {
     let node_name = document.json.nodes[node].name.clone();
     let mesh_name = document.json.meshes[mesh].name.clone();
@@ -341,7 +345,7 @@ fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize
     if document.json.meshes[mesh].primitives.len() > 1 { format!("{name} #{primitive}") } else { name }
 }
 
-/// On the ground below a camera, or at the camera where there is none, looking where it looks.
+/// Start on the ground below a camera, or at the camera if there is no ground, with the camera's direction of view.
 fn start_below(camera: DAffine3, scene: &Scene) -> Start {
     let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
     let collision = Collision::new(scene).expect("loaded scenes keep the promises of their types");
@@ -379,7 +383,7 @@ fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
     count(metallic.count(), "metallic-roughness maps are not drawn");
 }
 
-/// Sentences for [`Scene::notices`], each once, with how often it holds, in the order in which they came up.
+/// Sentences for [`Scene::notices`], each once, with its number of occurrences, in order of first occurrence.
 #[derive(Default)]
 struct Notices {
     sentences: Vec<(String, usize)>,

@@ -1,8 +1,9 @@
-//! What of a scene moves, and how.
+//! Motions of meshes: uniform motion and keyed animation.
 //!
-//! Uniformly: then it has a frame of its own, in which it rests (`uniform`). Or as keys say (`track`) that a chain of transforms holds
-//! (`animated`): then each of its points has a worldline, and an observer sees each at its own retarded event (`course`). What keys say is where
-//! every point is at each moment of the world; no contraction is added.
+//! Uniform motion (`uniform`): the body has a frame of its own, in which it rests. Animation: keys (`track`) move a
+//! chain of transforms (`animated`); then each point has a worldline, and an observer sees each at its own retarded
+//! event (`course`). Keys give the position of every point at each moment of the world; no length contraction is
+//! added.
 
 mod animated;
 mod course;
@@ -18,17 +19,17 @@ pub use uniform::{SeenBy, Uniform};
 
 use std::sync::Arc;
 
-/// How meshes move.
+/// Motion of meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Always at one celerity.
+    /// Uniform motion at one celerity.
     Uniform(Uniform),
-    /// As keys say.
+    /// Motion given by keys.
     Animated(Arc<Animated>),
 }
 
 impl Motion {
-    /// The chain of transforms, if keys say how it moves.
+    /// Animated body, if the motion is given by keys.
     pub fn animated(&self) -> Option<&Arc<Animated>> {
         match self {
             Self::Uniform(_) => None,
