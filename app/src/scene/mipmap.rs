@@ -119,7 +119,7 @@ pub(crate) fn linear_from_srgb(value: f32) -> f32 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
-/// SRGB value of a linear value, both 0 to 1 (IEC 61966-2-1, the inverse).
+/// Value in sRGB of a linear value, both 0 to 1 (IEC 61966-2-1, the inverse).
 fn srgb_from_linear(value: f32) -> f32 {
     if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }

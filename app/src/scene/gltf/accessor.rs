@@ -20,10 +20,10 @@ pub(super) struct Numbers<T> {
 /// Purpose of an accessor, which limits the types it may have.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Purpose {
-    /// Vectors of this type; integers are what the accessor says.
+    /// Vectors of this type; integers are normalised if the accessor says so.
     Vectors(Type),
-    /// Three or four components; integers are fractions of their largest value, whatever the accessor says (exporters
-    /// forget to).
+    /// Three or four components; integers are fractions of their largest value, even if the accessor does not say so
+    /// (some exporters forget it).
     Colours,
     /// Indices: unsigned integers.
     Indices,

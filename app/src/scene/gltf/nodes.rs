@@ -147,8 +147,8 @@ fn keyed(transform: &Transform, moved: &Moved) -> Keyed {
     }
 }
 
-/// Nodes without a parent. If every node has one, the tree has a circle; then the first node, whose traversal finds
-/// it.
+/// Indices of the nodes without a parent. If every node has one, the tree has a circle; then the first node alone,
+/// which reveals it.
 fn orphans(document: &Document) -> Vec<usize> {
     let nodes = &document.json.nodes;
     let mut orphan = vec![true; nodes.len()];
