@@ -186,8 +186,8 @@ fn nearest_in_plan(polygon: &[DVec3], p: DVec2) -> Option<DVec2> {
 
 #[cfg(test)]
 mod tests {
-    //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls through
-    //! seams, stops at kerbs, stands on walls, or pushes a rider into the house.
+    //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls
+    //! through seams, stops at kerbs, stands on walls, or pushes a rider into the house.
 
     use glam::Vec3;
     use rand::{RngExt, SeedableRng};

@@ -34,8 +34,8 @@ impl Falling {
 
     /// Light on meshes that move with `celerity`, in their own frame. `carrier`: the sky's.
     ///
-    /// *Equation:* the hemisphere a + b·n is the irradiance of the radiance a + (3/2) b·ω; in the moving frame a' = ⟨L'⟩ and
-    /// b' = 2 ⟨L' ω'⟩ over all directions there, which are means of D² L in the world.
+    /// *Equation:* the hemisphere a + b·n is the irradiance of the radiance a + (3/2) b·ω; in the moving frame a' =
+    /// ⟨L'⟩ and b' = 2 ⟨L' ω'⟩ over all directions there, which are means of D² L in the world.
     pub fn on_moving(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> Self {
         let rest = Self::at_rest(light);
         if celerity == Celerity::ZERO {

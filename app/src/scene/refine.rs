@@ -73,9 +73,10 @@ pub enum RefineError {
 /// Refined scene: no edge is longer than `edge` metres. If the scene has a circuit, edges further away from it than
 /// [`NEAR_M`] may be longer by their distance over [`NEAR_M`].
 ///
-/// Positions, texture coordinates and colours of new vertices are the means of their edge's ends; normals are too, and are
-/// normalised. Vertices are shared within a mesh as they were. Edges with a non-finite end stay as they are, and
-/// triangles without area are split like others (they may close a seam). The result does not depend on the number of threads.
+/// Positions, texture coordinates and colours of new vertices are the means of their edge's ends; normals are too,
+/// and are normalised. Vertices are shared within a mesh as they were. Edges with a non-finite end stay as they are,
+/// and triangles without area are split like others (they may close a seam). The result does not depend on the number
+/// of threads.
 ///
 /// # Errors
 /// [`RefineError`], before any memory is taken for the result.

@@ -1,6 +1,7 @@
 //! Placements: the node tree, flattened.
 //!
-//! Every node of a glTF scene has one parent at most, so a node that is reached twice means a circle or two parents; both are refused.
+//! Every node of a glTF scene has one parent at most, so a node that is reached twice means a circle or two parents;
+//! both are refused.
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 

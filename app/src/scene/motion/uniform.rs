@@ -33,7 +33,8 @@ pub struct SeenBy {
 impl Uniform {
     /// Observer in the object's frame.
     ///
-    /// *Equation:* B(u_o) B(−u) = R(wigner) B(u_rel): from the object's frame to the world's, and on to the observer's (W 4.1).
+    /// *Equation:* B(u_o) B(−u) = R(wigner) B(u_rel): from the object's frame to the world's, and on to the
+    /// observer's (W 4.1).
     pub fn seen_by(&self, observer: &Observer) -> SeenBy {
         let object_from_world = Boost::observer_from_world(self.celerity);
         let apart =
