@@ -22,7 +22,7 @@ fn flat() -> Flat {
     Flat::from_centre(DVec3::new(0.3, 1.4, -2.0), DVec2::new(3.0, 2.0), DVec3::new(20.0, -10.0, 5.0)).unwrap()
 }
 
-/// Surfaces, one of each kind, each with a point in front of it all.
+/// Surfaces of every kind, each with its name and a point in front of it.
 fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
     let cylinder = Cylinder {
         centre: DVec3::new(0.5, 0.1, -0.2),

@@ -63,7 +63,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// World position of a point of the body.
+    /// World position of a point of the body, metres.
     pub fn position(&self, place: DVec3) -> DVec3 {
         self.world_from_body.transform_point3(place)
     }
