@@ -1,16 +1,16 @@
-//! A lattice of boxes: the plainest scene that shows how straight lines bend, and the one that tests know exactly.
+//! Lattice of boxes: the simplest scene that shows how straight lines bend, and the one that tests know exactly.
 
 use scene::{Lighting, Material, Mesh, Scene, Start};
 use glam::{DVec3, Vec2, Vec3};
 
-/// What a lattice is made of.
+/// Dimensions of a lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
-    /// Boxes along x, y and z.
+    /// Number of boxes along x, y and z.
     pub count: [u32; 3],
-    /// Metres from one box's centre to the next's.
+    /// Distance from one box's centre to the next's, metres.
     pub spacing: f32,
-    /// Metres along a box's edge.
+    /// Edge length of a box, metres.
     pub side: f32,
 }
 
@@ -20,7 +20,7 @@ impl Default for Lattice {
     }
 }
 
-/// One face: its normal and linear colour; opposite faces differ, so that a box's orientation can be seen.
+/// Normal and linear colour of each face; opposite faces differ, so that a box's orientation can be seen.
 const FACES: [(Vec3, [f32; 3]); 6] = [
     (Vec3::X, [0.80, 0.10, 0.08]),
     (Vec3::NEG_X, [0.80, 0.45, 0.08]),
@@ -37,12 +37,13 @@ impl Lattice {
         Vec3::new(along(0), along(1), along(2))
     }
 
-    /// The linear colour of the face of any box whose outward normal is `normal`, one of the six axis directions.
+    /// Linear colour of the face of any box whose outward normal is `normal`; `None` unless that is one of the six
+    /// axis directions.
     pub fn face_colour(normal: Vec3) -> Option<[f32; 3]> {
         FACES.iter().find(|face| face.0 == normal).map(|face| face.1)
     }
 
-    /// The scene: unlit, twelve triangles a box, against a dark background.
+    /// Builds the scene: unlit, twelve triangles a box, against a dark background.
     pub fn build(&self) -> Scene {
         let mut mesh = Mesh { name: "boxes".to_owned(), solid: true, ..Default::default() };
         let [columns, rows, layers] = self.count;
@@ -86,7 +87,7 @@ impl Lattice {
 
 #[cfg(test)]
 mod tests {
-    //! Every face must look outward: a wrong winding would show boxes from the inside.
+    //! Law under test: every face looks outward. A wrong winding would show boxes from the inside.
 
     use super::*;
 

@@ -1,4 +1,5 @@
-//! Points of the unit circle from sums and products alone, so that built-in scenes are the same to the bit everywhere.
+//! Points of the unit circle from sums and products alone, so that built-in scenes are the same to the bit on every
+//! machine.
 
 use glam::{Vec2, vec2};
 

@@ -1,11 +1,12 @@
-//! What a vehicle stands on and what it bumps into.
+//! Collision: the floors that a vehicle stands on and the walls that it bumps into.
 //!
-//! The solid meshes' triangles are sorted once: those that a wheel can roll on (floors) and steep ones (walls). A bounding volume
-//! hierarchy over each finds the few that matter in microseconds, as it is asked in every step of the worldline.
+//! The solid meshes' triangles are sorted once, into floors that a wheel can roll on and steep walls. A bounding
+//! volume hierarchy over each finds the few that matter in microseconds, as it is queried in every step of the
+//! worldline.
 //!
-//! A kerb of up to [`STEP`] is climbed: the ground is looked for from that far above the wheel, and walls below it do not count.
-//! Triangles that share an edge agree on which side of it a point lies, to the last bit, so that nothing falls through a
-//! seam.
+//! A kerb of up to [`STEP`] is climbed: the ground is sought from that height above the wheel, and walls below it do
+//! not count. Triangles that share an edge agree on which side of it a point lies, to the last bit, so that nothing
+//! falls through a seam.
 
 use glam::{DVec2, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
@@ -17,16 +18,16 @@ use crate::scene::Scene;
 use crate::surroundings::{Ground, Surroundings, Wall};
 use crate::validate::SceneFault;
 
-/// The highest step that a vehicle climbs, in metres.
+/// Highest step that a vehicle climbs, metres.
 pub const STEP: f64 = 0.2;
 
-/// How far up a vehicle with its rider bumps into things, in metres above the ground.
+/// Height up to which a vehicle with its rider collides, metres above the ground.
 pub const BODY: f64 = 1.8;
 
-/// Triangles whose unit normal has less than this upwards or downwards are walls: steeper than 60°.
+/// Least upward or downward component of a floor's unit normal. Triangles with less are walls: steeper than 60°.
 const STEEP: f64 = 0.5;
 
-/// The solid part of a scene, ready to be asked. Positions are world metres.
+/// Solid part of a scene, ready for queries. Positions are world metres.
 pub struct Collision {
     origin: DVec3,
     floors: Surfaces,
@@ -34,7 +35,7 @@ pub struct Collision {
 }
 
 impl Collision {
-    /// Sorts a scene's solid triangles. Those without area or with a vertex that is not finite are left out.
+    /// Sorts a scene's solid triangles. Triangles without area or with a non-finite vertex are left out.
     ///
     /// # Errors
     /// [`SceneFault`] if the scene breaks a promise of its types.
@@ -56,7 +57,7 @@ impl Collision {
 }
 
 impl Surroundings for Collision {
-    /// The highest floor that is not more than [`STEP`] above a point, or `None` if there is nothing below.
+    /// Highest floor that is not more than [`STEP`] above a point, or `None` if there is none below.
     fn height_below(&self, position: DVec3) -> Option<Ground> {
         let from = position - self.origin + STEP * DVec3::Y;
         if self.floors.triangles.is_empty() || !from.is_finite() {
@@ -71,9 +72,10 @@ impl Surroundings for Collision {
         Some(Ground { height: position.y + STEP - depth, normal: normal * normal.y.signum() })
     }
 
-    /// The nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
+    /// Nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
     ///
-    /// A vehicle may lean on it softly: the normal is horizontal and points away from the wall, on either side of it.
+    /// The normal is horizontal and points away from the wall, on either side of it, so that a vehicle may lean on it
+    /// softly.
     fn nearest_wall(&self, position: DVec3, radius: f64) -> Option<Wall> {
         let foot = position - self.origin;
         let (lowest, highest) = (foot.y + STEP, foot.y + BODY);
@@ -97,7 +99,7 @@ impl Surroundings for Collision {
     }
 }
 
-/// Triangles, relative to the scene's origin, and what finds them.
+/// Triangles, relative to the scene's origin, with the hierarchy that finds them.
 struct Surfaces {
     triangles: Vec<[DVec3; 3]>,
     hierarchy: Bvh,
@@ -115,23 +117,24 @@ fn vector(v: DVec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-/// Seen from above: x and z.
+/// Position in plan (seen from above): x and z.
 fn plan(v: DVec3) -> DVec2 {
     DVec2::new(v.x, v.z)
 }
 
-/// The unit normal, or `None` if there is no area or no number.
+/// Unit normal of a triangle, or `None` if it has no area or a non-finite corner.
 fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (b - a).cross(c - a).try_normalize()
 }
 
-/// Twice the area of the triangle a, b, p in plan: which side of a–b is p on. Swapping a and b changes the sign and no bit.
+/// Twice the signed area of the triangle a, b, p in plan: its sign tells the side of a–b on which p lies. Swapping a
+/// and b changes the sign and no other bit.
 fn side(a: DVec3, b: DVec3, p: DVec2) -> f64 {
     let (a, b) = (plan(a) - p, plan(b) - p);
     a.x * b.y - a.y * b.x
 }
 
-/// The y of a triangle above or below a point in plan, if the point is in it or on its edge.
+/// Height (y) of a triangle above or below a point in plan, if the point is in it or on its edge.
 fn height([a, b, c]: [DVec3; 3], p: DVec2) -> Option<f64> {
     let weights = [side(b, c, p), side(c, a, p), side(a, b, p)];
     let within = weights.iter().all(|&weight| weight >= 0.0) || weights.iter().all(|&weight| weight <= 0.0);
@@ -140,13 +143,14 @@ fn height([a, b, c]: [DVec3; 3], p: DVec2) -> Option<f64> {
     (within && sum != 0.0).then(|| (u * a.y + v * b.y + w * c.y) / sum)
 }
 
-/// The part of a triangle between two heights, a convex polygon; empty if it only touches them.
+/// Part of a triangle between two heights, a convex polygon; empty if it only touches them.
 fn between(triangle: [DVec3; 3], lowest: f64, highest: f64) -> Vec<DVec3> {
     let above = clip(&triangle, |corner| corner.y - lowest);
     clip(&above, |corner| highest - corner.y)
 }
 
-/// The part of a convex polygon where a linear function is not negative (Sutherland–Hodgman); empty if that has no extent.
+/// Part of a convex polygon where a linear function is not negative (Sutherland–Hodgman); empty if that has no
+/// extent.
 fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     let mut clipped = Vec::with_capacity(polygon.len() + 1);
     let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
@@ -165,7 +169,7 @@ fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     clipped
 }
 
-/// The point of a convex polygon nearest to another point, both in plan.
+/// Nearest point of a convex polygon to another point, both in plan.
 fn nearest_in_plan(polygon: &[DVec3], p: DVec2) -> Option<DVec2> {
     let edges = || polygon.iter().zip(polygon.iter().cycle().skip(1));
     let sides = || edges().map(|(&a, &b)| side(a, b, p));
@@ -183,8 +187,8 @@ fn nearest_in_plan(polygon: &[DVec3], p: DVec2) -> Option<DVec2> {
 
 #[cfg(test)]
 mod tests {
-    //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls through
-    //! seams, stops at kerbs, stands on walls, or pushes a rider into the house.
+    //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls
+    //! through seams, stops at kerbs, stands on walls, or pushes a rider into the house.
 
     use glam::Vec3;
     use rand::{RngExt, SeedableRng};
@@ -194,7 +198,7 @@ mod tests {
     use crate::material::Material;
     use crate::mesh::Mesh;
 
-    /// f32 coordinates of a few metres, computed with in f64.
+    /// Tolerance, metres, of f32 coordinates of a few metres in f64 arithmetic.
     const TOLERANCE: f64 = 1e-6;
 
     fn mesh(triangles: &[[Vec3; 3]], solid: bool) -> Mesh {
@@ -217,7 +221,7 @@ mod tests {
         Collision::new(&scene).unwrap()
     }
 
-    /// The six faces of a box.
+    /// Triangles of the six faces of a box.
     fn cuboid(least: Vec3, most: Vec3) -> Vec<[Vec3; 3]> {
         let corner = |i: usize| {
             let pick = |bit: usize, axis: usize| if i >> bit & 1 == 0 { least[axis] } else { most[axis] };
@@ -227,7 +231,7 @@ mod tests {
         quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).map(|t| t.map(corner)).collect()
     }
 
-    /// Houses at x < −5 and x > 5, a kerb of 15 cm at 4 < x < 5, a step of 50 cm at z < −20.
+    /// Street with houses at x < −5 and x > 5, a kerb of 15 cm at 4 < x < 5, and a step of 50 cm at z < −20.
     fn street(origin: DVec3) -> Collision {
         let floor = cuboid(Vec3::new(-20.0, -1.0, -50.0), Vec3::new(20.0, 0.0, 50.0));
         let left = cuboid(Vec3::new(-15.0, 0.0, -50.0), Vec3::new(-5.0, 8.0, 50.0));
@@ -295,7 +299,7 @@ mod tests {
 
     #[test]
     fn slopes_have_their_height_and_normal() {
-        // Up by 1 m over 2 m.
+        // The slope rises by 1 m over 2 m.
         let [a, b, c] = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 4.0), Vec3::new(4.0, 2.0, 0.0)];
         for triangle in [[a, b, c], [a, c, b]] {
             let ground = collision(DVec3::ZERO, vec![mesh(&[triangle], true)]);

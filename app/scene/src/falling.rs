@@ -1,10 +1,10 @@
-//! The light that falls on a surface, in the surface's own frame, as every renderer takes it.
+//! Irradiance: the light that falls on a surface, in the surface's own frame, as every renderer uses it.
 //!
-//! On what rests in the world it is the scene's sun and its hemisphere of sky and ground. On what moves uniformly the sun comes from the
-//! aberrated direction, with shifted colour and D² times the flux (a parallel beam: D⁴ of radiance over D² of solid angle), and the
-//! hemisphere is the world's, boosted, to first order in the normal (W 5.1.4). On what is animated it is the same at the moment at which it is
-//! seen, along its axes. Colours stay weights on the sky's carrier: after a shift, those
-//! that look the same to the standard observer.
+//! On resting meshes it is the scene's sun and its hemisphere of sky and ground. On uniformly moving meshes the sun
+//! comes from the aberrated direction, with shifted colour and D² times the flux (a parallel beam: D⁴ of radiance
+//! over D² of solid angle), and the hemisphere is the world's, boosted, to first order in the normal (W 5.1.4). On an
+//! animated body it is the light for its velocity at the moment at which it is seen, along its axes. Colours stay
+//! weights on the sky's carrier; after a shift they are the weights that look the same to the standard observer.
 
 use crate::lighting::Lighting;
 use crate::motion::Animated;
@@ -12,19 +12,19 @@ use glam::{DMat3, DVec3, DVec4, Vec3};
 use physics::colour::Carrier;
 use physics::{Aberration, Celerity, Observer};
 
-/// Light on a diffuse surface, by its normal: weights on the sky's carrier.
+/// Irradiance of a diffuse surface by its normal: weights on the sky's carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falling {
-    /// Unit vector towards the sun.
+    /// Unit vector towards the sun, surface's frame.
     pub sun_direction: DVec3,
-    /// Of the sun, on a surface that faces it.
+    /// Light of the sun on a surface that faces it.
     pub sun: DVec3,
-    /// Of all else: red, green and blue as xyz · normal + w.
+    /// Light of sky and ground: red, green and blue as xyz · normal + w.
     pub ambient: [DVec4; 3],
 }
 
 impl Falling {
-    /// On what rests in the world.
+    /// Light on meshes that rest in the world.
     pub fn at_rest(light: &Lighting) -> Self {
         let [sky, ground, sun] = [light.sky, light.ground, light.sun].map(|colour| Vec3::from_array(colour).as_dvec3());
         let (mean, half) = (0.5 * (sky + ground), 0.5 * (sky - ground));
@@ -32,10 +32,10 @@ impl Falling {
         Self { sun_direction: light.sun_direction.as_dvec3(), sun, ambient }
     }
 
-    /// On what moves with `celerity`, in its own frame. `carrier`: the sky's.
+    /// Light on meshes that move with `celerity`, in their own frame. `carrier`: the sky's.
     ///
-    /// *Equation:* the hemisphere a + b·n is the irradiance of the radiance a + (3/2) b·ω; in the moving frame a' = ⟨L'⟩ and
-    /// b' = 2 ⟨L' ω'⟩ over all directions there, which are means of D² L in the world.
+    /// *Equation:* the hemisphere a + b·n is the irradiance of the radiance a + (3/2) b·ω; in the moving frame a' =
+    /// ⟨L'⟩ and b' = 2 ⟨L' ω'⟩ over all directions there, which are means of D² L in the world.
     pub fn on_moving(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> Self {
         let rest = Self::at_rest(light);
         if celerity == Celerity::ZERO {
@@ -47,7 +47,7 @@ impl Falling {
         let (sun_direction, doppler) = object.observer_from_world(rest.sun_direction);
         let sun = shifted(doppler) * rest.sun * (doppler * doppler);
 
-        // Directions of the world around the motion: D depends on the angle from it alone.
+        // Directions of the world around the motion: D depends only on the angle from it.
         const RINGS: u32 = 96;
         const SPOKES: u32 = 12;
         let along = celerity.vector().normalize_or(DVec3::NEG_Z);
@@ -75,9 +75,11 @@ impl Falling {
         Self { sun_direction, sun, ambient }
     }
 
-    /// On an animated body, along its own axes, as it is when it is seen (`delayed`) or at the observer's time. `carrier`: the sky's.
+    /// Light on an animated body, along its own axes, at the event at which it is seen (`delayed`) or at the
+    /// observer's time. `carrier`: the sky's.
     ///
-    /// One velocity, its middle's, stands for all of it; D of the light that it sends out is each point's own.
+    /// The velocity of its middle stands for the whole body. D of the light that the body sends out is each point's
+    /// own.
     pub fn on_animated(
         light: &Lighting,
         animated: &Animated,
@@ -92,7 +94,7 @@ impl Falling {
         Self { sun_direction: body_from_world * sun_direction, sun, ambient: ambient.map(turned) }
     }
 
-    /// Light on a surface with this unit normal of which the sun sees a share (0 to 1).
+    /// Light on a surface with this unit normal, of which the share `sunlit` (0 to 1) is in the sun.
     pub fn on(&self, normal: DVec3, sunlit: f64) -> DVec3 {
         let ambient = DVec3::from_array(self.ambient.map(|channel| channel.dot(normal.extend(1.0)).max(0.0)));
         ambient + self.sun * (normal.dot(self.sun_direction).max(0.0) * sunlit)
@@ -101,8 +103,9 @@ impl Falling {
 
 #[cfg(test)]
 mod tests {
-    //! Light that falls on a moving surface is the world's light as that surface's own observer would see it. A wrong power of D, a boost the
-    //! wrong way or a colour shifted twice shows against a plain sum over directions of the surface's own frame.
+    //! Law under test: the light on a moving surface is the world's light as an observer on that surface sees it. A
+    //! wrong power of D, a boost the wrong way or a colour shifted twice differs from a plain sum over directions of
+    //! the surface's own frame.
 
     use super::*;
     use physics::Beta;
@@ -111,7 +114,7 @@ mod tests {
         Beta::new(beta).expect("slower than light").celerity()
     }
 
-    /// Means over directions of the moving frame: of L', and of L' times the direction.
+    /// Means over directions of the moving frame: mean of L', and mean of L' times the direction.
     fn summed(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> (DVec3, [DVec3; 3]) {
         let rest = Falling::at_rest(light);
         let object = Aberration::new(celerity);
@@ -119,7 +122,7 @@ mod tests {
         let count = 4000;
         let (mut mean, mut sums) = (DVec3::ZERO, [DVec3::ZERO; 3]);
         for n in 0..count {
-            // Fibonacci's spiral: even over the sphere.
+            // Fibonacci's spiral: directions evenly spread over the sphere.
             let z = 1.0 - (2.0 * f64::from(n) + 1.0) / f64::from(count);
             let (sine, cosine) = (f64::from(n) * 2.399_963_229_728_653).sin_cos();
             let seen = DVec3::new(cosine, sine, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z;
@@ -163,7 +166,7 @@ mod tests {
 
     #[test]
     fn the_sun_ahead_is_brighter_by_the_square_of_its_shift() {
-        // A body that flies into the sun at 0.6 c: D = 2. Grey light of a white carrier keeps about its colour.
+        // The body flies into the sun at 0.6 c: D = 2. Grey light of a white carrier keeps about its colour.
         let light = Lighting { sun: [1.0; 3], sun_direction: Vec3::X, ..Lighting::default() };
         let carrier = Carrier::white();
         let falling = Falling::on_moving(&light, celerity(DVec3::X * 0.6), &carrier);
@@ -171,7 +174,7 @@ mod tests {
         let seen = carrier.rgb_from_weights(1.0) * falling.sun;
         let shifted = carrier.rgb_from_weights(2.0) * DVec3::ONE * 4.0;
         assert!((seen - shifted).length() < 1e-9 * shifted.length(), "{seen} {shifted}");
-        // From abeam it seems to come from ahead: cos θ' = β, D = γ.
+        // Light from abeam comes from ahead in the body's frame: cos θ' = β, D = γ.
         let abeam = Falling::on_moving(&light, celerity(DVec3::NEG_Z * 0.6), &carrier);
         assert!((abeam.sun_direction - DVec3::new(0.8, 0.0, -0.6)).length() < 1e-15);
     }

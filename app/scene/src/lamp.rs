@@ -1,34 +1,34 @@
-//! Lamps: points that rest in the world and shine all around, or in a cone.
+//! Lamps: points at rest in the world that shine in all directions, or in a cone.
 //!
-//! Only the ray tracer draws them.
+//! Only the ray tracer draws lamps.
 
 use glam::DVec3;
 use physics::colour::Spectrum;
 use physics::{Aberration, Celerity};
 
-/// A point that shines (`KHR_lights_punctual`: point, spot).
+/// Point light (`KHR_lights_punctual`: point, spot).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
-    /// From the file, for messages.
+    /// Name from the file, for messages.
     pub name: String,
-    /// World, metres.
+    /// Position in the world, metres.
     pub position: DVec3,
-    /// Light on a surface that faces it one metre away, on the scale of [`super::Lighting::sun`].
+    /// Light on a surface that faces the lamp one metre away, on the scale of [`super::Lighting::sun`].
     pub colour: [f32; 3],
-    /// Metres beyond which it does not shine.
+    /// Range beyond which the lamp does not shine, metres.
     pub range: Option<f64>,
-    /// `None`: it shines all around.
+    /// Cone of a spot light; `None` if the lamp shines in all directions.
     pub spot: Option<Spot>,
-    /// Of light of colour 1 from a white surface. `None`: the scene's illuminant.
+    /// Spectrum of light of colour 1 from a white surface. `None`: the scene's illuminant.
     pub spectrum: Option<Spectrum>,
 }
 
-/// The cone of a spot light.
+/// Cone of a spot light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// Unit vector along which it shines, world axes.
+    /// Axis of the cone: unit vector along which it shines, world axes.
     pub direction: DVec3,
-    /// Half-angle within which it is as bright as it can be, radians.
+    /// Half-angle within which it has full brightness, radians.
     pub inner_rad: f64,
     /// Half-angle beyond which it is dark, radians.
     pub outer_rad: f64,
@@ -37,28 +37,30 @@ pub struct Spot {
 /// Light of a lamp on a surface, in the surface's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lamplight {
-    /// Unit vector towards the lamp.
+    /// Direction towards the lamp, unit vector, surface's frame.
     pub direction: DVec3,
-    /// ν_surface / ν_lamp.
+    /// Doppler factor, ν_surface / ν_lamp.
     pub doppler: f64,
-    /// What [`Lamp::colour`] is multiplied by on a surface that faces the lamp; its wavelengths are shifted beside that.
+    /// Factor of [`Lamp::colour`] on a surface that faces the lamp; the shift of wavelengths is applied in addition.
     pub strength: f64,
 }
 
 impl Lamp {
-    /// Its light on a surface that at the moment of interest is at `place` (world, metres) and moves with `celerity`; `None` at the lamp itself.
+    /// Light of the lamp on a surface that is at `place` (world, metres) and moves with `celerity`; `None` at the
+    /// lamp itself.
     ///
     /// *Frames:* the direction is in the axes of the pure boost into the surface's frame.
     ///
-    /// *Equation:* D² / r², r in the world. The lamp's Ṅ photons a second pass a place at rest as the current N (1, k), N = Ṅ / (4π r²), k from
-    /// the lamp. In the surface's frame its time component, which is the flux through an area across it, is γ (1 − β·k) N = D N, and
-    /// every photon has D times the energy. With the apparent distance r' = D r it is D⁴ / r'², the brightened image of the lamp.
+    /// *Equation:* D² / r², r in the world. The lamp's Ṅ photons per second pass a place at rest as the current N (1,
+    /// k), N = Ṅ / (4π r²), k from the lamp. In the surface's frame its time component, which is the flux through an
+    /// area across it, is γ (1 − β·k) N = D N, and every photon has D times the energy. With the apparent distance r'
+    /// = D r it is D⁴ / r'², the brightened image of the lamp.
     pub fn falling(&self, place: DVec3, celerity: Celerity) -> Option<Lamplight> {
         let away = self.position - place;
         let distance = away.length();
         let towards = away.try_normalize()?;
         let (direction, doppler) = Aberration::new(celerity).observer_from_world(towards);
-        // glTF's own window for a range, and its soft edge of a cone.
+        // glTF's own window function for a range, and its soft edge of a cone.
         let near = self.range.map_or(1.0, |range| (1.0 - (distance / range).powi(4)).clamp(0.0, 1.0));
         let cone = self.spot.map_or(1.0, |spot| spot.brightness(-towards));
         let strength = near * cone * doppler * doppler / (distance * distance);
@@ -67,7 +69,7 @@ impl Lamp {
 }
 
 impl Spot {
-    /// Brightness in a direction of the world.
+    /// Relative brightness of the cone in a direction, world axes; 0 to 1.
     fn brightness(&self, direction: DVec3) -> f64 {
         let (inner, outer) = (self.inner_rad.cos(), self.outer_rad.cos());
         let share = (direction.dot(self.direction) - outer) / (inner - outer).max(1e-3);
@@ -77,8 +79,8 @@ impl Spot {
 
 #[cfg(test)]
 mod tests {
-    //! A surface that moves counts a lamp's photons as the world does, and finds each of another energy. A wrong power of D, or an angle
-    //! of the wrong frame, shows against a count in the world.
+    //! Law under test: a moving surface gets as many photons of a lamp as the world counts, and each with another
+    //! energy. A wrong power of D, or an angle of the wrong frame, differs from a count in the world.
 
     use super::*;
     use physics::{Beta, Boost, FourVector};
@@ -99,12 +101,13 @@ mod tests {
             let light = lamp().falling(place, celerity).expect("it is not there");
             let cosine = normal.dot(light.direction);
 
-            // In the world: the plate's area is that of two sides at one moment, and it runs into the light or away from it.
+            // In the world, the plate's area is spanned by its two sides at one moment, and the plate runs into the
+            // light or away from it.
             let stretch = |v: DVec3| Boost::observer_from_world(celerity).apply(FourVector { t: 0.0, r: v }).r;
             let area = stretch(normal) / celerity.gamma();
             let (distance, along) = (place.length(), place.normalize());
             let each_second = (along - celerity.beta().vector()).dot(-area) / (distance * distance);
-            // By the plate's own clock, and each photon with the plate's energy.
+            // Converted to the plate's own clock, and to the energy of each photon in the plate's frame.
             let energy = celerity.gamma() * (1.0 - celerity.beta().vector().dot(along));
             let expected = each_second * celerity.gamma() * energy;
             let got = light.strength * cosine;
@@ -124,7 +127,7 @@ mod tests {
         let spot = Lamp { spot: Some(spot), ..lamp() };
         let at = |angle: f64| strength(&spot, DVec3::new(angle.cos(), angle.sin(), 0.0)).expect("it is not there");
         assert!((at(0.1) - 1.0).abs() < 1e-12 && at(0.41) == 0.0 && (0.1..0.9).contains(&at(0.3)));
-        // From a surface that flies at the lamp at 0.6 c: D = 2.
+        // The surface flies towards the lamp at 0.6 c: D = 2.
         let flying = Beta::new(DVec3::NEG_X * 0.6).expect("slower than light").celerity();
         let light = lamp().falling(DVec3::X * 2.0, flying).expect("it is not there");
         assert!((light.doppler - 2.0).abs() < 1e-15 && (light.strength - 1.0).abs() < 1e-14);

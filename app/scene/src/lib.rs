@@ -1,8 +1,8 @@
-//! What there is to see: flattened meshes, at rest in the world or moving, their materials, the light that falls on them.
+//! A scene: flattened meshes, at rest in the world or moving, their materials, and the light that falls on them.
 //!
-//! A scene is plain data. Files come in through `gltf` and `panorama`, built-in ones through `town`, `spectra` and `lattice`; all end in
-//! a [`Scene`], which everything else reads: refinement, collision, renderers, export. Instances are flattened
-//! (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
+//! A scene is plain data. Files are read by `gltf` and `panorama`; built-in scenes are made by `town`, `spectra` and
+//! `lattice`. Each gives a [`Scene`], which everything else reads: refinement, collision, renderers, export.
+//! Instances are flattened (W 5.1.6), because the relativistic transform does not commute with a node's affine one.
 //!
 //! Positions are f32 metres relative to [`Scene::origin`], which is f64: a scene a million kilometres from
 //! the world's origin keeps its millimetres.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Daylight in the world frame: what falls on lit materials, and what is seen where no surface is.
+/// Daylight in the world frame: the light on lit materials, and the sky seen where no surface is.
 ///
 /// Colours are linear radiance on the scale where a white unlit surface is 1. A lit surface of albedo ρ sends out
 /// ρ (sun · max(0, n·s) · visibility + sky hemisphere), so sun + sky near 1 keeps whites just below clipping.
@@ -20,12 +20,12 @@ pub struct Lighting {
     pub zenith: [f32; 3],
     /// Sky seen at the horizon.
     pub horizon: [f32; 3],
-    /// Whether the sun casts shadows.
+    /// True if the sun casts shadows.
     pub shadows: bool,
 }
 
 impl Default for Lighting {
-    /// A clear late morning.
+    /// Light of a clear late morning.
     fn default() -> Self {
         Self {
             sun_direction: Vec3::new(0.45, 0.75, 0.48).normalize(),
@@ -39,15 +39,16 @@ impl Default for Lighting {
     }
 }
 
-/// A picture of everything around, infinitely far away, in the world frame.
+/// Panorama: a picture of all directions, infinitely far away, in the world frame.
 ///
-/// Equirectangular: the first row is straight up, the last straight down; columns go once round to the right, the middle one is −z.
+/// The projection is equirectangular: the first row is straight up, the last straight down. Columns go once round to
+/// the right; the middle one is −z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panorama {
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
-    /// `width * height` linear sRGB radiances, on the scale where white is 1.
+    /// Radiances of the pixels, `width * height`, linear sRGB, on the scale where white is 1.
     pub rgb: Vec<[f32; 3]>,
 }

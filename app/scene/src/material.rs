@@ -2,37 +2,38 @@
 
 use physics::colour::Spectrum;
 
-/// How a surface sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
+/// Surface and how it sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// From the file, for messages.
+    /// Name from the file, for messages.
     pub name: String,
     /// Linear factor of the base colour, and opacity.
     pub base_colour: [f32; 4],
     /// Index into [`Scene::textures`]; its colour multiplies the factor.
     pub base_colour_texture: Option<usize>,
-    /// Linear radiance sent out on its own.
+    /// Linear radiance that the surface emits.
     pub emissive: [f32; 3],
     /// Index into [`Scene::textures`]; its colour multiplies `emissive`.
     pub emissive_texture: Option<usize>,
-    /// The base colour is the radiance itself: no light falls on it (KHR_materials_unlit).
+    /// True if the base colour is the radiance itself and no light falls on the surface (KHR_materials_unlit).
     pub unlit: bool,
-    /// Drawn from behind as well.
+    /// True if the surface is drawn from behind as well.
     pub double_sided: bool,
-    /// How much of it is metal, 0 to 1. This and all up to `alpha` the ray tracer alone draws, where it is to follow mirrors.
+    /// Share of metal in the surface, 0 to 1. Only the ray tracer draws this and the fields up to `alpha`, and only
+    /// when it follows mirrors.
     pub metallic: f32,
-    /// 0 is a mirror, 1 quite rough.
+    /// Roughness of the surface: 0 for a mirror, 1 for a quite rough surface.
     pub roughness: f32,
-    /// Of what lies behind the surface (KHR_materials_ior); 1 or more.
+    /// Refractive index of the matter behind the surface (KHR_materials_ior); 1 or more.
     pub index_of_refraction: f32,
-    /// Share of the light that enters and goes through (KHR_materials_transmission), 0 to 1.
+    /// Share of the entering light that is transmitted (KHR_materials_transmission), 0 to 1.
     pub transmission: f32,
-    /// Whether what goes through is bent, by a volume behind the surface (KHR_materials_volume), and not by a thin pane.
+    /// True if a volume behind the surface (KHR_materials_volume) bends the transmitted light; false for a thin pane.
     pub solid_glass: bool,
-    /// What the opacity does.
+    /// Treatment of the opacity.
     pub alpha: Alpha,
-    /// Instead of colours: on an unlit or emissive material the radiance sent out, on any other the reflectance, times the base
-    /// colour's luminance.
+    /// Spectrum that replaces the colours: the emitted radiance of an unlit or emissive material, the reflectance of
+    /// any other, times the base colour's luminance.
     pub spectrum: Option<Spectrum>,
 }
 
@@ -58,49 +59,49 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Whether the spectrum is of light that the material sends out, not of what it returns.
+    /// True if the spectrum is that of emitted light, false if it is a reflectance.
     pub fn is_source(&self) -> bool {
         self.unlit || self.emissive != [0.0; 3]
     }
 }
 
-/// What a material's opacity does (glTF `alphaMode`).
+/// Treatment of a material's opacity (glTF `alphaMode`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Alpha {
-    /// Ignored.
+    /// Opacity is ignored.
     #[default]
     Opaque,
-    /// Below the threshold a fragment is not drawn.
+    /// Fragments with an opacity below this threshold are not drawn.
     Mask(f32),
-    /// Mixed with what lies behind.
+    /// Surface is mixed with the things behind it.
     Blend,
 }
 
-/// A picture on a surface: 8-bit sRGB with straight alpha, rows from the top.
+/// Texture of a surface: 8-bit sRGB with straight alpha, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// From the file, for messages.
+    /// Name from the file, for messages.
     pub name: String,
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
-    /// `width * height` times four bytes: R, G, B, A.
+    /// Pixels: `width * height` times four bytes, R, G, B, A.
     pub rgba: Vec<u8>,
-    /// Beyond 0…1 along u, along v.
+    /// Continuation beyond 0…1 along u and along v.
     pub wrap: [Wrap; 2],
-    /// Sampled without filtering when magnified.
+    /// True if the texture is sampled without filtering when magnified.
     pub nearest: bool,
 }
 
-/// What a texture shows beyond its edges.
+/// Continuation of a texture beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// Itself again.
+    /// Texture repeats.
     #[default]
     Repeat,
-    /// Its mirror image.
+    /// Texture repeats, mirrored every other time.
     Mirror,
-    /// Its border pixels.
+    /// Border pixels continue.
     Clamp,
 }

@@ -2,28 +2,30 @@
 
 use glam::{Vec2, Vec3};
 
-/// Triangles of one material.
+/// Mesh of triangles that have one material.
 ///
 /// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// From the file's node and mesh, for messages.
+    /// Name from the file's node and mesh, for messages.
     pub name: String,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Metres, relative to [`Scene::origin`]; of what moves, in its own frame, and of what is animated without that origin (see [`motion`]).
+    /// Positions of the vertices, metres, relative to [`Scene::origin`].
+    /// Uniformly moving meshes have them in their own frame; animated meshes in their body's frame, without that
+    /// origin (see [`motion`]).
     pub positions: Vec<Vec3>,
-    /// Unit vectors, world axes.
+    /// Normals of the vertices, unit vectors, world axes.
     pub normals: Vec<Vec3>,
     /// Texture coordinates, origin at the picture's upper left (glTF).
     pub uvs: Vec<Vec2>,
-    /// Linear colour and opacity, multiplied into the base colour.
+    /// Linear colours and opacities of the vertices, multiplied into the base colour.
     pub colours: Vec<[f32; 4]>,
-    /// Three per triangle.
+    /// Indices of vertices, three per triangle.
     pub indices: Vec<u32>,
-    /// Whether a vehicle collides with it and rides on it; foliage and signs do not count.
+    /// True if a vehicle collides with the mesh and rides on it; false for foliage and signs.
     pub solid: bool,
-    /// Index into [`Scene::motions`]; `None`: it rests in the world.
+    /// Index into [`Scene::motions`]; `None` if the mesh rests in the world.
     pub motion: Option<usize>,
 }

@@ -1,9 +1,9 @@
-//! A texture in ever smaller copies, so that distant surfaces neither flicker nor change brightness.
+//! Mipmaps: a texture in ever smaller copies, so that distant surfaces neither flicker nor change brightness.
 //!
-//! Each level is the mean of the one before it, in linear light: the mean of sRGB numbers is too dark, and under
-//! the searchlight effect the error would grow with the exposure. Colours weigh by opacity, so that what is cut out of a
-//! leaf does not bleed into its edge. An odd row of 2m + 1 pixels becomes m pixels that each cover 2 + 1/m of it, in
-//! which every source pixel weighs the same: dropping the last one would shift the picture.
+//! Each level is the mean of the one before it, in linear light: the mean of sRGB numbers is too dark, and under the
+//! searchlight effect the error would grow with the exposure. Colours are weighted by opacity, so that the cut-out
+//! parts of a leaf do not bleed into its edge. An odd row of 2m + 1 pixels becomes m pixels that each cover 2 + 1/m
+//! of it, and every source pixel has the same weight: dropping the last one would shift the picture.
 //!
 //! Levels are averaged in f32 and rounded once each, so errors do not pile up along the chain.
 
@@ -15,21 +15,21 @@ use crate::material::Texture;
 /// large enough that a wholly transparent area keeps its mean colour.
 const TRANSPARENT_WEIGHT: f32 = 1.0 / 65536.0;
 
-/// One picture of a mipmap chain: 8-bit sRGB with straight alpha, rows from the top.
+/// Level of a mipmap chain: 8-bit sRGB with straight alpha, rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
-    /// `width * height` times four bytes: R, G, B, A.
+    /// Pixels: `width * height` times four bytes, R, G, B, A.
     pub rgba: Vec<u8>,
 }
 
-/// The whole chain, from the texture itself down to one pixel.
+/// Mipmap chain, from the texture itself down to one pixel.
 ///
-/// Each side is half the one before, rounded down, and at least 1: the sizes that graphics interfaces expect.
-/// The result does not depend on the number of threads. A texture without pixels gives no levels.
+/// Each side is half the one before, rounded down, and at least 1: the sizes that graphics interfaces expect. The
+/// result does not depend on the number of threads. A texture without pixels gives no levels.
 pub fn mipmap(texture: &Texture) -> Vec<Level> {
     if texture.width == 0 || texture.height == 0 {
         return Vec::new();
@@ -43,7 +43,7 @@ pub fn mipmap(texture: &Texture) -> Vec<Level> {
     levels
 }
 
-/// A picture in linear light; colours are multiplied by their weight, which is opacity + [`TRANSPARENT_WEIGHT`].
+/// Picture in linear light; colours are multiplied by their weight, which is opacity + [`TRANSPARENT_WEIGHT`].
 struct Linear {
     width: usize,
     height: usize,
@@ -99,7 +99,7 @@ impl Linear {
     }
 }
 
-/// Up to three source pixels under target pixel `index`, and the share of each; unused taps have weight 0.
+/// Indices of up to three source pixels under target pixel `index`, each with its share; unused taps have weight 0.
 fn taps(index: usize, source: usize, target: usize) -> [(usize, f32); 3] {
     if source == target {
         return [(index, 1.0), (index, 0.0), (index, 0.0)];
@@ -109,29 +109,30 @@ fn taps(index: usize, source: usize, target: usize) -> [(usize, f32); 3] {
     if source == 2 * target {
         [(first, 0.5), (first + 1, 0.5), (first, 0.0)]
     } else {
-        // 2m + 1 pixels onto m: the window slides by 1/m of a pixel from one target pixel to the next.
+        // 2m + 1 pixels become m: the window slides by 1/m of a pixel from one target pixel to the next.
         [(first, share(target - index)), (first + 1, share(target)), (first + 2, share(index + 1))]
     }
 }
 
-/// IEC 61966-2-1.
+/// Linear value of an sRGB value, both 0 to 1 (IEC 61966-2-1).
 pub fn linear_from_srgb(value: f32) -> f32 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
-/// IEC 61966-2-1, the inverse.
+/// Value in sRGB of a linear value, both 0 to 1 (IEC 61966-2-1, the inverse).
 fn srgb_from_linear(value: f32) -> f32 {
     if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]
 mod tests {
-    //! Averages are taken in linear light and conserve it. A program that averages sRGB numbers makes black and white
-    //! 127 instead of 188; one that forgets alpha bleeds hidden colours; one that drops odd rows loses light.
+    //! Laws under test: averages are taken in linear light and conserve it. A program that averages sRGB numbers
+    //! makes black and white 127 instead of 188; one that ignores alpha bleeds hidden colours; one that drops odd
+    //! rows loses light.
 
     use super::*;
 
-    /// Rounding to 8 bits once, in a colour whose linear value is at most 1.
+    /// Tolerance in sRGB codes: rounding to 8 bits once, in a colour whose linear value is at most 1.
     const HALF_A_CODE: f64 = 0.5;
 
     fn texture(width: u32, height: u32, rgba: Vec<u8>) -> Texture {
@@ -191,7 +192,7 @@ mod tests {
     #[test]
     fn last_level_is_the_mean_of_the_first_in_linear_light() {
         let (width, height) = (37, 21);
-        // A fixed pattern without symmetry; opaque.
+        // A fixed opaque pattern without symmetry.
         let rgba: Vec<u8> = (0..width * height)
             .flat_map(|i| [(i * 97 % 256) as u8, (i * 31 % 251) as u8, (i * i % 256) as u8, 255])
             .collect();

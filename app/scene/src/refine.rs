@@ -1,17 +1,18 @@
-//! Finer triangles, so that straight edges may bend.
+//! Refinement: cuts triangles, so that straight edges may bend.
 //!
 //! The photo-surface is exact at vertices only (W 5.1): between them a renderer draws straight lines where light draws
 //! hyperbolas. Here every edge longer than a given length is split, again and again, until none is left.
 //!
-//! Whether an edge is split depends on its two end points and on nothing else, and the midpoint is the same to the last bit
-//! from either side. Two triangles that share an edge therefore split it alike even if they belong to different meshes
-//! or know nothing of each other, so no cracks and no T-junctions appear where there were none. A triangle with three split
-//! edges becomes four (red), with two three, with one two (green).
+//! The decision to split an edge depends on its two end points and on nothing else, and the midpoint is the same to
+//! the last bit from either side. Two triangles that share an edge therefore split it alike even if they belong to
+//! different meshes, so no cracks and no T-junctions appear where there were none. A triangle with three split edges
+//! becomes four (red), with two three, with one two (green).
 //!
-//! Where a scene has a circuit, visitors stay near it, and an edge may be longer in proportion as it is further away than
-//! [`NEAR_M`]: what counts is the angle under which it is seen, and a hill on the horizon need not be cut like a kerb.
+//! If a scene has a circuit, observers stay near it, and edges further away than [`NEAR_M`] may be longer in
+//! proportion to their distance. The angle under which an edge is seen counts: a hill on the horizon need not be cut
+//! as finely as a kerb.
 //!
-//! It ends: every new edge is half an old one, or at most √3/2 of the longest edge of the triangle it cuts.
+//! Refinement ends: every new edge is half an old one, or at most √3/2 of the longest edge of the triangle it cuts.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,19 +24,20 @@ use crate::mesh::Mesh;
 use crate::scene::{MAX_TRIANGLES, Scene};
 use crate::validate::SceneFault;
 
-/// Metres from the circuit within which edges are as short as asked for.
+/// Distance from the circuit within which edges are as short as asked for, metres.
 pub const NEAR_M: f64 = 4.0;
 
-/// How many steps of f32 an edge must span. The rounding of midpoints then stays well below what a split shortens an edge by.
+/// Number of f32 steps that an edge must span at least. Rounding of midpoints then stays well below the amount by
+/// which a split shortens an edge.
 const STEPS_PER_EDGE: f32 = 16.0;
 
-/// Why a scene cannot be refined.
+/// Reason why a scene cannot be refined.
 #[derive(Debug, thiserror::Error)]
 pub enum RefineError {
-    /// The length is no length.
+    /// A length that is not a finite number above 0.
     #[error("an edge cannot be {0} m long; use a length above 0, such as --edge 0.5")]
     Edge(f32),
-    /// The result would not fit.
+    /// A result with too many triangles.
     #[error(
         "edges of {edge} m would make at least {triangles} triangles of scene \"{scene}\" ({limit} are possible); \
          use --edge {enough} or more"
@@ -43,16 +45,16 @@ pub enum RefineError {
     TooMany {
         /// Name of the scene.
         scene: String,
-        /// The length asked for, in metres.
+        /// Requested length of edges, metres.
         edge: f32,
-        /// A lower bound of their number.
+        /// Lower bound of their number.
         triangles: u64,
-        /// The most that are allowed.
+        /// Largest number allowed.
         limit: usize,
-        /// A length, in metres, that stays within the limit.
+        /// Length that stays within the limit, metres.
         enough: f32,
     },
-    /// Coordinates are too large for edges so short.
+    /// Coordinates that are too large for edges so short.
     #[error(
         "edges of {edge} m are shorter than the coordinates of mesh \"{mesh}\" can resolve; use --edge {enough} or more, \
          or move the mesh closer to the scene's origin"
@@ -60,22 +62,23 @@ pub enum RefineError {
     TooFine {
         /// Name of the mesh.
         mesh: String,
-        /// The length asked for, in metres.
+        /// Requested length of edges, metres.
         edge: f32,
-        /// The shortest length that this mesh allows, in metres.
+        /// Shortest length that this mesh allows, metres.
         enough: f32,
     },
-    /// The scene breaks a promise of its types.
+    /// A scene that breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
 }
 
-/// The same scene with no edge longer than `edge` metres; times its distance from the scene's circuit over [`NEAR_M`],
-/// if there is one and it is further away than that.
+/// Refined scene: no edge is longer than `edge` metres. If the scene has a circuit, edges further away from it than
+/// [`NEAR_M`] may be longer by their distance over [`NEAR_M`].
 ///
-/// Positions, texture coordinates and colours of new vertices are the means of their edge's ends; normals are too, and are
-/// normalised. Vertices are shared within a mesh as they were. Edges with a non-finite end stay as they are, and
-/// triangles without area are split like others (they may close a seam). The result does not depend on the number of threads.
+/// Positions, texture coordinates and colours of new vertices are the means of their edge's ends; normals are too,
+/// and are normalised. Vertices are shared within a mesh as they were. Edges with a non-finite end stay as they are,
+/// and triangles without area are split like others (they may close a seam). The result does not depend on the number
+/// of threads.
 ///
 /// # Errors
 /// [`RefineError`], before any memory is taken for the result.
@@ -83,7 +86,7 @@ pub fn refine(scene: &Scene, edge: f32) -> Result<Scene, RefineError> {
     refine_within(scene, edge, MAX_TRIANGLES)
 }
 
-/// Whether [`refine`] would make more than `limit` triangles.
+/// True if [`refine`] would make more than `limit` triangles.
 pub fn cut_beyond(scene: &Scene, edge: f32, limit: usize) -> bool {
     let circuit: Vec<DVec3> = scene.circuit.iter().map(|&place| place - scene.origin).collect();
     scene.validate().is_ok() && Rule::new(f64::from(edge), &circuit).count(scene, limit).is_none()
@@ -128,12 +131,13 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
     })
 }
 
-/// Which edges are split: those of finite length above this one, or above its share of their distance.
+/// Rule that decides which edges are split: those of finite length above `edge`, or above the longer limit at their
+/// distance.
 #[derive(Clone, Copy)]
 struct Rule<'a> {
     edge: f64,
     squared: f64,
-    /// Places from which the scene is seen, relative to its origin; none: from anywhere.
+    /// Corners of the circuit, relative to the scene's origin; empty if the scene has none.
     circuit: &'a [DVec3],
 }
 
@@ -142,7 +146,8 @@ impl<'a> Rule<'a> {
         Self { edge, squared: edge * edge, circuit }
     }
 
-    /// The same from either end, as differences and sums of two do not depend on their order.
+    /// True if an edge is to be split; the same from either end, as differences and sums of two do not depend on
+    /// their order.
     fn splits(self, a: Vec3, b: Vec3) -> bool {
         let length_squared = distance_squared(a, b);
         length_squared > self.squared
@@ -150,23 +155,23 @@ impl<'a> Rule<'a> {
             && length_squared > self.squared * self.leniency(self.distance(midpoint(a, b).as_dvec3()))
     }
 
-    /// Metres from the circuit's nearest corner, 0 if there is none.
+    /// Distance from the circuit's nearest corner, metres; 0 if there is none.
     fn distance(self, place: DVec3) -> f64 {
         let squared = self.circuit.iter().map(|corner| corner.distance_squared(place)).reduce(f64::min);
         squared.unwrap_or(0.0).sqrt()
     }
 
-    /// How much longer an edge may be at a distance from the circuit, squared.
+    /// Square of the factor by which an edge may be longer at a distance from the circuit.
     fn leniency(self, distance: f64) -> f64 {
         (distance / NEAR_M).max(1.0).powi(2)
     }
 
-    /// Where each of a triangle's edges (0–1, 1–2, 2–0) is split.
+    /// Midpoints of a triangle's edges (0–1, 1–2, 2–0) that are split.
     fn midpoints(self, [a, b, c]: [Vec3; 3]) -> [Option<Vec3>; 3] {
         [(a, b), (b, c), (c, a)].map(|(a, b)| self.splits(a, b).then(|| midpoint(a, b)))
     }
 
-    /// Number of triangles that the scene would have, or `None` as soon as it exceeds the limit.
+    /// Number of triangles of the refined scene, or `None` as soon as it exceeds the limit.
     fn count(self, scene: &Scene, limit: usize) -> Option<usize> {
         if self.at_least(scene) > limit as u64 {
             return None;
@@ -196,7 +201,7 @@ impl<'a> Rule<'a> {
         Some(total.into_inner())
     }
 
-    /// A lower bound of that number without counting: no triangle of the result has more area than the equilateral one.
+    /// Lower bound of that number without counting: no triangle of the result has more area than the equilateral one.
     fn at_least(self, scene: &Scene) -> u64 {
         let equilateral = 3.0_f64.sqrt() / 4.0 * self.squared;
         let bound = |triangle: [Vec3; 3]| {
@@ -210,7 +215,7 @@ impl<'a> Rule<'a> {
         scene.meshes.iter().flat_map(triangles).map(bound).sum::<f64>() as u64
     }
 
-    /// Distance to the next f32 at the largest coordinate of a triangle that is to be split; 0 if there is none.
+    /// Distance to the next f32 at the largest coordinate of a triangle that is to be split; 0 if none is.
     fn coarsest_step(self, mesh: &Mesh) -> f32 {
         let split = triangles(mesh).filter(|&triangle| self.midpoints(triangle).iter().any(Option::is_some));
         let largest = split
@@ -222,7 +227,7 @@ impl<'a> Rule<'a> {
     }
 }
 
-/// Each of a mesh's triangles as positions.
+/// Triangles of a mesh as positions.
 fn triangles(mesh: &Mesh) -> impl Iterator<Item = [Vec3; 3]> {
     mesh.indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|corner| mesh.positions[corners[corner] as usize]))
 }
@@ -240,7 +245,8 @@ fn midpoint(a: Vec3, b: Vec3) -> Vec3 {
     a * 0.5 + b * 0.5
 }
 
-/// Hands on the triangles that one becomes, by its edges' midpoints (0–1, 1–2, 2–0). Winding is kept.
+/// Calls `child` with each of the triangles that one is divided into at its edges' midpoints (0–1, 1–2, 2–0). Winding
+/// is kept.
 ///
 /// A quadrilateral is cut along its shorter diagonal, which keeps the angles wide.
 pub(crate) fn divide<V: Copy>(
@@ -260,7 +266,7 @@ pub(crate) fn divide<V: Copy>(
         [None, None, Some(p)] => return halves(c, p, a, b),
         _ => {}
     }
-    // Split are a–b at p and b–c at q.
+    // The split edges are a–b at p and b–c at q.
     let mut thirds = |a, p, b, q, c| {
         child([p, b, q]);
         if distance(a, q) <= distance(p, c) {
@@ -280,7 +286,7 @@ pub(crate) fn divide<V: Copy>(
     }
 }
 
-/// One mesh, refined triangle by triangle, so that neighbours in space stay neighbours in memory.
+/// Refines one mesh triangle by triangle, so that neighbours in space stay neighbours in memory.
 fn refine_mesh(mesh: &Mesh, rule: Rule<'_>) -> Mesh {
     let mut refined = Mesh { indices: Vec::new(), ..mesh.clone() };
     let mut midpoint_of_edge = HashMap::new();
@@ -322,7 +328,7 @@ fn add_midpoint(mesh: &mut Mesh, a: u32, b: u32) -> u32 {
     middle
 }
 
-/// 1, 2, 5 times a power of ten, rising, all above `length`.
+/// Round lengths above `length`, rising: 1, 2, 5 times a power of ten.
 fn round_lengths_above(length: f32) -> impl Iterator<Item = f32> {
     let exponent = length.log10().floor() as i32;
     (exponent..)
@@ -332,9 +338,10 @@ fn round_lengths_above(length: f32) -> impl Iterator<Item = f32> {
 
 #[cfg(test)]
 mod tests {
-    //! Refinement may change where edges run, never what the surface is. Laws: no edge is too long; area, winding and
-    //! linear attributes are conserved; what was closed stays closed, across meshes too. A program that decides by a
-    //! triangle instead of an edge leaves T-junctions; one whose midpoints depend on direction leaves hairline cracks.
+    //! Laws under test: refinement may change where edges run, never what the surface is. No edge is too long; area,
+    //! winding and linear attributes are conserved; closed surfaces stay closed, across meshes too. A program that
+    //! decides by a triangle instead of an edge leaves T-junctions; one whose midpoints depend on direction leaves
+    //! hairline cracks.
 
     use std::collections::HashMap;
 
@@ -345,7 +352,7 @@ mod tests {
     use super::*;
     use crate::material::Material;
 
-    /// Relative; each split rounds positions to f32.
+    /// Relative tolerance of areas; each split rounds positions to f32.
     const AREA_TOLERANCE: f64 = 1e-5;
 
     #[test]
@@ -369,11 +376,11 @@ mod tests {
             }
         }
         assert!(near > 1000 && far > 100, "{near} near edges, {far} long ones");
-        // All of it at half a metre would be about ten million.
+        // The whole scene at half a metre would have about ten million triangles.
         assert!(refined.triangle_count() < 200_000, "{}", refined.triangle_count());
     }
 
-    /// A mesh whose texture coordinates and colours are linear in the position.
+    /// Mesh whose texture coordinates and colours are linear in the position.
     fn mesh(positions: Vec<Vec3>, indices: Vec<u32>) -> Mesh {
         Mesh {
             name: "test".into(),
@@ -398,7 +405,7 @@ mod tests {
         Scene { name: "test".into(), materials: vec![Material::default()], meshes, ..Scene::default() }
     }
 
-    /// A closed box with shared corners.
+    /// Closed box with shared corners.
     fn cuboid(size: Vec3) -> Mesh {
         let corners = (0..8).map(|i| size * Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32));
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -406,7 +413,7 @@ mod tests {
         mesh(corners.collect(), indices)
     }
 
-    /// The box as twelve meshes that know nothing of each other.
+    /// Box as twelve meshes that share no vertices.
     fn exploded(cuboid: &Mesh) -> Vec<Mesh> {
         triangles(cuboid).map(|triangle| mesh(triangle.to_vec(), vec![0, 1, 2])).collect()
     }
@@ -422,7 +429,7 @@ mod tests {
         scene.meshes.iter().flat_map(triangles).map(area).sum()
     }
 
-    /// How often each directed edge occurs, by the bits of its ends.
+    /// Count of each directed edge, by the bits of its ends.
     fn directed_edges(scene: &Scene) -> HashMap<[[u32; 3]; 2], usize> {
         let bits = |p: Vec3| p.to_array().map(f32::to_bits);
         let mut edges = HashMap::new();

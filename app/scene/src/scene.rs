@@ -8,52 +8,56 @@ use crate::motion::Motion;
 use glam::DVec3;
 use physics::colour::Spectrum;
 
-/// The most triangles, and three times as many vertices, that a scene may have: about 10 GB of arrays. What would be more is refused
-/// before memory is asked for.
+/// Largest number of triangles in a scene; three times as many vertices are allowed: about 10 GB of arrays. A larger
+/// scene is refused before memory is asked for.
 pub const MAX_TRIANGLES: usize = 50_000_000;
 
-/// The most different spectra that a scene's materials may have: each takes a fifth of a second to prepare, and a layer of the map.
+/// Largest number of different spectra among a scene's materials. Each takes a fifth of a second to prepare, and one
+/// layer of the map.
 pub const MAX_SPECTRA: usize = 64;
 
-/// A world at rest: geometry, materials, light, and a place to start from.
+/// Scene: geometry, its motions, materials, light, and a place to start from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// What to call it in titles and messages.
+    /// Name of the scene in titles and messages.
     pub name: String,
-    /// World position, in metres, that every mesh position is relative to.
+    /// World position that every mesh position is relative to, metres.
     pub origin: DVec3,
     /// Pictures that materials refer to by index.
     pub textures: Vec<Texture>,
     /// Surfaces that meshes refer to by index.
     pub materials: Vec<Material>,
-    /// Triangles, one entry per primitive and instance.
+    /// Meshes, one for each primitive and instance.
     pub meshes: Vec<Mesh>,
     /// How some of them move.
     pub motions: Vec<Motion>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
-    /// Lamps at rest in the world, which the ray tracer alone draws.
+    /// Lamps at rest in the world; only the ray tracer draws them.
     pub lamps: Vec<Lamp>,
-    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: that of the colours themselves.
+    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum of
+    /// the colours themselves.
     pub illuminant: Option<Spectrum>,
-    /// Luminance in cd/m² that is shown as white at rest. `None`: that of the brightest spectrum at rest; 1 where there is none.
+    /// Luminance that is shown as white at rest, cd/m². `None`: luminance of the brightest spectrum at rest; 1 if
+    /// there is no spectrum.
     pub white: Option<f64>,
-    /// What is seen where no surface is, instead of the sky.
+    /// Picture at infinity, seen instead of the sky where no surface is.
     pub panorama: Option<Panorama>,
-    /// Where a visitor begins.
+    /// Starting place and view of an observer.
     pub start: Start,
-    /// A closed way round the scene (world metres, on the ground), if it has one: the built-in tour follows it.
+    /// Closed route round the scene (world metres, on the ground) that the built-in tour follows; empty if there is
+    /// none.
     pub circuit: Vec<DVec3>,
-    /// What the file asked for and this program does not draw, one sentence each.
+    /// Features that the file asks for and this program does not draw, one sentence each.
     pub notices: Vec<String>,
 }
 
-/// Where a visitor stands at first and which way he looks.
+/// Starting place of an observer and first direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// A point on the ground, world metres.
+    /// Point on the ground, world metres.
     pub position: DVec3,
-    /// Unit vector, world axes.
+    /// Direction of view, unit vector, world axes.
     pub look: DVec3,
 }
 
@@ -64,9 +68,9 @@ impl Default for Start {
 }
 
 impl Scene {
-    /// A number that tells this scene's solid part from another's: FNV-1a over every coordinate and index.
+    /// Fingerprint of the scene's solid part: FNV-1a over every coordinate and index of the solid meshes.
     ///
-    /// Whoever stands on it and runs into it depends on nothing else, so a recording names it.
+    /// Standing on a scene and colliding with it depends on nothing else, so a recording stores this number.
     pub fn fingerprint(&self) -> u64 {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         let mut take = |value: u32| {
@@ -81,8 +85,8 @@ impl Scene {
         hash
     }
 
-    /// The luminance that is shown as white at rest, cd/m²: [`Scene::white`], else that of the brightest spectrum, be it sent out or that of a
-    /// white surface in the scene's light; 1 where colours are all there is.
+    /// Luminance that is shown as white at rest, cd/m²: [`Scene::white`], else that of the brightest spectrum.
+    /// Candidates are the emitted spectra, and a white surface in the scene's light. 1 if the scene has colours only.
     pub fn white_luminance(&self) -> f64 {
         let luminance = |spectrum: &Spectrum| spectrum.xyz(1.0).y;
         let sources = self.materials.iter().filter(|material| material.is_source()).filter_map(|material| {

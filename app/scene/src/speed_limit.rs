@@ -1,6 +1,7 @@
-//! Nothing is faster than light: how fast animated bodies are at most.
+//! Speed limit: the largest speed of an animated body, which must stay below that of light.
 //!
-//! Speeds are looked at between all keys of a chain, for the body's outermost points: |M' p| is convex in p, so no point within is faster.
+//! Speeds are sampled between all keys of a chain, at the body's outermost points: |M' p| is convex in p, so no point
+//! within is faster.
 
 use std::sync::Arc;
 
@@ -10,46 +11,47 @@ use thiserror::Error;
 use crate::motion::{Animated, Ball, Link, Motion, Uniform};
 use crate::scene::Scene;
 
-/// Looks between two keys.
+/// Number of sampled times between two keys.
 const LOOKS: usize = 16;
 
-/// The most looks at a chain.
+/// Largest number of sampled times for one chain.
 const MOST_LOOKS: usize = 200_000;
 
-/// Directions in which a body's outermost points are looked for.
+/// Number of directions in which a body's outermost points are sought.
 const DIRECTIONS: usize = 200;
 
-/// Where something is fastest.
+/// Largest speed found, and its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fastest {
-    /// |v|/c.
+    /// Speed as |v|/c.
     pub beta: f64,
-    /// Seconds of the world's clock.
+    /// Time on the world's clock, seconds.
     pub time_s: f64,
 }
 
-/// An animation that cannot be.
+/// Animation that is as fast as light or faster.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error(
     "{name} moves at {speed_m_s:.6} m/s at {time_s:.6} s of its animation, and light at {speed_of_light_m_s:.6} m/s: \
      slow the animation down, or raise --speed-of-light"
 )]
 pub struct TooFast {
-    /// Which node.
+    /// Name of the node.
     pub name: String,
-    /// How fast.
+    /// Speed of its fastest point, m/s.
     pub speed_m_s: f64,
-    /// When.
+    /// Time of that speed, seconds of the animation.
     pub time_s: f64,
-    /// Of the world, m/s.
+    /// Speed of light in the world, m/s.
     pub speed_of_light_m_s: f64,
 }
 
 impl Scene {
-    /// Says how fast light is, in m/s: seconds of animations become times of the world, and nothing may be faster.
+    /// Sets the speed of light, m/s. Seconds of animations become times of the world, and no animation may be as fast
+    /// as light.
     ///
     /// # Errors
-    /// [`TooFast`]: which node is, when, and how fast.
+    /// [`TooFast`], with the node, the time and the speed.
     pub fn set_speed_of_light(&mut self, speed_of_light_m_s: f64) -> Result<(), TooFast> {
         for number in 0..self.motions.len() {
             let places = self.outermost(number);
@@ -58,7 +60,7 @@ impl Scene {
             animated.speed_of_light_m_s = speed_of_light_m_s;
             animated.ball = around(&places);
             let Fastest { beta, time_s } = animated.fastest(&places);
-            // A speed that is no number is refused as well.
+            // A NaN speed is refused as well.
             if beta >= 1.0 || beta.is_nan() {
                 let (name, speed_m_s) = (animated.name.clone(), beta * speed_of_light_m_s);
                 return Err(TooFast { name, speed_m_s, time_s, speed_of_light_m_s });
@@ -67,7 +69,7 @@ impl Scene {
         Ok(())
     }
 
-    /// How fast each of its motions is at most.
+    /// Largest speed of one of the scene's motions.
     pub fn fastest(&self, motion: usize) -> Fastest {
         match &self.motions[motion] {
             Motion::Uniform(Uniform { celerity, anchor: _ }) => {
@@ -77,7 +79,7 @@ impl Scene {
         }
     }
 
-    /// The outermost vertices of what moves so, in its own frame.
+    /// Outermost vertices of the meshes with this motion, in the body's own frame.
     fn outermost(&self, motion: usize) -> Vec<DVec3> {
         let meshes = self.meshes.iter().filter(|mesh| mesh.motion == Some(motion));
         let places: Vec<DVec3> = meshes
@@ -86,7 +88,7 @@ impl Scene {
         if places.len() <= DIRECTIONS {
             return places;
         }
-        // Fibonacci's spiral: even over the sphere.
+        // Fibonacci's spiral: directions evenly spread over the sphere.
         let furthest = |number: usize| {
             let z = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTIONS as f64;
             let (sine, cosine) = (number as f64 * 2.399_963_229_728_653).sin_cos();
@@ -98,7 +100,7 @@ impl Scene {
 }
 
 impl Animated {
-    /// Where the fastest of some points is fastest.
+    /// Largest speed among some points of the body, and its time.
     fn fastest(&self, places: &[DVec3]) -> Fastest {
         let mut fastest = Fastest::default();
         for time_s in self.looks() {
@@ -113,7 +115,8 @@ impl Animated {
         fastest
     }
 
-    /// Seconds at which it is looked at: between all keys, as often as the slowest part needs to come round.
+    /// Times at which the speed is sampled, seconds: between all keys; shorter periodic tracks are repeated to the
+    /// end of the longest (at most 64 times).
     fn looks(&self) -> Vec<f64> {
         let keyed = || {
             self.links().iter().filter_map(|link| match link {
@@ -143,7 +146,7 @@ impl Animated {
             let [a, b] = [pair[0], pair[1]];
             (0..looks).map(move |look| a + (b - a) * (look as f64 + 0.5) / looks as f64)
         });
-        // Just after each key too, where the speed is that of what follows.
+        // The keys themselves, too: there the speed is that of the piece that follows.
         between.chain(keys.iter().copied()).collect()
     }
 }

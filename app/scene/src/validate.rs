@@ -8,23 +8,23 @@ use crate::motion::{Motion, Uniform};
 use crate::scene::{MAX_SPECTRA, Scene};
 use physics::colour::Spectrum;
 
-/// A scene that breaks a promise of its types.
+/// Fault in a scene that breaks a promise of its types.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("scene \"{scene}\" is damaged: {fault}; make it anew or load it from a file")]
 pub struct SceneFault {
     /// Name of the scene.
     pub scene: String,
-    /// What is wrong, and with which mesh, material or texture.
+    /// Description of the fault, with its mesh, material or texture.
     pub fault: String,
 }
 
 impl Scene {
     /// Checks what these types promise: array lengths and indices, not coordinates.
     ///
-    /// Loaders keep the promises; this is the door for scenes made by hand, so that what lies behind it may index freely.
+    /// Loaders keep the promises. This check is for scenes made by hand; after it, code may index freely.
     ///
     /// # Errors
-    /// The first broken promise.
+    /// The first broken promise, as a [`SceneFault`].
     pub fn validate(&self) -> Result<(), SceneFault> {
         match self.fault() {
             None => Ok(()),
@@ -41,7 +41,7 @@ impl Scene {
             })
         };
         let spectrum = |spectrum: &Option<Spectrum>, of: &str| {
-            // Built by its own constructors a spectrum is good; its fields can be written without them.
+            // A spectrum from its own constructors is valid, but its public fields can be set without them.
             let checked = match spectrum.as_ref()? {
                 Spectrum::Planck { kelvin } => Spectrum::planck(*kelvin),
                 Spectrum::Rgb(rgb) => Spectrum::rgb(*rgb),

@@ -1,7 +1,7 @@
-//! Is this scene any good? What is in it, and what a visitor would stumble over.
+//! Scene check: a report on the contents of a scene, with warnings about likely mistakes.
 //!
-//! Notices come from the file (what is not drawn); warnings are found here, in the scene as it is drawn. Neither
-//! keeps a scene from being shown.
+//! Notices come from the file (features that are not drawn). Warnings are found here, in the scene as it is drawn.
+//! Neither keeps a scene from being shown.
 
 use std::fmt;
 use std::path::Path;
@@ -14,30 +14,31 @@ use scene::collision::Collision;
 use scene::motion::Motion;
 use scene::{Material, Scene, SceneFault, Surroundings};
 
-/// Scenes smaller or larger than this, in metres, are probably not measured in metres.
+/// Plausible size of a scene, metres; outside of it the unit is probably not the metre.
 const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
-/// A sun by which white surfaces are more than this many times as bright as what is shown as white is probably measured otherwise.
+/// Plausible brightness of white surfaces in sunlight, as a multiple of the luminance shown as white; above it the
+/// sun's unit is probably wrong.
 const PLAUSIBLE_SUN: f64 = 8.0;
 
-/// What has less than this share of white's luminance cannot be seen beside it.
+/// Share of white's luminance below which a surface cannot be seen beside white.
 const DARK: f64 = 1.0 / 300.0;
 
-/// Why there is no report.
+/// Reason why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    /// The file gives no scene.
+    /// A file that gives no scene.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// The scene breaks a promise of its types.
+    /// A scene that breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
 }
 
-/// What is in a scene.
+/// Report on the contents of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Its name.
+    /// Name of the scene.
     pub name: String,
     /// Number of meshes.
     pub meshes: usize,
@@ -51,21 +52,21 @@ pub struct Report {
     pub textures: usize,
     /// Size of all textures without mipmaps, in bytes.
     pub texture_bytes: usize,
-    /// Each spectrum, with who has it.
+    /// Spectra, each with the materials or lights that have it.
     pub spectra: Vec<String>,
-    /// Luminance that is shown as white, cd/m², if the scene says so.
+    /// Luminance that is shown as white, cd/m², if the scene sets it.
     pub white: Option<f64>,
     /// Width and height of the panorama, in pixels, if there is one.
     pub panorama: Option<[u32; 2]>,
-    /// What moves, how, and how fast at most: a line each.
+    /// Motions, one line each: the moving body, its motion and its largest speed.
     pub moving: Vec<String>,
-    /// Least and greatest corner of the box round all finite vertices, world metres; `None` without any.
+    /// Least and greatest corner of the box round all finite vertices, world metres; `None` if there are none.
     pub bounds: Option<[DVec3; 2]>,
-    /// Length of the longest finite edge, in metres: what `refine` would split first.
+    /// Length of the longest finite edge, metres; `refine` would split it first.
     pub longest_edge: f64,
-    /// What the file asked for and is not drawn.
+    /// Features that the file asks for and that are not drawn.
     pub notices: Vec<String>,
-    /// What a visitor would stumble over, with advice.
+    /// Likely mistakes that disturb an observer, each with advice.
     pub warnings: Vec<String>,
 }
 
@@ -78,7 +79,7 @@ pub fn check(path: &Path) -> Result<Report, CheckError> {
 }
 
 impl Report {
-    /// Looks at every triangle once.
+    /// Surveys every triangle once.
     ///
     /// # Errors
     /// [`SceneFault`] if the scene breaks a promise of its types.
@@ -106,10 +107,10 @@ impl Report {
     }
 }
 
-/// What counting all triangles shows.
+/// Result of the survey of all triangles.
 #[derive(Default)]
 struct Survey {
-    /// Relative to the scene's origin.
+    /// Least and greatest corner relative to the scene's origin, metres.
     bounds: Option<[DVec3; 2]>,
     longest_edge: f64,
     without_area: usize,
@@ -121,7 +122,7 @@ impl Survey {
     fn of(scene: &Scene) -> Self {
         let mut survey = Self::default();
         for mesh in &scene.meshes {
-            // What is animated is where its keys have it at first.
+            // An animated mesh counts in its pose at time 0.
             let animated = mesh.motion.and_then(|motion| scene.motions[motion].animated());
             let pose = animated.map(|animated| animated.at(0.0));
             for &position in mesh.positions.iter().filter(|position| position.is_finite()) {
@@ -149,7 +150,7 @@ impl Survey {
     }
 }
 
-/// What moves, in the order of the scene's motions.
+/// Descriptions of the moving bodies, in the order of the scene's motions.
 fn moving(scene: &Scene) -> Vec<String> {
     let said = |(number, motion): (usize, &Motion)| {
         let beta = scene.fastest(number).beta;
@@ -168,7 +169,7 @@ fn moving(scene: &Scene) -> Vec<String> {
     scene.motions.iter().enumerate().map(said).collect()
 }
 
-/// The spectra of light and materials, those that are the same in one line.
+/// Descriptions of the spectra of light and materials; equal spectra share a line.
 fn spectra(scene: &Scene) -> Vec<String> {
     let mut owners: Vec<(&Spectrum, Vec<String>)> = Vec::new();
     let illuminant = scene.illuminant.iter().map(|spectrum| (spectrum, "the light".to_owned()));
@@ -219,7 +220,7 @@ fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<String
         let advice = "the spectrum is multiplied by the base colour's luminance; make it white";
         warn(black, format!("material \"{}\" has a spectrum and a black base colour: {advice}", material.name));
     }
-    // What a white surface in light of the colour 1 is of what is shown as white.
+    // Luminance of a white surface in light of the colour 1, as a multiple of the luminance shown as white.
     let white = scene.white_luminance();
     let anything_lit =
         scene.materials.iter().any(|material| !(material.unlit || material.spectrum.is_some() && material.is_source()));
@@ -304,15 +305,15 @@ impl fmt::Display for Report {
 
 #[cfg(test)]
 mod tests {
-    //! A report counts what is there and warns of what is wrong, of nothing else. A wrong one would miss a hole below the
-    //! start, or cry wolf over a sound scene.
+    //! Laws under test: a report counts the contents, and warns of faults only. A wrong one would miss a hole below
+    //! the start, or warn of a sound scene.
 
     use glam::{Vec2, Vec3};
 
     use super::*;
     use scene::{Material, Mesh, Texture};
 
-    /// A square of ground, 10 m wide, in two triangles.
+    /// Scene with a square of ground, 10 m wide, in two triangles.
     fn ground() -> Scene {
         let positions = [(-5, -5), (-5, 5), (5, 5), (5, -5)].map(|(x, z)| Vec3::new(x as f32, 0.0, z as f32));
         let mesh = Mesh {

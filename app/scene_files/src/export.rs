@@ -1,9 +1,10 @@
 //! Scenes to binary glTF 2.0, for other programs and for [`crate::gltf::load`], which gives back the same scene.
 //!
-//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin; pictures are embedded as PNG, a panorama as EXR. What glTF has no words
-//! for (light, white, start, circuit, what is solid) goes into `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a
-//! power of two as `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
-//! clamped for others and kept in an attribute of our own.
+//! Every mesh becomes a node with a mesh of its own that stands at the scene's origin. Pictures are embedded as PNG,
+//! a panorama as EXR. Data that glTF cannot express (light, white, start, circuit, solid meshes) go into
+//! `extras.rapidity`, spectra into `extras.spectrum`. Emission above 1 is written as a factor and a power of two as
+//! `KHR_materials_emissive_strength`, so that their product is exact. Vertex colours above 1, which glTF forbids, are
+//! clamped for other programs and kept in an attribute of this program's own.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -21,61 +22,62 @@ use crate::panorama::is_equirectangular;
 use scene::motion::{Motion, Uniform};
 use scene::{Alpha, Lamp, Material, Mesh, Panorama, Scene, SceneFault, Texture, Wrap};
 
-/// `componentType` of 32-bit floats.
+/// Code of `componentType` for 32-bit floats.
 const FLOAT: u32 = 5126;
-/// `componentType` of 32-bit indices.
+/// Code of `componentType` for 32-bit indices.
 const UNSIGNED_INT: u32 = 5125;
-/// `target` of vertex attributes.
+/// Code of `target` for vertex attributes.
 const ARRAY_BUFFER: u32 = 34962;
-/// `target` of indices.
+/// Code of `target` for indices.
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Why a scene cannot be written.
+/// Reason why a scene cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The operating system refuses.
+    /// A file that the operating system cannot write.
     #[error("cannot write {path}: {error}; check the folder, its permissions and the space left")]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
-    /// glTF has no empty scenes.
+    /// A scene without triangles, which glTF does not allow.
     #[error("scene \"{scene}\" has no triangles to write")]
     Nothing {
         /// Name of the scene.
         scene: String,
     },
-    /// The scene breaks a promise of its types.
+    /// A scene that breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
-    /// glTF has no word for this value.
+    /// A value that glTF cannot express.
     #[error("glTF cannot express {what} of \"{name}\": {fault}")]
     Value {
-        /// Which property.
+        /// Name of the property.
         what: &'static str,
-        /// Of which mesh, material or scene.
+        /// Name of its mesh, material or scene.
         name: String,
-        /// Why not.
+        /// Reason why it cannot be expressed.
         fault: &'static str,
     },
-    /// A `.glb` counts bytes with 32 bits.
+    /// A file beyond 4 GiB: a `.glb` counts bytes with 32 bits.
     #[error("{path} would have {bytes} bytes, and a .glb holds {} at most; write fewer meshes at a time", u32::MAX)]
     TooLarge {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Its size.
+        /// Size of the file, bytes.
         bytes: u64,
     },
 }
 
 /// Writes a scene as `.glb`.
 ///
-/// The file appears at once and whole, or not at all. Meshes without triangles, [`Scene::notices`] and the keys of animations are left out.
+/// The complete file appears at once, or not at all. Meshes without triangles, [`Scene::notices`] and the keys of
+/// animations are left out.
 ///
 /// # Errors
-/// [`ExportError`]; values that are not finite, or base colours outside 0…1, are among them.
+/// [`ExportError`], for example for non-finite values or base colours outside 0…1.
 pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     scene.validate()?;
     check_values(scene)?;
@@ -94,7 +96,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
             "translation": scene.origin.to_array(),
             "extras": NodeExtras { solid: Some(mesh.solid) }.to_json(),
         });
-        // What moves hangs on a node that stands where its motion is anchored.
+        // A moving mesh is the child of a node at its motion's anchor.
         roots.push(nodes.len());
         if let Some(motion) = mesh.motion {
             let above = match &scene.motions[motion] {
@@ -105,7 +107,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
                         "extras": { "celerity": celerity.vector().to_array(), "at": anchor.ct },
                     })
                 }
-                // Keys are left out: it stands where they have it at first.
+                // Keys are left out: the mesh is placed by its pose at time 0.
                 Motion::Animated(animated) => {
                     node["translation"] = json!([0.0, 0.0, 0.0]);
                     let pose = DMat4::from(animated.at(0.0).world_from_body);
@@ -142,7 +144,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
         "bufferViews": file.views,
         "buffers": [{ "byteLength": file.blob.len() }],
     });
-    // Empty lists are not allowed, so these are there only if anything is in them.
+    // glTF does not allow empty lists, so these are written only if they have entries.
     let lists = [("images", file.images), ("textures", file.textures), ("samplers", file.samplers)];
     for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
         root[name] = json!(list);
@@ -183,7 +185,7 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
         let fraction = |value: &f32| (0.0..=1.0).contains(value);
         let name = &material.name;
         ensure(material.base_colour.iter().all(fraction), "the base colour", name, "it is not within 0…1")?;
-        // Half the largest f32, so that there is a power of two above it.
+        // The limit is half the largest f32, so that there is a power of two above it.
         let emissive = (material.emissive.iter()).all(|value| (0.0..=f32::MAX / 2.0).contains(value));
         ensure(emissive, "the emission", name, "it is negative or too large")?;
         let cutoff = !matches!(material.alpha, Alpha::Mask(cutoff) if !(cutoff.is_finite() && cutoff >= 0.0));
@@ -203,7 +205,7 @@ fn check_values(scene: &Scene) -> Result<(), ExportError> {
     Ok(())
 }
 
-/// The lists of a glTF file that grow as things are added, and the binary chunk.
+/// Growing lists of a glTF file, and its binary chunk.
 #[derive(Default)]
 struct File {
     blob: Vec<u8>,
@@ -231,7 +233,7 @@ impl File {
         push(&mut self.accessors, accessor)
     }
 
-    /// Adds the data of a mesh. Attributes that say nothing are left out.
+    /// Adds the data of a mesh. Attributes with default values only are left out.
     fn mesh(&mut self, mesh: &Mesh) -> Value {
         let positions = self.attribute("VEC3", &mesh.positions);
         let least = mesh.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
@@ -259,7 +261,7 @@ impl File {
         json!({ "name": mesh.name, "primitives": [primitive] })
     }
 
-    /// Adds a panorama as EXR, which keeps every bit, and says where it is.
+    /// Adds a panorama as EXR, which keeps every bit; the result refers to it in JSON.
     fn panorama(&mut self, panorama: &Panorama, scene: &str) -> Result<Value, ExportError> {
         let exr = exr(panorama, scene)?;
         Ok(json!({ "bufferView": self.view(&exr, None) }))
@@ -275,7 +277,7 @@ impl File {
                 Wrap::Mirror => 33648,
                 Wrap::Clamp => 33071,
             });
-            // Magnified: nearest or linear. Minified: linear between mipmaps.
+            // Magnification is nearest or linear; minification is linear between mipmaps.
             let magnified = if texture.nearest { 9728 } else { 9729 };
             let sampler = json!({ "wrapS": wrap_s, "wrapT": wrap_t, "magFilter": magnified, "minFilter": 9987 });
             let image = push(&mut self.images, image);
@@ -310,7 +312,7 @@ fn png(texture: &Texture) -> Result<Vec<u8>, ExportError> {
     Ok(bytes.into_inner())
 }
 
-/// The smallest power of two that is no less than the emission and than 1.
+/// Smallest power of two that is at least the emission and at least 1.
 fn emissive_strength(material: &Material) -> f32 {
     let largest = material.emissive.into_iter().fold(1.0, f32::max);
     let power = largest.log2().ceil().exp2();
@@ -370,7 +372,7 @@ fn material(material: &Material) -> Value {
     value
 }
 
-/// A node with a light, which shines along −z of it.
+/// Node of a lamp, which shines along the node's −z.
 fn lamp_node(number: usize, lamp: &Lamp) -> Value {
     let mut node = json!({
         "name": lamp.name,
@@ -384,7 +386,7 @@ fn lamp_node(number: usize, lamp: &Lamp) -> Value {
     node
 }
 
-/// A lamp in candela: those of one metre's light, π of which show white as white.
+/// Lamp as a glTF light in candela: its light at one metre, of which π lux show white as white.
 fn lamp(lamp: &Lamp) -> Value {
     let mut light = json!({
         "name": lamp.name,
@@ -417,7 +419,7 @@ fn extensions_used(scene: &Scene) -> Vec<&'static str> {
     names.into_iter().filter_map(|(used, name)| used.then_some(name)).collect()
 }
 
-/// Puts header and chunks together, each padded to whole words, under another name first.
+/// Writes header and chunks, each padded to whole words, under a temporary name first.
 fn write(path: &Path, mut text: Vec<u8>, mut blob: Vec<u8>) -> Result<(), ExportError> {
     text.resize(text.len().next_multiple_of(4), b' ');
     blob.resize(blob.len().next_multiple_of(4), 0);
@@ -425,7 +427,7 @@ fn write(path: &Path, mut text: Vec<u8>, mut blob: Vec<u8>) -> Result<(), Export
     let Ok(length) = u32::try_from(bytes) else {
         return Err(ExportError::TooLarge { path: path.into(), bytes });
     };
-    // No cast loses anything: both are less than `length`.
+    // The casts lose nothing: both values are less than `length`.
     let word = |value: usize| (value as u32).to_le_bytes();
     let header = [&b"glTF"[..], &2_u32.to_le_bytes(), &length.to_le_bytes(), &word(text.len()), b"JSON"].concat();
     let middle = [&word(blob.len()), &b"BIN\0"[..]].concat();
@@ -440,7 +442,7 @@ fn write(path: &Path, mut text: Vec<u8>, mut blob: Vec<u8>) -> Result<(), Export
         std::fs::rename(&partial, path)
     });
     result.map_err(|error| {
-        // Nothing more can be done about what is left of it; the first error is the one to report.
+        // A failure to remove the partial file is ignored; the first error is the one to report.
         let _ = std::fs::remove_file(&partial);
         ExportError::Write { path: path.into(), error }
     })

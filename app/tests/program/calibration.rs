@@ -1,5 +1,6 @@
-//! Law: F4 shows a grid whose frame is where the corners are; keys move them, S puts them into the file and nothing else, and what
-//! is drawn from that file then has them. A program that rode on the arrows, or lost a comment, would fail here.
+//! Law: F4 shows a grid whose frame lies at the corners. Keys move the corners, S writes them into the file and
+//! changes nothing else, and a picture drawn from that file uses them. A program that steered the vehicle with the
+//! arrow keys, or lost a comment, would fail here.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
@@ -30,7 +31,7 @@ screen = "front"
 window = "w"
 "#;
 
-/// A reading of the screen; `None` while the server is not ready.
+/// Picture of the screen; `None` while the server is not ready.
 fn screen(display: &Display, folder: &Path) -> Option<RgbImage> {
     let shot = folder.join("screen.png");
     let grabbed = Command::new("ffmpeg")
@@ -67,7 +68,7 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
     wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
 
-    // The frame is the window's edge at first.
+    // At first the frame lies at the window's edge.
     let white = |at: [u32; 2], corner: [u32; 2]| {
         wait_for("the grid's frame", || {
             let screen = screen(&display, folder.path())?;
@@ -80,7 +81,7 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     display.tool(&["key", "F4"]);
     white([0, 240], [0, 0]);
 
-    // The upper left corner by (13, 10).
+    // Move the upper left corner by (13, 10).
     display.tool(&["key", "shift+Right"]);
     for key in ["Right", "Right", "Right"] {
         display.tool(&["key", key]);
@@ -98,14 +99,14 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     });
     assert!(status.success());
 
-    // No key was pressed for the vehicle.
+    // The vehicle received no key presses.
     for entry in Recording::open(&folder.path().join("r.mcap")).unwrap() {
         if let Entry::Sample(sample) = entry.unwrap() {
             assert!(Key::ALL.iter().all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
         }
     }
 
-    // The file has them, in one line more.
+    // The file has the corners, in one added line.
     let added: Vec<_> = saved.lines().filter(|line| !FILE.lines().any(|before| before == *line)).collect();
     assert_eq!(added.len(), 1, "{saved}");
     assert!(added[0].starts_with("corners = { upper_left = [13.0, 10.0],"), "{saved}");

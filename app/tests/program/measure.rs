@@ -1,6 +1,7 @@
-//! Law: `rapidity measure` measures. On boxes seen at half the speed of light it finds what must hold anywhere: nothing is further from its place than
-//! was promised, finer dials are closer, and table, file and plot say the same.
-//! A wrong program shows: an error above the tolerance, a colour further from the rays' with a finer dial, a choice that `ride` does not draw by.
+//! Law: `rapidity measure` measures. On boxes seen at half the speed of light, errors of position stay within the
+//! promised tolerance, finer settings are more accurate, and table, file and plot agree. A wrong program shows an
+//! error above the tolerance, a colour further from the ray tracer's with a finer setting, or a choice that `ride`
+//! does not use.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use std::path::Path;
@@ -20,13 +21,13 @@ fn told(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// One picture of the boxes, soon drawn.
+/// Options for one small picture of the boxes, quick to draw.
 const SMALL: [&str; 8] = ["--scene", "lattice", "--size", "96x64", "--poses", "1", "--rounds", "1"];
 
-/// What a ride needs to be filmed here.
+/// Options for filming a short ride.
 const FILMED: [&str; 8] = ["--scene", "lattice", "--out", "r.mp4", "--size", "64x48", "--seconds", "0.3"];
 
-/// A file of comma-separated values.
+/// File of comma-separated values.
 struct Csv(Vec<Vec<String>>);
 
 impl Csv {
@@ -55,13 +56,13 @@ fn a_tolerance_is_kept_and_written_down() {
 
     let csv = Csv::read(&csv);
     let number = |flags: &str, column: &str| csv.number(&format!("--renderer {flags}"), column);
-    // 60° over 64 pixels make 56.25′ a pixel in the mean, and tan 30° · 2/64 rad = 62.0′ in the middle.
+    // A picture of 60° over 64 pixels has 56.25′ a pixel in the mean, and tan 30° · 2/64 rad = 62.0′ in the middle.
     let pixel_arcmin = 62.1;
     for tolerance in [4.0, 2.0, 1.0, 0.5, 0.25] {
         let error = number(&format!("polygon --tolerance {tolerance}"), "arcmin_most");
         assert!(error <= tolerance * pixel_arcmin, "{tolerance} px: {error}′");
     }
-    // Finer dials are closer in direction, and so in colour and to the eye.
+    // Finer settings are more accurate in direction, and therefore in colour and perceived difference.
     for column in ["arcmin_most", "delta_e_99", "flip"] {
         for [fine, coarse] in
             [["image --map-scale 8", "image --map-scale 0.9"], ["polygon --edge 0.5", "polygon --edge 2"]]
@@ -69,7 +70,8 @@ fn a_tolerance_is_kept_and_written_down() {
             assert!(number(fine, column) < number(coarse, column), "{column}: {fine}");
         }
     }
-    // The stages make up the whole, and a map of 8 texels a pixel holds more than one of 0.9. Medians of one round are the values themselves.
+    // The stages add up to the whole, and a map of 8 texels a pixel holds more than one of 0.9. Medians of one round
+    // are the values themselves.
     let stages = ["bend_ms_median", "upload_ms_median", "draw_ms_median"];
     for flags in ["polygon --edge 1", "polygon --tolerance 1", "image --map-scale 2"] {
         let sum: f64 = stages.iter().map(|stage| number(flags, stage)).sum();
@@ -95,11 +97,11 @@ fn rides_are_drawn_by_what_was_chosen_until_told_otherwise() {
     let file = folder.path().join("rapidity/rapidity.toml");
     let ride = |options: &[&str]| run("ride", folder.path(), &[&FILMED[..], options].concat());
 
-    // Nobody is that fast: what comes closest is named, and nothing written.
+    // The budget cannot be met: the closest setting is named, and nothing is written.
     let output = measure(folder.path(), &[&SMALL[..], &["--budget", "0.001ms"]].concat());
     assert!(!output.status.success() && told(&output).contains("comes closest"), "{}", told(&output));
     assert!(!file.exists());
-    // Anybody is faster than that: the closest is taken.
+    // Any setting meets this budget: the most accurate one is chosen.
     let csv = folder.path().join("m.csv");
     let output = measure(folder.path(), &[&SMALL[..], &["--budget", "100s", "--out", csv.to_str().unwrap()]].concat());
     assert!(output.status.success(), "{}", told(&output));
@@ -112,7 +114,7 @@ fn rides_are_drawn_by_what_was_chosen_until_told_otherwise() {
     let closest = settings.iter().find(|setting| told(&output).contains(&format!("{setting} is best"))).unwrap();
     assert_eq!(error(closest), least, "{closest}: {}", told(&output));
 
-    // A ride says that it reads it, and from where; any option on how to draw leaves it out.
+    // A ride says that it reads the choice, and from which file; any option on how to draw leaves the file unread.
     let output = ride(&[]);
     assert!(output.status.success(), "{}", told(&output));
     assert!(told(&output).contains(&format!("{}: drawn with {closest}", file.display())), "{}", told(&output));
@@ -141,7 +143,7 @@ fn poses_come_from_a_recorded_ride() {
     let folder = tempfile::tempdir().unwrap();
     let output = run("ride", folder.path(), &[&FILMED[..], &["--record", "r.mcap", "--vehicle", "fly"]].concat());
     assert!(output.status.success(), "{}", told(&output));
-    // The recording names its scene.
+    // The recording contains the name of its scene.
     let options = ["--replay", "r.mcap", "--size", "96x64", "--poses", "2", "--rounds", "1", "--tolerance", "50px"];
     let output = measure(folder.path(), &options);
     assert!(output.status.success(), "{}", told(&output));

@@ -1,5 +1,5 @@
-//! Law: the program as a process keeps the promises of a filter. A wrong program would hold answers back until its input
-//! ends, exit with 0 after an error, say something on standard error that is not its own, or complain of a broken pipe.
+//! Law: the program as a process keeps the promises of a filter. A wrong program would hold answers back until its
+//! input ends, exit with 0 after an error, write anything else to standard error, or complain about a broken pipe.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use std::io::{BufRead, BufReader, Write};
@@ -18,7 +18,7 @@ fn start(arguments: &[&str]) -> Child {
         .unwrap()
 }
 
-/// Runs `rapidity probe` on an input to its end.
+/// Runs `rapidity probe` on an input to the end.
 fn probe(input: &str) -> Output {
     let mut child = start(&["probe"]);
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
@@ -55,7 +55,7 @@ fn an_answer_comes_while_the_input_is_still_open() {
 fn a_reader_that_goes_away_ends_the_program_in_peace() {
     let mut child = start(&["probe"]);
     drop(child.stdout.take());
-    // The program may be gone before it has read everything.
+    // The program may have ended before it has read everything.
     let _ = child.stdin.take().unwrap().write_all(GOOD.repeat(1000).as_bytes());
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));

@@ -1,5 +1,5 @@
 //! Law: a ride on an instrumented bicycle, through a real pseudo-terminal and the real program, replays to the same
-//! bits on any number of threads. A program that let a clock, a thread or a lost sample into the ride would differ.
+//! bits on any number of threads. A program that let a clock, a thread or a lost sample affect the ride would differ.
 #![cfg(unix)]
 
 use std::io::{Read, Write};
@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 
 use serialport::{SerialPort, TTYPort};
 
-/// Metres of road a turn of the wheel, as the decoder assumes.
+/// Metres of road per turn of the wheel, as the decoder assumes.
 const CIRCUMFERENCE_M: f64 = 2.1;
-/// Lines a second.
+/// Rate of the sensor's lines, per second.
 const LINES_PER_SECOND: u64 = 60;
 
 fn rapidity(arguments: &[&str], folder: &std::path::Path) -> Output {
@@ -29,7 +29,7 @@ fn sentence(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// A line of the pulse protocol, `seconds` after the bicycle was switched on, at a steady speed.
+/// Line of the pulse protocol, `seconds` after the bicycle was switched on, at a steady speed.
 fn line(number: u64, seconds: f64, metres_per_second: f64) -> String {
     let turns = (seconds * metres_per_second / CIRCUMFERENCE_M).floor();
     let pulse_us = (turns * CIRCUMFERENCE_M / metres_per_second * 1e6) as u64;
@@ -46,7 +46,7 @@ fn a_ride_through_a_pseudo_terminal_replays_to_the_same_bits() {
     let name = port.name().unwrap();
     bicycle.set_timeout(Duration::from_millis(5)).unwrap();
 
-    // Somebody pedals for as long as the ride takes, with a line of noise now and then.
+    // A thread sends pedalling for as long as the ride takes, with a line of noise now and then.
     let over = Arc::new(AtomicBool::new(false));
     let pedalling = Arc::clone(&over);
     let rider = std::thread::spawn(move || {
@@ -92,7 +92,7 @@ fn a_ride_through_a_pseudo_terminal_replays_to_the_same_bits() {
     assert!(ridden.status.success(), "{}", sentence(&ridden.stderr));
     assert!(answers.contains("K1,"), "the brake was never told anything: {answers:?}");
 
-    // The recording holds a ride that went somewhere.
+    // The recording holds a ride that covers some distance.
     let frames = input::recording::Recording::open(&folder.path().join("r.mcap")).unwrap();
     let road = frames
         .filter_map(|entry| match entry.unwrap() {

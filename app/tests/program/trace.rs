@@ -1,5 +1,5 @@
-//! Law: what is traced can be filmed, and Ctrl-C keeps what there is of it. A wrong program writes a black picture when nothing was traced, is
-//! killed while the scene is made ready, or leaves no film.
+//! Law: a ray-traced scene can be filmed, and Ctrl-C keeps the finished part. A wrong program writes a black picture
+//! when nothing was traced, is killed while the scene is prepared, or leaves no film.
 #![cfg(unix)]
 
 use std::path::Path;
@@ -25,7 +25,7 @@ fn a_short_film_is_traced() {
     assert!(output.status.success(), "{}", words(&output));
     let pictures = folder.path().join("film.frames");
     let film = folder.path().join("film.mp4");
-    // Without ffmpeg there is a folder of pictures instead.
+    // If ffmpeg is missing, there is a folder of pictures instead.
     let there = if pictures.is_dir() { pictures.join("000002.png") } else { film };
     assert!(there.metadata().unwrap().len() > 0, "{}", words(&output));
 }
@@ -33,14 +33,14 @@ fn a_short_film_is_traced() {
 #[test]
 fn a_picture_that_is_interrupted_keeps_what_is_done_or_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
-    // So large that it would take hours.
+    // The picture is so large that it would take hours.
     let arguments = "render --scene lattice --renderer raytrace --size 4096x4096 --samples 64 --out a.png";
     let child = rapidity(arguments, folder.path()).stderr(Stdio::piped()).spawn().unwrap();
     let mut output = None;
     std::thread::scope(|scope| {
         let id = child.id().to_string();
         let waiter = scope.spawn(move || child.wait_with_output().unwrap());
-        // It listens once it runs; before that the signal ends it, as it ends any program.
+        // The program handles the signal once it runs; before that the signal ends it, like any program.
         std::thread::sleep(std::time::Duration::from_secs(3));
         assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
         output = Some(waiter.join().unwrap());

@@ -1,6 +1,6 @@
-//! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is in the ride, and
-//! replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
-//! would have another the second time.
+//! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is part of the ride,
+//! and replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
+//! would have another head the second time.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use std::io::Write;
@@ -13,9 +13,9 @@ use input::head::Tracking;
 use input::recording::{Entry, Recording};
 use input::vrpn::{POSE, wire};
 
-/// Poses a second.
+/// Rate of poses, hertz.
 const RATE_HZ: u32 = 100;
-/// The head sways so far, metres, at so many radians a second.
+/// Sway of the head: amplitude, metres, and angular frequency, radians per second.
 const SWAY: (f64, f64) = (0.2, 3.0);
 
 fn rapidity(arguments: &[&str], folder: &Path) -> Output {
@@ -32,7 +32,7 @@ fn sentence(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// A server whose "Head" sways before everybody who connects, until he goes.
+/// Starts a server whose "Head" sways for every client until it disconnects; returns its address.
 fn serve() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let place = listener.local_addr().unwrap();
@@ -55,7 +55,7 @@ fn serve() -> String {
     format!("vrpn://{place}/Head")
 }
 
-/// Where the head is then.
+/// Payload with the pose of the head at this time.
 fn pose(time: Duration) -> Vec<u8> {
     let x = SWAY.0 * (SWAY.1 * time.as_secs_f64()).sin();
     let mut payload = vec![0; 8];
@@ -103,7 +103,7 @@ fn a_ride_with_a_tracked_head_replays_to_the_same_bits() {
         .collect();
     let fastest = heads.iter().map(|head| head.velocity_m_s.x.abs()).fold(0.0, f64::max);
     let expected = SWAY.0 * SWAY.1;
-    // The mean of four frames, on a busy machine.
+    // The velocity is a mean of four frames, on a busy machine.
     assert!((0.5 * expected..1.5 * expected).contains(&fastest), "{fastest} of {expected} in {} frames", heads.len());
 
     let verified = rapidity(&["ride", "--replay", "r.mcap", "--verify"], folder.path());

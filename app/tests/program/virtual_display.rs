@@ -1,22 +1,22 @@
-//! A virtual X display for the program's windows, and patience for a software driver.
+//! Virtual X display for the program's windows, with time limits that suit a software driver.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Long enough for a software driver on a busy machine.
+/// Time limit for a software driver on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// A virtual display that ends with the test.
+/// Virtual display that ends with the test.
 pub struct Display {
     server: Child,
-    /// As DISPLAY has it.
+    /// Name of the display, as in DISPLAY.
     pub name: String,
 }
 
 impl Display {
-    /// Of so many pixels.
+    /// Opens a display of this size, pixels.
     pub fn open([width, height]: [u32; 2]) -> Self {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
@@ -48,7 +48,7 @@ impl Drop for Display {
     }
 }
 
-/// Asks until there is an answer.
+/// Repeats `look` until it gives an answer.
 pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
@@ -60,7 +60,7 @@ pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// The program, with its window on a display.
+/// Command that runs the program with its window on a display.
 pub fn rapidity(folder: &Path, display: &str, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rapidity"));
     command.args(arguments).current_dir(folder).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");

@@ -1,5 +1,5 @@
-//! Law: a display's channels become pictures of their own, and windows of their own that show the same; a wrong display, head or folder is
-//! refused in one sentence. A program that changed the eyes over, or showed both alike, would fail here.
+//! Law: a display's channels become pictures of their own, and windows that show the same pictures. A wrong display,
+//! head or folder is refused in one sentence. A program that swapped the eyes, or showed both alike, would fail here.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
@@ -11,7 +11,7 @@ use std::process::{Command, Output};
 use std::time::Duration;
 use virtual_display::{Display, rapidity, wait_for};
 
-/// Eyes far apart, so that their pictures differ clearly.
+/// Display whose eyes are far apart, so that their pictures differ clearly.
 const STEREO: &str = r#"
 [viewer]
 eye_separation = 0.064
@@ -89,7 +89,7 @@ fn two_windows_show_what_each_eye_sees() {
     wait_for("focus", || display.tool(&["windowfocus", "--sync", &windows[0]]));
     display.tool(&["key", "F2"]);
 
-    // Both show their own eye's picture, as soon as the readings are gone.
+    // Both windows show their own eye's picture, once the readings are hidden.
     let shot = folder.path().join("screen.png");
     let mut closest = f64::INFINITY;
     wait_for("pictures in both windows", || {

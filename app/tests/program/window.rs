@@ -1,5 +1,6 @@
-//! Law: a window on a real (virtual) display rides, listens to keys, takes a photo, leaves on Escape, and its recording is
-//! whole and replays to the bit. A window that lost keys, drew nothing or ended without completing its file would show here.
+//! Law: a window on a virtual display runs a ride, reacts to keys, takes a photo and closes on Escape, and its
+//! recording is complete and replays to the bit. A window that lost keys, drew nothing or ended without completing
+//! its file would show here.
 #![cfg(target_os = "linux")]
 
 mod virtual_display;
@@ -14,7 +15,7 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "320x240", "--record", "r.mcap"];
     let mut program = rapidity(folder.path(), &display.name, &arguments).spawn().unwrap();
 
-    // Find the window, and press keys until each has shown what it does.
+    // Find the window, and press keys until each has had its effect.
     let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
     wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
     display.tool(&["keydown", "w"]);

@@ -1,8 +1,8 @@
-//! What falls on a surface in a room with one lamp: the light of the lamp itself, with soft shadows, and what comes back from the room.
+//! Irradiance in a room with one lamp: direct light of the lamp, with soft shadows, and light returned by the room.
 //!
-//! The lamp is a luminous part of the ceiling, so that its light is an integral over a rectangle (W 3.3); what walls and floor
-//! return is even, and weaker in corners. Nothing depends on the wavelength: everything in the room is colourless, and so its light has
-//! the lamp's spectrum everywhere.
+//! The lamp is a luminous part of the ceiling, so its light is an integral over a rectangle (W 3.3). Light returned
+//! by walls and floor is even, and weaker in corners. It does not depend on the wavelength: everything in the room is
+//! colourless, so all light in it has the lamp's spectrum.
 
 use std::f32::consts::PI;
 
@@ -11,20 +11,20 @@ use glam::{Vec2, Vec3, Vec3Swizzles, vec2, vec3};
 use super::sheet::Sheet;
 use crate::turn::circle;
 
-/// Share of light that everything in a room returns.
+/// Albedo of everything in a room.
 const ALBEDO: f32 = 0.7;
-/// What comes back from the room, as a share of the lamp's radiance.
+/// Radiance returned by the room, as a share of the lamp's radiance.
 const AMBIENT: f32 = 0.075;
-/// Within this distance, metres, a surface keeps such light away from another.
+/// Distance within which a surface blocks such light from another, metres.
 const REACH_M: f32 = 1.5;
-/// Points of the lamp that are looked at, across and along.
+/// Number of sample points on the lamp, across and along.
 const POINTS: [u32; 2] = [4, 10];
-/// Directions into which the room is looked at.
+/// Number of sample directions into the room.
 const LOOKS: u32 = 24;
-/// How far above a surface looks begin, metres.
+/// Height above a surface at which sample rays begin, metres.
 const CLEARANCE_M: f32 = 1e-3;
 
-/// What stands in a room.
+/// Solid body in a room.
 #[derive(Clone, Copy)]
 pub(super) enum Body {
     Ball { centre: Vec3, radius: f32 },
@@ -32,15 +32,15 @@ pub(super) enum Body {
     Drum { base: Vec3, radius: f32, height: f32 },
 }
 
-/// A room with a lamp.
+/// Room with a lamp.
 pub(super) struct Room {
-    /// Least and greatest corner.
+    /// Least and greatest corner of the room, metres.
     pub(super) bounds: [Vec3; 2],
-    /// The lamp's corners in plan.
+    /// Least and greatest corner of the lamp in plan, metres.
     pub(super) lamp: [Vec2; 2],
     /// Height of the lamp, metres.
     pub(super) lamp_height: f32,
-    /// What stands in it.
+    /// Bodies in the room.
     pub(super) bodies: Vec<Body>,
 }
 
@@ -53,7 +53,7 @@ impl Body {
         }
     }
 
-    /// Whether it stands between two points.
+    /// True if the body stands between two points.
     fn hides(self, from: Vec3, to: Vec3) -> bool {
         let way = to - from;
         match self {
@@ -66,7 +66,7 @@ impl Body {
                 overlap(&spans)
             }
             Self::Drum { base, radius, height } => {
-                // |p + t w|² = r² in plan.
+                // The ray in plan meets the circle where |p + t w|² = r².
                 let (place, way_in_plan) = ((from - base).xz(), way.xz());
                 let (a, b) = (way_in_plan.length_squared(), place.dot(way_in_plan));
                 let root = (b * b - a * (place.length_squared() - radius * radius)).max(0.0).sqrt();
@@ -79,13 +79,13 @@ impl Body {
     }
 }
 
-/// The shares of a way at which one coordinate lies between two values.
+/// Interval of shares of a way at which one coordinate lies between two values.
 fn span(from: f32, way: f32, low: f32, high: f32) -> [f32; 2] {
     let (a, b) = ((low - from) / way, (high - from) / way);
     if a.is_nan() || b.is_nan() { [f32::INFINITY, f32::NEG_INFINITY] } else { [a.min(b), a.max(b)] }
 }
 
-/// Whether some share between 0 and 1 lies in all of them.
+/// True if a share between 0 and 1 lies in all intervals.
 fn overlap(spans: &[[f32; 2]]) -> bool {
     let begin = spans.iter().map(|span| span[0]).fold(0.0, f32::max);
     let end = spans.iter().map(|span| span[1]).fold(1.0, f32::min);
@@ -99,7 +99,7 @@ impl Room {
         ALBEDO * (self.direct(from, normal) + AMBIENT * self.openness(from, normal))
     }
 
-    /// Irradiance by the lamp over π times its radiance: ∫ cos θ cos θ' / (π r²) dA over what is seen of it.
+    /// Irradiance by the lamp over π times its radiance: ∫ cos θ cos θ' / (π r²) dA over the visible part of it.
     fn direct(&self, from: Vec3, normal: Vec3) -> f32 {
         let [low, high] = self.lamp;
         let [columns, rows] = POINTS;
@@ -125,10 +125,10 @@ impl Room {
         self.bodies.iter().any(|body| body.hides(from, to))
     }
 
-    /// How much of the room a surface sees that is further away than [`REACH_M`], weighted by cosines; nearer parts count less.
+    /// Share of the room that a surface sees beyond [`REACH_M`], weighted by cosines; nearer parts count less.
     fn openness(&self, from: Vec3, normal: Vec3) -> f32 {
         let (right, up) = normal.any_orthonormal_pair();
-        /// The golden ratio spreads points evenly over a disk.
+        /// Golden ratio; its multiples spread points evenly over a disk.
         const GOLDEN: f32 = 0.618_034;
         let look = |index: u32| {
             let out = (index as f32 + 0.5) / LOOKS as f32;
@@ -143,7 +143,7 @@ impl Room {
         (0..LOOKS).map(look).sum::<f32>() / LOOKS as f32
     }
 
-    /// How far it is to a wall, metres.
+    /// Distance to a wall along a direction, metres.
     fn depth(&self, from: Vec3, direction: Vec3) -> f32 {
         let [low, high] = self.bounds;
         let towards = |axis: usize| {
@@ -156,7 +156,8 @@ impl Room {
 
 #[cfg(test)]
 mod tests {
-    //! The lamp's light is known in closed form where nothing is in its way; a wrong shadow falls where nothing stands, or not where something does.
+    //! Laws under test: the lamp's light equals its closed form where nothing stands in the way, and shadows fall
+    //! behind bodies only. A wrong shadow falls where nothing stands, or misses a body.
 
     use super::*;
 
@@ -167,12 +168,13 @@ mod tests {
 
     #[test]
     fn a_lamp_overhead_lights_as_its_form_factor_says() {
-        // A square of 2 a = 2 m at h = 5 m above its middle: F = (4/π) X/√(1+X²) atan(X/√(1+X²)), X = a/h.
+        // The lamp is a square of 2 a = 2 m, seen from h = 5 m below its middle: F = (4/π) X/√(1+X²) atan(X/√(1+X²)),
+        // X = a/h.
         let x: f32 = 0.2;
         let part = x / (1.0 + x * x).sqrt();
         let expected = 4.0 / PI * part * part.atan();
         let found = room(Vec::new()).direct(vec3(0.0, 0.0, -5.0), Vec3::Y);
-        // Forty points instead of an integral.
+        // Forty points stand for the integral.
         assert!((found / expected - 1.0).abs() < 0.002, "{found} is not {expected}");
         assert_eq!(room(Vec::new()).direct(vec3(0.0, 0.0, -5.0), Vec3::NEG_Y), 0.0, "facing away");
         assert_eq!(room(Vec::new()).direct(vec3(0.0, 6.0, -5.0), Vec3::NEG_Y), 0.0, "behind the lamp");

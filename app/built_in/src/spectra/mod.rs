@@ -1,11 +1,12 @@
-//! The built-in scene that shows what spectra do: a hall of three rooms in the light of 2800, 5900 and 10000 K, and two greens.
+//! Built-in scene of spectra: a hall of three rooms in the light of 2800, 5900 and 10000 K, and two greens.
 //!
-//! The rooms are after W fig. 5.7, 5.11 and 5.14. Everything in them is colourless, so that what one sees has the lamp's spectrum: by the shift
-//! each room turns into one of another temperature, D·T. Black bodies differ in brightness by far more than eyes can bear;
-//! each lamp is dimmed until a white is as bright as one at 2800 K. At the gate hang the two greens of B fig. 2.4 in daylight (`paint`).
+//! The rooms are after W fig. 5.7, 5.11 and 5.14. Everything in them is colourless, so all visible light has the
+//! lamp's spectrum: the Doppler shift turns each room into one of another temperature, D·T. Black bodies differ in
+//! brightness by far more than eyes can bear, so each lamp is dimmed until a white is as bright as one at 2800 K. At
+//! the gate hang the two greens of B fig. 2.4 in daylight (`paint`).
 //!
-//! The light in the rooms is worked out once, at every vertex (`lamp`), and sent out from there: nothing needs shading later. Outside the sun
-//! shines, with the spectrum of 5900 K.
+//! The light in the rooms is computed once, at every vertex (`lamp`), and sent out from there, so no shading is
+//! needed later. Outside, the sun shines with the spectrum of 5900 K.
 
 mod lamp;
 mod paint;
@@ -24,32 +25,32 @@ pub const ROOM_KELVIN: [f64; 3] = [2800.0, 5900.0, 10000.0];
 /// Temperature of daylight, kelvin.
 pub const DAYLIGHT_KELVIN: f64 = 5900.0;
 
-/// A room's width, height and depth, metres.
+/// Width, height and depth of a room, metres.
 const WIDTH: f32 = 8.0;
 const HEIGHT: f32 = 5.0;
 const DEPTH: f32 = 10.0;
-/// The doors' width and height, metres.
+/// Width and height of the doors, metres.
 const DOOR: f32 = 4.0;
 const DOOR_HEIGHT: f32 = 3.8;
-/// Half of what the walls between rooms are thick, metres.
+/// Half the thickness of the walls between rooms, metres.
 const HALF_WALL: f32 = 0.2;
-/// Thickness of the gate, metres, its width and height.
+/// Thickness, width and height of the gate, metres.
 const GATE: f32 = 0.3;
 const GATE_WIDTH: f32 = 18.0;
 const GATE_HEIGHT: f32 = 7.0;
-/// Where the hall ends.
+/// Position of the hall's far end along z, metres.
 const END: f32 = -DEPTH * ROOM_KELVIN.len() as f32;
-/// How far the pavement reaches beyond the hall, metres.
+/// Extent of the pavement beyond the hall, metres.
 const PAVEMENT: f32 = 60.0;
 
-/// Edges of cells that carry baked light, and of those that do not, metres.
+/// Edge length of cells that carry baked light, and of those that do not, metres.
 const FINE: f32 = 0.2;
 const COARSE: f32 = 2.0;
 
-/// How much brighter than white the lamps are.
+/// Brightness of the lamps as a multiple of white.
 const LAMP: f32 = 4.0;
 
-/// Materials, in the scene's order; the rooms' come after them, three each.
+/// Materials, in the scene's order; those of the rooms come after them, three each.
 const STONE: usize = 0;
 const PAVING: usize = 1;
 const GREEN_ON_ALUMINIUM: usize = 2;
@@ -63,8 +64,8 @@ const PLAIN: usize = 2;
 
 /// Builds the scene.
 ///
-/// *Frames, units*: metres, y up, the gate in the plane z = 0, the hall behind it along −z. The circuit leads through the hall and back
-/// beside it.
+/// *Frames, units*: metres, y up, the gate in the plane z = 0, the hall behind it along −z. The circuit leads through
+/// the hall and back beside it.
 pub fn build() -> Scene {
     let circuit = circuit();
     let white = luminance(ROOM_KELVIN[0]);
@@ -87,12 +88,12 @@ pub fn build() -> Scene {
     }
 }
 
-/// Of a black body at rest, cd/m².
+/// Luminance of a black body at rest, cd/m².
 fn luminance(kelvin: f64) -> f64 {
     Spectrum::Planck { kelvin }.xyz(1.0).y
 }
 
-/// A clear day whose white is as bright as a lamp of 2800 K.
+/// Light of a clear day whose white is as bright as a lamp of 2800 K.
 fn light(dimmed: f32) -> Lighting {
     let colour = |colour: [f32; 3]| colour.map(|channel| channel * dimmed);
     Lighting {
@@ -123,7 +124,7 @@ fn materials() -> Vec<Material> {
         gray("plaster", 0.72, None),
     ];
     let rooms = ROOM_KELVIN.into_iter().flat_map(|kelvin| {
-        // As bright as white.
+        // Each room's white is as bright as that at 2800 K.
         let level = (luminance(ROOM_KELVIN[0]) / luminance(kelvin)) as f32;
         let kinds = [("floor", Some(0)), ("wall", Some(1)), ("plain", None)];
         kinds.map(|(kind, texture)| Material {
@@ -135,7 +136,7 @@ fn materials() -> Vec<Material> {
     outside.into_iter().chain(rooms).collect()
 }
 
-/// A room and what stands in it; its number counts from the gate.
+/// Meshes of a room and the bodies in it; its number counts from the gate.
 fn room(number: usize) -> Vec<Mesh> {
     let kelvin = ROOM_KELVIN[number];
     let front = -DEPTH * number as f32;
@@ -188,7 +189,7 @@ fn room(number: usize) -> Vec<Mesh> {
     meshes
 }
 
-/// What stands in a room, left and right of the way; every other room is its neighbour's mirror image.
+/// Bodies of a room, left and right of the way; every other room is its neighbour's mirror image.
 fn bodies(number: usize, front: f32) -> Vec<Body> {
     let mirrored = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
     let at = |x: f32, y: f32, z: f32| vec3(x * mirrored, y, front - z);
@@ -210,7 +211,7 @@ fn bodies(number: usize, front: f32) -> Vec<Body> {
     ]
 }
 
-/// Everything that the sun shines on.
+/// Meshes outside the rooms, lit by the sun.
 fn outside() -> Vec<Mesh> {
     let lit = |_: Vec3, _: Vec3| 1.0;
 
@@ -265,13 +266,13 @@ fn outside() -> Vec<Mesh> {
     [pavement, hall, bollards, boards, plates].map(|sheet| sheet.shaded(lit)).into()
 }
 
-/// Straight through the hall, and back beside it.
+/// Corners of the circuit: straight through the hall, and back beside it.
 fn circuit() -> Vec<DVec3> {
-    /// Radius of the turns, metres, and where they begin.
+    /// Radius of the turns, metres, and the z at which they begin.
     const TURN: f32 = 7.5;
     const NEAR: f32 = 12.0;
     const FAR: f32 = END - 8.0;
-    /// Metres from one corner to the next on the straights.
+    /// Distance from one corner to the next on the straights, metres.
     const STEP: f32 = 2.0;
     let steps = ((NEAR - FAR) / STEP) as u32;
     let straight = |x: f32, from: f32, to: f32| {
@@ -290,8 +291,8 @@ fn circuit() -> Vec<DVec3> {
 
 #[cfg(test)]
 mod tests {
-    //! The scene is sound, its rooms are equally bright, and a rider comes round. A wrong one would be black in one room, burnt out in
-    //! another, or have a wall in the way.
+    //! Laws under test: the scene is sound, its rooms are equally bright, and a rider comes round. A wrong scene
+    //! would be black in one room, burnt out in another, or have a wall in the way.
 
     use super::*;
     use scene_files::check::Report;

@@ -1,14 +1,15 @@
-//! Two greens that look alike until they are shifted, and the pictures of tiles.
+//! Paints: two greens that look alike until they are shifted, and the textures of tiles.
 //!
-//! The greens are after B fig. 2.4, where the same paint was measured on aluminium and on pine: what the eye sees is the paint, but in the
-//! infrared the paint is clear, and shows what it lies on. The numbers are made up in that manner: metal goes on reflecting
-//! but for the bands in which the binder absorbs (3.4, 5.8, 8 … 10 µm); wood hardly begins to.
+//! The greens are after B fig. 2.4, where the same paint was measured on aluminium and on pine: visible light shows
+//! the paint, but in the infrared the paint is clear and shows the material below. The numbers here are invented
+//! after that pattern: metal goes on reflecting but for the bands in which the binder absorbs (3.4, 5.8, 8 … 10 µm);
+//! wood hardly begins to.
 
 use physics::colour::Spectrum;
 
 use scene::{Texture, Wrap};
 
-/// Reflectance of the paint where it hides what is below, nm.
+/// Reflectance of the paint where it hides the material below; pairs of wavelength in nm and reflectance.
 const PAINT: [[f64; 2]; 17] = [
     [300.0, 0.04],
     [350.0, 0.05],
@@ -63,19 +64,20 @@ const ON_PINE: [[f64; 2]; 11] = [
     [12000.0, 0.05],
 ];
 
-/// Reflectance of green paint on aluminium and on pine.
+/// Reflectances of green paint on aluminium and on pine.
 pub(super) fn greens() -> [Spectrum; 2] {
     [&ON_ALUMINIUM[..], &ON_PINE[..]].map(|infrared| {
         Spectrum::sampled([&PAINT[..], infrared].concat()).expect("the tables ascend and are not negative")
     })
 }
 
-/// Side of a picture of tiles, pixels.
+/// Side of a texture of tiles, pixels.
 const SIDE: u32 = 256;
 /// Width of the joints, pixels.
 const JOINT: u32 = 3;
 
-/// One metre of tiles, `count` along each side: grey levels of two kinds of tiles in turn, and of the joints between.
+/// Texture of one square metre of tiles, `count` along each side: grey levels of two kinds of alternating tiles, and
+/// of the joints.
 pub(super) fn tiles(name: &str, count: u32, tile_codes: [u8; 2], joint_code: u8) -> Texture {
     let tile = SIDE / count;
     let code = |index: u32| {
@@ -89,7 +91,7 @@ pub(super) fn tiles(name: &str, count: u32, tile_codes: [u8; 2], joint_code: u8)
 
 #[cfg(test)]
 mod tests {
-    //! The point of the two greens: no eye at rest tells them apart, and none in motion confuses them.
+    //! Laws under test: the two greens look alike to an observer at rest, and differ to one in motion.
 
     use glam::DVec3;
     use physics::colour::Carrier;
@@ -97,7 +99,8 @@ mod tests {
 
     use super::*;
 
-    /// Colours, shifted by D, by daylight of 5900 K; lightness is relative to a white surface beside them.
+    /// Colour difference of the two greens, shifted by D, in daylight of 5900 K; lightness is relative to a white
+    /// surface beside them.
     fn difference(doppler: f64) -> f64 {
         let xyz = |reflectance| {
             let daylight = Spectrum::Planck { kelvin: 5900.0 };
@@ -110,7 +113,8 @@ mod tests {
 
     #[test]
     fn greens_look_alike_at_rest_and_part_when_shifted() {
-        // About 1 is the least that an eye sees side by side; beyond 10 are different colours.
+        // A difference of about 1 is the least that is visible side by side; beyond 10 the colours are clearly
+        // different.
         assert!(difference(1.0) < 0.5, "{}", difference(1.0));
         for doppler in [1.3, 1.5, 2.0, 4.0] {
             assert!(difference(doppler) > 10.0, "{doppler}: {}", difference(doppler));

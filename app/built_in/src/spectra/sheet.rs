@@ -1,4 +1,5 @@
-//! Meshes in the making: flat patches in cells, and bodies of revolution, fine enough to carry light at their vertices.
+//! Sheets: meshes under construction from flat patches in cells and bodies of revolution, fine enough to carry light
+//! at their vertices.
 
 use glam::{Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
@@ -6,10 +7,10 @@ use rayon::prelude::*;
 use scene::Mesh;
 use crate::turn::circle;
 
-/// Sides of round bodies.
+/// Number of sides of round bodies.
 const SIDES: u32 = 48;
 
-/// A mesh in the making, of one material; texture coordinates are metres.
+/// Mesh under construction, of one material; texture coordinates are metres.
 pub(super) struct Sheet {
     mesh: Mesh,
     /// Longest edge of a patch's cells, metres.
@@ -21,7 +22,8 @@ impl Sheet {
         Self { mesh: Mesh { name: name.into(), material, solid: true, ..Mesh::default() }, cell }
     }
 
-    /// The mesh, with the light that its material sends out at each vertex: place and normal in, share out.
+    /// Finished mesh, with its light at each vertex as colour: `light` gives the emitted share for a position and
+    /// normal.
     pub(super) fn shaded(mut self, light: impl Fn(Vec3, Vec3) -> f32 + Sync) -> Mesh {
         let Mesh { positions, normals, colours, .. } = &mut self.mesh;
         let lit = positions.par_iter().zip(&*normals).map(|(&position, &normal)| light(position, normal));
@@ -29,7 +31,7 @@ impl Sheet {
         self.mesh
     }
 
-    /// A parallelogram whose front faces along `across` × `along`.
+    /// Adds a parallelogram whose front faces along `across` × `along`.
     pub(super) fn patch(&mut self, corner: Vec3, across: Vec3, along: Vec3) {
         let cells = |edge: Vec3| (edge.length() / self.cell).ceil().max(1.0) as u32;
         let normal = across.cross(along).normalize();
@@ -39,7 +41,7 @@ impl Sheet {
         });
     }
 
-    /// All six sides of an upright box.
+    /// Adds the six sides of an upright box.
     pub(super) fn block(&mut self, low: Vec3, high: Vec3) {
         let size = high - low;
         let [x, y, z] = [Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z];
@@ -53,14 +55,14 @@ impl Sheet {
 
     pub(super) fn ball(&mut self, centre: Vec3, radius: f32) {
         self.grid([SIDES, SIDES / 2], |share| {
-            // From pole to pole: half a turn.
+            // From pole to pole is half a turn.
             let height = circle(share.y / 2.0 - 0.25);
             let normal = around(share.x, height.x, height.y);
             (centre + normal * radius, normal, share * radius)
         });
     }
 
-    /// An upright cylinder on `base`, with its lid.
+    /// Adds an upright cylinder on `base`, with its lid.
     pub(super) fn drum(&mut self, base: Vec3, radius: f32, height: f32) {
         let rings = (height / self.cell).ceil().max(1.0) as u32;
         self.grid([SIDES, rings], |share| {
@@ -71,7 +73,8 @@ impl Sheet {
         self.grid([SIDES, 4], |share| (lid + around(share.x, radius * (1.0 - share.y), 0.0), Vec3::Y, share * radius));
     }
 
-    /// Cells over the unit square: place, normal and texture coordinates for each share of the way. Those that fall together at a pole are left out.
+    /// Adds cells over the unit square: `place` gives position, normal and texture coordinates for each share of the
+    /// way. Triangles without area, at a pole, are left out.
     fn grid(&mut self, [columns, rows]: [u32; 2], place: impl Fn(Vec2) -> (Vec3, Vec3, Vec2)) {
         let first = self.mesh.positions.len() as u32;
         for row in 0..=rows {
@@ -95,10 +98,10 @@ impl Sheet {
     }
 }
 
-/// Below this square of twice its area, m⁴, a triangle is a pole's.
+/// Square of twice the area, m⁴, below which a triangle lies at a pole.
 const MIN_AREA_SQUARED: f32 = 1e-12;
 
-/// A point about the vertical, counter-clockwise from above.
+/// Point on a circle about the vertical axis, counter-clockwise from above.
 fn around(turns: f32, radius: f32, height: f32) -> Vec3 {
     let c = circle(turns);
     vec3(c.y * radius, height, c.x * radius)

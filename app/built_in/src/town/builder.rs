@@ -1,8 +1,8 @@
-//! Collects faces into meshes, one for each district and surface.
+//! Builder: collects faces into meshes, one for each district and surface.
 //!
-//! Every face is flat-shaded and lies in metres; texture coordinates are metres divided by what one repetition of the
-//! surface's picture covers, unless a face brings its own. Vertex colours carry the tint of a house and the
-//! darkness of corners that little light reaches.
+//! Faces are flat-shaded, with positions in metres. Texture coordinates are metres divided by the size of one
+//! repetition of the surface's picture, unless a face brings its own. Vertex colours carry the tint of a house and
+//! the darkness of corners that little light reaches.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub(super) type Tint = Vec3;
 pub(super) struct Corner {
     pub(super) at: Vec3,
     pub(super) uv: Vec2,
-    /// Share of the light that reaches it.
+    /// Share of the light that reaches the corner.
     pub(super) light: f32,
 }
 
@@ -30,24 +30,24 @@ impl Corner {
     }
 }
 
-/// A place to build at: an origin and right-handed axes.
+/// Local frame of a building or piece: an origin and right-handed axes.
 #[derive(Clone, Copy)]
 pub(super) struct Frame {
     pub(super) origin: Vec3,
-    /// To the right of someone who looks at the front.
+    /// Unit vector to the right, as seen by an observer in front.
     pub(super) right: Vec3,
     pub(super) up: Vec3,
-    /// Out of the front, towards who looks at it.
+    /// Unit vector out of the front, towards an observer in front.
     pub(super) out: Vec3,
 }
 
 impl Frame {
-    /// Upright, its front facing along the horizontal direction `out`.
+    /// Upright frame whose front faces along the horizontal direction `out`.
     pub(super) fn facing(origin: Vec3, out: Vec3) -> Self {
         Self { origin, right: Vec3::Y.cross(out), up: Vec3::Y, out }
     }
 
-    /// Upright, turned about the vertical.
+    /// Upright frame, turned about the vertical.
     pub(super) fn turned(origin: Vec3, turns: f32) -> Self {
         let c = circle(turns);
         Self::facing(origin, vec3(c.y, 0.0, c.x))
@@ -57,12 +57,12 @@ impl Frame {
         self.origin + self.right * x + self.up * y + self.out * z
     }
 
-    /// The same axes at another place, given in this frame.
+    /// Frame with the same axes at another place, given in this frame.
     pub(super) fn at(&self, x: f32, y: f32, z: f32) -> Self {
         Self { origin: self.point(x, y, z), ..*self }
     }
 
-    /// Turned a quarter, half, … about the vertical.
+    /// Frame turned about the vertical by a share of a full turn.
     pub(super) fn rotated(&self, turns: f32) -> Self {
         let c = circle(turns);
         let out = self.out * c.x + self.right * c.y;
@@ -70,7 +70,7 @@ impl Frame {
     }
 }
 
-/// Meshes in the making.
+/// Meshes under construction.
 #[derive(Default)]
 pub(super) struct Builder {
     districts: Vec<String>,
@@ -79,7 +79,7 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// Faces from here on belong to the district of this name.
+    /// Starts a district: faces from here on belong to it.
     pub(super) fn district(&mut self, name: &str) {
         self.current = self.districts.iter().position(|known| known == name).unwrap_or_else(|| {
             self.districts.push(name.into());
@@ -87,7 +87,7 @@ impl Builder {
         });
     }
 
-    /// The meshes, in the order of districts and surfaces.
+    /// Finished meshes, in the order of districts and surfaces.
     pub(super) fn finish(self, material_of: impl Fn(Surface) -> usize) -> Vec<Mesh> {
         let named = |((_, surface), mesh): ((usize, Surface), Mesh)| Mesh {
             material: material_of(surface),
@@ -97,14 +97,14 @@ impl Builder {
         self.meshes.into_iter().map(named).collect()
     }
 
-    /// A flat convex face, counter-clockwise as seen from its front.
+    /// Adds a flat convex face, counter-clockwise as seen from its front.
     pub(super) fn face(&mut self, surface: Surface, tint: Tint, corners: &[Corner]) {
         let normal = normal_of(corners.iter().map(|corner| corner.at));
         let normals = vec![normal; corners.len()];
         self.smooth_face(surface, tint, corners, &normals);
     }
 
-    /// A convex face with a normal of its own at each corner.
+    /// Adds a convex face with a normal of its own at each corner.
     pub(super) fn smooth_face(&mut self, surface: Surface, tint: Tint, corners: &[Corner], normals: &[Vec3]) {
         let mesh = self.meshes.entry((self.current, surface)).or_insert_with(|| Mesh {
             name: format!("{}: {}", self.districts.get(self.current).map_or("town", String::as_str), surface.name()),
@@ -113,7 +113,7 @@ impl Builder {
         let first = mesh.positions.len() as u32;
         let mut count = 0;
         for (k, (corner, normal)) in corners.iter().zip(normals).enumerate() {
-            // Where a face tapers to nothing, corners fall together.
+            // Corners coincide where a face tapers to nothing.
             if corner.at == corners[(k + 1) % corners.len()].at {
                 continue;
             }
@@ -129,7 +129,7 @@ impl Builder {
         }
     }
 
-    /// A flat convex face whose picture lies on it in metres, with the share of light at each corner.
+    /// Adds a flat convex face with its picture in metres, and the share of light at each corner.
     pub(super) fn lit(&mut self, surface: Surface, tint: Tint, corners: &[(Vec3, f32)]) {
         let normal = normal_of(corners.iter().map(|corner| corner.0));
         let (right, up) = axes_of(normal);
@@ -141,13 +141,13 @@ impl Builder {
         self.face(surface, tint, &corners);
     }
 
-    /// A flat convex face whose picture lies on it in metres.
+    /// Adds a flat convex face with its picture in metres.
     pub(super) fn metric(&mut self, surface: Surface, tint: Tint, corners: &[Vec3]) {
         let corners: Vec<_> = corners.iter().map(|&at| (at, 1.0)).collect();
         self.lit(surface, tint, &corners);
     }
 
-    /// As `metric`, turned over if need be so that its front faces along `towards`.
+    /// Adds a face like `metric`, turned over if necessary so that its front faces along `towards`.
     pub(super) fn facing(&mut self, surface: Surface, tint: Tint, corners: &[Vec3], towards: Vec3) {
         let mut corners = corners.to_vec();
         if normal_of(corners.iter().copied()).dot(towards) < 0.0 {
@@ -156,7 +156,7 @@ impl Builder {
         self.metric(surface, tint, &corners);
     }
 
-    /// The four upright sides of a box between two corners in `frame`.
+    /// Adds the four upright sides of a box between two corners in `frame`.
     pub(super) fn walls(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
         let p = |x: bool, y: bool, z: bool| {
             let pick = |high_side, low, high| if high_side { high } else { low };
@@ -173,21 +173,21 @@ impl Builder {
         }
     }
 
-    /// A box between two corners in `frame`, without its underside.
+    /// Adds a box between two corners in `frame`, without its underside.
     pub(super) fn block(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
         self.walls(surface, tint, frame, low, high);
         let p = |x, z| frame.point(x, high.y, z);
         self.metric(surface, tint, &[p(low.x, high.z), p(high.x, high.z), p(high.x, low.z), p(low.x, low.z)]);
     }
 
-    /// A box with its underside.
+    /// Adds a box with its underside.
     pub(super) fn beam(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
         self.block(surface, tint, frame, low, high);
         let p = |x, z| frame.point(x, low.y, z);
         self.metric(surface, tint * 0.6, &[p(low.x, low.z), p(high.x, low.z), p(high.x, high.z), p(low.x, high.z)]);
     }
 
-    /// A thin rod with three sides from one point to another.
+    /// Adds a thin rod with three sides from one point to another.
     pub(super) fn rod(&mut self, surface: Surface, tint: Tint, from: Vec3, to: Vec3, thickness: f32) {
         let axis = (to - from).normalize_or(Vec3::Y);
         let (side, up) = axis.any_orthonormal_pair();
@@ -201,7 +201,7 @@ impl Builder {
         }
     }
 
-    /// A body of revolution about the frame's upright axis through (radius, height) pairs from bottom to top.
+    /// Adds a body of revolution about the frame's upright axis through (radius, height) pairs from bottom to top.
     pub(super) fn turned(&mut self, surface: Surface, tint: Tint, frame: &Frame, sides: u32, profile: &[(f32, f32)]) {
         let tile = surface.tile();
         let ring = |side: u32| circle(side as f32 / sides as f32);
@@ -237,7 +237,7 @@ impl Builder {
         }
     }
 
-    /// A prism with flat sides and a flat top over a regular polygon, from `low` to `high`.
+    /// Adds a prism with flat sides and a flat top over a regular polygon, from `low` to `high`.
     pub(super) fn prism(
         &mut self,
         surface: Surface,
@@ -274,7 +274,7 @@ fn normal_of(corners: impl Iterator<Item = Vec3> + Clone) -> Vec3 {
     corners.zip(next).map(|(a, b)| (a - first).cross(b - first)).sum::<Vec3>().normalize_or(Vec3::Y)
 }
 
-/// Directions along a surface: sideways and, as far as it can be, up.
+/// Unit vectors along a surface: one horizontal, one upwards as far as possible.
 fn axes_of(normal: Vec3) -> (Vec3, Vec3) {
     if normal.y.abs() > 0.999 {
         return (Vec3::X, Vec3::NEG_Z * normal.y.signum());

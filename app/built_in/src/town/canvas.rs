@@ -1,27 +1,27 @@
-//! A canvas in metres: the few strokes from which every picture of the town is painted.
+//! Canvas in metres, with the few strokes from which every picture of the town is painted.
 //!
-//! Coordinates are metres with x to the right and y up from the lower left corner, as on a façade; colours are
-//! sRGB-encoded 0…1, because painters mix by eye. A stroke visits only the pixels of its bounding box, and both
-//! strokes and noise wrap round the edges, so that pictures tile. Only sums, products, quotients and square
-//! roots are used: the same seed paints the same bits on every machine.
+//! Coordinates are metres with x to the right and y up from the lower left corner, as on a façade. Colours are
+//! sRGB-encoded 0…1, as they are mixed by eye. A stroke visits only the pixels of its bounding box. Strokes and noise
+//! wrap round the edges, so that pictures tile. Only sums, products, quotients and square roots are used: the same
+//! seed paints the same bits on every machine.
 
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2, vec2};
 use rayon::prelude::*;
 
 use scene::{Texture, Wrap};
 
-/// A picture while it is being painted.
+/// Picture while it is being painted.
 pub(super) struct Canvas {
-    /// Pixels across and down.
+    /// Number of pixels across and down.
     width: usize,
     height: usize,
-    /// What the picture covers, metres.
+    /// Size of the painted area, metres.
     pub(super) size: Vec2,
-    /// Colour and opacity, rows from the top.
+    /// Colours and opacities, rows from the top.
     pixels: Vec<Vec4>,
 }
 
-/// An axis-aligned box on the canvas, metres.
+/// Axis-aligned box on the canvas, metres.
 #[derive(Clone, Copy)]
 pub(super) struct Area {
     pub(super) low: Vec2,
@@ -29,12 +29,12 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// From its lower left corner and its extent.
+    /// Box with this lower left corner and extent.
     pub(super) fn new(x: f32, y: f32, width: f32, height: f32) -> Self {
         Self { low: vec2(x, y), high: vec2(x + width, y + height) }
     }
 
-    /// Larger by a margin on every side.
+    /// Box enlarged by a margin on every side.
     pub(super) fn grown(self, margin: f32) -> Self {
         Self { low: self.low - margin, high: self.high + margin }
     }
@@ -62,12 +62,12 @@ impl Area {
 }
 
 impl Canvas {
-    /// A canvas covering `size` metres, each pixel coloured by `colour` (in parallel).
+    /// Makes a canvas of `size` metres, each pixel coloured by `colour` (in parallel).
     pub(super) fn new(pixels: [usize; 2], size: Vec2, colour: impl Fn(Vec2) -> Vec3 + Sync) -> Self {
         Self::with_opacity(pixels, size, |p| colour(p).extend(1.0))
     }
 
-    /// A canvas covering `size` metres, colour and opacity of each pixel by `colour` (in parallel).
+    /// Makes a canvas of `size` metres, colour and opacity of each pixel by `colour` (in parallel).
     pub(super) fn with_opacity([width, height]: [usize; 2], size: Vec2, colour: impl Fn(Vec2) -> Vec4 + Sync) -> Self {
         let mut canvas = Self { width, height, size, pixels: vec![Vec4::ZERO; width * height] };
         let step = canvas.pixel();
@@ -116,14 +116,14 @@ impl Canvas {
         });
     }
 
-    /// Multiplies colours by `shade`, which is 1 where nothing changes.
+    /// Multiplies colours by `shade`, which is 1 for no change.
     pub(super) fn darken(&mut self, area: Area, shade: impl Fn(Vec2) -> f32) {
         self.visit(area, |p, pixel| {
             *pixel = (pixel.truncate() * shade(p)).extend(pixel.w);
         });
     }
 
-    /// Soft shadow of `depth` metres round a box, `strength` at its outline.
+    /// Darkens the surroundings of a box by a soft shadow, `depth` metres wide, of `strength` at its outline.
     pub(super) fn halo(&mut self, area: Area, depth: f32, strength: f32) {
         self.darken(area.grown(depth), |p| {
             let near = 1.0 - (area.distance(p).max(0.0) / depth).min(1.0);
@@ -131,7 +131,7 @@ impl Canvas {
         });
     }
 
-    /// Cuts away what lies outside an outline.
+    /// Makes everything outside an outline transparent.
     pub(super) fn keep(&mut self, distance: impl Fn(Vec2) -> f32) {
         let whole = Area { low: Vec2::ZERO, high: self.size };
         let step = self.pixel();
@@ -141,7 +141,7 @@ impl Canvas {
         });
     }
 
-    /// The finished picture.
+    /// Finished picture as a texture.
     pub(super) fn finish(self, name: &str, wrap: [Wrap; 2]) -> Texture {
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         let mut rgba = vec![0; self.pixels.len() * 4];
@@ -154,7 +154,7 @@ impl Canvas {
     }
 }
 
-/// An even mix of the bits of three integers, as a number in 0…1.
+/// Pseudo-random number in 0…1 from three integers, by an even mix of their bits.
 pub(super) fn chance(x: i32, y: i32, seed: u32) -> f32 {
     let mut bits =
         (x as u32).wrapping_mul(0x9E37_79B1) ^ (y as u32).wrapping_mul(0x85EB_CA77) ^ seed.wrapping_mul(0xC2B2_AE3D);
@@ -182,13 +182,13 @@ pub(super) fn noise(p: Vec2, period: IVec2, seed: u32) -> f32 {
     2.0 * (a + (b - a) * s.y) - 1.0
 }
 
-/// The whole number below, without a call into a mathematics library.
+/// Largest whole number not above `x`, without a call into a mathematics library.
 fn floor(x: f32) -> i32 {
     let whole = x as i32;
     if (whole as f32) > x { whole - 1 } else { whole }
 }
 
-/// Lattice that never repeats within a picture.
+/// Period of a lattice that never repeats within a picture.
 pub(super) const ENDLESS: IVec2 = IVec2::splat(1 << 20);
 
 /// Noise of `octaves` scales, each half the size and half the strength of the one before.
@@ -202,7 +202,7 @@ pub(super) fn cloud(p: Vec2, period: IVec2, octaves: u32, seed: u32) -> f32 {
     sum
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// Smooth step: 0 below `low`, 1 above `high`.
 pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -1,4 +1,4 @@
-//! The church on the east side of the square: a tower with clock and spire, a nave with an apse, a churchyard wall.
+//! Church on the east side of the square: a tower with clock and spire, a nave with an apse, a churchyard wall.
 
 use glam::{Vec3, vec3};
 
@@ -8,10 +8,10 @@ use super::paint::tracery::{LANCET, PORTAL};
 use super::roof::Roof;
 use super::surface::Surface;
 
-/// Half the width of the tower and its height up to the spire, metres.
+/// Half the width of the tower, and its height up to the spire, metres.
 const TOWER: f32 = 3.8;
 const BELFRY: f32 = 26.0;
-/// Half the width of the nave, where it begins and ends behind the front, its walls and its roof.
+/// Half the width of the nave, its beginning and end along z, the heights of its walls and of its roof, metres.
 const NAVE: f32 = 7.5;
 const LENGTH: [f32; 2] = [-4.0, -34.0];
 const EAVES: f32 = 11.0;
@@ -29,7 +29,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
     }
 }
 
-/// The tower about `frame`'s upright axis.
+/// Builds the tower about `frame`'s upright axis.
 fn tower(builder: &mut Builder, frame: &Frame) {
     let stone = Vec3::ONE;
     let half = TOWER;
@@ -95,7 +95,7 @@ fn tower(builder: &mut Builder, frame: &Frame) {
     builder.beam(Surface::Gold, Vec3::ONE, frame, vec3(-0.45, 50.5, -0.05), vec3(0.45, 50.62, 0.05));
 }
 
-/// Nave and apse behind the tower.
+/// Builds nave and apse behind the tower.
 fn nave(builder: &mut Builder, frame: &Frame) {
     let stone = vec3(1.0, 0.98, 0.95);
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);

@@ -1,4 +1,4 @@
-//! Fronts put together from the bays of their pictures: whole storeys, and gables that the roof cuts off.
+//! Fronts assembled from the bays of their pictures: whole storeys, and gables that the roof cuts off.
 
 use glam::{Vec2, vec2};
 use rand::RngExt;
@@ -8,11 +8,11 @@ use super::builder::{Builder, Corner, Frame, Tint};
 use super::paint::{ground_floors, timber};
 use super::surface::Surface;
 
-/// One bay of a storey, upright in a frame's plane.
+/// Bay of a storey, upright in a frame's plane.
 pub(super) struct Bay {
     pub(super) surface: Surface,
     pub(super) tint: Tint,
-    /// Which bay of the picture.
+    /// Index of the bay in the picture.
     pub(super) cell: usize,
     pub(super) across: [f32; 2],
     pub(super) height: [f32; 2],
@@ -35,7 +35,7 @@ impl Bay {
     }
 }
 
-/// What the bays of a ground floor are: always a door, otherwise windows and shops.
+/// Kinds of the bays of a ground floor: at least one door, otherwise windows and shops.
 pub(super) fn ground_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
     use ground_floors::{ARCH, BARE, DOOR, GROUND_WINDOWS, SHOP};
     let mut cells: Vec<usize> = (0..bays)
@@ -54,7 +54,7 @@ pub(super) fn ground_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
     cells
 }
 
-/// What the bays of an upper storey are: windows, with braced bays at the corners of wide fronts; symmetric.
+/// Kinds of the bays of an upper storey: windows, with braced bays at the corners of wide fronts; symmetric.
 pub(super) fn upper_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
     let window = timber::WINDOWS[dice.random_range(0..timber::WINDOWS.len())];
     let other = timber::WINDOWS[dice.random_range(0..timber::WINDOWS.len())];
@@ -72,16 +72,16 @@ pub(super) fn upper_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
         .collect()
 }
 
-/// A gable over the street, in a frame whose origin is its lower left corner.
+/// Gable over the street, in a frame whose origin is its lower left corner.
 pub(super) struct Gable {
     pub(super) surface: Surface,
     pub(super) tint: Tint,
     pub(super) width: f32,
-    /// Height at which the roof's slopes meet.
+    /// Height at which the roof's slopes meet, metres.
     pub(super) height: f32,
     pub(super) bays: usize,
     pub(super) timbered: bool,
-    /// Share of the height at which a hip cuts it off.
+    /// Share of the height at which a hip cuts the gable off; `None` for no hip.
     pub(super) hip: Option<f32>,
 }
 
@@ -106,7 +106,7 @@ impl Gable {
         }
     }
 
-    /// How many windows a storey from height `low` has room for, and which.
+    /// Number of windows for which a storey from height `low` has room, and their bay in the picture.
     fn windows(&self, low: f32, top: f32, dice: &mut ChaCha8Rng) -> (usize, usize) {
         let bay = self.width / self.bays as f32;
         let free = self.width * (1.0 - (low + HEAD) / self.height);
@@ -119,16 +119,16 @@ impl Gable {
         ((((free - needed) / bay) as usize + 1).min(self.bays), cell)
     }
 
-    /// What the roof leaves of a bay that begins `place` bays right of the middle.
+    /// Builds the part below the roof of a bay that begins `place` bays right of the middle.
     fn cut_bay(&self, builder: &mut Builder, frame: &Frame, (place, cell): (f32, usize), [low, high]: [f32; 2]) {
         let middle = self.width / 2.0;
         let bay = self.width / self.bays as f32;
         let left = middle + place * bay;
         let square = [vec2(left, low), vec2(left + bay, low), vec2(left + bay, high), vec2(left, high)];
-        // Below the two slopes: x/middle ≥ y/height on the left, mirrored on the right.
+        // Keep the part below the two slopes: x/middle ≥ y/height on the left, mirrored on the right.
         let cut = clip(&square, vec2(-1.0 / middle, 1.0 / self.height), 0.0);
         let mut cut = clip(&cut, vec2(1.0 / middle, 1.0 / self.height), 2.0);
-        // Where a slope passes through a corner, points fall together.
+        // Points coincide where a slope passes through a corner.
         cut.dedup_by(|a, b| a.distance(*b) < 0.005);
         let twice_area: f32 = cut.windows(2).map(|pair| (pair[0] - cut[0]).perp_dot(pair[1] - cut[0])).sum();
         if cut.len() < 3 || twice_area < 0.002 {

@@ -1,4 +1,5 @@
-//! The market fountain: steps, an eight-sided basin, a column with spouts, and a banner bearer on top. The well in the street.
+//! Market fountain: steps, an eight-sided basin, a column with spouts, and a banner bearer on top. Also the well in
+//! the street.
 
 use glam::{Vec3, vec3};
 
@@ -40,7 +41,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame) {
     bearer(builder, &frame.at(0.0, 4.1, 0.0).rotated(0.1));
 }
 
-/// A figure in armour with shield and banner.
+/// Builds a figure in armour with shield and banner.
 fn bearer(builder: &mut Builder, frame: &Frame) {
     let stone = vec3(0.55, 0.52, 0.46);
     let body =
@@ -62,7 +63,7 @@ fn bearer(builder: &mut Builder, frame: &Frame) {
     }
 }
 
-/// A draw well with a little roof.
+/// Builds a draw well with a little roof.
 pub(super) fn well(builder: &mut Builder, frame: &Frame) {
     basin(builder, Surface::Rubble, frame, SIDES, [1.0, 0.75], [-0.1, 0.85]);
     builder.prism(Surface::Water, Vec3::splat(0.35), frame, SIDES, [0.8, 0.8], [0.2, 0.3]);

@@ -1,4 +1,4 @@
-//! What stands and hangs along the streets: doorsteps, lamps, signs, flower boxes, barrels.
+//! Street furniture: doorsteps, lamps, signs, flower boxes, barrels.
 
 use glam::{Vec3, vec2};
 use rand::RngExt;
@@ -48,7 +48,7 @@ pub(super) fn furnish(builder: &mut Builder, house: &House, number: usize, dice:
     }
 }
 
-/// A stone step before a door; `frame` lies at the foot of the wall.
+/// Builds a stone step before a door; `frame` lies at the foot of the wall.
 fn doorstep(builder: &mut Builder, frame: &Frame) {
     let (half, low, high, out) = (0.75, -0.1, 0.24, 0.32);
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
@@ -63,7 +63,7 @@ fn doorstep(builder: &mut Builder, frame: &Frame) {
     }
 }
 
-/// A lantern on a bracket; `frame` lies on the wall.
+/// Builds a lantern on a bracket; `frame` lies on the wall.
 fn lamp(builder: &mut Builder, frame: &Frame, jetty: f32) {
     let out = jetty + 0.45;
     builder.rod(Surface::Iron, Vec3::ONE, frame.origin, frame.point(0.0, 0.0, out), 0.045);
@@ -71,14 +71,14 @@ fn lamp(builder: &mut Builder, frame: &Frame, jetty: f32) {
     lantern(builder, &frame.at(0.0, -0.52, out - 0.03));
 }
 
-/// The lantern itself, hanging from its top at 0.5 m above `frame`.
+/// Builds the lantern itself; its top, from which it hangs, is 0.5 m above `frame`.
 fn lantern(builder: &mut Builder, frame: &Frame) {
     builder.prism(Surface::Lantern, Vec3::ONE, frame, 4, [0.10, 0.17], [0.04, 0.36]);
     builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.23, 0.0], [0.36, 0.54]);
     builder.prism(Surface::Iron, Vec3::ONE, frame, 4, [0.10, 0.0], [0.04, -0.04]);
 }
 
-/// A lamp post with two lanterns.
+/// Builds a lamp post with two lanterns.
 pub(super) fn lamp_post(builder: &mut Builder, frame: &Frame) {
     builder.turned(
         Surface::Iron,
@@ -93,7 +93,7 @@ pub(super) fn lamp_post(builder: &mut Builder, frame: &Frame) {
     }
 }
 
-/// A guild sign on a bracket, square to the wall that `frame` lies on.
+/// Builds a guild sign on a bracket, square to the wall that `frame` lies on.
 fn sign(builder: &mut Builder, frame: &Frame, kind: i32, jetty: f32) {
     let y = -0.35;
     let end = frame.point(0.0, y + 0.04, 0.95 + 0.3 * jetty);
@@ -102,7 +102,7 @@ fn sign(builder: &mut Builder, frame: &Frame, kind: i32, jetty: f32) {
     let [u, v] = [(kind % 4) as f32 / 4.0, (kind / 4) as f32 / 4.0];
     let (near, far) = (0.28, 0.92);
     for side in [1.0_f32, -1.0] {
-        // Seen from either side the picture reads the right way round.
+        // The picture reads the right way round from either side.
         let corner = |s: f32, t: f32| {
             let z = if side > 0.0 { far + (near - far) * s } else { near + (far - near) * s };
             Corner::new(
@@ -118,7 +118,7 @@ fn sign(builder: &mut Builder, frame: &Frame, kind: i32, jetty: f32) {
     }
 }
 
-/// A hanging cloth, its lower edge in the middle at the frame's origin; `number` chooses its colours.
+/// Builds a hanging cloth, the middle of its lower edge at the frame's origin; `number` chooses its colours.
 pub(super) fn banner(builder: &mut Builder, frame: &Frame, [width, height]: [f32; 2], number: usize) {
     let stripe = (number % 4) as f32 / 4.0 + 0.03;
     let corner = |s: f32, t: f32| {
@@ -134,7 +134,7 @@ pub(super) fn banner(builder: &mut Builder, frame: &Frame, [width, height]: [f32
     builder.rod(Surface::Gold, Vec3::ONE, left, right, 0.06);
 }
 
-/// Pennants on a line across the street at a station of the way.
+/// Builds pennants on a line across the street at a station of the way.
 pub(super) fn bunting(builder: &mut Builder, station: &Station, number: usize) {
     const PENNANTS: usize = 9;
     builder.district("bunting");

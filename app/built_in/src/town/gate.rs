@@ -1,4 +1,4 @@
-//! The gate tower astride the street.
+//! Gate tower astride the street.
 
 use glam::{Vec3, vec3};
 
@@ -8,7 +8,7 @@ use super::masonry::{Arch, panel};
 use super::paint::timber;
 use super::surface::Surface;
 
-/// Half the width and depth of the tower, height of its stone, of its timbered top and of its roof, metres.
+/// Half the width of the tower, height of its stone, of its timbered top and of its roof, metres.
 const HALF: f32 = 5.2;
 const STONE: f32 = 10.5;
 const TOP: f32 = 2.9;

@@ -1,7 +1,7 @@
 //! Burghers' houses: a ground floor of stone or plaster, storeys that jut out one over the other, a steep roof.
 //!
-//! A front is put together from the bays of its pictures, so that no two houses look alike although pictures are
-//! shared. The lot's quadrilateral is kept for the walls, so that neighbours leave no gap.
+//! A front is assembled from the bays of its pictures, so that houses look different although they share pictures.
+//! The walls follow the lot's quadrilateral, so that neighbours leave no gap.
 
 use glam::{Vec3, vec3};
 use rand::RngExt;
@@ -14,11 +14,11 @@ use super::plan::{Lot, ground};
 use super::roof::{Roof, chimney, dormer};
 use super::surface::Surface;
 
-/// Depth of a house that has room for it, and width of a bay, metres.
+/// Depth of a house on a large enough lot, and width of a bay, metres.
 const DEPTH: f32 = 9.0;
 const BAY: f32 = 2.4;
 
-/// Decides how houses look, and remembers the last one so that neighbours differ.
+/// Designer of houses, which remembers the last one so that neighbours differ.
 #[derive(Default)]
 pub(super) struct Builders {
     last_front: usize,
@@ -26,33 +26,33 @@ pub(super) struct Builders {
     last_height: f32,
 }
 
-/// What was built, for those who furnish the street.
+/// Measures of a finished house, for furnishing the street.
 pub(super) struct House {
-    /// At the left end of the front, on the ground, looking out onto the street.
+    /// Frame at the left end of the front, on the ground, facing the street.
     pub(super) frame: Frame,
     pub(super) width: f32,
-    /// Middles of the bays of the ground floor and what each is.
+    /// Middle of each bay of the ground floor, metres, and its kind.
     pub(super) bays: Vec<(f32, usize)>,
-    /// How far the first upper storey juts out, and its height above the street.
+    /// Distance by which the first upper storey juts out, and its height above the street, metres.
     pub(super) jetty: f32,
     pub(super) ground_floor: f32,
-    /// Middles of first-floor windows.
+    /// Middles of first-floor windows, metres from the left end.
     pub(super) windows: Vec<f32>,
 }
 
-/// A storey from its floor to its ceiling, and how far it juts out.
+/// Storey from its floor to its ceiling, and the distance by which it juts out, metres.
 struct Storey {
     bottom: f32,
     top: f32,
     juts: f32,
 }
 
-/// A house in the making.
+/// House under construction.
 struct Design {
     frame: Frame,
     width: f32,
     depth: f32,
-    /// How far the side walls lean to the right per metre of depth.
+    /// Lean of the left and right side walls, metres to the right per metre of depth.
     lean: [f32; 2],
     bays: usize,
     front: usize,
@@ -63,12 +63,12 @@ struct Design {
     storeys: Vec<Storey>,
 }
 
-/// sRGB to linear, by a cubic that errs by less than 0.01.
+/// Linear colour of an sRGB colour, by a cubic that errs by less than 0.01.
 pub(super) fn linear(colour: Vec3) -> Vec3 {
     colour * (colour * (colour * 0.305_306 + 0.682_171) + 0.012_523)
 }
 
-/// A colour out of a few for roof tiles.
+/// Random colour for roof tiles.
 pub(super) fn roof_tint(dice: &mut ChaCha8Rng) -> Tint {
     let warm: f32 = dice.random_range(0.0..1.0);
     vec3(1.0, 0.96, 0.94).lerp(vec3(0.80, 0.72, 0.68), warm) * dice.random_range(0.85..1.1)
@@ -98,7 +98,7 @@ impl Builders {
         }
     }
 
-    /// Chooses what a house is made of and how high it is, unlike its neighbour.
+    /// Chooses materials and height of a house, unlike its neighbour.
     fn design(&mut self, lot: &Lot, dice: &mut ChaCha8Rng) -> Design {
         let pick = |dice: &mut ChaCha8Rng, count: usize, last: usize| (last + dice.random_range(1..count)) % count;
         self.last_front = pick(dice, timber::HOUSE_FRONTS, self.last_front);
@@ -148,13 +148,13 @@ impl Builders {
 }
 
 impl Design {
-    /// Height of the walls, and how far the uppermost storey juts out.
+    /// Height of the walls, and the distance by which the uppermost storey juts out, metres.
     fn top(&self) -> (f32, f32) {
         let top = &self.storeys[self.storeys.len() - 1];
         (top.top, top.juts)
     }
 
-    /// A point of the left (0) or right (1) edge of the back wall.
+    /// Point of the left (0) or right (1) edge of the back wall at height `y`.
     fn back(&self, side: usize, y: f32) -> Vec3 {
         self.frame.point(side as f32 * self.width + self.lean[side] * self.depth, y, -self.depth)
     }
@@ -165,7 +165,7 @@ impl Design {
         [self.frame.point(0.0, y, z), self.frame.point(self.width, y, z), self.back(1, y), self.back(0, y)]
     }
 
-    /// Left and right ends of a bay.
+    /// Left and right ends of a bay, metres from the left end of the front.
     fn across(&self, k: usize) -> [f32; 2] {
         [k, k + 1].map(|k| self.width * k as f32 / self.bays as f32)
     }
@@ -179,7 +179,8 @@ impl Design {
         }
     }
 
-    /// Builds the fronts of the upper storeys and what one sees from below; returns the middles of first-floor windows.
+    /// Builds the fronts of the upper storeys and the undersides seen from below; returns the middles of first-floor
+    /// windows.
     fn build_storeys(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) -> Vec<f32> {
         let mut windows = vec![];
         for pair in self.storeys.windows(2) {
@@ -205,7 +206,7 @@ impl Design {
         windows
     }
 
-    /// Party walls and the back.
+    /// Builds the party walls and the back.
     fn build_plain_walls(&self, builder: &mut Builder) {
         let p = |x: f32, y: f32, z: f32| self.frame.point(x, y, z);
         for storeys in self.storeys.chunk_by(|a, b| a.juts == b.juts) {
@@ -221,7 +222,7 @@ impl Design {
         builder.facing(Surface::Plaster, self.wall, &corners, -self.frame.out);
     }
 
-    /// A roof whose gable looks onto the street.
+    /// Builds a roof whose gable faces the street.
     fn roof_across(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) {
         let (top, juts) = self.top();
         let walls = self.upper_corners();
@@ -255,7 +256,7 @@ impl Design {
         }
     }
 
-    /// A roof whose eaves run along the street, with dormers.
+    /// Builds a roof whose eaves run along the street, with dormers.
     fn roof_along(&self, builder: &mut Builder, dice: &mut ChaCha8Rng) {
         let (top, juts) = self.top();
         let [a, b, c, d] = self.upper_corners();
@@ -290,7 +291,7 @@ impl Design {
     }
 }
 
-/// A light colour to wash plaster with.
+/// Random light colour for plaster.
 fn pastel(dice: &mut ChaCha8Rng) -> Tint {
     [
         vec3(1.0, 0.93, 0.78),

@@ -1,4 +1,4 @@
-//! Market stalls with striped awnings and heaps of fruit, barrels, benches, crates.
+//! Market: stalls with striped awnings and heaps of fruit, barrels, benches, crates.
 
 use glam::{Vec3, vec2, vec3};
 use rand::RngExt;
@@ -10,7 +10,7 @@ use crate::turn::circle;
 
 const OAK: Vec3 = vec3(1.0, 0.9, 0.8);
 
-/// A stall; `frame` lies on the ground in its middle, looking at the customers.
+/// Builds a stall; `frame` lies on the ground in its middle, facing the customers.
 pub(super) fn stall(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
     let (half, deep) = (1.5, 0.9);
@@ -20,7 +20,7 @@ pub(super) fn stall(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng)
         builder.block(Surface::Planks, OAK, &post, vec3(-0.05, 0.0, -0.05), vec3(0.05, height, 0.05));
     }
     builder.block(Surface::Planks, OAK, frame, vec3(-half + 0.08, 0.0, -0.05), vec3(half - 0.08, 0.74, deep - 0.1));
-    // The goods lie on a tilted board, a kind to each quarter.
+    // The goods lie on a tilted board, one kind in each third.
     let kinds = dice.random_range(0..4);
     for k in 0..3 {
         let kind = ((k + kinds) % 4) as f32 / 4.0;
@@ -71,7 +71,7 @@ pub(super) fn stall(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng)
     }
 }
 
-/// A crate full of one kind of goods.
+/// Builds a crate full of one kind of goods.
 fn crate_of(builder: &mut Builder, frame: &Frame, kind: f32) {
     builder.block(Surface::Planks, OAK * 1.1, frame, vec3(-0.3, 0.0, -0.2), vec3(0.3, 0.34, 0.2));
     let corner = |x: f32, z: f32| {
@@ -84,13 +84,13 @@ fn crate_of(builder: &mut Builder, frame: &Frame, kind: f32) {
     );
 }
 
-/// A barrel on its end.
+/// Builds a barrel on its end.
 pub(super) fn barrel(builder: &mut Builder, frame: &Frame) {
     let outline = [(0.27, 0.0), (0.345, 0.45), (0.27, 0.9), (0.0, 0.87)];
     builder.turned(Surface::Staves, Vec3::ONE, frame, 7, &outline);
 }
 
-/// A bench with a back.
+/// Builds a bench with a back.
 pub(super) fn bench(builder: &mut Builder, frame: &Frame) {
     for x in [-0.75, 0.75] {
         for (foot, top) in [((0.0, 0.18), (0.44, 0.15)), ((0.0, -0.24), (0.88, -0.18))] {
@@ -103,7 +103,7 @@ pub(super) fn bench(builder: &mut Builder, frame: &Frame) {
     builder.beam(Surface::Planks, plank, frame, vec3(-0.95, 0.62, -0.2), vec3(0.95, 0.86, -0.16));
 }
 
-/// A round table with stools under a parasol; `number` chooses its cloth.
+/// Builds a round table with stools under a parasol; `number` chooses its cloth.
 pub(super) fn table(builder: &mut Builder, frame: &Frame, number: usize) {
     let wood = vec3(1.2, 0.95, 0.75);
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
@@ -120,7 +120,7 @@ pub(super) fn table(builder: &mut Builder, frame: &Frame, number: usize) {
         p(c.x, 2.15, c.y)
     };
     for k in 0..PANELS {
-        // White and coloured panels take turns.
+        // White and coloured panels alternate.
         let u = 0.25 * (2 * (k % 2)) as f32 + 0.02;
         let corner = |at: Vec3, s: f32, t: f32| Corner::new(at, vec2(u + 0.2 * s, stripe + 0.03 + 0.19 * t));
         let corners = [corner(rim(k + 1), 0.0, 1.0), corner(rim(k), 1.0, 1.0), corner(p(0.0, 2.7, 0.0), 0.5, 0.0)];

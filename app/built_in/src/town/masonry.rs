@@ -1,4 +1,4 @@
-//! Pieces that several buildings share: walls with arched openings, panels, round faces, stepped gables.
+//! Masonry that several buildings share: walls with arched openings, panels, round faces, stepped gables.
 
 use glam::{Vec3, vec2, vec3};
 
@@ -7,19 +7,19 @@ use super::paint::timber;
 use super::surface::Surface;
 use crate::turn::circle;
 
-/// Pieces of a half circle in an arch.
+/// Number of pieces of a half circle in an arch.
 const VOUSSOIRS: u32 = 8;
 
-/// A wall with one round-arched passage through it.
+/// Wall with one round-arched passage through it.
 pub(super) struct Arch {
-    /// Left and right ends and height of the wall.
+    /// Left and right ends and height of the wall, metres.
     pub(super) wall: [f32; 2],
     pub(super) top: f32,
-    /// Middle, half width and springing height of the opening.
+    /// Middle, half width and springing height of the opening, metres.
     pub(super) middle: f32,
     pub(super) half: f32,
     pub(super) spring: f32,
-    /// How far the passage reaches behind the wall's face.
+    /// Depth of the passage behind the wall's face, metres.
     pub(super) depth: f32,
 }
 
@@ -75,7 +75,7 @@ impl Arch {
     }
 }
 
-/// A picture that is seen whole, on an upright rectangle whose lower left corner is at (x, y) in the frame.
+/// Builds an upright rectangle that shows a whole picture; its lower left corner is at (x, y) in the frame.
 pub(super) fn panel(
     builder: &mut Builder,
     surface: Surface,
@@ -87,7 +87,7 @@ pub(super) fn panel(
     builder.face(surface, Vec3::ONE, &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]);
 }
 
-/// The window of a house front without the wall about it, its lower left corner at (x, y) in the frame.
+/// Builds the window of a house front without the wall about it, its lower left corner at (x, y) in the frame.
 pub(super) fn window_panel(
     builder: &mut Builder,
     front: usize,
@@ -109,7 +109,7 @@ pub(super) fn window_panel(
     );
 }
 
-/// A round face about the frame's origin that shows its picture whole.
+/// Builds a round face about the frame's origin that shows its whole picture.
 pub(super) fn disc(builder: &mut Builder, surface: Surface, frame: &Frame, radius: f32) {
     let corners: Vec<Corner> = (0..16)
         .map(|k| {
@@ -120,7 +120,8 @@ pub(super) fn disc(builder: &mut Builder, surface: Surface, frame: &Frame, radiu
     builder.face(surface, Vec3::ONE, &corners);
 }
 
-/// A gable wall in steps about x = 0, from `half` its width at the foot to its top, each step capped with stone.
+/// Builds a gable wall in steps about x = 0, from `half` its width at the foot to its top, each step capped with
+/// stone.
 pub(super) fn stepped_gable(
     builder: &mut Builder,
     surface: Surface,
@@ -144,7 +145,7 @@ pub(super) fn stepped_gable(
     }
 }
 
-/// A wall round a regular polygon with an inside, from `low` to `high`, and its rim.
+/// Builds a wall round a regular polygon with an inside, from `low` to `high`, and its rim.
 pub(super) fn basin(
     builder: &mut Builder,
     surface: Surface,

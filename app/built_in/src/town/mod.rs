@@ -1,8 +1,9 @@
-//! The built-in old town, made from a seed.
+//! Built-in old town, made from a seed.
 //!
-//! `plan` lays out the way, the square and the lots; `street` paves them; `house` and its neighbours build on the lots with the
-//! help of `builder`; `surface` has the pictures painted by `paint` on a `canvas`. Everything is computed from sums, products,
-//! quotients and square roots, and every part rolls dice of its own, so a seed gives the same town to the bit.
+//! `plan` lays out the way, the square and the lots. `street` paves them. `house` and the other building modules
+//! build on the lots with the help of `builder`. `surface` lists the pictures, which `paint` paints on a `canvas`.
+//! Everything is computed from sums, products, quotients and square roots, and every part has a random generator of
+//! its own, so a seed gives the same town to the bit.
 
 mod builder;
 mod canvas;
@@ -36,7 +37,7 @@ use plan::{Plan, Use, on_ground};
 /// Seed of the town that everybody sees.
 pub const TOWN_SEED: u64 = 1;
 
-/// Dice for one part of the town, independent of how often any other part rolled its own.
+/// Random generator for one part of the town, independent of the numbers drawn by any other part.
 fn dice(seed: u64, part: u64) -> ChaCha8Rng {
     let mut dice = ChaCha8Rng::seed_from_u64(seed);
     dice.set_stream(part);
@@ -45,8 +46,8 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
 
 /// Builds the old town.
 ///
-/// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs clockwise
-/// on a map, some 415 m, at least 1.5 m clear of anything solid.
+/// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs
+/// clockwise on a map, some 415 m, at least 1.5 m clear of anything solid.
 pub fn build(seed: u64) -> Scene {
     let plan = Plan::new(&mut dice(seed, 0));
     let mut builder = Builder::default();
@@ -110,7 +111,7 @@ pub fn build(seed: u64) -> Scene {
     }
 }
 
-/// A clear late morning: the sun stands in the south-east.
+/// Light of a clear late morning: the sun stands in the south-east.
 fn daylight() -> Lighting {
     Lighting {
         sun_direction: Vec3::new(0.36, 0.88, 0.44).normalize(),

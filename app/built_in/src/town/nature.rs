@@ -1,4 +1,4 @@
-//! Trees, ivy and flowers, and the country round the town: meadows that rise to wooded hills.
+//! Nature: trees, ivy and flowers, and the country round the town with meadows that rise to wooded hills.
 
 use glam::{IVec2, Vec2, Vec3, vec2, vec3};
 use rand::RngExt;
@@ -11,14 +11,14 @@ use super::surface::Surface;
 use scene::Lighting;
 use crate::turn::circle;
 
-/// Middle of the town.
+/// Middle of the town in plan (x, z), metres.
 pub(super) const MIDDLE: Vec2 = vec2(48.0, -4.0);
-/// Where the country begins to rise, metres from the middle.
+/// Distance from the middle at which the country begins to rise, metres.
 const PLAIN: f32 = 150.0;
-/// Where the hills are highest and the country ends.
+/// Distance from the middle at which the hills are highest and the country ends, metres.
 const HORIZON: f32 = 340.0;
 
-/// A lime tree: a trunk and `sprays` of leaves that face outwards from the middles of three lobes.
+/// Builds a lime tree: a trunk and `sprays` of leaves that face outwards from the middles of three lobes.
 pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u32, dice: &mut ChaCha8Rng) {
     let radius = height * 0.30;
     let crown = frame.point(0.0, height * 0.62, 0.0);
@@ -26,7 +26,7 @@ pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u3
     let start: f32 = dice.random_range(0.0..1.0);
     let size = radius * 3.3 / (sprays as f32).sqrt();
     for k in 0..sprays {
-        // Lobes round the crown's axis at different heights; points of a spiral on each, evenly dense.
+        // Lobes stand round the crown's axis at different heights, each with points of a spiral, evenly dense.
         let lobe = k % 3;
         let c = circle(start + lobe as f32 / 3.0) * 0.38 * radius;
         let middle = crown + vec3(c.x, (lobe as f32 - 0.8) * 0.34 * radius, c.y);
@@ -49,7 +49,7 @@ pub(super) fn tree(builder: &mut Builder, frame: &Frame, height: f32, sprays: u3
     }
 }
 
-/// Ivy up a wall: a sheet in front of it, its lower left corner at (x, y) in the frame.
+/// Builds ivy up a wall: a sheet in front of it, its lower left corner at (x, 0) in the frame.
 pub(super) fn ivy(builder: &mut Builder, frame: &Frame, x: f32, width: f32, height: f32) {
     let corner = |s: f32, t: f32| Corner {
         at: frame.point(x + s * width, t * height, 0.05 + 0.04 * (1.0 - t)),
@@ -59,7 +59,7 @@ pub(super) fn ivy(builder: &mut Builder, frame: &Frame, x: f32, width: f32, heig
     builder.face(Surface::Ivy, Vec3::ONE, &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]);
 }
 
-/// A window box with flowers; `frame` lies on the wall below the middle of the sill.
+/// Builds a window box with flowers; `frame` lies on the wall below the middle of the sill.
 pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice: &mut ChaCha8Rng) {
     let half = width / 2.0;
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
@@ -100,7 +100,7 @@ pub(super) fn flower_box(builder: &mut Builder, frame: &Frame, width: f32, dice:
     );
 }
 
-/// A tub with a flowering shrub.
+/// Builds a tub with a flowering shrub.
 pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     builder.prism(Surface::Paint, vec3(0.42, 0.19, 0.11), frame, 6, [0.26, 0.33], [-0.02, 0.5]);
     for turn in [0.05, 0.22, 0.38] {
@@ -119,22 +119,22 @@ pub(super) fn tub(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     }
 }
 
-/// Height of the country, below the streets so that it never shows through them.
+/// Height of the country, metres, below the streets so that it never shows through them.
 fn country_height(p: Vec2) -> f32 {
     let hills = 62.0 + 40.0 * cloud(p / 150.0, IVec2::splat(64), 2, 5);
     ground(p) - 0.22 + hills * smoothstep(PLAIN, HORIZON, p.distance(MIDDLE))
 }
 
-/// A point of the country and its normal.
+/// Point of the country and its normal.
 fn country_point(p: Vec2) -> (Vec3, Vec3) {
     let slope = |step: Vec2| (country_height(p + step) - country_height(p - step)) / 8.0;
     (vec3(p.x, country_height(p), p.y), vec3(-slope(vec2(4.0, 0.0)), 1.0, -slope(vec2(0.0, 4.0))).normalize())
 }
 
-/// Meadows under and round the town, woods and clearings on the hills beyond.
+/// Builds meadows under and round the town, woods and clearings on the hills beyond.
 ///
-/// The hills send out the light of `daylight` as if they were unlit: they are beyond the reach of any shadow, and the sun's
-/// depth map need not cover them.
+/// The hills send out the light of `daylight` as if they were unlit: they are beyond the reach of any shadow, and the
+/// sun's depth map need not cover them.
 pub(super) fn country(builder: &mut Builder, daylight: &Lighting) {
     const RINGS: [f32; 13] = [0.0, 22.0, 40.0, 58.0, 76.0, 94.0, 112.0, 130.0, PLAIN, 185.0, 225.0, 275.0, HORIZON];
     const SPOKES: u32 = 27;
@@ -153,7 +153,7 @@ pub(super) fn country(builder: &mut Builder, daylight: &Lighting) {
             let places = if near > 0.0 { &places[..] } else { &places[1..] };
             let hill = near >= PLAIN;
             let surface = if hill { Surface::Hills } else { Surface::Grass };
-            // Clearings are lighter; distance pales everything.
+            // Clearings are lighter; colours fade with distance.
             let clearing = cloud(places[0] / 70.0, IVec2::splat(64), 2, 8) > 0.10;
             let wood = if clearing { vec3(0.72, 0.66, 0.66) } else { vec3(0.36, 0.40, 0.50) };
             let pale = wood.lerp(vec3(0.55, 0.62, 0.85), 0.6 * smoothstep(PLAIN, HORIZON, near));

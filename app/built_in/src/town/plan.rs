@@ -1,14 +1,15 @@
-//! The plan of the town: the way round it, the lines of house fronts on both sides, and the lots along them.
+//! Plan of the town: the way round it, the lines of house fronts on both sides, and the lots along them.
 //!
-//! The way is a closed uniform cubic B-spline (continuous curvature), ridden clockwise on a map with north, −z, at the
-//! top. In the streets the fronts keep their distance from it; in the market square they follow corners given by hand. Lots
-//! are quadrilaterals that share their side lines, so that the rows have no gaps. Special buildings take the place of lots.
+//! The way is a closed uniform cubic B-spline (continuous curvature), ridden clockwise on a map with north, −z, at
+//! the top. In the streets the fronts keep their distance from it; in the market square they follow corners given by
+//! hand. Lots are quadrilaterals that share their side lines, so that the rows have no gaps. Special buildings
+//! replace some houses.
 
 use glam::{DVec3, Vec2, Vec3, vec2, vec3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// What the way is drawn from: x, z, and the distance of the house fronts to its left and to its right, metres.
+/// Control points of the way: x, z, and the distance of the house fronts to its left and to its right, metres.
 const WAY: [[f32; 4]; 24] = [
     [4.5, 6.0, 3.4, 3.4],
     [4.0, -8.0, 3.4, 3.4],
@@ -39,34 +40,34 @@ const WAY: [[f32; 4]; 24] = [
 /// Distance between points of the way, metres.
 const STEP: f32 = 1.5;
 
-/// West, east, north, south sides of the market square.
+/// West, east, north and south sides of the market square, metres.
 pub(super) const SQUARE: [f32; 4] = [-24.0, 20.0, -24.0, 26.0];
-/// North and south ends of the town hall's front, on the west side.
+/// North and south ends of the town hall's front, on the west side of the square, metres.
 pub(super) const TOWN_HALL: [f32; 2] = [-12.0, 12.0];
-/// North and south ends of the church's front, on the east side.
+/// North and south ends of the church's front, on the east side of the square, metres.
 pub(super) const CHURCH: [f32; 2] = [-11.0, 11.0];
-/// Where the way passes under the gate tower, and how much of the way it covers.
+/// Place where the way passes under the gate tower, and length of the way under it, metres.
 const GATE: Vec2 = vec2(106.5, -14.0);
 pub(super) const GATE_DEPTH: f32 = 6.0;
 
-/// A point of the way with what lies beside it.
+/// Station: a point of the way with its surroundings.
 #[derive(Clone, Copy)]
 pub(super) struct Station {
     pub(super) at: Vec2,
-    /// Unit direction of travel.
+    /// Direction of travel, unit vector.
     pub(super) ahead: Vec2,
-    /// Distance of the house fronts to the left and right.
+    /// Distance of the house fronts to the left and right, metres.
     pub(super) width: [f32; 2],
 }
 
 impl Station {
-    /// A point beside the way, positive to the right.
+    /// Point beside the way, `right` metres to its right.
     pub(super) fn beside(&self, right: f32) -> Vec2 {
         self.at + vec2(-self.ahead.y, self.ahead.x) * right
     }
 }
 
-/// What stands on a lot.
+/// Building on a lot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Use {
     House,
@@ -75,22 +76,22 @@ pub(super) enum Use {
     Gate,
 }
 
-/// A piece of ground along the street.
+/// Lot: a piece of ground along the street.
 #[derive(Clone, Debug)]
 pub(super) struct Lot {
     /// Left and right ends of its front, as seen from the street.
     pub(super) front: [Vec2; 2],
-    /// How the left and right sides run back: per metre of depth.
+    /// Directions in which the left and right sides run back, per metre of depth.
     pub(super) sides: [Vec2; 2],
     pub(super) kind: Use,
     pub(super) district: &'static str,
-    /// Whether it stands at the market square.
+    /// True if the lot lies at the market square.
     pub(super) at_square: bool,
 }
 
-/// The whole plan.
+/// Plan of the whole town.
 pub(super) struct Plan {
-    /// The way, closed: the last station is followed by the first.
+    /// Stations of the way, which is closed: the last one is followed by the first.
     pub(super) way: Vec<Station>,
     /// Stations at which the way leaves the square and comes back to it.
     pub(super) street: [usize; 2],
@@ -100,13 +101,13 @@ pub(super) struct Plan {
     pub(super) rows: [Vec<Lot>; 2],
 }
 
-/// Height of the ground: flat round the square, rising gently to the east.
+/// Height of the ground, metres: flat round the square, rising gently to the east.
 pub(super) fn ground(p: Vec2) -> f32 {
     let t = ((p.x - 26.0) / 90.0).clamp(0.0, 1.0);
     2.0 * t * t * (3.0 - 2.0 * t)
 }
 
-/// A point on the ground.
+/// Point on the ground.
 pub(super) fn on_ground(p: Vec2) -> Vec3 {
     vec3(p.x, ground(p), p.y)
 }
@@ -134,7 +135,7 @@ impl Plan {
         plan
     }
 
-    /// The circuit that a tour follows.
+    /// Circuit that a tour follows.
     pub(super) fn circuit(&self) -> Vec<DVec3> {
         self.way.iter().map(|station| on_ground(station.at).as_dvec3()).collect()
     }
@@ -144,12 +145,12 @@ impl Plan {
         &self.way[self.street[0]..=self.street[1]]
     }
 
-    /// A station in the middle of the gate.
+    /// Station in the middle of the gate.
     pub(super) fn gate_station(&self) -> Station {
         self.way[(self.gate[0] + self.gate[1]) / 2]
     }
 
-    /// Where lines of pennants hang across the street: on both ways out of the square and before the gate.
+    /// Stations with lines of pennants across the street: on both ways out of the square and before the gate.
     pub(super) fn festive_stations(&self) -> Vec<&Station> {
         let [leave, enter] = self.street;
         [leave + 3, leave + 8, leave + 13, self.gate[0] - 12, self.gate[0] - 7, enter - 13, enter - 8, enter - 3]
@@ -171,7 +172,7 @@ impl Plan {
         let [gate_in, gate_out] = self.gate;
         let stretch = |from: usize, to: usize| -> Vec<Vec2> { (from..=to).map(|k| self.front(side, k)).collect() };
 
-        // The sections of this side in the direction of travel, each a line, a use and a district.
+        // Sections of this side in the direction of travel, each with a line, a use and a district.
         let third = |part: usize| leave + (gate_in - leave) * part / 3;
         let rest = |part: usize| gate_out + (enter - gate_out) * part / 3;
         let mut sections: Vec<(Vec<Vec2>, Use, &'static str)> = vec![
@@ -290,7 +291,7 @@ fn way() -> Vec<Station> {
             Station { at: place(s), ahead, width: [s[2], s[3]] }
         })
         .collect();
-    // Directions from the neighbours, so that they belong to the points themselves.
+    // Directions are computed from the neighbours, so that they belong to the points themselves.
     let places: Vec<Vec2> = way.iter().map(|station| station.at).collect();
     for (k, station) in way.iter_mut().enumerate() {
         station.ahead = (places[(k + 1) % stations] - places[(k + stations - 1) % stations]).normalize();
@@ -298,7 +299,7 @@ fn way() -> Vec<Station> {
     way
 }
 
-/// Ends of the fronts along a line: houses of six to ten metres, anything else in one piece.
+/// Ends of the fronts along a line: houses of six to ten metres, other buildings in one piece.
 fn divide(line: &[Vec2], kind: Use, dice: &mut ChaCha8Rng) -> Vec<Vec2> {
     let (first, last) = (line[0], line[line.len() - 1]);
     let length: f32 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();

@@ -9,18 +9,19 @@ use super::surface::Surface;
 /// Thickness of a roof, metres.
 const THICKNESS: f32 = 0.15;
 
-/// A roof with a gable over its first and third side.
+/// Roof with a gable over its first and third side.
 pub(super) struct Roof {
     /// Upper corners of the walls, counter-clockwise from above, beginning at the left of the first gable.
     pub(super) walls: [Vec3; 4],
-    /// Height of the ridge above them.
+    /// Height of the ridge above the walls, metres.
     pub(super) height: f32,
-    /// How far it hangs over at the eaves, at the first gable and at the other.
+    /// Overhang at the eaves, at the first gable and at the other, metres.
     pub(super) overhang: [f32; 3],
     /// Share of the gable's height from which a hip leans back, at the first gable and at the other.
     pub(super) hips: [Option<f32>; 2],
     pub(super) surface: Surface,
-    /// Where it is seen from so near that underside and edges matter: from a point's side, and how far behind it.
+    /// Region seen from so near that underside and edges matter: a point, the direction out of it, and the depth
+    /// behind it, metres.
     pub(super) near: Option<(Vec3, Vec3, f32)>,
     pub(super) tint: Tint,
 }
@@ -32,7 +33,7 @@ impl Roof {
         [(a + b) / 2.0 + Vec3::Y * self.height, (c + d) / 2.0 + Vec3::Y * self.height]
     }
 
-    /// Builds its slopes and hips; the gable walls are the house's.
+    /// Builds the slopes and hips; the gable walls belong to the house.
     pub(super) fn build(&self, builder: &mut Builder) {
         let raised = Vec3::Y * 0.1;
         let [a, b, c, d] = self.walls.map(|corner| corner + raised);
@@ -43,7 +44,7 @@ impl Roof {
             let run = vec2(wall.x - ridge.x, wall.z - ridge.z).length();
             ridge + (wall - ridge) * (1.0 + eaves / run)
         };
-        // One end of the roof: how far the ridge steps back, and where its slopes are cut off.
+        // Outline of one end of the roof: the ridge steps back at a hip, and the slopes are cut off there.
         let end = |wall: Vec3, ridge: Vec3, out: Vec3, overhang: f32, hip: Option<f32>| -> Vec<Vec3> {
             let low = lowered(wall, ridge) + out * overhang;
             match hip {
@@ -71,7 +72,7 @@ impl Roof {
         }
     }
 
-    /// A flat piece of roof with its underside and its edges, but for those at the ridge.
+    /// Builds a flat piece of roof with its underside and its edges, except those at the ridge.
     fn slab(&self, builder: &mut Builder, top: &[Vec3], ridge_edges: usize) {
         let mut top = top.to_vec();
         let normal = (top[1] - top[0]).cross(top[top.len() - 1] - top[0]);
@@ -98,7 +99,8 @@ impl Roof {
     }
 }
 
-/// A dormer with a window on a slope that rises by `slope` per metre behind `frame`'s origin, which lies on it.
+/// Builds a dormer with a window on a slope that rises by `slope` per metre behind `frame`'s origin, which lies on
+/// it.
 pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: usize, tint: Tint) {
     let (half, height, rise) = (0.68, 1.35, 0.62);
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
@@ -134,7 +136,7 @@ pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: us
     }
 }
 
-/// A chimney through the roof; `frame`'s origin lies at its foot.
+/// Builds a chimney through the roof; `frame`'s origin lies at its foot.
 pub(super) fn chimney(builder: &mut Builder, frame: &Frame, height: f32, tint: Tint) {
     builder.walls(Surface::Rubble, tint, frame, vec3(-0.33, 0.0, -0.28), vec3(0.33, height, 0.28));
     builder.block(Surface::Ashlar, tint * 0.9, frame, vec3(-0.4, height, -0.35), vec3(0.4, height + 0.12, 0.35));

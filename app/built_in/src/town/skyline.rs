@@ -1,4 +1,4 @@
-//! What one sees over the roofs: houses in the second row, trees in the yards, the town wall with its towers.
+//! Skyline over the roofs: houses in the second row, trees in the yards, the town wall with its towers.
 
 use glam::{Vec2, Vec3, vec2, vec3};
 use rand::RngExt;
@@ -14,12 +14,12 @@ use super::roof::Roof;
 use super::surface::Surface;
 use crate::turn::circle;
 
-/// Semi-axes of the town wall, its height and number of stretches.
+/// Semi-axes of the town wall, its height, metres, and its number of stretches.
 const WALL: Vec2 = vec2(112.0, 98.0);
 const WALL_HEIGHT: f32 = 6.5;
 const STRETCHES: u32 = 36;
 
-/// Builds a second row behind the lots of both sides.
+/// Builds a second row of houses behind the lots of both sides.
 pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8Rng) {
     builder.district("second row");
     let mut built: Vec<Vec2> = vec![];
@@ -49,13 +49,13 @@ pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8R
     }
 }
 
-/// A point at a depth behind the middle of a lot's front.
+/// Point at a depth behind the middle of a lot's front.
 fn behind(lot: &Lot, depth: f32) -> Vec2 {
     let direction = (lot.front[1] - lot.front[0]).normalize();
     (lot.front[0] + lot.front[1]) / 2.0 + vec2(direction.y, -direction.x) * depth
 }
 
-/// A house of which only roof and gables are seen.
+/// Builds a house of which only roof and gables are visible.
 fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     let (half, deep) = (dice.random_range(3.4..4.4), dice.random_range(3.8..5.0));
     let height = dice.random_range(8.0..11.5);
@@ -87,7 +87,7 @@ fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     builder.metric(Surface::Plaster, wall, &[foot(d), foot(a), a, d]);
 }
 
-/// Trees in the yards inside the ring of streets.
+/// Builds trees in the yards inside the ring of streets.
 pub(super) fn yards(builder: &mut Builder, dice: &mut ChaCha8Rng) {
     builder.district("second row");
     for (x, z) in [
@@ -106,7 +106,7 @@ pub(super) fn yards(builder: &mut Builder, dice: &mut ChaCha8Rng) {
     }
 }
 
-/// The wall round the town, a tower at every sixth stretch.
+/// Builds the wall round the town, with a tower at every sixth stretch.
 pub(super) fn town_wall(builder: &mut Builder) {
     builder.district("town wall");
     let at = |k: u32, out: f32| {

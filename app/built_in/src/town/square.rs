@@ -1,4 +1,4 @@
-//! What stands on the market square.
+//! Furnishing of the market square.
 
 use glam::{Vec3, vec3};
 use rand::RngExt;
@@ -8,7 +8,7 @@ use super::builder::{Builder, Frame};
 use super::surface::Surface;
 use super::{fountain, furniture, market, masonry, nature};
 
-/// x, z and direction, in turns from south towards east, of what looks somewhere.
+/// Place and heading of an object: x and z in metres, and its direction in turns from south towards east.
 type Place = (f32, f32, f32);
 
 const FOUNTAIN: Place = (-6.0, 1.0, 0.25);

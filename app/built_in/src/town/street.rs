@@ -10,20 +10,20 @@ use super::surface::Surface;
 pub(super) const PAVEMENT: f32 = 0.95;
 const KERB: f32 = 0.14;
 const STEP: f32 = 0.08;
-/// Pavements run on under the houses, whose fronts are straight while the street bends.
+/// Width of the pavement under the houses, metres: their fronts are straight while the street bends.
 const UNDER: f32 = 1.6;
 
-/// One strip of the street's cross section: from its left to its right edge.
+/// Strip of the street's cross section, from its left to its right edge.
 struct Strip {
     surface: Surface,
-    /// Distances right of the middle.
+    /// Distances of the edges right of the middle, metres.
     across: [f32; 2],
-    /// Heights above the ground.
+    /// Heights of the edges above the ground, metres.
     height: [f32; 2],
     light: [f32; 2],
 }
 
-/// The cross section at a station; `level` is 0 where everything lies in one plane and 1 in the open street.
+/// Cross section at a station; `level` is 0 where everything lies in one plane and 1 in the open street.
 fn section(station: &Station, level: f32) -> Vec<Strip> {
     let [left, right] = station.width;
     let step = STEP * level;
@@ -51,7 +51,7 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
 /// Paves the street from the square round and back to it.
 pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
     let stations = plan.street_stations();
-    // Every second station is enough for a bend of ten metres' radius.
+    // A bend of ten metres' radius needs only every second station.
     let mut chosen: Vec<&Station> = stations.iter().step_by(2).collect();
     if stations.len().is_multiple_of(2) {
         chosen.extend(stations.last());
@@ -93,8 +93,8 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     builder.district("market square");
     let outline = square_outline(plan);
     let count = outline.len();
-    // Inner corners of the border: where the side before ends and where the side after begins. They are one, except where
-    // the border stops at a street.
+    // Inner corners of the border: the end of the side before and the beginning of the side after. The two coincide,
+    // except where the border stops at a street.
     let inner: Vec<[Vec2; 2]> = (0..count)
         .map(|k| {
             let ((before, width), (p, next_width)) = (outline[(k + count - 1) % count], outline[k]);
@@ -120,8 +120,8 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
     }
 }
 
-/// Corners of the square, clockwise on a map, each with the width of the border along the side that begins there: none
-/// across the mouths of the streets.
+/// Corners of the square, clockwise on a map, each with the width of the border along the side that begins there,
+/// which is 0 across the mouths of the streets.
 fn square_outline(plan: &Plan) -> Vec<(Vec2, f32)> {
     let mut outline = vec![];
     for row in &plan.rows {

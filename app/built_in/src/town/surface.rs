@@ -1,7 +1,7 @@
-//! The surfaces of the town: what each is called, how large its picture is, who paints it, how it is drawn.
+//! Surfaces of the town: the name of each, the size and painter of its picture, and its material.
 //!
-//! One list serves materials, textures and faces. Pictures are powers of two; together they stay below
-//! a hundred megabytes.
+//! One list serves materials, textures and faces. Sides of pictures are powers of two; together the pictures stay
+//! below a hundred megabytes.
 
 use glam::{Vec2, vec2};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use super::canvas::Canvas;
 use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
 use scene::{Alpha, Material, Texture, Wrap};
 
-/// A kind of surface.
+/// Kind of surface.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Surface {
     Cobbles,
@@ -19,14 +19,14 @@ pub(super) enum Surface {
     Ashlar,
     Rubble,
     Plaster,
-    /// A storey of a house front, by its number in [`timber::FRONTS`].
+    /// Storey of a house front, by its number in [`timber::FRONTS`].
     Front(usize),
-    /// A ground floor, by its number in [`ground_floors::GROUND_FLOORS`].
+    /// Ground floor, by its number in [`ground_floors::GROUND_FLOORS`].
     GroundFloor(usize),
     Tiles,
     Slate,
     Planks,
-    /// Smooth, takes any tint.
+    /// Smooth paint of any tint.
     Paint,
     Iron,
     Gold,
@@ -47,10 +47,10 @@ pub(super) enum Surface {
     Hills,
 }
 
-/// How a surface comes to be.
+/// Recipe of a surface's picture and material.
 struct Recipe {
     name: String,
-    /// Who paints the picture, if it has one.
+    /// Function that paints the picture, if there is one.
     picture: Option<Box<dyn Fn(u32) -> Canvas + Send + Sync>>,
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
@@ -72,12 +72,12 @@ impl Surface {
         all
     }
 
-    /// What to call it.
+    /// Name of the surface.
     pub(super) fn name(self) -> String {
         self.recipe().name
     }
 
-    /// Metres that one repetition of its picture covers.
+    /// Size of one repetition of its picture, metres.
     pub(super) fn tile(self) -> Vec2 {
         match self {
             Surface::Cobbles => vec2(5.0, 5.0),
@@ -97,7 +97,7 @@ impl Surface {
         }
     }
 
-    /// Whether a vehicle collides with it.
+    /// True if a vehicle collides with the surface.
     pub(super) fn solid(self) -> bool {
         !matches!(
             self,
@@ -182,7 +182,7 @@ impl Surface {
         }
     }
 
-    /// Its number among the materials.
+    /// Index of the surface among the materials.
     pub(super) fn number(self) -> usize {
         Self::all().iter().position(|&surface| surface == self).unwrap_or_default()
     }
@@ -192,7 +192,7 @@ fn plain_like(recipe: &Recipe) -> Recipe {
     Recipe { name: recipe.name.clone(), picture: None, ..*recipe }
 }
 
-/// Paints every picture and lists the materials that show them.
+/// Paints every picture, and lists the materials and textures.
 pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
     let recipes: Vec<Recipe> = Surface::all().into_iter().map(Surface::recipe).collect();
     let pictures: Vec<Option<Texture>> = recipes

@@ -1,4 +1,5 @@
-//! The town hall on the west side of the square: an arcade, two storeys of tall windows, stepped gables, a clock, a turret.
+//! Town hall on the west side of the square: an arcade, two storeys of tall windows, stepped gables, a clock, a
+//! turret.
 
 use glam::{Vec3, vec3};
 
@@ -12,11 +13,11 @@ use super::roof::{Roof, dormer};
 use super::surface::Surface;
 
 const ARCHES: u32 = 6;
-/// Depth of the arcade and of the whole building, thickness of its piers.
+/// Depth of the arcade and of the whole building, thickness of its piers, metres.
 const ARCADE: f32 = 3.2;
 const DEPTH: f32 = 13.0;
 const PIER: f32 = 0.7;
-/// Heights of the arcade and of each storey, and number of storeys.
+/// Heights of the arcade and of each storey, metres, and number of storeys; height of the roof.
 const FIRST: f32 = 4.7;
 const STOREY: f32 = 3.5;
 const STOREYS: u32 = 2;
@@ -109,7 +110,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
         builder.facing(Surface::Tiles, tint, &[corners[0], corners[2], corners[3]], Vec3::Y);
     }
 
-    // A turret with a bell rides on the ridge.
+    // A turret with a bell stands on the ridge.
     let turret = frame.at(width / 2.0, eaves + ROOF - 0.8, -DEPTH / 2.0);
     builder.prism(Surface::Planks, vec3(0.9, 0.85, 0.8), &turret, 6, [0.95, 0.95], [0.0, 2.6]);
     builder.prism(Surface::Slate, Vec3::ONE, &turret, 6, [1.25, 0.75], [2.6, 3.5]);
@@ -117,7 +118,7 @@ pub(super) fn build(builder: &mut Builder, frame: &Frame, width: f32) {
     builder.turned(Surface::Gold, Vec3::ONE, &turret, 6, &[(0.0, 7.0), (0.18, 7.25), (0.0, 7.5)]);
 }
 
-/// The arcade along the square, with doors and windows behind it.
+/// Builds the arcade along the square, with doors and windows behind it.
 fn arcade(builder: &mut Builder, frame: &Frame, width: f32) {
     let stone = Vec3::ONE;
     let span = width / ARCHES as f32;

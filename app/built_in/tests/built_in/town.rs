@@ -1,7 +1,7 @@
-//! The old town as data: what every other part relies on.
+//! Law: the old town as data has the properties that every other part relies on.
 //!
-//! A wrong program would build another town from the same seed, point a triangle at a vertex that is not there, leave a
-//! normal unnormalised (too bright or black), or put a wall into the rider's way.
+//! A wrong program would build another town from the same seed, point a triangle at a missing vertex, leave a normal
+//! unnormalised (too bright or black), or put a wall into the rider's way.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -9,23 +9,23 @@ use std::sync::OnceLock;
 use glam::{DVec2, DVec3, Vec3, dvec2};
 use rapidity::scene::{Scene, town};
 
-/// Built once: painting takes seconds without optimisation.
+/// Scene built once: painting takes seconds without optimisation.
 fn scene() -> &'static Scene {
     static SCENE: OnceLock<Scene> = OnceLock::new();
     SCENE.get_or_init(|| town::build(1))
 }
 
-/// Normals are normalised in f32: a few rounding errors.
+/// Tolerance of a normal's length: a few rounding errors in f32.
 const UNIT: f32 = 1e-5;
-/// A texture coordinate this large has lost a pixel of a 2048-pixel picture to rounding.
+/// Limit of texture coordinates: one this large has lost a pixel of a 2048-pixel picture to rounding.
 const UV: f32 = 1000.0;
-/// Tints may brighten a dark picture a little.
+/// Limit of tints, which may brighten a dark picture a little.
 const TINT: f32 = 1.3;
-/// Distance that a rider's shoulders keep from walls, and the heights they are at, metres.
+/// Distance that a rider's shoulders keep from walls, and their range of heights, metres.
 const CLEARANCE: f64 = 1.5;
 const BODY: [f64; 2] = [0.3, 1.9];
 
-/// Everything of a scene that is drawn, as bits.
+/// Hashes of everything in a scene that is drawn.
 fn bits(scene: &Scene) -> Vec<u64> {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let hash = |write: &dyn Fn(&mut DefaultHasher)| {
@@ -57,7 +57,7 @@ fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(a + along * axis)
 }
 
-/// Edges, on the ground, of what a solid triangle shows between two heights; nothing if it lies outside them.
+/// Edges, on the ground, of the part of a solid triangle between two heights; empty if it lies outside them.
 fn outline_between(corners: [DVec3; 3], low: f64, high: f64) -> Vec<DVec2> {
     let mut kept = corners.to_vec();
     for (sign, level) in [(1.0, high), (-1.0, -low)] {
@@ -119,7 +119,7 @@ fn front_faces_agree_with_their_normals() {
             let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[triangle[k] as usize]);
             let face = (b - a).cross(c - a);
             let normal: Vec3 = triangle.iter().map(|&index| mesh.normals[index as usize]).sum();
-            // Leaves carry the normals of the crown they belong to.
+            // Leaves have the normals of their crown.
             if !scene().materials[mesh.material].double_sided {
                 assert!(face.dot(normal) > 0.0, "{}: {a} {b} {c}", mesh.name);
             }

@@ -1,5 +1,6 @@
-//! Law: nothing in the physics is off by more than 1e-10, however extreme the speed, the angle, the distance or the step. A program that takes
-//! the textbook's formulas as they stand is off by radians straight behind, and one that adds up its clock plainly drifts.
+//! Law: the physics has no error above 1e-10, however extreme the speed, the angle, the distance or the step. A
+//! program that uses the textbook's formulas unchanged has errors of radians straight behind, and one that sums its
+//! clock without care drifts.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use rapidity::measure::extremes::row::{LIMIT, Row};

@@ -1,8 +1,8 @@
 //! Law: `probe` answers with the numbers of special relativity, and each key means what its description says. A wrong
-//! program would take a source's position for that at the observer's time, call the eyes simultaneous in the world, turn
-//! the legs' accelerations with the gyroscopes, or compose two velocities in the wrong order.
+//! program would take a source's position for that at the observer's time, make the eyes simultaneous in the world,
+//! turn the legs' accelerations with the gyroscopes, or compose two velocities in the wrong order.
 //!
-//! Expected numbers are closed forms; for random questions, the textbook's formulas, written out here.
+//! Expected numbers are closed forms. For random questions they come from the textbook's formulas, written out here.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DQuat, DVec3};
@@ -11,9 +11,9 @@ use rand_chacha::ChaCha8Rng;
 use rapidity::probe;
 use serde_json::{Value, json};
 
-/// Rounding of a few operations on numbers near 1.
+/// Tolerance for the rounding of a few operations on numbers near 1.
 const ROUNDING: f64 = 4e-15;
-/// Rounding of the textbook's formulas at the random celerities below, γ to about 30.
+/// Tolerance for the textbook's formulas at the random celerities below, γ to about 30.
 const TEXTBOOK_ROUNDING: f64 = 1e-11;
 
 fn ask(question: Value) -> Value {
@@ -44,7 +44,7 @@ fn assert_near(found: DVec3, expected: DVec3, tolerance: f64) {
     assert!((found - expected).length() <= tolerance * expected.length().max(1.0), "{found} is not {expected}");
 }
 
-/// A vector of a random direction and of a length up to `longest`.
+/// Vector of random direction and of a length up to `longest`.
 fn random_vector(random: &mut ChaCha8Rng, longest: f64) -> DVec3 {
     loop {
         let vector = DVec3::from_array(random.random::<[f64; 3]>()) * 2.0 - DVec3::ONE;
@@ -54,7 +54,7 @@ fn random_vector(random: &mut ChaCha8Rng, longest: f64) -> DVec3 {
     }
 }
 
-/// The textbook's boost of (t, r) into the frame of an observer of celerity u.
+/// Event (t, r) boosted by the textbook's formula into the frame of an observer of celerity u.
 fn boosted(u: DVec3, t: f64, r: DVec3) -> (f64, DVec3) {
     let gamma = (1.0 + u.length_squared()).sqrt();
     (gamma * t - u.dot(r), r + u * (u.dot(r) / (1.0 + gamma) - t))
@@ -115,7 +115,7 @@ fn numbers_pass_to_the_last_bit() {
     let mut numbers = vec![0.1, 1.0 / 3.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, -0.0, 9_007_199_254_740_993.0];
     numbers.extend((0..1000).map(|_| f64::from_bits(random.random())).filter(|number| number.is_finite()));
     for number in numbers {
-        // The boost to rest changes nothing. Once the shortest form is written, once seventeen digits.
+        // The boost to rest changes nothing. Each number is written once in its shortest form and once with 17 digits.
         for digits in [format!("{number:e}"), format!("{number:.16e}")] {
             let line = format!(r#"{{"ask": "boost", "celerity": [0, 0, 0], "event": [{digits}, 0, 0, {digits}]}}"#);
             let text = probe::answer(&line).unwrap().to_string();
@@ -153,7 +153,7 @@ fn a_head_across_the_motion_is_turned_towards_it() {
     assert_near(vector(&answer["celerity"]), DVec3::new(0.9375, 0.75, 0.0), ROUNDING);
     let expected = DQuat::from_xyzw(0.0, 0.0, 1.0 / 82_f64.sqrt(), 9.0 / 82_f64.sqrt());
     assert!((quaternion(&answer["wigner"]) - expected).length() < ROUNDING, "{answer}");
-    // Velocities within `compose` may be given as β too.
+    // Velocities within `compose` may also be given as β.
     let question =
         json!({ "ask": "compose", "vehicle": { "beta": [0.6, 0, 0] }, "head": { "celerity": [0, 0.75, 0] } });
     assert_eq!(ask(question), answer);
@@ -205,17 +205,17 @@ fn random_sources_are_seen_where_their_light_comes_from() {
             "observer": { "position": observer.to_array(), "time": time, "celerity": u.to_array() },
             "source": { "position": source.to_array(), "celerity": v.to_array() },
         }));
-        // The emission is on the source's worldline and on the observer's past light cone.
+        // The emission event is on the source's worldline and on the observer's past light cone.
         let emitted_at = number(&answer["emitted_at"]);
         let gamma_source = (1.0 + v.length_squared()).sqrt();
         let displacement = source + v * (emitted_at / gamma_source) - observer;
         assert_close(time - emitted_at, displacement.length(), TEXTBOOK_ROUNDING);
-        // It is seen where the boost takes it.
+        // The apparent position is the boosted displacement.
         let (t, r) = boosted(u, emitted_at - time, displacement);
         let position = vector(&answer["position"]);
         assert_near(position, r, TEXTBOOK_ROUNDING);
         assert_close(position.length(), -t, TEXTBOOK_ROUNDING);
-        // The wave's frequency is its four-vector's product with the four-velocity.
+        // The frequency is the product of the wave's four-vector and the four-velocity.
         let n = displacement.normalize();
         let gamma_observer = (1.0 + u.length_squared()).sqrt();
         let doppler = (gamma_observer + u.dot(n)) / (gamma_source + v.dot(n));
@@ -225,7 +225,7 @@ fn random_sources_are_seen_where_their_light_comes_from() {
 
 #[test]
 fn the_eyes_look_at_one_moment_of_the_observers() {
-    // Two metres apart along the motion: 2.5 apart in the world, the forward eye 1.5 later.
+    // The eyes are two metres apart along the motion: 2.5 apart in the world, the forward eye 1.5 later.
     let question = json!({
         "ask": "eyes", "observer": { "position": [1, 2, 3], "time": 5, "celerity": [0.75, 0, 0] }, "separation": 2,
         "right": [7, 0, 0],
@@ -257,7 +257,7 @@ fn random_eyes_are_their_separation_apart_for_the_observer() {
     }
 }
 
-/// The end of a worldline: position, time, celerity, proper time.
+/// End of a worldline: position, time, celerity, proper time.
 fn travel(start: Value, legs: Value, step: f64, integrator: &str) -> (DVec3, f64, DVec3, f64) {
     let end = ask(json!({
         "ask": "worldline", "start": start, "legs": legs, "step": step, "integrator": integrator,
@@ -265,8 +265,8 @@ fn travel(start: Value, legs: Value, step: f64, integrator: &str) -> (DVec3, f64
     (vector(&end["position"]), number(&end["time"]), vector(&end["celerity"]), number(&end["proper_time"]))
 }
 
-/// Error of each integrator at a hundred steps a unit, about unit acceleration for about two units: order four, order
-/// two (its accelerations are constant in other axes than the legs'), and its tolerance.
+/// Tolerance of each integrator at a hundred steps a unit, about unit acceleration for about two units: order four,
+/// order two (its accelerations are constant in other axes than the legs'), and its own error control.
 const INTEGRATORS: [(&str, f64); 3] = [("rk4", 1e-8), ("exact", 1e-4), ("dopri5", 1e-10)];
 
 #[test]
@@ -285,7 +285,7 @@ fn steady_thrust_from_rest_is_hyperbolic_motion() {
 
 #[test]
 fn the_exact_integrator_is_exact_along_a_line() {
-    /// Rounding of two hundred steps.
+    /// Tolerance for the rounding of two hundred steps.
     const TOLERANCE: f64 = 1e-13;
     let legs = json!([{ "duration": 2, "acceleration": [0, 3, 0] }]);
     let (position, time, celerity, _) =
@@ -332,7 +332,7 @@ fn thrust_keeps_its_direction_in_the_axes_of_the_pure_boost() {
 
 #[test]
 fn a_step_need_not_divide_a_leg() {
-    // 1 in steps of 0.3 are four of 0.25.
+    // A leg of 1 in steps of at most 0.3 takes four steps of 0.25.
     let start = || json!({ "position": [0, 0, 0], "celerity": [0, 0, 0] });
     let leg = || json!([{ "duration": 1, "acceleration": [1, 2, 3] }]);
     let by_quarters = travel(start(), leg(), 0.25, "rk4");
@@ -377,7 +377,8 @@ fn a_source_at_rest_is_perceived_where_it_is() {
 
 #[test]
 fn a_source_in_the_plane_between_the_eyes_is_perceived_where_its_light_left_it() {
-    // Distance 5 from either eye: the light seen at 10 left at 5, when the source had gone 3 up from its place at 0.
+    // The distance is 5 from either eye: the light seen at 10 left at 5, when the source had gone 3 up from its place
+    // at 0.
     let answer = ask(json!({
         "ask": "perceived", "eyes": [[-3, 0, 0], [3, 0, 0]],
         "source": { "position": [0, -3, -4], "beta": [0, 0.6, 0] }, "time": 10,
@@ -398,7 +399,8 @@ fn random_sources_are_perceived_midway_between_the_sight_lines() {
             "source": { "position": source.to_array(), "celerity": celerity.to_array() }, "time": 0.5,
         }));
         let perceived = vector(&answer["position"]);
-        // The shortest line from one sight line to the other is perpendicular to both; its middle is half of it away.
+        // The shortest line from one sight line to the other is perpendicular to both; its middle is half its length
+        // away from each.
         let to_sight_line = |eye: DVec3| {
             let seen = ask(json!({
                 "ask": "apparent", "observer": { "position": eye.to_array(), "time": 0.5, "celerity": [0, 0, 0] },
@@ -443,7 +445,7 @@ fn colour(spectrum: Value, doppler: f64) -> (DVec3, DVec3) {
     (vector(&answer["xyz"]), vector(&answer["rgb"]))
 }
 
-/// A black body shifted by D is one of temperature D·T, through all of D⁵ L(Dλ).
+/// Law: a black body shifted by D looks like one of temperature D·T: its radiance becomes D⁵ L(Dλ).
 #[test]
 fn a_planck_spectrum_is_seen_as_one_of_another_temperature() {
     for (kelvin, doppler) in [(2800.0, 2.0), (5900.0, 0.1), (5900.0, 10.0), (1e-3, 1e6), (1e10, 1e-6)] {
@@ -467,11 +469,11 @@ fn an_rgb_colour_at_rest_is_answered_as_asked() {
     assert!(xyz.y < white.y);
 }
 
-/// 1e9 W sr⁻¹ m⁻³ at every wavelength stay so at every shift, but for D⁵.
+/// Law: a radiance of 1e9 W sr⁻¹ m⁻³ at every wavelength stays even at every shift, times D⁵.
 #[test]
 fn an_even_spectrum_grows_by_the_fifth_power() {
     let (at_rest, _) = colour(json!({ "sampled": [[500, 1e9]] }), 1.0);
-    // 683 lm/W times 106.857 nm, the integral of ȳ.
+    // Expected luminance: 683 lm/W times 106.857 nm, the integral of ȳ.
     assert_close(at_rest.y, 683.0 * 106.857, 1e-5);
     let (ahead, _) = colour(json!({ "sampled": [[300, 1e9], [900, 1e9]] }), 2.0);
     assert!(ahead.distance(32.0 * at_rest) < 1e-12 * ahead.length(), "{ahead}");
@@ -500,7 +502,7 @@ fn extreme_celerities_give_finite_answers_everywhere() {
                 "legs": [{ "duration": 1, "acceleration": [-1, 1, 0] }], "step": 0.01,
             }),
         ] {
-            // `ask` fails the test on any error, a number that is not finite included.
+            // The helper `ask` fails the test on any error, including a number that is not finite.
             let answer = ask(question);
             assert!(answer.is_object(), "{answer}");
         }

@@ -1,6 +1,6 @@
-//! Law: every line that is not blank gets exactly one line in return, in order, whatever is on it; what cannot be
-//! answered gets a sentence that says what was wrong, under which key, and what was expected. A wrong program would lose
-//! its place after a bad line, swallow a misspelt key, write null for a number, or die.
+//! Law: every line that is not blank gets exactly one line in return, in order, whatever it holds. A line that cannot
+//! be answered gets a sentence that says what is wrong, under which key, and what was expected. A wrong program would
+//! lose its place after a bad line, swallow a misspelt key, write null for a number, or crash.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use std::io::{self, BufReader, Read, Write};
@@ -11,7 +11,7 @@ use serde_json::Value;
 const GOOD: &str = r#"{"ask": "boost", "celerity": [0.75, 0, 0], "event": [1, 0, 0, 0]}"#;
 const GOOD_ANSWER: &str = r#"{"event":[1.25,-0.75,0.0,0.0]}"#;
 
-/// All answers to an input, and whether all were good.
+/// Answers to an input, and true if every line was answered.
 fn run(input: &[u8]) -> (Vec<String>, bool) {
     let mut output = Vec::new();
     let all_answered = probe::run(input, &mut output).unwrap();
@@ -20,7 +20,7 @@ fn run(input: &[u8]) -> (Vec<String>, bool) {
     (output.lines().map(str::to_owned).collect(), all_answered)
 }
 
-/// The sentence with which a line is refused.
+/// Sentence with which a line is refused.
 fn refusal(line: &[u8]) -> String {
     let (answers, all_answered) = run(line);
     assert!(!all_answered && answers.len() == 1, "{answers:?}");
@@ -84,7 +84,7 @@ fn a_line_may_be_as_long_as_the_limit_and_no_longer() {
 
 #[test]
 fn each_answer_is_flushed_before_the_next_question_is_read() {
-    /// Hands out one line at a time, and only once the answer to the one before has been flushed.
+    /// Reader that gives one line at a time, and only after the answer to the line before has been flushed.
     struct Conversation<'a> {
         flushed: &'a std::cell::Cell<usize>,
         asked: usize,
@@ -306,7 +306,7 @@ fn a_bad_value_is_refused_with_its_key_and_what_was_expected() {
     }
 }
 
-/// The keys of a worldline of one leg with these keys.
+/// Keys of a worldline whose single leg has these keys.
 fn leg_of(keys: &str) -> String {
     format!(r#""start": {{"position": [0,0,0], "celerity": [0,0,0]}}, "step": 1, "legs": [{{{keys}}}]"#)
 }

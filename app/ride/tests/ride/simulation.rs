@@ -1,7 +1,8 @@
-//! The ride is a function of setup, samples and frame times: the same in, the same out, to the last bit.
+//! Law: the ride is a function of setup, samples and frame times: equal input gives equal output, to the last bit.
 //!
-//! A program with a clock, a thread or an unordered map in the path would differ from run to run; one that added up rounded intervals would depend on the
-//! frame rate; one that replayed decoded values instead of raw bytes would not notice a decoder that has changed.
+//! A program with a clock, a thread or an unordered map in the path would differ from run to run. One that summed
+//! rounded intervals would depend on the frame rate. One that replayed decoded values instead of raw bytes would not
+//! notice a changed decoder.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -27,7 +28,7 @@ fn simulation(kind: VehicleKind) -> Simulation {
     Simulation::new(setup(kind), Arc::new(OpenPlane)).unwrap()
 }
 
-/// Someone rides by keys, brakes, switches to flying, slows time down and comes back.
+/// Samples of a ride by keys that brakes, switches to flying, slows time down and comes back.
 fn busy_ride() -> Vec<Sample> {
     let tenth = |n: u64| n * SECOND / 10;
     vec![
@@ -62,7 +63,7 @@ fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoItera
     times.into_iter().map(&mut ride).collect()
 }
 
-/// Sixty frames a second for this long, none of them quite on time.
+/// Times of sixty frames a second for so many seconds, none of them quite regular.
 fn times(seconds: u64) -> impl Iterator<Item = Nanos> {
     (0..=60 * seconds).map(|n| n * SECOND / 60 + n * 7919 % 2_000_000)
 }
@@ -131,7 +132,7 @@ fn own_time_is_real_time_times_the_scale() {
     let own_s = ride[ride.len() - 1].vehicle.odometer().own_s;
     assert!((own_s - 4.5).abs() < 2.0 / 240.0, "{own_s}");
     assert_eq!(ride[180].time_scale, 0.25);
-    // No time scale runs away.
+    // The time scale is limited.
     let faster = [Sample::action(6 * SECOND, &Action::TimeScale(1e300))];
     assert_eq!(simulation.frame(7 * SECOND, &faster).time_scale, 16.0);
 }
@@ -144,7 +145,7 @@ fn what_is_shown_moves_on_between_ticks() {
     frames(&mut simulation, &[], (3..=4).map(|n| n * SECOND).chain([at]));
     let shown: Vec<f64> = (0..=6).map(|n| simulation.frame(at + n * tick / 3, &[]).record.road).collect();
     let strides: Vec<f64> = shown.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    // A third of a tick each, at a steadily growing speed.
+    // Each stride is a third of a tick, at a steadily growing speed.
     let mean = (shown[6] - shown[0]) / 6.0;
     assert!(mean > 0.0);
     assert!(strides.iter().all(|stride| (stride / mean - 1.0).abs() < 0.01), "{strides:?}");
@@ -235,7 +236,7 @@ fn any_bytes_from_any_device_make_a_finite_ride() {
     }
 }
 
-/// The ride as a recording in memory.
+/// Recording of the ride in memory.
 fn entries(setup: &Setup, samples: &[Sample]) -> Vec<Entry> {
     let mut simulation = Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap();
     let mut entries = Vec::new();
@@ -283,7 +284,7 @@ fn another_byte_is_another_ride() {
     let setup = setup(VehicleKind::Bicycle);
     let recorded = entries(&setup, &busy_ride());
     let changed = recorded.into_iter().map(|entry| match entry {
-        // He steers to the right where he steered to the left.
+        // The changed sample steers to the right instead of to the left.
         Entry::Sample(sample) if sample.at == 15 * SECOND / 10 => Entry::Sample(Sample::key(sample.at, Key::D, true)),
         other => other,
     });
@@ -312,7 +313,7 @@ fn a_ride_replays_from_its_file() {
     let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
     assert_eq!(replay.verify().unwrap(), 541);
 
-    // Cut off: what is there is the same ride, and the end is told.
+    // The recording is cut off: the remaining part is the same ride, and the end is reported.
     let bytes = std::fs::read(&path).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() * 2 / 3]).unwrap();
     let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();

@@ -1,6 +1,7 @@
-//! The built-in tour: sensor lines through the real decoder take a bicycle round a closed way.
+//! Law: the built-in tour takes a bicycle round a closed way, by sensor lines through the real decoder.
 //!
-//! A wrong sign of the handlebar or of the yaw leaves the way at the first bend; a rider without foresight is carried out of the bends.
+//! A wrong sign of the handlebar or of the yaw leaves the way at the first bend; a tour that does not look ahead is
+//! carried out of the bends.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -11,12 +12,13 @@ use input::{DeskConfig, SECOND, VehicleKind};
 use rapidity::simulation::{Frame, Setup, Simulation, Start, Tour};
 use rapidity::vehicle::{OpenPlane, VehicleSettings, World};
 
-/// Way that is followed to within this, metres.
+/// Largest distance from the way, metres.
 const ON_THE_WAY_M: f64 = 1.0;
-/// No bend is ridden faster than this, radians per second of own time; at the cruise the sharpest would be 1.16.
+/// Largest rate of turn in a bend, radians per second of own time; at the cruise the sharpest bend would have 1.16.
 const BEND_RAD_S: f64 = 1.05;
 
-/// A rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides; the sharpest radius is 6 m.
+/// Closed way: a rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides; the sharpest radius is 6
+/// m.
 fn circuit() -> Vec<DVec3> {
     let mut points = Vec::new();
     let mut position = DVec3::ZERO;
@@ -38,7 +40,7 @@ fn circuit() -> Vec<DVec3> {
         (18.0, 0.0),
         bend(6.0, quarter),
         (14.0, 0.0),
-        // The S: out and back in.
+        // The S-bend goes out and back in.
         bend(8.0, -0.5),
         bend(8.0, 1.0),
         bend(8.0, -0.5),
@@ -103,7 +105,7 @@ fn the_tour_laps_the_circuit_and_keeps_to_it() {
     assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
     let turned = frames.windows(60).map(|second| second[0].eye.orientation.angle_between(second[59].eye.orientation));
     assert!(turned.fold(0.0, f64::max) < BEND_RAD_S, "it is swung round in a bend");
-    // More than two rounds, each point of the circuit passed.
+    // The ride is more than two rounds, and passes each point of the circuit.
     let end = &frames[frames.len() - 1];
     assert!(end.record.road > 2.0 * 150.0, "{} m", end.record.road);
     for point in &circuit {
@@ -118,7 +120,7 @@ fn speed_rises_gently_from_rest_to_the_cruise() {
     let mut before = 0.0;
     for frame in &frames {
         let celerity = frame.record.celerity.iter().map(|u| u * u).sum::<f64>().sqrt();
-        // 3 m/s² over a sixtieth of a second.
+        // The largest gain is 3 m/s² over a sixtieth of a second.
         assert!(celerity - before < 3.0 / 60.0 / World::OLD_TOWN.speed_of_light_m_s(), "{before} to {celerity}");
         before = celerity;
     }

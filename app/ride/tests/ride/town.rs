@@ -1,6 +1,7 @@
-//! Riding in the built-in town: the tour gets round, and nobody gets into a house.
+//! Law: the tour gets round the built-in town, and no vehicle enters a house.
 //!
-//! Triangles from a modeller are no perfect walls: corners, doorsteps and things that stand about are where a vehicle would slip through or be thrown about.
+//! A modelled town's walls are not perfect: at corners, doorsteps and street furniture a wrong program would let a
+//! vehicle slip through or be thrown about.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -16,18 +17,18 @@ use rapidity::scene::town;
 use rapidity::simulation::{Setup, Simulation, Start, Tour};
 use rapidity::vehicle::{OpenSpace, Surroundings, Vehicle, VehicleSettings, World};
 
-/// Built once for all tests: its pictures take their time.
+/// Town built once for all tests, as its pictures take their time.
 static TOWN: LazyLock<(Scene, Arc<Collision>)> = LazyLock::new(|| {
     let scene = town::build(1);
     let collision = Arc::new(Collision::new(&scene).unwrap());
     (scene, collision)
 });
 
-/// The tour keeps this close to the circuit, metres.
+/// Largest distance of the tour from the circuit, metres.
 const ON_THE_WAY_M: f64 = 0.3;
-/// No vehicle comes closer to a wall than its body is wide, save for rounding, metres.
+/// Least distance of a vehicle from a wall, metres: the reach of its body, save for rounding.
 const BODY_M: f64 = 0.39;
-/// A kerb's ramp at the fastest, ridden for a sixtieth of a second, metres.
+/// Largest rise between two frames, metres: a kerb's ramp at the greatest speed, for a sixtieth of a second.
 const CLIMB_M: f64 = 0.08;
 
 fn start() -> Start {
@@ -94,7 +95,7 @@ fn whoever_rides_anyhow_stays_in_the_streets() {
                 assert!((after.y - before.y).abs() < CLIMB_M, "seed {seed}: jumps at {after}");
                 let nearest = |position| surroundings.nearest_wall(position, 1.0).map_or(1.0, |wall| wall.distance);
                 assert!(nearest(after) > BODY_M, "seed {seed}: {} m from a wall at {after}", nearest(after));
-                // Nor was there one on the way, where a step downwards may turn a doorstep into a wall.
+                // The way between had no wall either; a step downwards may turn a doorstep into a wall there.
                 let between = (1..4).map(|share| nearest(before.lerp(after, f64::from(share) / 4.0)));
                 assert!(between.fold(1.0, f64::min) > 0.5 * BODY_M, "seed {seed}: through a wall before {after}");
             }
@@ -119,7 +120,7 @@ fn no_celerity_leaves_the_streets() {
                 let wall = surroundings.nearest_wall(position, 1.0);
                 assert!(wall.is_none_or(|wall| wall.distance > BODY_M), "u = {celerity} from {place}: {wall:?}");
             }
-            // The town is some 200 m across; one who had come out of it would be far away by now.
+            // The town is some 200 m across; a vehicle that had left it would be far away by now.
             assert!(car.state().position.length() < 300.0, "u = {celerity} from {place} to {}", car.state().position);
         }
     }

@@ -1,7 +1,9 @@
-//! The bicycle: wheel speed on the rider's clock is celerity, the handlebar bends the way in the world, the brake stops it.
+//! Law: wheel speed on the rider's clock is celerity, the handlebar bends the way in the world, and the brake stops
+//! the bicycle.
 //!
-//! A program that took the wheel speed for β would stand still at c or run past it; one that turned by the world's clock would ride bends whose radius
-//! depends on the speed; one that forgot γ in the felt accelerations would drift off the nose, or off its celerity, in a bend.
+//! A program that took the wheel speed for β would stand still at c or run past it. One that turned by the world's
+//! clock would ride bends whose radius depends on the speed. One that omitted γ in the felt accelerations would drift
+//! off the nose, or off its celerity, in a bend.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -12,7 +14,7 @@ use physics::{Celerity, Event};
 use rapidity::vehicle::{IntegratorKind, Notice, OpenPlane, OpenSpace, RAPIDITY_CAP, Vehicle, VehicleSettings, World};
 
 const STEP_S: f64 = 1.0 / 240.0;
-/// RK4 at 240 Hz on a response time of 0.7 s.
+/// Tolerance for RK4 at 240 Hz with a response time of 0.7 s.
 const INTEGRATION: f64 = 1e-8;
 
 fn bicycle_at(celerity: f64) -> Vehicle {
@@ -37,7 +39,8 @@ fn a_wheel_at_three_quarters_of_c_is_beta_three_fifths() {
     ride(&mut bicycle, &pedalling(0.75 * 30.0 / 3.6), 10.0);
     let state = bicycle.state();
     assert_eq!(state.celerity.vector(), DVec3::NEG_Z * 0.75);
-    // Ten seconds on the saddle: 12.5 on the church tower, 62.5 m of road, 50 m on the bicycle's own odometer.
+    // Ten seconds on the saddle are 12.5 s on the church tower, 62.5 m of road, and 50 m on the bicycle's own
+    // odometer.
     let odometer = bicycle.odometer();
     for (is, should) in [
         (odometer.own_s, 10.0),
@@ -72,10 +75,10 @@ fn any_pedalling_stays_below_the_speed_of_light() {
 fn the_answer_to_the_pedals_is_gradual() {
     let mut bicycle = bicycle_at(0.0);
     ride(&mut bicycle, &pedalling(25.0 / 3.0), 0.7);
-    // One time constant.
+    // This is one time constant.
     let reached = bicycle.state().celerity.magnitude();
     assert!((reached - (1.0 - (-1.0f64).exp())).abs() < INTEGRATION, "{reached}");
-    // It gives way more slowly than it starts: it is still rolling after one such time.
+    // The bicycle slows more slowly than it starts: it is still rolling after one such time.
     ride(&mut bicycle, &pedalling(0.0), 0.7);
     assert!(bicycle.state().celerity.magnitude() > 0.7 * reached);
 }
@@ -91,12 +94,13 @@ fn a_bicycle_that_nobody_pedals_rolls_to_a_stop() {
 fn the_bend_is_a_circle_of_the_same_radius_at_any_speed() {
     let steer_rad = 0.25f64;
     let radius = VehicleSettings::default().bicycle.wheelbase_m / steer_rad.tan();
-    // The first is rounding in 76,000 steps. RK4 at 240 Hz loses bearing with the fifth power of what a gyroscope turns in a step, γ Ω: 0.08 rad in the last case.
+    // The first tolerance is rounding in 76,000 steps. RK4 at 240 Hz loses bearing with the fifth power of the
+    // gyroscopes' turn in a step, γ Ω: 0.08 rad in the last case.
     for (celerity, tolerance) in [(0.01, 1e-7), (0.75, 1e-6), (3.0, 1e-3)] {
         let mut bicycle = bicycle_at(celerity);
         let speed = bicycle.world().metres_per_own_second(celerity);
         let controls = Controls { steer_rad, ..pedalling(speed) };
-        // Left of the start, at rest in the world.
+        // The centre is left of the start, at rest in the world.
         let centre = DVec3::NEG_X * radius;
         let round_s = std::f64::consts::TAU * radius / speed;
         let steps = (round_s / STEP_S).ceil();
@@ -107,7 +111,7 @@ fn the_bend_is_a_circle_of_the_same_radius_at_any_speed() {
             let nose = bicycle.state().orientation * DVec3::NEG_Z;
             assert!(bicycle.state().celerity.direction().unwrap().distance(nose) < 1e-12);
         }
-        // The circle closes: no bearing is lost to Thomas precession, the nose keeps to the motion.
+        // The circle closes: no bearing is lost to Thomas precession, and the nose keeps to the motion.
         assert!(bicycle.state().position.length() < tolerance, "{}", bicycle.state().position);
         assert!((bicycle.state().orientation * DVec3::NEG_Z).distance(DVec3::NEG_Z) < tolerance);
         assert!((bicycle.state().celerity.magnitude() / celerity - 1.0).abs() < tolerance);
@@ -141,7 +145,7 @@ fn the_brake_has_two_stages_and_stops_any_celerity() {
         bicycle.world().metres_per_own_second(before - bicycle.state().celerity.rapidity()) / 0.25
     };
     let settings = VehicleSettings::default().bicycle;
-    // The pedals hold against the first stage, not against the second.
+    // The pedals withstand the first stage of the brake, not the second.
     assert!(felt(0.25) > 0.0 && felt(0.25) < 0.6 * settings.drag_m_s2);
     assert!((felt(0.5) - settings.drag_m_s2).abs() < 1e-6);
     assert!((felt(1.0) - settings.stop_m_s2).abs() < 1e-6);
@@ -173,7 +177,7 @@ fn there_and_back_ends_where_it_began() {
         ride(&mut bicycle, &Controls { steer_rad, brake: 1.0, ..Controls::default() }, 4.0);
         assert!(bicycle.state().celerity.magnitude() < 1e-9);
     }
-    // Pushed back along the same bend by the same response.
+    // The bicycle is pushed back along the same bend by the same response.
     assert!(bicycle.state().position.length() < 1e-6, "{}", bicycle.state().position);
     assert!((bicycle.state().orientation * DVec3::NEG_Z).distance(DVec3::NEG_Z) < 1e-6);
 }

@@ -1,7 +1,9 @@
-//! Driving and flying: thrust is rapidity on the pilot's clock, the nose follows the motion or the gyroscopes, and nothing jumps or breaks anywhere.
+//! Law: thrust is rapidity on the pilot's clock, the nose follows the motion or the gyroscopes, and nothing jumps or
+//! breaks at any speed.
 //!
-//! A program that accelerated in the world's frame would gain speed ever more slowly in rapidity; one whose nose follows the motion by direction alone
-//! would spin at rest and flip in reverse; one that set γ and u apart would leave the mass shell on a long flight.
+//! A program that accelerated in the world's frame would gain speed ever more slowly in rapidity. One whose nose
+//! follows the motion by direction alone would spin at rest and flip in reverse. One that stored γ and u separately
+//! would leave the mass shell on a long flight.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -15,7 +17,7 @@ use rapidity::vehicle::{
 };
 
 const STEP_S: f64 = 1.0 / 240.0;
-/// Ground is seen from this far below it, metres.
+/// Depth below the ground from which it is still found, metres.
 const KERB_M: f64 = 0.2;
 
 fn vehicle(kind: VehicleKind, celerity: DVec3, flight: FlightSettings) -> Vehicle {
@@ -74,7 +76,7 @@ fn thrust_is_felt_alike_at_any_speed_and_the_cap_is_told() {
         fly(&mut ship, &forward, 1.0);
         let rapidity = ship.state().celerity.rapidity();
         let expected = (before + per_second).min(RAPIDITY_CAP);
-        // RK4's error a step, (h a)⁵/120, is below rounding; that of asinh at this size is not.
+        // RK4's error per step, (h a)⁵/120, is below rounding; that of asinh at this size is not.
         assert!((rapidity - expected).abs() < 1e-9, "second {second}: {rapidity} instead of {expected}");
         assert_eq!(ship.notices().contains(&Notice::RapidityCapped), rapidity >= RAPIDITY_CAP - 1e-9);
         before = rapidity;
@@ -88,7 +90,7 @@ fn a_thrust_reversed_brings_the_ship_back_to_rest() {
     for backward in [-1.0, 1.0] {
         fly(&mut ship, &thrust([0.0, 0.0, backward]), 60.0);
     }
-    // Rapidity 17.6 and back: |δu| ≈ εγ, and RK4's error on top.
+    // Rapidity rises to 17.6 and falls back: |δu| ≈ εγ, with RK4's error on top.
     assert!(ship.state().celerity.magnitude() < 1e-6, "{:?}", ship.state().celerity);
     assert_eq!(nose(&ship), DVec3::NEG_Z);
 }
@@ -98,11 +100,12 @@ fn lateral_thrust_bends_the_way_and_turns_the_nose_with_it() {
     let mut ship = spaceship(DVec3::NEG_Z * 1.5);
     for _ in 0..20 * 240 {
         ship.step(STEP_S, &thrust([1.0, 0.0, 0.0]), &OpenSpace);
-        // A circle: the speed stays and the nose keeps to it, but for the softening, s²/u² of the turn.
+        // The way is a circle: the speed stays and the nose keeps to the motion, but for the softening, s²/u² of the
+        // turn.
         assert!((ship.state().celerity.magnitude() - 1.5).abs() < 1e-2);
         assert!(nose(&ship).angle_between(motion(&ship)) < 2e-3);
     }
-    // Full thrust turns the motion by a/u a second.
+    // Full thrust turns the motion by a/u per second.
     let turned: f64 = 20.0 * FlightSettings::default().thrust_per_s / 1.5;
     let expected = DVec3::new(turned.sin(), 0.0, -turned.cos());
     assert!(motion(&ship).angle_between(expected) < 1e-2);
@@ -145,7 +148,7 @@ fn twist_rolls_about_the_axis_of_motion_at_any_speed() {
         let mut ship = vehicle(VehicleKind::Fly, DVec3::NEG_Z * celerity, flight);
         fly(&mut ship, &turn([0.0, 0.0, 1.0]), 1.0);
         assert!(nose(&ship).distance(DVec3::NEG_Z) < 1e-9);
-        // One radian to the left, the right wing up.
+        // After one radian to the left the right wing is up.
         let right = ship.state().orientation * DVec3::X;
         assert!(right.distance(DVec3::new(1f64.cos(), 1f64.sin(), 0.0)) < 1e-8, "{right} at u = {celerity}");
         assert_eq!(ship.state().celerity.vector(), DVec3::NEG_Z * celerity);
@@ -173,7 +176,8 @@ fn gyroscopes_precess_and_do_not_follow() {
     let mut ship = vehicle(VehicleKind::Fly, DVec3::NEG_Z * 0.75, gyroscopic());
     let left = thrust([-1.0, 0.0, 0.0]);
     fly(&mut ship, &left, 2.0);
-    // The motion bends to the left; Thomas precession turns the axes, seen from the world, to the other side and by less.
+    // The motion bends to the left; Thomas precession turns the axes, seen from the world, to the other side and by
+    // less.
     assert!(motion(&ship).x < -0.5);
     assert!(nose(&ship).x > 0.0 && nose(&ship).x < -motion(&ship).x);
 }
@@ -198,7 +202,7 @@ fn one_who_drives_stays_level_and_at_his_height() {
     assert!((car.eye().observer.event.position.y - 1.6).abs() < 1e-12);
 }
 
-/// A slope of one in ten along −z from the origin on, level before.
+/// Ground that is level, then a slope of one in ten along −z from the origin on.
 struct Slope;
 
 impl Surroundings for Slope {
@@ -229,7 +233,7 @@ fn wheels_follow_the_ground() {
         let position = vehicle.state().position;
         assert!(position.z < -10.0, "{kind:?} goes nowhere");
         assert!((position.y + 0.1 * position.z).abs() < 1e-4, "{kind:?} at {position}");
-        // The kink itself is ridden smoothly.
+        // The kink is ridden smoothly.
         assert!(farthest < 0.05, "{kind:?} leaves the ground by {farthest}");
         // The motion is along the slope, not under it.
         assert!((motion(&vehicle).y - 0.1f64.atan().sin()).abs() < 1e-3, "{kind:?}");
@@ -238,7 +242,7 @@ fn wheels_follow_the_ground() {
 
 #[test]
 fn a_kerb_is_climbed_smoothly() {
-    /// A step of 15 cm at z = −10.
+    /// Ground with a step of 15 cm at z = −10.
     struct Kerb;
     impl Surroundings for Kerb {
         fn height_below(&self, position: DVec3) -> Option<Ground> {

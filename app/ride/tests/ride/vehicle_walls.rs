@@ -1,7 +1,7 @@
-//! Walls hold at any speed, let slide, and let go.
+//! Law: walls hold at any speed, let vehicles slide along them, and let them leave.
 //!
-//! A program that only looked where it is would come out on the other side of a house at a celerity of a few; one that took away all speed near a wall
-//! would hold a rider who wants to leave.
+//! A program that tested only the present position would pass through a house at a celerity of a few. One that took
+//! away all speed near a wall would hold a rider who wants to leave.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -13,7 +13,7 @@ use rapidity::vehicle::{FlightSettings, Ground, Notice, Surroundings, Vehicle, V
 
 const STEP_S: f64 = 1.0 / 240.0;
 
-/// A square of this half width, metres, with walls that have no thickness; ground everywhere, also outside.
+/// Square courtyard of this half width, metres, with walls that have no thickness; ground everywhere, also outside.
 struct Courtyard(f64);
 
 impl Surroundings for Courtyard {
@@ -36,7 +36,7 @@ impl Surroundings for Courtyard {
     }
 }
 
-/// A vehicle in the middle, its nose `angle` to the left of −z.
+/// Vehicle in the middle, its nose `angle` to the left of −z.
 fn vehicle(kind: VehicleKind, celerity: f64, angle: f64) -> Vehicle {
     let orientation = DQuat::from_rotation_y(angle);
     let celerity = Celerity::new(orientation * DVec3::NEG_Z * celerity).unwrap();
@@ -75,7 +75,7 @@ fn no_celerity_gets_through() {
     }
 }
 
-/// An endless lane along z, one metre wide.
+/// Endless lane along z, one metre wide.
 struct Lane;
 
 impl Surroundings for Lane {
@@ -97,7 +97,7 @@ fn too_fast_for_a_lane_is_told_and_costs_way_but_no_time() {
         assert_eq!(vehicle.notices(), [Notice::HeldByWalls]);
         assert!(vehicle.state().celerity.magnitude() < 1e4);
         assert!((vehicle.odometer().own_s / STEP_S - 1.0).abs() < 1e-9, "the rider's clock goes on");
-        // From then on the lane is wide enough.
+        // From then on the vehicle is slow enough for the lane.
         for _ in 0..240 {
             vehicle.step(STEP_S, &Controls::default(), &Lane);
         }
@@ -113,7 +113,7 @@ fn a_head_on_stop_is_soft() {
     for _ in 0..10 * 240 {
         bicycle.step(STEP_S, &pedalling(25.0 / 3.0), &Courtyard(10.0));
         let celerity = bicycle.state().celerity.magnitude();
-        // Exponential with 0.25 s: from u = 1, no more than 1/60 a step.
+        // The approach is exponential with 0.25 s: from u = 1, at most 1/60 a step.
         assert!((celerity - before).abs() < 0.02, "from {before} to {celerity}");
         before = celerity;
     }
@@ -136,7 +136,7 @@ fn a_glancing_ride_slides_along_the_wall() {
             break;
         }
     }
-    // It has met a wall on the left or ahead by now and still moves.
+    // The vehicle has met a wall on the left or ahead by now and still moves.
     let mut car = vehicle(VehicleKind::Drive, 1.0, 0.3);
     for _ in 0..240 * 8 {
         car.step(STEP_S, &Controls::default(), &Courtyard(10.0));
@@ -163,7 +163,7 @@ fn one_can_always_ride_out_again() {
             .fold(0.0, f64::max);
         assert!(nearest > 1.5, "held at the wall, {nearest} m at most, from angle {angle}");
 
-        // Or push back.
+        // Pushing back works, too.
         let mut bicycle = vehicle(VehicleKind::Bicycle, 2.0, angle);
         for wheel_speed in [10.0, -1.5] {
             for _ in 0..5 * 240 {
@@ -172,7 +172,7 @@ fn one_can_always_ride_out_again() {
         }
         assert!(place.nearest_wall(bicycle.state().position, 99.0).unwrap().distance > 1.5, "from angle {angle}");
 
-        // One who drives turns round and thrusts.
+        // A car turns round and thrusts.
         let mut car = vehicle(VehicleKind::Drive, 2.0, angle);
         for _ in 0..5 * 240 {
             car.step(STEP_S, &Controls::default(), &place);
@@ -192,7 +192,7 @@ fn one_who_begins_too_near_a_wall_is_not_thrown_and_gets_away() {
         bicycle.step(STEP_S, &pedalling(5.0), &place);
         assert!(inside(&bicycle, 0.3));
     }
-    // Just outside the courtyard, facing away from it.
+    // Start just outside the courtyard, facing away from it.
     let state = State::new(Event { ct: 0.0, position: DVec3::new(0.0, 0.0, -0.35) }, Celerity::ZERO, DQuat::IDENTITY);
     let mut bicycle = Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, state, VehicleSettings::default()).unwrap();
     for _ in 0..2 * 240 {

@@ -1,4 +1,5 @@
-//! The built-in displays are what the theses describe, and their files are good. A display that is not would be found on the wall only.
+//! Law: the built-in displays have the geometry that the theses describe, and their files are valid. A wrong display
+//! would otherwise be noticed only on the real wall.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2};
@@ -22,7 +23,7 @@ fn the_walls_of_the_caves_close_without_a_gap() {
         let corners = |screen: usize| {
             [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|uv| display.screens[screen].surface.point(uv).unwrap())
         };
-        // Every corner of a closed cube is that of three walls; without ceiling and back, of at least two.
+        // Every corner of a closed cube belongs to three walls; without ceiling and back, to at least two.
         for screen in 0..count {
             for corner in corners(screen) {
                 let shared = (0..count).filter(|&other| corners(other).contains(&corner)).count();
@@ -62,7 +63,7 @@ fn the_dome_is_fourteen_metres_and_its_projectors_stand_on_the_rim() {
 fn the_sheet_is_four_and_a_half_by_three_metres_and_wholly_lit() {
     let display = Display::built_in("curved").unwrap();
     let surface = &display.screens[0].surface;
-    // Along the profile, in steps of a millimetre.
+    // Measure along the profile, in steps of a millimetre.
     let steps = 3000;
     let along: Vec<_> =
         (0..=steps).map(|step| surface.point(DVec2::new(0.5, f64::from(step) / f64::from(steps))).unwrap()).collect();

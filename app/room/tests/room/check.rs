@@ -1,4 +1,5 @@
-//! `rapidity check` says what a display comes to, or where its flaw is, and its exit status says which.
+//! Law: `rapidity check` describes a display, or names the place of its flaw, and its exit status tells the two
+//! apart.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 

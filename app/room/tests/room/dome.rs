@@ -1,26 +1,29 @@
-//! A dome's pictures are one: the same point of it is the same point for every projector that lights it, and their light together is even.
+//! Law: a dome's pictures form one picture: a point of the dome is the same point for every projector that lights it,
+//! and their light together is even.
 //!
-//! A wrong lens or pose would show doubled edges where pictures overlap, wrong gains seams or a bright zone. The brightness is measured without
-//! the code that makes the gains: each pixel has the same share of the projector's light, and spreads it over the patch between its corners.
+//! A wrong lens or pose would show doubled edges where pictures overlap; wrong gains would show seams or a bright
+//! zone. The brightness is measured without the code that makes the gains: each pixel has the same share of the
+//! projector's light, and spreads it over the patch between its corners.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rapidity::room::{Channel, Display, Gains};
 
-/// Pixels: what the eye can resolve as doubled at the seam.
+/// Largest disagreement between projectors, pixels: a larger one would be visible as doubling at the seam.
 const AGREEMENT_PX: f64 = 0.5;
 
-/// Share of the mean brightness.
+/// Largest deviation of the brightness, as a share of the mean.
 const FLATNESS: f64 = 0.02;
 
-/// The dome above this height: within the first quarter of a degree pixels are cut by the rim.
+/// Lowest height of test points, as a share of the radius: within the first quarter of a degree pixels are cut by the
+/// rim.
 const LOWEST: f64 = 0.005;
 
 fn points(count: usize) -> Vec<DVec3> {
     let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(7);
     let mut point = || {
-        // Even over the sphere: height is (Archimedes).
+        // Uniform over the sphere: its height is uniform, too (Archimedes).
         let (height, yaw): (f64, f64) =
             (random.random_range(LOWEST..1.0), random.random_range(0.0..std::f64::consts::TAU));
         let flat = (1.0 - height * height).sqrt();
@@ -31,7 +34,7 @@ fn points(count: usize) -> Vec<DVec3> {
 
 #[test]
 fn a_pixel_lights_the_point_that_the_thesis_gives() {
-    // B eq. 4.6–4.8 as printed: along the axis, to the left, up; R_p from the dome's centre.
+    // Expected directions are B eq. 4.6–4.8 as printed: along the axis, to the left, up; R_p from the dome's centre.
     let display = Display::built_in("dome6").unwrap();
     let centre = DVec3::new(0.0, 1.6, 0.0);
     for (channel, (yaw, pitch)) in display.channels.iter().zip([
@@ -61,7 +64,7 @@ fn a_pixel_lights_the_point_that_the_thesis_gives() {
                 assert_eq!(found, None, "below the rim");
                 continue;
             }
-            // The file gives the projectors' places to a nanometre.
+            // The file gives the projectors' positions to a nanometre.
             assert!(found.unwrap().distance(expected) < 1e-7, "{} {x} {y}: {found:?} {expected}", channel.name);
         }
     }
@@ -80,7 +83,8 @@ fn the_same_point_of_the_dome_is_the_same_for_all_projectors() {
         let lit: Vec<(&Channel, DVec2)> =
             display.channels.iter().filter_map(|channel| Some((channel, channel.place(&display, point)?))).collect();
         uncovered += usize::from(lit.is_empty());
-        // From one projector's pixel to the dome, and from there to the other's: where it must be.
+        // A point goes from one projector's pixel to the dome, and from there to the other projector's expected
+        // pixel.
         for (one, place) in &lit {
             let on_dome = one.point(&display, *place).unwrap();
             for (other, expected) in lit.iter().filter(|(other, _)| other.name != one.name) {
@@ -119,9 +123,10 @@ fn density(channel: &Channel, display: &Display, place: DVec2) -> f64 {
     1.0 / (0.5 * (c - a).cross(d - b).length() * 1280.0 * 768.0)
 }
 
-/// Brightness at dome points, with the pixels' factors or without: mean, and how far the brightest and darkest are from it.
+/// Brightness at dome points, with the pixels' factors or without: mean, and distance of the brightest and the
+/// darkest from it.
 fn evenness(display: &Display, corrected: bool) -> (f64, f64, f64) {
-    // Factors are smooth: a texture of a quarter of the size serves.
+    // The factors are smooth: a texture of a quarter of the size is enough.
     let factors = |channel: &Channel| channel.gains(display, channel.size().map(|side| side / 4)).filter(|_| corrected);
     let gains: Vec<Option<Gains>> = display.channels.iter().map(factors).collect();
     let brightness = |point: DVec3| -> f64 {
@@ -160,7 +165,7 @@ fn gains_are_factors_and_use_the_whole_range() {
     );
     let most = all.iter().flat_map(|gains| &gains.factors).copied().fold(0.0, f32::max);
     assert!(most > 0.95, "the dome is darker than it need be: {most}");
-    // On the edge of each picture, others have taken over; the lower edge is the dome's own, and stays lit.
+    // On the edge of each picture, other projectors have taken over; the lower edge is the dome's own, and stays lit.
     for gains in &all[..5] {
         let row = |y: usize| &gains.factors[160 * y..160 * (y + 1)];
         assert!(row(0).iter().all(|factor| *factor < 0.05), "{:?}", row(0));

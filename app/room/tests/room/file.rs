@@ -1,12 +1,12 @@
-//! Display files mean what they say, and each flaw is named with its file, line, key and reason. A wrong program would take a typing error for a
-//! default, or refuse without saying where.
+//! Law: display files mean what they say, and each flaw is named with its file, line, key and reason. A wrong program
+//! would take a typing error for a default, or refuse without naming the place.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
 use std::path::Path;
 
-/// The schema's core as it was agreed: it must go on being read.
+/// Core of the file format; it must remain readable.
 const CORE: &str = r#"[viewer]
 eye_separation = 0.064
 [[screen]]
@@ -29,13 +29,13 @@ fn parse(text: &str) -> Result<Display, DisplayError> {
     file::parse(text, "d.toml", Path::new(""))
 }
 
-/// The core with one thing changed.
+/// Display from the core with one thing changed.
 fn changed(from: &str, to: &str) -> Result<Display, DisplayError> {
     assert!(CORE.contains(from), "{from}");
     parse(&CORE.replacen(from, to, 1))
 }
 
-/// The core with something added at its end, which is within the channel's table.
+/// Display from the core with something added at its end, which is within the channel's table.
 fn added(tail: &str) -> Result<Display, DisplayError> {
     parse(&format!("{CORE}{tail}"))
 }
@@ -69,7 +69,7 @@ fn pixels_run_right_and_down_and_the_surface_up() {
     assert_eq!(point(1.0, 1.0), DVec3::new(1.5, 0.0, -1.5));
     let points = display.channels[0].points(&display, [3, 2]);
     assert_eq!(points[5].unwrap().distance(point(5.0 / 6.0, 0.75)), 0.0, "pixel centres, row by row");
-    // A part: its right upper quarter.
+    // A part of the picture: its right upper quarter.
     let display = added("part = [0.5, 0.5, 1.0, 1.0]\n").unwrap();
     let point = |x, y| display.channels[0].point(&display, DVec2::new(x, y)).unwrap();
     assert_eq!(point(0.0, 1.0), DVec3::new(0.0, 1.5, -1.5));
@@ -89,7 +89,7 @@ fn any_three_corners_and_the_centre_say_the_same() {
     let centre = CORE.replace(lr, "").replace(ul, "").replace(ll, "centre = [0.0, 1.5, -1.5]\nsize = [3, 3]\n");
     assert_eq!(flat(&parse(&centre).unwrap()), corners);
 
-    // Turned to the left, down, and on its side: yaw is to the left, pitch up, roll counter-clockwise.
+    // Turns go to the left, down, and on its side: yaw is to the left, pitch up, roll counter-clockwise.
     let centre = centre.replace("[viewer]", "[viewer]\nhead = [5, 5, 5]");
     let turned = |angles: &str| flat(&parse(&centre.replacen("size", &format!("{angles}\nsize"), 1)).unwrap());
     assert_eq!(turned("yaw = 90").normal(), DVec3::X);
@@ -153,12 +153,12 @@ fn everything_else_that_can_be_written_is_kept() {
     assert_eq!(display.windows[1].monitor, Some(Monitor::Index(1)));
     let warp = display.channels[1].warp.as_ref();
     assert!(matches!(warp, Some(Warp::Corners(corners)) if corners.places[0] == DVec2::splat(0.1)));
-    // Colours cannot both tell the eyes apart and show the Doppler shift; and one window is idle.
+    // Colours cannot both tell the eyes apart and show the Doppler shift; and one window is unused.
     assert_eq!(display.notices.len(), 2, "{:?}", display.notices);
     assert!(display.notices[0].contains("Doppler") && display.notices[1].contains("\"v\""));
 }
 
-/// What the error must say: where and what.
+/// Asserts that the error names its line and contains these words.
 fn says(result: Result<Display, DisplayError>, line: usize, words: &[&str]) {
     let message = result.expect_err(&format!("{words:?} was taken")).to_string();
     for word in words.iter().map(ToString::to_string).chain([format!("d.toml, line {line}")]) {
@@ -172,7 +172,7 @@ fn corners_that_are_no_rectangle_are_refused() {
     says(changed("[-1.5, 3.0, -1.5]", "[-1.5, 0.0, -1.5]"), 3, &["screen \"front\"", "length"]);
     let fourth = "upper_left  = [-1.5, 3.0, -1.5]\nupper_right = [1.5, 3.0, -1.4]";
     says(changed("upper_left  = [-1.5, 3.0, -1.5]", fourth), 3, &["upper_right", "0.1000 m"]);
-    // Measured to the millimetre is good enough, and is made exact.
+    // An error of a millimetre in a measured corner is accepted, and is corrected.
     let flat = flat(&changed("[-1.5, 3.0, -1.5]", "[-1.501, 3.0, -1.5]").unwrap());
     assert!(flat.right.dot(flat.up).abs() < 1e-15);
 }
@@ -234,7 +234,7 @@ fn only_two_eyes_may_share_pixels() {
         &["channel \"b\"", "overlaps that of channel \"front-left\""],
     );
     assert!(added(&second("right", "[480, 0, 480, 480]")).is_ok());
-    // In a window that combines eyes: the other eye on the same pixels, and nothing else.
+    // A window that combines eyes accepts the other eye on the same pixels, and nothing else.
     let combined = CORE.replace("size = [960, 480]", "size = [960, 480]\ncombine = \"rows\"");
     let pair = parse(&format!("{combined}{}", second("right", "[0, 0, 480, 480]"))).unwrap();
     assert_eq!((pair.partner(0), pair.partner(1), pair.notices.len()), (Some(1), Some(0), 0));
@@ -249,7 +249,7 @@ fn only_two_eyes_may_share_pixels() {
 fn eyes_behind_their_screen_are_refused() {
     let message = changed("eye_separation = 0.064", "head = [0, 1.6, -1.75]");
     says(message, 11, &["channel \"front-left\"", "screen \"front\"", "left eye", "0.250 m behind"]);
-    // One eye may be behind a wall at the side, and the other before it.
+    // One eye may be behind a wall at the side, and the other in front of it.
     let side = |eye: &str| {
         let wall =
             CORE.replace("[-1.5, 0.0, -1.5]", "[-1.5, 0.0, 1.5]").replace("[ 1.5, 0.0, -1.5]", "[-1.5, 0.0, -1.5]");

@@ -1,15 +1,16 @@
-//! Displays of other programs come in as what they mean. A wrong program would show them upside down, mirrored, or in the wrong size: every
-//! container here is put together byte by byte, so that nothing is taken from the code it tests.
+//! Law: displays of other programs are imported with their meaning. A wrong program would show them upside down,
+//! mirrored, or in the wrong size. Every container here is assembled byte by byte, so that nothing comes from the
+//! code under test.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
 use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface};
 use std::path::PathBuf;
 
-/// f32 in the files.
+/// Tolerance, metres, for the f32 of the files.
 const SINGLE: f64 = 1e-6;
 
-/// A zip of stored files: local header, data, then the central directory and its end.
+/// Zip of stored files: local header, data, then the central directory and its end.
 fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
     let (mut out, mut directory) = (Vec::new(), Vec::new());
     for (name, data) in files {
@@ -47,14 +48,14 @@ fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
     out
 }
 
-/// CRC-32 of zip and PNG, bit by bit.
+/// CRC-32 of zip and PNG, computed bit by bit.
 fn crc(data: &[u8]) -> u32 {
     !data.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 })
     })
 }
 
-/// A grey PNG of 8 bits: signature, IHDR, stored zlib block, IEND.
+/// Grey PNG of 8 bits: signature, IHDR, stored zlib block, IEND.
 fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
     let mut raw = Vec::new();
     for row in pixels.chunks(width as usize) {
@@ -87,7 +88,7 @@ fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
     out
 }
 
-/// A portable float map of rows given from above: the file has the lowest row first.
+/// Portable float map of rows given from above: the file has the lowest row first.
 fn pfm(rows: &[&[[f32; 3]]], little: bool) -> Vec<u8> {
     let mut out =
         format!("PF\n{} {}\n{}\n", rows[0].len(), rows.len(), if little { "-1.0" } else { "1.0" }).into_bytes();
@@ -104,7 +105,7 @@ fn load(name: &str, bytes: &[u8]) -> Result<Display, DisplayError> {
     Display::load(&path)
 }
 
-/// Version 2.0, two projectors whose surface points are known.
+/// Description of version 2.0 with two projectors whose surface points are known.
 const SOLID: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 <MPCDI profile="a3" geometry="2" color="2" date="2024-01-02 03:04:05" version="2.0">
   <display>
@@ -131,8 +132,8 @@ const SOLID: &str = r#"<?xml version="1.0" encoding="utf-8"?>
   </files>
 </MPCDI>"#;
 
-/// Centimetres; x to the left, y up, z into the screen: a wall 2 m before the eye, from 1 m left of it to its middle, 1 m high to 1 m low; the middle row
-/// is 10 cm nearer.
+/// Surface points of the left projector, centimetres; x to the left, y up, z into the screen: a wall 2 m before the
+/// eye, from 1 m left of it to its middle, 1 m high to 1 m low; the middle row is 10 cm nearer.
 const LEFT: [[[f32; 3]; 2]; 3] = [
     [[100.0, 100.0, 200.0], [0.0, 100.0, 200.0]],
     [[100.0, 0.0, 190.0], [0.0, 0.0, 190.0]],
@@ -184,7 +185,7 @@ fn profile_a3_puts_pixels_on_the_points_it_gives() {
 fn alpha_and_beta_become_gains_in_linear_light() {
     let display = load("wall.mpcdi", &solid(true)).unwrap();
     let gains = display.channels[0].gains(&display, [2, 1]).unwrap();
-    // beta = 51/255 = 0.2; alpha = (value/255)²: out = in · alpha · (1 − beta) + beta.
+    // The file has beta = 51/255 = 0.2 and alpha = (value/255)²: out = in · alpha · (1 − beta) + beta.
     let alpha = (128.0_f32 / 255.0).powi(2);
     for (found, expected) in gains.factors.iter().zip([0.8, 0.8 * alpha]) {
         assert!((found - expected).abs() < 1e-5, "{found} {expected}");
@@ -193,7 +194,7 @@ fn alpha_and_beta_become_gains_in_linear_light() {
     assert!(display.channels[1].gains(&display, [2, 1]).is_none());
 }
 
-/// Version 1.0: `level`, other spellings, one region of a picture of 2 : 1.
+/// Description of version 1.0: `level`, other spellings, one region of a picture of 2 : 1.
 const FLAT: &str = r#"<mpcdi profile="2d" level="1" date="2013-02-01 10:00:00" version="1.0"><display>
 <buffer id="front" Xresolution="2000" Yresolution="1000">
 <region id="p/1" Xresolution="4" Yresolution="4" x="0.5" y="0.0" xsize="0.5" ysize="0.5"/></buffer></display>
@@ -204,7 +205,7 @@ fn profile_2d_warps_its_part_of_a_flat_picture() {
     // The projector stands to the right: its picture is narrower above.
     let warp = pfm(&[&[[-0.25, 0.0, 0.0], [1.25, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
     let display = load("flat.mpcdi", &zip(&[("mpcdi.xml", FLAT.as_bytes()), ("w.pfm", &warp)])).unwrap();
-    // Flat, 4 m × 2 m, 2 m before the head; the region is its right upper quarter.
+    // The screen is flat, 4 m × 2 m, 2 m before the head; the region is its right upper quarter.
     let Surface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
     assert_eq!(flat.size_m(), DVec2::new(4.0, 2.0));
     assert!(display.notices.iter().any(|notice| notice.contains("2d")), "{:?}", display.notices);
@@ -227,7 +228,7 @@ fn a_bare_description_has_its_maps_beside_it() {
     let straight = pfm(&[&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
     std::fs::write(folder.path().join("w.pfm"), straight).unwrap();
     assert_eq!(Display::load(&path).unwrap().name, "x");
-    // And nowhere else.
+    // Maps outside the folder are refused.
     std::fs::write(&path, FLAT.replace("w.pfm", "../w.pfm")).unwrap();
     assert!(Display::load(&path).unwrap_err().to_string().contains("not beside it"));
 }
@@ -272,12 +273,12 @@ fn cut_and_spoilt_containers_end_in_words() {
     for at in (0..good.len()).step_by(5) {
         let mut spoilt = good.clone();
         spoilt[at] ^= 0x55;
-        // Whatever becomes of it, it comes back.
+        // The load returns, with a display or an error.
         let _ = load("x.mpcdi", &spoilt).map(|display| display.to_string());
     }
 }
 
-/// Two walls at a right angle, an eye each, and one in between.
+/// ParaView file of two walls at a right angle, an eye each, and one in between.
 const WALLS: &str = r#"<?xml version="1.0"?>
 <!-- a corner -->
 <pvx>

@@ -1,5 +1,5 @@
-//! Projectors: lenses invert, the laser scanner is the thesis', light is conserved. A wrong lens shifts the picture by its error; a wrong brightness
-//! shows as a shading of the screen.
+//! Law: lenses are invertible, the laser scanner is that of the thesis, and light is conserved. A wrong lens shifts
+//! the picture by its error; a wrong brightness shows as a shading of the screen.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2, DVec3};
@@ -7,7 +7,8 @@ use rand::{RngExt, SeedableRng};
 use rapidity::room::projector::{Lens, Projector, Table};
 use rapidity::room::{Reflection, file, room_from_turned};
 
-/// Rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than a tenth of a pixel.
+/// Tolerance for the rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than
+/// a tenth of a pixel.
 const ROUNDING: f64 = 1e-12;
 
 fn places(count: usize) -> impl Iterator<Item = DVec2> {
@@ -37,7 +38,7 @@ fn lenses_map_places_to_directions_and_back() {
             let back = lens.place(3.0 * direction).unwrap_or_else(|| panic!("{name} {place}: no way back"));
             assert!(back.distance(place) < 1e-9, "{name} {place}: {back}");
         }
-        // To the right in the picture is to the right, down is down.
+        // Right in the picture is right in direction, and down is down.
         let at = |x, y| lens.direction(DVec2::new(x, y)).unwrap();
         assert!(at(0.9, 0.5).x > at(0.1, 0.5).x && at(0.5, 0.1).y > at(0.5, 0.9).y, "{name}");
         assert_eq!(
@@ -50,7 +51,8 @@ fn lenses_map_places_to_directions_and_back() {
 
 #[test]
 fn the_scanner_is_equation_4_6() {
-    // As printed: the first component along the axis, the second to the left, the third up; pixels from the middle.
+    // Eq. 4.6 as printed: the first component along the axis, the second to the left, the third up; pixels from the
+    // middle.
     let printed = |x: f64, y: f64| {
         let kappa = std::f64::consts::PI / 7200.0;
         let a = (1.0 - (kappa * x).cos().powi(2) * (kappa * y).cos().powi(2)).sqrt();
@@ -66,7 +68,7 @@ fn the_scanner_is_equation_4_6() {
         let place = DVec2::new(0.5 + x / 1280.0, 0.5 - y / 768.0);
         let ours = lens.direction(place).unwrap();
         let [axis, left, up] = printed(x, y);
-        // The printed a cancels near the axis: 1e-10 of it is left at one pixel.
+        // The printed a cancels near the axis: 1e-10 of it remains at one pixel.
         assert!(ours.distance(DVec3::new(-left, up, -axis)) < 1e-9, "{x} {y}: {ours}");
     }
     assert_eq!(lens.direction(DVec2::splat(0.5)).unwrap(), DVec3::NEG_Z);
@@ -76,7 +78,7 @@ fn the_scanner_is_equation_4_6() {
 fn a_scanner_without_an_optic_turns_by_its_mirrors() {
     let lens = Lens::scan([100, 100], 0.01, 1.0);
     let direction = lens.direction(DVec2::new(1.0, 0.0)).unwrap();
-    // Half the pixels times the step: 0.5 rad each way.
+    // The angle is half the pixels times the step: 0.5 rad each way.
     let expected = DVec3::new(0.5_f64.sin(), 0.5_f64.cos() * 0.5_f64.sin(), -0.5_f64.cos() * 0.5_f64.cos());
     assert!(direction.distance(expected) < ROUNDING, "{direction}");
 }
@@ -119,7 +121,7 @@ fn a_square_wall_is_evenly_lit_and_gets_all_the_light() {
     for place in places(100) {
         let ray = projector.ray(place).unwrap();
         let point = ray * (2.0 / -ray.z);
-        // 2 m away the picture is 2 m × 2 m: a quarter of the light on each square metre.
+        // At 2 m distance the picture is 2 m × 2 m: a quarter of the light on each square metre.
         let light = projector.illuminance(place, point, DVec3::Z).unwrap();
         assert!((light - 0.25).abs() < 1e-6, "{place}: {light}");
     }
@@ -133,7 +135,7 @@ fn a_matt_screen_looks_the_same_from_everywhere_and_a_glossy_one_mirrors() {
     let glossy = Reflection { gloss: 0.5, exponent: 50.0 };
     let mirror = DVec3::new(-1.0, 0.0, 2.0);
     assert!(glossy.toward(light, mirror, DVec3::Z) > glossy.toward(light, viewer, DVec3::Z));
-    // Both send back all of the light: ∫ B cos θ dΩ = 1 at normal incidence of a narrow lobe.
+    // Both reflect all of the light: ∫ B cos θ dΩ = 1 at normal incidence of a narrow lobe.
     let narrow = Reflection { gloss: 1.0, exponent: 2000.0 };
     let steps = 20_000;
     let sum: f64 = (0..steps)

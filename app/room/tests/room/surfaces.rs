@@ -1,4 +1,5 @@
-//! Surfaces, frusta and warps: what one way does, the other undoes. A wrong sign here turns a wall round, and every picture on it.
+//! Laws: maps of surfaces, frusta and warps are inverse to each other. A wrong sign here turns a wall round, with
+//! every picture on it.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
@@ -6,10 +7,10 @@ use rand::{RngExt, SeedableRng};
 use rapidity::room::surface::sweep;
 use rapidity::room::{Corners, Cylinder, Flat, Measured, Mesh, Sphere, Surface, Warp, frustum, room_from_turned};
 
-/// Rounding of a few operations on metres.
+/// Tolerance for the rounding of a few operations on metres.
 const ROUNDING: f64 = 1e-12;
 
-/// Rays within a micrometre's angle of a mesh's edges and poles lose digits; uv is compared to this.
+/// Tolerance of uv: rays within a micrometre's angle of a mesh's edges and poles lose digits.
 const PLACE: f64 = 1e-9;
 
 fn places(count: usize) -> impl Iterator<Item = DVec2> {
@@ -21,7 +22,7 @@ fn flat() -> Flat {
     Flat::from_centre(DVec3::new(0.3, 1.4, -2.0), DVec2::new(3.0, 2.0), DVec3::new(20.0, -10.0, 5.0)).unwrap()
 }
 
-/// One of each kind, and a point before all of each.
+/// Surfaces of every kind, each with its name and a point in front of it.
 fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
     let cylinder = Cylinder {
         centre: DVec3::new(0.5, 0.1, -0.2),
@@ -61,7 +62,7 @@ fn a_ray_to_a_place_hits_that_place() {
     for (name, surface, eye) in surfaces() {
         for uv in places(2000) {
             let point = surface.point(uv).unwrap();
-            // Whatever the direction's length is, distance is counted in it.
+            // The ray's distance is measured in units of the direction's length.
             let hit = surface.hit(eye, 0.5 * (point - eye)).unwrap_or_else(|| panic!("{name} {uv} is not hit"));
             assert!((hit.distance - 2.0).abs() < PLACE, "{name} {uv}: {}", hit.distance);
             assert!(hit.point.distance(point) < PLACE, "{name} {uv}");
@@ -75,7 +76,7 @@ fn a_ray_to_a_place_hits_that_place() {
 
 #[test]
 fn a_surface_is_seen_with_its_left_on_the_left() {
-    // At the middle, u runs right-handed with v and the normal.
+    // At the middle, u, v and the normal are right-handed.
     for (name, surface, _) in surfaces() {
         let at = |u: f64, v: f64| surface.point(DVec2::new(u, v)).unwrap();
         let (u, v) = (at(0.503, 0.71) - at(0.497, 0.71), at(0.5, 0.713) - at(0.5, 0.707));
@@ -113,7 +114,7 @@ fn what_draws_the_room_gets_the_surface_itself() {
 
 #[test]
 fn a_sheet_bends_without_a_kink() {
-    // A corner of 60° and one of 100°, rounded: each chord turns by at most 5°, and the two ends are where they were.
+    // A corner of 60° and one of 100°, rounded: each chord turns by at most 5°, and the two ends keep their places.
     let profile = [DVec2::new(0.0, 2.0), DVec2::new(0.0, 0.0), DVec2::new(2.0, -3.4), DVec2::new(4.0, 1.0)];
     let sheet = sweep(DVec3::ZERO, 1.0, &profile, 0.4).unwrap();
     let line: Vec<DVec3> = sheet.points().iter().step_by(2).copied().collect();
@@ -159,7 +160,8 @@ fn the_screens_corners_are_the_frustums() {
             let seen = eye_from_room * (flat.point(uv) - eye);
             assert!((seen.x / -seen.z - x).abs() < ROUNDING && (seen.y / -seen.z - y).abs() < ROUNDING, "{uv}");
         }
-        // Between them, the ray of a place goes through that place: the short way and the long way are one.
+        // Between the corners, the ray of a place goes through that place: computing it by the surface or by the
+        // frustum agrees.
         for place in places(200) {
             let point = flat.point(DVec2::new(place.x, 1.0 - place.y));
             let ray = frustum.ray(place).normalize();
@@ -211,7 +213,7 @@ fn warps_are_undone_by_their_inverse() {
         }
         assert!(shown > 1500, "{name}: {shown}");
     }
-    // The picture's corners are drawn where they were put, and nothing outside.
+    // The picture's corners are drawn at their given places, and nothing outside.
     let warp = Warp::Corners(keystone);
     for (picture, viewport) in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().zip(corners) {
         assert!(warp.viewport(picture).unwrap().distance(viewport) < ROUNDING);
@@ -257,7 +259,7 @@ fn meshes_are_read_from_obj_and_csv_alike() {
         );
     }
     assert!((one.normal(DVec2::splat(0.3)).unwrap()).distance(DVec3::Z) < ROUNDING);
-    // Backwards counting is the same.
+    // Indices that count backwards give the same mesh.
     let backwards = obj.replace("1/1/1 2/2/1 3/3/1 4/4/1", "-4/-4 -3/-3 -2/-2 -1/-1");
     assert_eq!(load("c.obj", &backwards).unwrap(), one);
 

@@ -17,86 +17,89 @@ use crate::refine::divide;
 use crate::scene::Scene;
 use view::Camera;
 
-/// Metres: no edge is cut that is shorter.
+/// Length below which no edge is cut, metres.
 const SHORTEST_M: f64 = 1e-9;
 
-/// However far beside the picture, radians: what is drawn further from its place than this could be anywhere.
+/// Largest error allowed beside the picture, at any distance from it, radians: with a larger one a thing could be
+/// drawn anywhere.
 const LARGEST_ERROR_RAD: f64 = 0.5;
 
-/// By how much log2 D of what is animated may be interpolated wrongly: 1 % of D⁴.
+/// Largest interpolation error allowed in log2 D of animated bodies: 1 % of D⁴.
 const LOG2_DOPPLER: f64 = 0.0035;
 
-/// Chords that are no longer than so many times what is allowed are not cut for their Doppler factor's sake: at a key it may jump.
+/// Chords no longer than this many times the allowed error are not cut for the sake of their Doppler factor, which
+/// may jump at a key.
 const DOPPLER_LENGTH: f64 = 8.0;
 
-/// Triangles that are cut together, and share the vertices that this makes.
+/// Number of triangles that are cut together and share their new vertices.
 const BATCH: usize = 1024;
 
-/// How the edges to be cut are found.
+/// Accuracy and limits of a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
-    /// How far from its place anything may be drawn, pixels.
+    /// Largest allowed distance of anything from its exact place in the picture, pixels.
     pub tolerance_px: f64,
-    /// How far the camera may turn until the next cut, radians.
+    /// Angle by which the camera may turn until the next cut, radians.
     pub turn_rad: f64,
-    /// The most triangles: where that is too few, the tolerance is doubled until it is not.
+    /// Largest number of triangles. The tolerance is doubled until the cut stays within it.
     pub triangles: usize,
 }
 
-/// The pictures that a cut is for: one, or all that one eye sees.
+/// Pictures that a cut is for: one, or all that one eye sees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Who looks.
+    /// Observer whose eye sees the pictures.
     pub observer: Observer,
-    /// Where he looks, and pixels.
+    /// Camera and size in pixels of each picture.
     pub pictures: Vec<(Camera, [u32; 2])>,
 }
 
 impl Viewpoint {
-    /// Of one picture.
+    /// Makes a viewpoint with one picture.
     pub fn new(observer: Observer, camera: Camera, size: [u32; 2]) -> Self {
         Self { observer, pictures: vec![(camera, size)] }
     }
 }
 
-/// A vertex of a cut.
+/// Vertex of a cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CutVertex {
-    /// Metres relative to the scene's origin.
+    /// Position, metres, relative to the scene's origin.
     pub place: DVec3,
-    /// Unit vector, world axes.
+    /// Normal, unit vector, world axes.
     pub normal: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
-    /// Linear colour and opacity.
+    /// Linear colour and opacity of the vertex.
     pub colour: [f32; 4],
 }
 
-/// A scene's triangles, cut.
+/// Cut triangles of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Cut {
-    /// One a mesh of the scene, in its order.
+    /// Cut meshes, one for each mesh of the scene, in the same order.
     pub meshes: Vec<CutMesh>,
-    /// The tolerance that was kept, pixels: the one asked for, unless that would have made too many triangles.
+    /// Tolerance that was kept, pixels: the requested one, unless that would have made too many triangles.
     pub tolerance_px: f64,
-    /// Edges that were cut, as [`edge_key`]s: given to the next cut, they stay cut until they have no need of it by far.
+    /// Edges that were cut, as [`edge_key`]s. The next cut keeps them cut until their error is below half the allowed
+    /// one.
     pub split: HashSet<u64, Plain>,
 }
 
-/// A mesh's triangles, cut.
+/// Cut triangles of a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CutMesh {
-    /// Without those that no triangle uses any more.
+    /// Vertices that triangles use.
     pub vertices: Vec<CutVertex>,
-    /// Three per triangle.
+    /// Indices of vertices, three per triangle.
     pub indices: Vec<u32>,
 }
 
-/// Keys are hashes already.
+/// Hasher for keys that are hashes already.
 pub type Plain = BuildHasherDefault<DefaultHasher>;
 
 impl Cut {
-    /// Cuts the scene for a picture. `before`: the cut whose place this one takes, so that edges on the verge stay as they were.
+    /// Cuts the scene for its pictures. `before`: the preceding cut, so that edges near the limit stay as they were.
     pub fn new(scene: &Scene, viewpoint: &Viewpoint, fineness: Fineness, before: Option<&Self>) -> Self {
         let mut tolerance_px = fineness.tolerance_px;
         loop {
@@ -108,41 +111,41 @@ impl Cut {
         }
     }
 
-    /// Triangles of all meshes.
+    /// Number of triangles of all meshes.
     pub fn triangle_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
     }
 
-    /// Vertices of all meshes.
+    /// Number of vertices of all meshes.
     pub fn vertex_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.vertices.len()).sum()
     }
 }
 
-/// The same number for an edge from either end.
+/// Key of an edge, the same from either end.
 pub fn edge_key(a: DVec3, b: DVec3) -> u64 {
     let end = |at: DVec3| Plain::default().hash_one(at.to_array().map(f64::to_bits));
     end(a).wrapping_add(end(b))
 }
 
-/// Which edges are cut.
+/// Rule that decides which edges are cut.
 struct Rule<'a> {
     sights: Vec<Sight>,
-    /// Of each picture.
+    /// Visible part of the sky, for each picture.
     frames: Vec<Frame>,
     fineness: Fineness,
     before: Option<&'a Cut>,
 }
 
-/// What of the observer's sky the picture shows.
+/// Part of the observer's sky that a picture shows.
 struct Frame {
-    /// Unit vector.
+    /// Direction straight ahead, unit vector, observer's axes.
     forward: DVec3,
-    /// Through the eye and the picture's sides, inward unit normals.
+    /// Inward unit normals of the planes through the eye and the picture's sides.
     planes: [DVec3; 4],
-    /// Pixels a radian straight ahead.
+    /// Focal length: pixels per radian straight ahead.
     focal_length: f64,
-    /// Of the angle from its middle to its corners.
+    /// Cosine of the angle from straight ahead to the farthest corner.
     corner_cosine: f64,
 }
 
@@ -150,7 +153,7 @@ impl Frame {
     fn new(camera: &Camera, size: [u32; 2]) -> Self {
         let tangents = camera.tangents(size);
         let (low, high, farthest) = (tangents.low, tangents.high, tangents.farthest());
-        // Inward, of the side where x or y is that tangent.
+        // Inward normal of the side where x or y is that tangent.
         let side = |x: f64, y: f64, tan: f64| camera.observer_from_eye * DVec3::new(x, y, tan).normalize();
         Self {
             forward: camera.observer_from_eye * DVec3::NEG_Z,
@@ -160,13 +163,13 @@ impl Frame {
         }
     }
 
-    /// Half the angle by which anything may be drawn wrongly in a corner of the picture: nowhere is less allowed, not even of what was cut
-    /// before.
+    /// Half the allowed error in a corner of the picture, radians. No place has a smaller limit, not even an edge
+    /// that was cut before.
     fn least_allowed(&self, fineness: &Fineness) -> f64 {
         0.5 * fineness.tolerance_px * self.corner_cosine * self.corner_cosine / self.focal_length
     }
 
-    /// The angle by which what lies in a cone may be drawn wrongly.
+    /// Allowed error of things within a cone, radians.
     fn allowed(&self, direction: DVec3, radius: f64, fineness: &Fineness) -> f64 {
         // A flat picture is a tangent of the angle from straight ahead: an angle there is 1/cos² as long.
         let aside = self.forward.dot(direction).clamp(-1.0, 1.0).acos() + radius;
@@ -189,33 +192,33 @@ impl<'a> Rule<'a> {
         }
     }
 
-    /// Of all pictures the least.
+    /// Smallest allowed error over all pictures, radians.
     fn least_allowed(&self) -> f64 {
         self.frames.iter().map(|frame| frame.least_allowed(&self.fineness)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Of all pictures the least.
+    /// Smallest allowed error of things within a cone over all pictures, radians.
     fn allowed(&self, direction: DVec3, radius: f64) -> f64 {
         let each = self.frames.iter().map(|frame| frame.allowed(direction, radius, &self.fineness));
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Of a mesh.
+    /// View of a mesh by the observer.
     fn sight(&self, mesh: &Mesh) -> &Sight {
         &self.sights[mesh.motion.unwrap_or(self.sights.len() - 1)]
     }
 
-    /// The middle of an edge that is to be cut; the same from either end.
+    /// Midpoint of an edge, the same from either end; `None` if the edge is not to be cut.
     fn middle(&self, sight: &Sight, known: &Known, a: DVec3, b: DVec3) -> Option<DVec3> {
         let (middle, length) = (0.5 * a + 0.5 * b, a.distance(b));
-        // Also where an end is nowhere, and where f64 has no place between.
+        // Not cut either: edges with a non-finite end, and edges with no f64 position between their ends.
         if !(length > SHORTEST_M && length.is_finite()) || middle == a || middle == b {
             return None;
         }
         if let Some(course) = &sight.course {
             return self.is_cut(course, known, [a, b]).then_some(middle);
         }
-        // Most edges are so small beside their distance that nothing more need be asked.
+        // Most edges are so small beside their distance that this quick bound is enough.
         let seen = middle - sight.place;
         if sight.bend.bound_anywhere(seen.length(), length) <= self.least_allowed() {
             return None;
@@ -229,7 +232,7 @@ impl<'a> Rule<'a> {
         (error_rad > allowed || error_rad > 0.5 * allowed && stays()).then_some(middle)
     }
 
-    /// Whether an edge of what is animated is to be cut.
+    /// True if an edge of an animated body is to be cut.
     fn is_cut(&self, course: &Course, known: &Known, ends: [DVec3; 2]) -> bool {
         let seen = |place| known.seen(course, place);
         let Some(chord) = Chord::of(seen, ends, self.least_allowed()) else { return false };
@@ -241,7 +244,7 @@ impl<'a> Rule<'a> {
         error > allowed || error > 0.5 * allowed && stays()
     }
 
-    /// Cuts everything, unless that makes more triangles than `limit`.
+    /// Cuts all meshes; `None` if that makes more triangles than `limit`.
     fn cut(&self, scene: &Scene, limit: usize) -> Option<Cut> {
         let total = AtomicUsize::new(0);
         let mut split = HashSet::default();
@@ -264,13 +267,13 @@ impl<'a> Rule<'a> {
         Some(Cut { meshes, tolerance_px: self.fineness.tolerance_px, split })
     }
 
-    /// Cuts a few triangles, which share their vertices.
+    /// Cuts a few triangles, which share their vertices; `None` if the limit is exceeded.
     fn cut_batch(&self, mesh: &Mesh, corners: &[u32], total: &AtomicUsize, limit: usize) -> Option<Batch> {
         let sight = self.sight(mesh);
         let mut batch = Batch::default();
         let known = Known::default();
         let mut vertex_of_mesh = HashMap::<u32, u32>::new();
-        // None: the edge is whole.
+        // None: the edge is not cut.
         let mut middles = HashMap::<(u32, u32), Option<u32>>::new();
         let mut stack = Vec::new();
         for corners in corners.chunks_exact(3) {
@@ -308,7 +311,7 @@ impl<'a> Rule<'a> {
     }
 }
 
-/// Places of an animated body of which it is known how they are seen.
+/// Cache of how places of an animated body are seen.
 #[derive(Default)]
 struct Known(RefCell<HashMap<[u64; 3], Option<Seen>, Plain>>);
 
@@ -319,7 +322,7 @@ impl Known {
     }
 }
 
-/// A part of a mesh, cut.
+/// Cut part of a mesh.
 #[derive(Default)]
 struct Batch {
     mesh: CutMesh,
@@ -342,7 +345,7 @@ fn vertex(mesh: &Mesh, index: usize) -> CutVertex {
     }
 }
 
-/// The vertex half way between two others.
+/// Vertex half way between two others.
 fn between(a: &CutVertex, b: &CutVertex, place: DVec3) -> CutVertex {
     CutVertex {
         place,

@@ -1,4 +1,4 @@
-//! How an observer sees what rests in one frame, or what is animated.
+//! Sights: how an observer sees the resting scene, a uniformly moving frame or an animated body.
 
 use glam::{DQuat, DVec3};
 use physics::bend::Bend;
@@ -7,47 +7,51 @@ use physics::{Celerity, Observer};
 use crate::scene::Scene;
 use crate::motion::{Course, Motion, Seen};
 
-/// How an observer sees what rests in one frame, or what is animated.
+/// Sight: how one observer sees meshes that rest in one frame, or an animated body.
 #[derive(Clone, Debug)]
 pub struct Sight {
-    /// Which directions bend.
+    /// Bending of directions by aberration.
     pub bend: Bend,
-    /// The observer, relative to the scene's origin; in the world, of what is animated.
+    /// Position of the observer relative to the scene's origin, metres, in the meshes' rest frame; for animated
+    /// bodies in the world.
     pub place: DVec3,
-    /// From the axes in which apparent positions are to the observer's own.
+    /// Rotation from the axes of apparent positions in that frame to the observer's own.
     pub observer_from_group: DQuat,
-    /// Of what is animated.
+    /// Animated body and its observer; `None` for resting and uniformly moving meshes.
     pub course: Option<Course>,
 }
 
-/// How an edge of an animated body is drawn: straight between its ends' apparent positions.
+/// Edge of an animated body as drawn: a straight line between its ends' apparent positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chord {
-    /// By what angle any of its places is drawn wrongly, as far as looks at some of them tell; and inside of triangles.
+    /// Largest angle by which a place of the edge, or of a triangle's inside, is drawn wrongly, radians, estimated
+    /// from samples.
     pub error_rad: f64,
-    /// By how much log2 D is interpolated wrongly.
+    /// Interpolation error of log2 D at the middle.
     pub error_log2_doppler: f64,
-    /// Where its middle is seen: unit vector, observer's axes.
+    /// Direction in which the middle is seen: unit vector, observer's axes.
     pub direction: DVec3,
-    /// Half the angle of a cone about that, in which all triangles lie of which it is the longest edge.
+    /// Half-angle, radians, of a cone about that direction that holds all triangles of which this is the longest
+    /// edge.
     pub radius_rad: f64,
-    /// The angle between its ends.
+    /// Angle between its ends, radians.
     pub length_rad: f64,
 }
 
-/// Inside of a triangle of which no edge is off by more than 1 a place is off by no more than this: four ninths of three edges.
+/// Bound of the error inside of a triangle, for an error of at most 1 on its edges: four ninths of three edges.
 const INSIDE: f64 = 4.0 / 3.0;
 
-/// Chords longer than this, in radians, are looked at in their quarters too: the error of the middle alone may happen to vanish.
+/// Length in radians above which chords are sampled in their quarters too: the error of the middle alone may happen
+/// to vanish.
 const LONG_RAD: f64 = 0.02;
 
 impl Sight {
-    /// Of what rests in the world, or moves as said.
+    /// View of the resting scene (`None`) or of motion `motion`.
     pub fn new(scene: &Scene, observer: &Observer, motion: Option<usize>) -> Self {
         Self::of(scene.origin, &scene.motions, observer, motion)
     }
 
-    /// The same by what of the scene counts.
+    /// View of the resting scene (`None`) or of a motion, from the scene's origin and its motions alone.
     pub fn of(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
         let rest = |position: DVec3, celerity: Celerity, turn| Self {
             bend: Bend::new(celerity),
@@ -68,7 +72,8 @@ impl Sight {
         }
     }
 
-    /// Where a place of a mesh is from the observer, in the frame in which it rests; of what is animated, in the world, when its light leaves.
+    /// Position of a mesh's place relative to the observer, metres, in the frame in which the mesh rests. For an
+    /// animated body: its retarded position in the world, or NaN if there is none.
     pub fn towards(&self, place: DVec3) -> DVec3 {
         match &self.course {
             None => place - self.place,
@@ -79,15 +84,17 @@ impl Sight {
         }
     }
 
-    /// Where a place of a mesh appears, relative to the observer, in his axes; not finite where that is nowhere.
+    /// Apparent position of a mesh's place relative to the observer, observer's axes, metres; not finite if there is
+    /// none.
     pub fn apparent(&self, place: DVec3) -> DVec3 {
         self.observer_from_group * self.bend.apparent(self.towards(place))
     }
 }
 
 impl Chord {
-    /// Of an edge whose ends, middle and quarters are seen as said; the same from either end. `None` where one of them is not seen. `small`: an
-    /// edge that is seen under no larger angle is not looked at further.
+    /// Chord of an edge; `seen` says how each of its places is seen. The result is the same from either end. `None`
+    /// if an end or a sampled place is not seen. An edge seen under an angle of at most `small` is not sampled
+    /// further.
     pub fn of(seen: impl Fn(DVec3) -> Option<Seen>, [a, b]: [DVec3; 2], small: f64) -> Option<Self> {
         let middle = 0.5 * a + 0.5 * b;
         let (from, to) = (seen(a)?, seen(b)?);

@@ -1,78 +1,80 @@
-//! Where a body is that keys move: a chain of transforms from the file's frame down to the body's own, and its derivative.
+//! Animated body: a chain of transforms from the file's frame down to the body's own, and its derivative.
 //!
-//! A point p of the body is at x = M p at each moment of the world, and moves at β = M' p, with M' from the product rule along the chain. Both are
-//! exact functions of time, so that light's delay can be solved for to the last bits ([`super::Course`]).
+//! A point p of the body is at x = M p at each moment of the world, and moves at β = M' p, with M' from the product
+//! rule along the chain. Both are exact functions of time, so the retarded event can be solved for to the last bits
+//! ([`super::Course`]).
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use physics::retarded::Worldline;
 
 use super::track::Track;
 
-/// Until a scene is told otherwise light is as fast as in ours, m/s.
+/// Default speed of light, m/s: the real one, until a scene sets another.
 const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
 
-/// A body that keys move.
+/// Animated body: its motion is given by keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animated {
-    /// Of the last node of the chain, for messages.
+    /// Name of the last node of the chain, for messages.
     pub name: String,
-    /// From the root down; the last one's own frame is the body's.
+    /// Transforms from the root down; the last one's own frame is the body's.
     links: Vec<Link>,
     pub(crate) speed_of_light_m_s: f64,
-    /// All of the body, in its own frame.
+    /// Bounding ball of the whole body, in its own frame.
     pub(crate) ball: Ball,
 }
 
-/// One transform of a chain.
+/// Transform of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Link {
-    /// It stands still.
+    /// Constant transform.
     Fixed(DAffine3),
-    /// It moves.
+    /// Transform that changes with time.
     Keyed(Keyed),
 }
 
-/// A node that keys move: translation · rotation · scale.
+/// Transform of an animated node: translation · rotation · scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keyed {
-    /// Metres.
+    /// Translation, metres.
     pub translation: Track<DVec3>,
-    /// From the node's axes to its parent's.
+    /// Rotation from the node's axes to its parent's.
     pub rotation: Track<DQuat>,
-    /// Does not change.
+    /// Scale factors, constant in time.
     pub scale: DVec3,
 }
 
-/// A ball.
+/// Ball given by centre and radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ball {
-    /// Metres.
+    /// Centre of the ball, metres.
     pub centre: DVec3,
-    /// Metres.
+    /// Radius of the ball, metres.
     pub radius: f64,
 }
 
-/// Where a body is at one moment, and how it moves.
+/// Pose of a body at one moment, and its rate of change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// World metres from the body's.
+    /// Transform from the body's frame to the world, metres.
     pub world_from_body: DAffine3,
-    /// Its change per metre of light travel.
+    /// Change of the transform per metre of light travel.
     pub rate: DAffine3,
 }
 
 impl Pose {
-    /// World position of a point of the body.
+    /// World position of a point of the body, metres.
     pub fn position(&self, place: DVec3) -> DVec3 {
         self.world_from_body.transform_point3(place)
     }
 
-    /// v/c of a point of the body.
+    /// Velocity of a point of the body as v/c, world axes.
     pub fn beta(&self, place: DVec3) -> DVec3 {
         self.rate.transform_point3(place)
     }
 
-    /// The body's axes in the world, orthogonal, each of length 1: without scale or shear, but mirrored where the body is.
+    /// Body's axes in the world, orthogonal, each of length 1, without scale or shear; mirrored if the body is
+    /// mirrored.
     pub fn axes(&self) -> DMat3 {
         let DMat3 { x_axis, y_axis, z_axis } = self.world_from_body.matrix3;
         let x = x_axis.normalize_or(DVec3::X);
@@ -83,13 +85,13 @@ impl Pose {
 }
 
 impl Keyed {
-    /// The transform, and its change per second.
+    /// Transform at `time_s`, and its change per second.
     fn at(&self, time_s: f64) -> (DAffine3, DAffine3) {
         let (translation, velocity) = self.translation.at(time_s);
         let (rotation, turn) = self.rotation.at(time_s);
         let rotation = DMat3::from_quat(rotation);
         let scale = DMat3::from_diagonal(self.scale);
-        // [ω]×, column by column.
+        // Matrix [ω]×, column by column.
         let spin = DMat3::from_cols(turn.cross(DVec3::X), turn.cross(DVec3::Y), turn.cross(DVec3::Z));
         (
             DAffine3 { matrix3: rotation * scale, translation },
@@ -99,27 +101,27 @@ impl Keyed {
 }
 
 impl Animated {
-    /// A body of this name at the end of a chain.
+    /// Makes a body of this name at the end of a chain.
     pub fn new(name: impl Into<String>, links: Vec<Link>) -> Self {
         Self { name: name.into(), links, speed_of_light_m_s: SPEED_OF_LIGHT_M_S, ball: Ball::default() }
     }
 
-    /// From the root down.
+    /// Transforms of the chain, from the root down.
     pub fn links(&self) -> &[Link] {
         &self.links
     }
 
-    /// All of the body in its own frame, as far as the scene has told.
+    /// Bounding ball of the whole body in its own frame, as last set by the scene.
     pub fn ball(&self) -> Ball {
         self.ball
     }
 
-    /// Of the world it moves in, m/s.
+    /// Speed of light in the body's world, m/s.
     pub fn speed_of_light_m_s(&self) -> f64 {
         self.speed_of_light_m_s
     }
 
-    /// Where it is at world time `ct`, metres of light travel.
+    /// Pose at world time `ct`, metres of light travel.
     ///
     /// *Equation:* (A B)' = A' B + A B'.
     pub fn at(&self, ct: f64) -> Pose {
@@ -148,12 +150,12 @@ impl Animated {
         Pose { world_from_body: whole, rate }
     }
 
-    /// The worldline of a point of the body.
+    /// Worldline of a point of the body.
     pub fn point(&self, place: DVec3) -> impl Worldline + use<'_> {
         Point { animated: self, place }
     }
 
-    /// By how much a length of the body may be longer in the world, at most.
+    /// Largest factor by which a length of the body may be longer in the world.
     pub fn stretch(&self) -> f64 {
         let of_link = |link: &Link| match link {
             Link::Fixed(fixed) => stretch(fixed.matrix3),
@@ -162,7 +164,7 @@ impl Animated {
         self.links.iter().map(of_link).product()
     }
 
-    /// A ball of the world that a ball of the body never leaves.
+    /// Ball in the world that a ball fixed to the body never leaves.
     pub fn reach(&self, ball: Ball) -> Ball {
         self.links.iter().rev().fold(ball, |ball, link| match link {
             Link::Fixed(fixed) => {
@@ -177,7 +179,7 @@ impl Animated {
     }
 }
 
-/// The part of a product's rate that is its first factor's.
+/// Term of a product's rate that comes from its first factor: A' B.
 fn changed(rate: &DAffine3, second: &DAffine3) -> DAffine3 {
     DAffine3 {
         matrix3: rate.matrix3 * second.matrix3,
@@ -185,7 +187,8 @@ fn changed(rate: &DAffine3, second: &DAffine3) -> DAffine3 {
     }
 }
 
-/// By how much a matrix may lengthen a vector at most: ‖A‖² is at most the largest sum of a column of |Aᵀ A|. 1 for a rotation.
+/// Upper bound of the factor by which a matrix lengthens a vector: ‖A‖² is at most the largest sum of a column of |Aᵀ
+/// A|. 1 for a rotation.
 fn stretch(matrix: DMat3) -> f64 {
     let square = matrix.transpose() * matrix;
     [square.x_axis, square.y_axis, square.z_axis]
@@ -209,7 +212,8 @@ impl Worldline for Point<'_> {
 
 #[cfg(test)]
 mod tests {
-    //! A pose's rate is its derivative, through scaled and turned links. A product rule the wrong way round shows against differences.
+    //! Law under test: a pose's rate is its derivative, through scaled and turned links. A product rule applied the
+    //! wrong way round differs from finite differences.
 
     use super::super::track::Keys;
     use super::*;
@@ -246,7 +250,7 @@ mod tests {
                 assert!(position.distance(reach.centre) <= reach.radius);
             }
         }
-        // Axes are orthogonal, and mirrored as the chain is.
+        // Axes are orthogonal, and mirrored if the chain mirrors.
         let axes = body.at(1.0).axes();
         assert!(((axes.transpose() * axes) - DMat3::IDENTITY).to_cols_array().iter().all(|value| value.abs() < 1e-14));
         assert!((axes.determinant() - body.at(1.0).world_from_body.matrix3.determinant().signum()).abs() < 1e-12);

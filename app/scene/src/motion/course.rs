@@ -1,7 +1,7 @@
-//! An animated body as one observer sees it: each of its points at its own retarded event.
+//! Animated body as one observer sees it: each of its points at its own retarded event.
 //!
-//! That event is on the observer's past light cone, as those of what rests are; so it appears where a point at rest would that was there, and only its
-//! Doppler factor knows of its own motion.
+//! The retarded event lies on the observer's past light cone, like those of resting points. The point therefore
+//! appears where a resting point at that event would appear. Only its Doppler factor depends on its own motion.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use physics::{Aberration, Beta, Celerity, Event, Observer};
 
 use super::animated::{Animated, Pose};
 
-/// An animated body, and who sees it.
+/// Animated body together with the observer that sees it.
 #[derive(Clone, Debug)]
 pub struct Course {
     animated: Arc<Animated>,
@@ -21,19 +21,19 @@ pub struct Course {
     aberration: Aberration,
 }
 
-/// A point of an animated body as it is seen.
+/// Point of an animated body as the observer sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
-    /// When and where in the world the light left.
+    /// Retarded event: the event in the world at which the light left the point.
     pub event: Event,
-    /// Apparent position: relative to the observer, his axes, metres.
+    /// Apparent position relative to the observer, observer's axes, metres.
     pub apparent: DVec3,
-    /// ν_observed / ν_sent.
+    /// Doppler factor, ν_observed / ν_sent.
     pub doppler: f64,
 }
 
 impl Course {
-    /// Of one observer.
+    /// Pairs an animated body with one observer.
     pub fn new(animated: &Arc<Animated>, observer: &Observer) -> Self {
         Self {
             animated: Arc::clone(animated),
@@ -43,8 +43,8 @@ impl Course {
         }
     }
 
-    /// A point of the body, in the body's own frame. `None` where its worldline does not cross the past light cone, as one faster than light
-    /// may not.
+    /// Apparent position and Doppler factor of a point given in the body's own frame. `None` if its worldline does
+    /// not cross the past light cone, which can happen to one faster than light.
     ///
     /// *Equation:* D = D_observer / D_source, each γ + u·n with n in the world towards the source.
     ///
@@ -60,20 +60,20 @@ impl Course {
         (apparent.is_finite() && doppler > 0.0).then_some(Seen { event, apparent, doppler })
     }
 
-    /// Who sees it.
+    /// Observer that sees the body.
     pub fn observer(&self) -> &Observer {
         &self.observer
     }
 }
 
 impl Animated {
-    /// How the body is when its middle is seen, or, without light's delay, at the observer's time.
+    /// Pose of the body when its middle is seen (`delayed`), or at the observer's time.
     pub fn as_seen(&self, observer: &Observer, delayed: bool) -> Pose {
         let seen = if delayed { retarded(observer.event, &self.point(self.ball.centre)).ok() } else { None };
         self.at(seen.map_or(observer.event.ct, |seen| seen.ct))
     }
 
-    /// How its middle moves in such a pose.
+    /// Celerity of the body's middle in such a pose.
     pub fn celerity(&self, pose: &Pose) -> Celerity {
         Beta::new(pose.beta(self.ball.centre)).map(Beta::celerity).unwrap_or_default()
     }

@@ -4,17 +4,17 @@ use super::animated::Animated;
 use super::uniform::Uniform;
 use std::sync::Arc;
 
-/// How meshes move.
+/// Motion of meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Always at one celerity.
+    /// Uniform motion at one celerity.
     Uniform(Uniform),
-    /// As keys say.
+    /// Motion given by keys.
     Animated(Arc<Animated>),
 }
 
 impl Motion {
-    /// The chain of transforms, if keys say how it moves.
+    /// Animated body, if the motion is given by keys.
     pub fn animated(&self) -> Option<&Arc<Animated>> {
         match self {
             Self::Uniform(_) => None,

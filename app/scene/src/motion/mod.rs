@@ -1,8 +1,9 @@
-//! What of a scene moves, and how.
+//! Motions of meshes: uniform motion and keyed animation.
 //!
-//! Uniformly: then it has a frame of its own, in which it rests (`uniform`). Or as keys say (`track`) that a chain of transforms holds
-//! (`animated`): then each of its points has a worldline, and an observer sees each at its own retarded event (`course`). What keys say is where
-//! every point is at each moment of the world; no contraction is added.
+//! Uniform motion (`uniform`): the body has a frame of its own, in which it rests. Animation: keys (`track`) move a
+//! chain of transforms (`animated`); then each point has a worldline, and an observer sees each at its own retarded
+//! event (`course`). Keys give the position of every point at each moment of the world; no length contraction is
+//! added.
 
 mod animated;
 mod course;

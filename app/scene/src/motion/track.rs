@@ -1,64 +1,64 @@
-//! One quantity that keys move: a place or a rotation, over seconds.
+//! Track: one quantity, a position or a rotation, as a function of time in seconds.
 //!
-//! glTF's LINEAR and CUBICSPLINE (2.0, appendix C), with their derivatives. A rotation between two linear keys turns evenly about one axis, the
-//! shorter way round (slerp), so what hangs on it is on an exact circle. Before the first key and after the last the quantity stands still, unless
-//! the keys repeat.
+//! The interpolations are glTF's LINEAR and CUBICSPLINE (2.0, appendix C), with their derivatives. Between two linear
+//! keys a rotation turns evenly about one axis, the shorter way round (slerp), so attached points move on an exact
+//! circle. Before the first key and after the last the quantity is constant, unless the keys repeat.
 
 use glam::{DQuat, DVec3};
 use thiserror::Error;
 
-/// A quantity that may move.
+/// Quantity that is constant or given by keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Track<V> {
-    /// It does not.
+    /// Constant value.
     Fixed(V),
-    /// It does.
+    /// Value given by keys.
     Keyed(Keys<V>),
 }
 
-/// Values at times, and what is between them.
+/// Values at given times, and their interpolation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keys<V> {
     times_s: Vec<f64>,
     values: Vec<V>,
-    /// Into and out of each key, per second; none: linear.
+    /// Slopes into and out of each key, per second; `None` for linear interpolation.
     tangents: Option<Vec<[V; 2]>>,
-    /// From when to when; what is there is there again and again.
+    /// Start and end of the period, seconds, if the keys repeat for ever.
     repeats: Option<[f64; 2]>,
 }
 
-/// Why keys are none.
+/// Reason why keys are refused.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum KeyFault {
-    /// Lists that do not belong together.
+    /// Lists of times and values whose lengths do not match.
     #[error("it has {times} times and {values} values")]
     Lengths {
-        /// Times.
+        /// Number of times.
         times: usize,
-        /// Values.
+        /// Number of values.
         values: usize,
     },
     /// Times that do not ascend.
     #[error("its times do not ascend at key {key}")]
     Order {
-        /// Which.
+        /// Index of the key.
         key: usize,
     },
-    /// Values that are nowhere.
+    /// A value or time that is not finite.
     #[error("key {key} is not finite")]
     NotFinite {
-        /// Which.
+        /// Index of the key.
         key: usize,
     },
-    /// A rotation without direction.
+    /// A quaternion of length zero.
     #[error("key {key} is no rotation")]
     NoRotation {
-        /// Which.
+        /// Index of the key.
         key: usize,
     },
 }
 
-/// Where a time is among the keys.
+/// Position of a time among the keys.
 enum Place {
     At(usize),
     Between { before: usize, share: f64, length_s: f64 },
@@ -87,7 +87,7 @@ impl<V: Copy> Keys<V> {
         Ok(Self { times_s, values, tangents, repeats: None })
     }
 
-    /// From the first key to the last, seconds.
+    /// Times of the first key and of the last, seconds.
     pub fn span_s(&self) -> [f64; 2] {
         [self.times_s[0], self.times_s[self.times_s.len() - 1]]
     }
@@ -97,17 +97,18 @@ impl<V: Copy> Keys<V> {
         [self.values[0], self.values[self.values.len() - 1]]
     }
 
-    /// Seconds of all keys.
+    /// Times of all keys, seconds.
     pub fn times_s(&self) -> &[f64] {
         &self.times_s
     }
 
-    /// How long until all is as it was, seconds.
+    /// Period after which the keys repeat, seconds; `None` if they do not.
     pub fn period_s(&self) -> Option<f64> {
         self.repeats.map(|[from, to]| to - from)
     }
 
-    /// The same again and again, ending as it began, to the last bit.
+    /// Repeats the keys for ever with the period from `from` to `to`. The last value becomes `end`, so that both ends
+    /// agree to the last bit.
     pub fn repeating(mut self, [from, to]: [f64; 2], end: V) -> Self {
         let last = self.values.len() - 1;
         self.values[last] = end;
@@ -132,7 +133,8 @@ impl<V: Copy> Keys<V> {
     }
 }
 
-/// Hermite's polynomials of two values and two slopes (of the whole way), and their derivatives along the share of the way.
+/// Hermite's polynomials of two values and two slopes (scaled to the whole interval), and their derivatives with
+/// respect to the share of the interval.
 fn hermite(share: f64) -> ([f64; 4], [f64; 4]) {
     let (s, r) = (share, 1.0 - share);
     let values = [r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r), s * r * r, -s * s * r];
@@ -141,7 +143,7 @@ fn hermite(share: f64) -> ([f64; 4], [f64; 4]) {
 }
 
 impl Keys<DVec3> {
-    /// Straight from key to key.
+    /// Makes keys with linear interpolation.
     ///
     /// # Errors
     /// [`KeyFault`].
@@ -149,7 +151,7 @@ impl Keys<DVec3> {
         Self::checked(times_s, values, None, |value| value.is_finite())
     }
 
-    /// Smoothly from key to key; `tangents`: velocities into and out of each, per second.
+    /// Makes keys with cubic interpolation; `tangents`: velocities into and out of each key, per second.
     ///
     /// # Errors
     /// [`KeyFault`].
@@ -157,7 +159,7 @@ impl Keys<DVec3> {
         Self::checked(times_s, values, Some(tangents), |value| value.is_finite())
     }
 
-    /// The value, and its change per second.
+    /// Value at a time, and its change per second.
     fn at(&self, time_s: f64) -> (DVec3, DVec3) {
         let (before, share, length_s) = match self.place(time_s) {
             Place::At(key) => return (self.values[key], DVec3::ZERO),
@@ -173,7 +175,7 @@ impl Keys<DVec3> {
 }
 
 impl Keys<DQuat> {
-    /// Evenly from key to key, the shorter way round.
+    /// Makes keys of rotations that turn evenly from key to key, the shorter way round (slerp).
     ///
     /// # Errors
     /// [`KeyFault`].
@@ -188,7 +190,8 @@ impl Keys<DQuat> {
         Ok(keys)
     }
 
-    /// Smoothly from key to key, component by component; `tangents`: changes into and out of each, per second.
+    /// Makes keys of rotations with cubic interpolation, component by component; `tangents`: changes into and out of
+    /// each key, per second.
     ///
     /// # Errors
     /// [`KeyFault`].
@@ -200,7 +203,7 @@ impl Keys<DQuat> {
         }
     }
 
-    /// The rotation, and its angular velocity about its own turned axes, radians per second.
+    /// Rotation at a time, and its angular velocity about its own turned axes, radians per second.
     fn at(&self, time_s: f64) -> (DQuat, DVec3) {
         let (before, share, length_s) = match self.place(time_s) {
             Place::At(key) => return (self.values[key].normalize(), DVec3::ZERO),
@@ -226,14 +229,14 @@ impl Keys<DQuat> {
         if !length.is_normal() {
             return (a.normalize(), DVec3::ZERO);
         }
-        // ω = 2 q* q' for a unit q; what changes the length alone is no turn, and falls to the real part.
+        // ω = 2 q* q' for a unit q. A change of length alone is no turn, and falls to the real part.
         let turn = (mixed.conjugate() * rate) * (2.0 / (length * length));
         (mixed * (1.0 / length), turn.xyz())
     }
 }
 
 impl Track<DVec3> {
-    /// The value, and its change per second.
+    /// Value at a time, and its change per second.
     pub(super) fn at(&self, time_s: f64) -> (DVec3, DVec3) {
         match self {
             Self::Fixed(value) => (*value, DVec3::ZERO),
@@ -241,7 +244,7 @@ impl Track<DVec3> {
         }
     }
 
-    /// A box that holds every value: corners, least and greatest.
+    /// Box that holds every value: its least corner and its greatest.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
         let keys = match self {
             Self::Fixed(value) => return [*value; 2],
@@ -264,7 +267,7 @@ impl Track<DVec3> {
 }
 
 impl Track<DQuat> {
-    /// The rotation, and its angular velocity about its own turned axes, radians per second.
+    /// Rotation at a time, and its angular velocity about its own turned axes, radians per second.
     pub(super) fn at(&self, time_s: f64) -> (DQuat, DVec3) {
         match self {
             Self::Fixed(value) => (*value, DVec3::ZERO),
@@ -284,12 +287,13 @@ impl<V: Copy> Track<V> {
 
 #[cfg(test)]
 mod tests {
-    //! Rates are the derivatives of values, linear turns are even, and what repeats does so for ever. A wrong sign or a wrong frame of the
-    //! angular velocity shows against differences.
+    //! Laws under test: rates are the derivatives of values, linear turns are even, and repeating keys repeat for
+    //! ever, into the past too. A wrong sign or a wrong frame of the angular velocity differs from finite
+    //! differences.
 
     use super::*;
 
-    /// The rotation's rate from differences: R' = R [ω]×.
+    /// Velocity of a turned place by the rotation's rate, R' = R [ω]×, and by finite differences.
     fn turned(keys: &Keys<DQuat>, time_s: f64, place: DVec3) -> (DVec3, DVec3) {
         let step = 1e-6;
         let [before, after] = [-step, step].map(|step| keys.at(time_s + step).0 * place);

@@ -1,37 +1,40 @@
-//! Uniform motion: a frame of its own.
+//! Uniform motion: bodies that rest in a frame of their own.
 //!
-//! A uniformly moving body is modelled at rest: the file places it as it would stand in its own frame, whose axes are a pure boost of the
-//! world's and whose origin event is the node's own place at world time `at`. In the world it is therefore shorter along its motion, and all
-//! its own laws of light are those of a scene at rest: an observer is to it what he is to the world, with another celerity. So each group of one
-//! celerity is drawn as a world of its own, seen by [`Uniform::seen_by`]'s eye (W 5.1.2).
+//! A uniformly moving body is modelled at rest: the file places it as it stands in its own frame. The axes of that
+//! frame are a pure boost of the world's, and its origin event is the node's own place at world time `at`. In the
+//! world the body is therefore shorter along its motion. In its own frame light behaves as in a scene at rest, and
+//! the observer has another celerity. So each group of one celerity is drawn as a resting scene, seen by the eye of
+//! [`Uniform::seen_by`] (W 5.1.2).
 
 use glam::{DQuat, DVec3};
 use physics::{Boost, Celerity, Event, FourVector, Observer, compose};
 
-/// Uniform motion.
+/// Uniform motion of a group of meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform {
-    /// In the world.
+    /// Celerity in the world, world axes.
     pub celerity: Celerity,
-    /// Where the node's origin is when, in the world; its place in the object's own frame is the same three numbers.
+    /// Event of the node's origin in the world. Its place in the object's own frame is the same three numbers.
     pub anchor: Event,
 }
 
-/// An observer as a uniformly moving object has him.
+/// Observer in the frame of a uniformly moving object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenBy {
-    /// Where he is in the object's frame, metres: in the coordinates in which the file has the object.
+    /// Position of the observer in the object's frame, metres: in the coordinates that the file uses for the object.
     pub position: DVec3,
-    /// How he moves in that frame.
+    /// Celerity of the observer in that frame.
     pub celerity: Celerity,
-    /// From the axes of the pure boost out of the object's frame to the observer's own (a pure boost of the world's): Wigner's rotation.
+    /// Rotation from the axes of the pure boost out of the object's frame to the observer's own (a pure boost of the
+    /// world's): Wigner's rotation.
     pub observer_from_group: DQuat,
 }
 
 impl Uniform {
-    /// The observer in the object's frame.
+    /// Observer in the object's frame.
     ///
-    /// *Equation:* B(u_o) B(−u) = R(wigner) B(u_rel): from the object's frame to the world's, and on to the observer's (W 4.1).
+    /// *Equation:* B(u_o) B(−u) = R(wigner) B(u_rel): from the object's frame to the world's, and on to the
+    /// observer's (W 4.1).
     pub fn seen_by(&self, observer: &Observer) -> SeenBy {
         let object_from_world = Boost::observer_from_world(self.celerity);
         let apart =
@@ -47,8 +50,8 @@ impl Uniform {
 
 #[cfg(test)]
 mod tests {
-    //! An object's own world shows the observer what the world does: a point of it appears where, and in the colour in which, a moving point
-    //! appears to him directly. A boost the wrong way, or Wigner's rotation left out, shows at once.
+    //! Law under test: seen from the object's own frame, a point of it has the same apparent position and colour as a
+    //! moving point seen from the world. A boost the wrong way, or a missing Wigner rotation, shows at once.
 
     use super::*;
     use physics::{Source, apparent};
@@ -69,13 +72,14 @@ mod tests {
             };
             let place = vector(30.0);
 
-            // In the object's frame it rests.
+            // The point rests in the object's frame.
             let seen_by = motion.seen_by(&observer);
             let own = Observer { event: Event { ct: 0.0, position: seen_by.position }, celerity: seen_by.celerity };
             let seen = apparent::at_rest(&own, place);
             let position = seen_by.observer_from_group * seen.position;
 
-            // In the world it moves: at world time 0 it is where its worldline, taken from the object's frame, crosses that time.
+            // The point moves in the world: its position at world time 0 follows from its worldline, transformed from
+            // the object's frame.
             let world_from_object = Boost::observer_from_world(motion.celerity).inverse();
             let event = world_from_object.apply(FourVector { t: 0.0, r: place - anchor.position });
             let beta = motion.celerity.beta().vector();

@@ -1,7 +1,7 @@
-//! Numbers in buffers.
+//! Accessors: numbers in buffers.
 //!
-//! An accessor says how many elements of which type lie where in a buffer view, and may replace some of them (sparse).
-//! Everything it claims is compared with the bytes that are there before a single element is read or memory asked for.
+//! An accessor gives the number, type and place of elements in a buffer view, and may replace some of them (sparse).
+//! Every claim of it is compared with the bytes that are there before a single element is read or memory asked for.
 
 use ::gltf::json;
 use ::gltf::json::accessor::{ComponentType, Type};
@@ -11,22 +11,22 @@ use super::container::{Document, range};
 use super::error::GltfError;
 use scene::MAX_TRIANGLES;
 
-/// The components of an accessor's elements, one after the other.
+/// Components of an accessor's elements, one after the other.
 pub(super) struct Numbers<T> {
     pub(super) values: Vec<T>,
-    /// Components of an element.
+    /// Number of components of an element.
     pub(super) width: usize,
 }
 
-/// What an accessor is for, and so which types it may have.
+/// Purpose of an accessor, which limits the types it may have.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Purpose {
-    /// Vectors of this type; integers are what the accessor says.
+    /// Vectors of this type; integers are normalised if the accessor says so.
     Vectors(Type),
-    /// Three or four components; integers are fractions of their largest value, whatever the accessor says (exporters
-    /// forget to).
+    /// Three or four components; integers are fractions of their largest value, even if the accessor does not say so
+    /// (some exporters forget it).
     Colours,
-    /// Unsigned integers.
+    /// Indices: unsigned integers.
     Indices,
 }
 
@@ -43,7 +43,7 @@ impl Purpose {
     }
 }
 
-/// Number of elements that an accessor claims to have: at least one, and not more than any scene may have.
+/// Number of elements that an accessor claims to have: at least one, and at most as many as any scene may have.
 pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<usize, GltfError> {
     let count = document.item(&document.json.accessors, index, place)?.count.0;
     if count == 0 {
@@ -56,7 +56,7 @@ pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<us
         .ok_or_else(|| document.too_large(&format!("accessors[{index}]"), format!("{count} elements, above {limit}")))
 }
 
-/// Reads an accessor.
+/// Reads the components of an accessor's elements.
 pub(super) fn read<T: Copy>(
     document: &Document,
     index: usize,
@@ -83,7 +83,7 @@ pub(super) fn read<T: Copy>(
     };
     let decode = |bytes: &[u8]| convert(decode(bytes, component, normalized));
 
-    // The elements themselves, or zeros to be replaced.
+    // Read the elements themselves; without a buffer view they are zeros, to be replaced.
     let mut values = match accessor.buffer_view {
         Some(view) => {
             let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
@@ -94,7 +94,7 @@ pub(super) fn read<T: Copy>(
         None => vec![convert(0.0); count * width],
     };
 
-    // Replacements.
+    // Apply the sparse replacements.
     if let Some(sparse) = &accessor.sparse {
         let place = format!("{place}.sparse");
         let replaced = usize::try_from(sparse.count.0).ok().filter(|&replaced| replaced <= count);
@@ -121,16 +121,16 @@ pub(super) fn read<T: Copy>(
     Ok(Numbers { values, width })
 }
 
-/// Where elements lie in a buffer view.
+/// Layout of elements in a buffer view.
 struct Layout {
     offset: u64,
     count: usize,
-    /// Bytes of an element.
+    /// Size of an element, bytes.
     size: usize,
 }
 
 impl Layout {
-    /// Each element's bytes, all of which exist.
+    /// Bytes of each element; all of them exist.
     fn elements<'a>(
         &self,
         document: &'a Document,
@@ -155,7 +155,7 @@ impl Layout {
     }
 }
 
-/// One component, little-endian; normalised integers by the rules of glTF 2.0, 3.6.2.2.
+/// Value of one component, little-endian; normalised integers by the rules of glTF 2.0, 3.6.2.2.
 fn decode(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
     let byte = |index: usize| bytes[index];
     let (value, largest) = match component {

@@ -1,7 +1,8 @@
-//! Which nodes keys move, and how (glTF 2.0, 3.11).
+//! Animations: the nodes that keys move, and their keys (glTF 2.0, 3.11).
 //!
-//! All animations of a file run together, on the world's clock. Taken are translations and rotations that go on smoothly; a jump is faster than
-//! light, and what changes a shape is none of a body's motion: such channels stand still, and a notice names them.
+//! All animations of a file run together, on the world's clock. Only smooth translations and rotations are used: a
+//! jump is faster than light, and a change of shape is not a body's motion. Other channels stand still, and a notice
+//! names them.
 
 use std::collections::BTreeMap;
 
@@ -16,18 +17,18 @@ use super::error::GltfError;
 use super::notices::Notices;
 use scene::motion::{KeyFault, Keys};
 
-/// First and last pose of an animation that repeats are the same, to what f32 and exporters leave: metres for each metre of size, and in a
-/// rotation's components.
+/// Tolerance within which the first and last pose of an animation are equal, so that it repeats; covers f32 rounding
+/// and exporters. Metres for each metre of size, and in a rotation's components.
 const SAME: f64 = 1e-5;
 
-/// What of a node moves.
+/// Keys of a node's translation and rotation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Moved {
     pub(super) translation: Option<Keys<DVec3>>,
     pub(super) rotation: Option<Keys<DQuat>>,
 }
 
-/// Every node that an animation moves.
+/// Keys of every animated node, by the node's index.
 pub(super) fn moved(document: &Document, notices: &mut Notices) -> Result<BTreeMap<usize, Moved>, GltfError> {
     let mut moved = BTreeMap::<usize, Moved>::new();
     for (number, animation) in document.json.animations.iter().enumerate() {
@@ -49,7 +50,7 @@ pub(super) fn moved(document: &Document, notices: &mut Notices) -> Result<BTreeM
     Ok(moved)
 }
 
-/// The nodes that one animation moves.
+/// Keys of the nodes that one animation moves.
 fn read(
     document: &Document,
     number: usize,
@@ -104,7 +105,7 @@ fn read(
     Ok(moved)
 }
 
-/// Times in seconds, and values of so many components.
+/// Times in seconds, and values of `WIDTH` components.
 fn lists<const WIDTH: usize>(
     document: &Document,
     animation: &Animation,
@@ -118,12 +119,12 @@ fn lists<const WIDTH: usize>(
     Ok((times, values.as_chunks::<WIDTH>().0.to_vec()))
 }
 
-/// What comes in threes (into a key, its value, out of it), apart.
+/// Separates triples (slope into a key, its value, slope out of it) into values and slopes.
 fn thirds<V: Copy>(values: Vec<V>) -> (Vec<V>, Vec<[V; 2]>) {
     values.as_chunks::<3>().0.iter().map(|[into, value, out]| (*value, [*into, *out])).unzip()
 }
 
-/// An animation that ends as it began goes on for ever.
+/// Makes an animation that ends as it began repeat for ever; leaves any other as it is.
 fn repeated(mut moved: BTreeMap<usize, Moved>) -> BTreeMap<usize, Moved> {
     let spans = moved.values().flat_map(|of_node| {
         [of_node.translation.as_ref().map(Keys::span_s), of_node.rotation.as_ref().map(Keys::span_s)]
@@ -148,7 +149,8 @@ fn repeated(mut moved: BTreeMap<usize, Moved>) -> BTreeMap<usize, Moved> {
                 keys.repeating(whole, first)
             });
             of_node.rotation = of_node.rotation.take().map(|keys| {
-                // The two signs of a quaternion are one rotation; the way to the last key must stay as it is.
+                // Both signs of a quaternion are the same rotation. The sign of the last key must stay, as it fixes
+                // the way there.
                 let [first, last] = keys.ends();
                 keys.repeating(whole, if first.dot(last) < 0.0 { -first } else { first })
             });

@@ -1,8 +1,8 @@
-//! The file itself: its chunks, its JSON, and the bytes it refers to.
+//! Container: the file itself, its chunks, its JSON, and the bytes it refers to.
 //!
-//! A `.glb` is a header (magic, version, length) and chunks (length, kind, bytes); a `.gltf` is the JSON alone, with
-//! buffers beside it or within it as base64. Nothing but regular files is opened, as a scene that names a pipe would never
-//! come to an end.
+//! A `.glb` is a header (magic, version, length) and chunks (length, kind, bytes). A `.gltf` is the JSON alone, with
+//! buffers beside it or within it as base64. Only regular files are opened, as reading a pipe that a scene names
+//! would never end.
 
 use std::borrow::Cow;
 use std::fs;
@@ -15,10 +15,10 @@ use super::extras::SceneExtras;
 use super::error::GltfError;
 use super::notices::{EXTENSIONS, Notices};
 
-/// The largest file that is read, in bytes: a `.glb` cannot count further.
+/// Largest size of a file that is read, bytes: a `.glb` cannot count further.
 const MAX_FILE: u64 = u32::MAX as u64;
 
-/// A file that has been opened and understood as JSON; indices in it are not yet checked.
+/// File that has been opened and parsed as JSON; indices in it are not yet checked.
 pub(super) struct Document {
     pub(super) path: PathBuf,
     pub(super) json: json::Root,
@@ -26,7 +26,7 @@ pub(super) struct Document {
     buffers: Vec<Vec<u8>>,
 }
 
-/// A node's transform with all digits the file has; the `gltf` crate keeps f32.
+/// Transform of a node with all digits the file has; the `gltf` crate keeps f32.
 #[derive(Deserialize)]
 pub(super) struct Transform {
     pub(super) matrix: Option<[f64; 16]>,
@@ -41,7 +41,7 @@ struct Transforms {
     nodes: Vec<Transform>,
 }
 
-/// The part that every version of the format has.
+/// Part of the JSON that every version of the format has.
 #[derive(Deserialize)]
 struct Head {
     asset: Asset,
@@ -70,7 +70,7 @@ impl Document {
             return Err(not_gltf("it is neither a .glb nor JSON".into()));
         }
 
-        // The version first: other versions fail later with words that help nobody.
+        // The version is checked first: with another version, later steps fail with unhelpful messages.
         let head: Head = serde_json::from_slice(text).map_err(|error| not_gltf(error.to_string()))?;
         let needed = head.asset.min_version.as_deref().unwrap_or("2.0");
         if !head.asset.version.starts_with("2.") || needed != "2.0" {
@@ -105,7 +105,7 @@ impl Document {
         self.json.buffers.iter().enumerate().map(read).collect()
     }
 
-    /// The bytes behind a URI: base64 in the URI itself, or a file beside the scene.
+    /// Bytes behind a URI: base64 in the URI itself, or a file beside the scene.
     pub(super) fn fetch(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
         if let Some(data) = uri.strip_prefix("data:") {
             let (_, text) =
@@ -119,7 +119,7 @@ impl Document {
         read_file(&self.path.parent().unwrap_or(Path::new("")).join(name.as_ref()))
     }
 
-    /// The bytes of a file that must lie in the scene's own folder or below it.
+    /// Bytes of a file that must lie in the scene's own folder or below it.
     pub(super) fn beside(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
         let name = urlencoding::decode(uri).unwrap_or(Cow::Borrowed(uri));
         if !stays_below(Path::new(name.as_ref())) {
@@ -128,12 +128,12 @@ impl Document {
         self.fetch(uri, place)
     }
 
-    /// An item of one of the JSON's lists; `place` is where its index stands.
+    /// Item of one of the JSON's lists; `place` is where its index stands.
     pub(super) fn item<'a, T>(&self, list: &'a [T], index: usize, place: &str) -> Result<&'a T, GltfError> {
         list.get(index).ok_or_else(|| self.damaged(place, format!("there is no number {index} among {}", list.len())))
     }
 
-    /// The bytes of a buffer view, and its stride if it has one.
+    /// Bytes of a buffer view, and its stride if it has one.
     pub(super) fn view(&self, index: usize, place: &str) -> Result<(&[u8], Option<usize>), GltfError> {
         let view = self.item(&self.json.buffer_views, index, place)?;
         let place = format!("bufferViews[{index}]");
@@ -146,7 +146,8 @@ impl Document {
         Ok((bytes, view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0)))
     }
 
-    /// The scene to show: the default one, else the first; `None` if the file has none and all its nodes are meant.
+    /// Index of the scene to show: the default one, else the first; `None` if the file has none, so that all its
+    /// nodes are shown.
     pub(super) fn scene_index(&self, notices: &mut Notices) -> Result<Option<usize>, GltfError> {
         let index = self.json.scene.map(|index| index.value());
         if let Some(index) = index {
@@ -180,7 +181,7 @@ impl Document {
     }
 }
 
-/// Part of a slice, by numbers from a file.
+/// Part of a slice, by numbers from a file; `None` if it does not exist.
 pub(super) fn range(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(offset).ok()?;
     let end = usize::try_from(offset.checked_add(length)?).ok()?;
@@ -200,7 +201,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, GltfError> {
     fs::read(path).map_err(cannot_read)
 }
 
-/// JSON and binary chunk of a `.glb`.
+/// JSON chunk and binary chunk of a `.glb`.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     let number = |offset: usize| Some(u32::from_le_bytes(bytes.get(offset..offset + 4)?.try_into().ok()?));
     let version = number(4).ok_or("its header is cut short")?;
@@ -229,7 +230,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     Ok((text, (kind == b"BIN\0").then_some(blob)))
 }
 
-/// Whether a relative path stays in the folder that it starts from.
+/// True if a relative path stays in the folder that it starts from.
 pub(super) fn stays_below(path: &Path) -> bool {
     path.components().all(|component| matches!(component, Component::Normal(_) | Component::CurDir))
 }

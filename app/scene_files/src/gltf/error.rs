@@ -4,82 +4,82 @@ use crate::panorama::PanoramaError;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Why a file gives no scene. Every message says what is wrong, where, and what to do.
+/// Reason why a file gives no scene. Every message says what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum GltfError {
-    /// The operating system refuses.
+    /// A file that the operating system cannot read.
     #[error("cannot read {path}: {error}; check the name and the permissions")]
     Read {
-        /// The scene or a file it refers to.
+        /// Path of the scene or of a file it refers to.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
     /// A directory or a device.
     #[error("{path} is not a file; name a .gltf or .glb file")]
     NotAFile {
-        /// The scene or a file it refers to.
+        /// Path of the scene or of a file it refers to.
         path: PathBuf,
     },
-    /// Nothing in it.
+    /// An empty file.
     #[error("{path} is empty; export or download it again")]
     Empty {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
     },
-    /// Not this format, or another version of it.
+    /// A file of another format, or of another version of glTF.
     #[error("{path} is not glTF 2.0: {fault}; export the scene as .glb or .gltf")]
     NotGltf {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// What is wrong.
+        /// Description of what is wrong.
         fault: String,
     },
-    /// The file cannot be shown without something that this program lacks.
+    /// A required extension that this program lacks.
     #[error("{path} requires the extension {name}, which this program does not know; export the scene without it")]
     Extension {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// As in `extensionsRequired`.
+        /// Name of the extension, as in `extensionsRequired`.
         name: String,
     },
-    /// The file contradicts itself or the format.
+    /// A file that contradicts itself or the format.
     #[error("{path} is damaged at {place}: {fault}; export the scene again")]
     Damaged {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// Where in its JSON.
+        /// Place of the excess in its JSON.
         place: String,
-        /// What is wrong.
+        /// Description of what is wrong.
         fault: String,
     },
-    /// More than this program takes.
+    /// A scene beyond the limits of this program.
     #[error("{path} is too large at {place}: {fault}; export a smaller part or a coarser version of the scene")]
     TooLarge {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// Where in its JSON.
+        /// Place of the excess in its JSON.
         place: String,
-        /// What is too large, and the limit.
+        /// Description of what is too large, and the limit.
         fault: String,
     },
-    /// No triangles.
+    /// A scene without triangles.
     #[error("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}")]
     Nothing {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// What there is instead.
+        /// Objects found instead of triangles.
         found: &'static str,
     },
-    /// Spectra that are none: a sentence for each.
+    /// Spectra that are not valid, with a sentence for each.
     #[error("{}", sentences(path, faults))]
     Spectra {
-        /// The scene.
+        /// Path of the scene.
         path: PathBuf,
-        /// All that are wrong, in the file's order.
+        /// Faults of all invalid spectra, in the file's order.
         faults: Vec<SpectrumFault>,
     },
-    /// A panorama that is none.
+    /// A panorama that cannot be used.
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
 }
@@ -89,14 +89,14 @@ fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
     faults.iter().map(sentence).collect::<Vec<_>>().join("\n")
 }
 
-/// What is wrong with one spectrum of a file.
+/// Fault of one spectrum of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpectrumFault {
-    /// The material, light, node or scene, as it is numbered and called in the file.
+    /// Material, light, node or scene of the spectrum, with its number and name in the file.
     pub owner: String,
-    /// Keys from there to what is wrong, with dots between them.
+    /// Path of keys from the owner to the fault, joined by dots.
     pub key: String,
-    /// What is wrong, and what was expected.
+    /// Description of what is wrong, and what was expected.
     pub fault: String,
 }
 

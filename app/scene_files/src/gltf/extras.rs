@@ -1,4 +1,5 @@
-//! What a scene says beyond glTF: `extras.rapidity` of the scene and of its nodes, and how a node moves, as `export` writes it.
+//! Extras: the data of a scene beyond glTF, which `export` writes: `extras.rapidity` of the scene and of its nodes,
+//! and a node's motion.
 
 use ::gltf::json::Extras;
 use glam::{DVec3, Vec3};
@@ -9,11 +10,11 @@ use serde_json::value::RawValue;
 
 use scene::{Lighting, Start};
 
-/// How far a unit vector's squared length may be off before it is normalised: f32 rounding. Below that it is kept as written, so that a
-/// scene which is saved and loaded stays the same to the bit.
+/// Tolerance of a unit vector's squared length, for f32 rounding. Within it the vector is kept as written, so that a
+/// scene which is saved and loaded stays the same to the bit; beyond it the vector is normalised.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
-/// The vertex attribute, without its leading underscore, that has colours above 1 where glTF's own must be clamped.
+/// Name, without its leading underscore, of the vertex attribute for colours above 1, which glTF's own must clamp.
 pub(crate) const COLOURS: &str = "RAPIDITY_COLOR";
 
 /// `extras.rapidity` of a glTF scene.
@@ -21,9 +22,9 @@ pub(crate) const COLOURS: &str = "RAPIDITY_COLOR";
 pub(crate) struct SceneExtras {
     pub(crate) origin: Option<[f64; 3]>,
     pub(crate) light: LightExtras,
-    /// Luminance shown as white, cd/m².
+    /// Luminance that is shown as white, cd/m².
     pub(crate) white: Option<f64>,
-    /// Name of a file beside the scene, or a picture within it.
+    /// Panorama: name of a file beside the scene, or a picture within it.
     pub(crate) panorama: Option<Value>,
     pub(crate) start: Option<Start>,
     pub(crate) circuit: Vec<[f64; 3]>,
@@ -35,7 +36,7 @@ pub(crate) struct NodeExtras {
     pub(crate) solid: Option<bool>,
 }
 
-/// The same as JSON: plain numbers.
+/// Scene extras as JSON: plain numbers.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct SceneJson {
@@ -53,7 +54,7 @@ struct SceneJson {
     circuit: Vec<[f64; 3]>,
 }
 
-/// `light` of a scene's `extras.rapidity`; what it does not mention stays as it is.
+/// Contents of `light` in a scene's `extras.rapidity`; missing fields leave the light as it is.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(crate) struct LightExtras {
@@ -71,13 +72,13 @@ pub(crate) struct LightExtras {
     horizon: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     shadows: Option<bool>,
-    /// As it stands in the file.
+    /// Spectrum as it stands in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spectrum: Option<Value>,
 }
 
 impl LightExtras {
-    /// All of a scene's light, its spectrum as `spectrum::to_json` writes it.
+    /// Extras with all of a scene's light; `spectrum` as `spectrum::to_json` writes it.
     pub(crate) fn of(light: Lighting, spectrum: Option<Value>) -> Self {
         Self {
             sun_direction: Some(light.sun_direction.to_array()),
@@ -91,7 +92,7 @@ impl LightExtras {
         }
     }
 
-    /// Changes what the file mentions.
+    /// Changes the parts of the light that the file mentions.
     pub(super) fn apply(&self, light: &mut Lighting) {
         let Lighting { sun_direction, sun, sky, ground, zenith, horizon, shadows } = light;
         *sun_direction = self.sun_direction.map_or(*sun_direction, Vec3::from_array);
@@ -111,7 +112,7 @@ struct StartJson {
     look: [f64; 3],
 }
 
-/// Extras may hold anything of anybody; only this key is ours.
+/// Extras may hold other programs' data; only the key `rapidity` is read.
 #[derive(Serialize, Deserialize)]
 struct Ours<T> {
     rapidity: T,
@@ -129,11 +130,12 @@ fn read<T: for<'a> Deserialize<'a> + Default>(extras: &Extras) -> Result<T, Stri
     }
 }
 
-/// How a node moves: `extras.celerity`, γβ along the world's axes, and `extras.at`, the world time (metres of light travel, 0 unless said) at
-/// which it is where the file has it. `None`: nothing is said. `at` alone is somebody else's.
+/// Celerity of a node, `extras.celerity`, γβ along the world's axes, and `extras.at`, the world time (metres of light
+/// travel, default 0) at which the node is where the file has it. `None` if there is no celerity; `at` alone belongs
+/// to another program.
 ///
 /// # Errors
-/// Which key, and what is wrong with it.
+/// The faulty key, and what is wrong with it.
 pub(super) fn celerity(extras: &Extras) -> Result<Option<(Celerity, f64)>, (&'static str, String)> {
     let value = extras.as_deref().and_then(|text| serde_json::from_str::<Value>(text.get()).ok()).unwrap_or_default();
     let Some(celerity) = value.get("celerity") else { return Ok(None) };

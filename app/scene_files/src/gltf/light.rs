@@ -1,8 +1,9 @@
-//! Light: the sun of `KHR_lights_punctual`, and what `extras.rapidity.light` says instead of it or beyond it.
+//! Light: the sun of `KHR_lights_punctual`, and `extras.rapidity.light`, which replaces or extends it.
 //!
-//! The first directional light that stands in the scene is the sun. As in other viewers its intensity E, in lux, makes a white surface
-//! that faces it send out E/π: light of π lux and the colour 1 shows white as white. Point and spot lights that rest are lamps, I candela of
-//! which give I lux at one metre; only the ray tracer draws them, and a notice says so.
+//! The first directional light that stands in the scene is the sun. As in other viewers its intensity E, in lux,
+//! makes a white surface that faces it send out E/π: light of π lux and the colour 1 shows white as white. Point and
+//! spot lights at rest are lamps, I candela of which give I lux at one metre; only the ray tracer draws them, and a
+//! notice says so.
 
 use ::gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
 use ::gltf::json::validation::Checked;
@@ -19,17 +20,17 @@ use super::error::GltfError;
 use super::notices::Notices;
 use scene::{Lamp, Lighting, Spot};
 
-/// All that shines.
+/// Light of a scene.
 pub(super) struct Lights {
-    /// Sun and sky.
+    /// Light of sun and sky.
     pub(super) lighting: Lighting,
-    /// Their spectrum, if they have one.
+    /// Spectrum of sun and sky, if they have one.
     pub(super) illuminant: Option<Spectrum>,
     /// Point and spot lights at rest.
     pub(super) lamps: Vec<Lamp>,
 }
 
-/// The file's light.
+/// Reads the file's light.
 pub(super) fn lighting(
     document: &Document,
     scene: Option<usize>,
@@ -65,7 +66,7 @@ fn sun_and_lamps(
     spectra: &mut Spectra<'_>,
     notices: &mut Notices,
 ) -> Result<(Option<Sun>, Vec<Lamp>), GltfError> {
-    // Every light's spectrum is looked at, whether it shines or not: a mistake is a mistake.
+    // Every light's spectrum is checked, even if the light does not shine, so that every mistake is reported.
     let lights = lights(document);
     let own: Vec<_> = lights
         .iter()
@@ -133,7 +134,7 @@ fn owner(index: usize, light: &Light) -> String {
     format!("lights[{index}]{name}")
 }
 
-/// A spectrum on a node that is no light would be lost silently.
+/// Refuses spectra on nodes that are not lights, which would otherwise be lost silently.
 fn refuse_spectra_of_other_nodes(document: &Document, spectra: &mut Spectra<'_>) {
     for (index, node) in document.json.nodes.iter().enumerate() {
         let light = node.extensions.as_ref().is_some_and(|extensions| extensions.khr_lights_punctual.is_some());

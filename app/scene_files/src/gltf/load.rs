@@ -23,28 +23,29 @@ use super::spectrum::Spectra;
 use super::{light, material, nodes, picture, primitive};
 use crate::panorama;
 
-/// The most meshes a scene may have, one for each primitive and instance.
+/// Largest number of meshes in a scene, one for each primitive and instance.
 const MAX_MESHES: usize = 1_000_000;
 
 /// Reads a scene.
 ///
-/// Drawn are triangles (lists, strips, fans) with base colour, emission, vertex colours, opacity and `KHR_materials_unlit`,
-/// `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; of several scenes the default one.
-/// The first directional light of `KHR_lights_punctual` is the sun, others are lamps; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md
-/// tells all of it. What a file asks for beyond that is named in [`Scene::notices`]. Opaque meshes are solid unless `extras.rapidity.solid` says
-/// otherwise. A visitor starts where `extras.rapidity.start` of the scene says, else on the ground below the
-/// first camera, else at the origin or in front of the scene.
+/// Triangles (lists, strips, fans) are drawn with base colour, emission, vertex colours, opacity and
+/// `KHR_materials_unlit`, `KHR_materials_emissive_strength`, `KHR_texture_transform`, `KHR_mesh_quantization`; if
+/// there are several scenes, the default one is loaded. The first directional light of `KHR_lights_punctual` is the
+/// sun, others are lamps; materials and lights may have spectra in `extras.spectrum`. docs/SCENES.md describes all of
+/// it. Further requests of a file are named in [`Scene::notices`]. Opaque meshes are solid unless
+/// `extras.rapidity.solid` says otherwise. An observer starts where `extras.rapidity.start` of the scene says, else
+/// on the ground below the first camera, else at the origin or in front of the scene.
 ///
 /// `progress` is called from several threads at once.
 ///
 /// # Errors
-/// [`GltfError`]. A picture that is missing is a notice, a picture that is damaged an error.
+/// [`GltfError`]. A missing picture is a notice, a damaged picture an error.
 pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, GltfError> {
     let document = Document::open(path)?;
     let mut notices = Notices::default();
     note_what_is_not_drawn(&document, &mut notices);
 
-    // Find what stands where, and refuse what would be too much before any of it is unpacked.
+    // Find the placements, and refuse a scene that is too large before any of it is unpacked.
     let scene_index = document.scene_index(&mut notices)?;
     let extras = document.scene_extras(scene_index)?;
     let placements = nodes::placements(&document, scene_index, &mut notices)?;
@@ -113,7 +114,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
                 motions.len() - 1
             })
         });
-        // Nobody rides on what passes by.
+        // Vehicles do not ride on moving or animated meshes.
         mesh.solid = mesh.motion.is_none() && instance.placement.solid.unwrap_or(opaque);
         meshes.push(mesh);
     }
@@ -143,7 +144,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     Ok(scene)
 }
 
-/// The panorama that the scene names: a file beside it, or a picture in a buffer view.
+/// Panorama that the scene names: a file beside it, or a picture in a buffer view.
 fn around(
     document: &Document,
     scene: Option<usize>,
@@ -164,7 +165,7 @@ fn around(
     Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
 }
 
-/// A primitive of a mesh, at a node.
+/// Primitive of a mesh, placed at a node.
 struct Instance<'a> {
     placement: &'a Placement,
     mesh: usize,
@@ -172,7 +173,7 @@ struct Instance<'a> {
     name: String,
 }
 
-/// Everything that will be drawn, after checking that it is not too much.
+/// Instances of all primitives that are drawn, checked against the limits.
 fn instances<'a>(
     document: &Document,
     placements: &'a [Placement],
@@ -203,7 +204,8 @@ fn instances<'a>(
     Ok(instances)
 }
 
-/// The names of node and mesh (once if they are the same) and, where there are several, the primitive's number.
+/// Name of an instance: the names of node and mesh (once if they are the same) and, if there are several, the
+/// primitive's number.
 fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize) -> String {
     let node_name = document.json.nodes[node].name.clone();
     let mesh_name = document.json.meshes[mesh].name.clone();
@@ -216,7 +218,7 @@ fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize
     if document.json.meshes[mesh].primitives.len() > 1 { format!("{name} #{primitive}") } else { name }
 }
 
-/// On the ground below a camera, or at the camera where there is none, looking where it looks.
+/// Start on the ground below a camera, or at the camera if there is no ground, with the camera's direction of view.
 fn start_below(camera: DAffine3, scene: &Scene) -> Start {
     let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
     let collision = Collision::new(scene).expect("loaded scenes keep the promises of their types");

@@ -1,4 +1,4 @@
-//! Surfaces: the diffuse part of glTF's metallic–roughness model, and what makes mirrors and clear glass.
+//! Materials: the diffuse part of glTF's metallic–roughness model, and the fields for mirrors and clear glass.
 
 use std::collections::HashSet;
 
@@ -13,10 +13,10 @@ use super::error::GltfError;
 use super::notices::Notices;
 use scene::{Alpha, Material};
 
-/// Where a mesh's texture coordinates come from.
+/// Source of a mesh's texture coordinates: a set and a transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Channel {
-    /// `TEXCOORD_n`.
+    /// Number n of the set `TEXCOORD_n`.
     pub(super) set: u32,
     linear: Mat2,
     offset: Vec2,
@@ -30,7 +30,7 @@ impl Channel {
         let Some(transform) = transform else {
             return Self { set: texture.tex_coord, ..Self::FIRST };
         };
-        // v points down, so a counter-clockwise turn by φ takes u to (cos φ, −sin φ).
+        // The v axis points down, so a counter-clockwise turn by φ takes u to (cos φ, −sin φ).
         let turn = Mat2::from_angle(-transform.rotation.0);
         Self {
             set: transform.tex_coord.unwrap_or(texture.tex_coord),
@@ -44,7 +44,7 @@ impl Channel {
     }
 }
 
-/// All materials of the file, then the default one, and each one's texture coordinates.
+/// Materials of the file, then the default one, each with its source of texture coordinates.
 ///
 /// Texture indices are still those of the file; `picture::textures` replaces them.
 pub(super) fn materials(
@@ -104,9 +104,9 @@ fn read(
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         double_sided: material.double_sided,
         metallic: factor(surface.metallic_factor.0),
-        // A map says where it is smooth, and is not drawn: so nothing of it is a mirror.
+        // A roughness map gives the smooth places, but it is not drawn, so no part of the surface is a mirror.
         roughness: if rough { 1.0 } else { factor(surface.roughness_factor.0) },
-        // glTF's 0 stands for a metal in another model.
+        // The value 0 in glTF stands for a metal in another material model.
         index_of_refraction: if index >= 1.0 && index.is_finite() { index } else { 1.5 },
         transmission: transmission.map_or(0.0, |extension| factor(extension.transmission_factor.0)),
         solid_glass: volume.is_some_and(|volume| volume.thickness_factor.0 > 0.0),
@@ -130,7 +130,7 @@ fn read(
     Ok((read, channels.first().copied().unwrap_or(Channel::FIRST)))
 }
 
-/// The file's textures that any material draws.
+/// Indices of the file's textures that any material draws.
 pub(super) fn textures_used(materials: &[Material]) -> HashSet<usize> {
     materials.iter().flat_map(|material| [material.base_colour_texture, material.emissive_texture]).flatten().collect()
 }

@@ -1,6 +1,7 @@
-//! Where things stand: the node tree, flattened.
+//! Placements: the node tree, flattened.
 //!
-//! Every node of a glTF scene has one parent at most, so a node that is reached twice means a circle or two parents; both are refused.
+//! Every node of a glTF scene has one parent at most, so a node that is reached twice means a circle or two parents;
+//! both are refused.
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
@@ -15,10 +16,11 @@ use scene::motion::{Animated, Keyed, Link, Track, Uniform};
 use physics::Event;
 use std::sync::Arc;
 
-/// Up to this distance from the file's origin, in metres, f32 keeps a quarter of a millimetre, and positions stay as the file has them.
+/// Distance from the file's origin, metres, up to which f32 keeps a quarter of a millimetre and positions stay as the
+/// file has them.
 const NEAR: f64 = 4096.0;
 
-/// A node that bears something.
+/// Placement of a node that has a mesh, a light or a camera.
 pub(super) struct Placement {
     /// Index into the file's nodes.
     pub(super) node: usize,
@@ -26,21 +28,22 @@ pub(super) struct Placement {
     pub(super) mesh: Option<usize>,
     /// Index into the file's lights, not yet checked.
     pub(super) light: Option<usize>,
-    /// Whether it bears a camera.
+    /// True if the node has a camera.
     pub(super) camera: bool,
-    /// File's frame from the node's.
+    /// Transform from the node's frame to the file's.
     pub(super) transform: DAffine3,
-    /// What `extras.rapidity.solid` says.
+    /// Value of `extras.rapidity.solid`.
     pub(super) solid: Option<bool>,
-    /// Its own motion, or that of the nearest ancestor that has one, with that one's anchor: what hangs together moves together.
+    /// Motion of the node, or of its nearest moving ancestor, with that ancestor's anchor: connected nodes move
+    /// together.
     pub(super) motion: Option<Moves>,
 }
 
-/// How a node moves.
+/// Motion of a node.
 #[derive(Clone)]
 pub(super) enum Moves {
     Uniform(Uniform),
-    /// `body_from_node`: from the frame of the last node of the chain.
+    /// Node moved by keys. `body_from_node`: transform from the node's frame to that of the last node of the chain.
     Animated {
         animated: Arc<Animated>,
         body_from_node: DAffine3,
@@ -48,7 +51,7 @@ pub(super) enum Moves {
 }
 
 impl Moves {
-    /// The same of a child.
+    /// Motion of a child with the transform `local`.
     fn of_child(&self, local: DAffine3) -> Self {
         match self {
             Self::Uniform(uniform) => Self::Uniform(*uniform),
@@ -59,7 +62,8 @@ impl Moves {
     }
 }
 
-/// All nodes of a scene that bear a mesh, a light or a camera, parents before children, in the file's order.
+/// Placements of all nodes of a scene that have a mesh, a light or a camera, parents before children, in the file's
+/// order.
 pub(super) fn placements(
     document: &Document,
     scene: Option<usize>,
@@ -121,7 +125,8 @@ pub(super) fn placements(
     Ok(placements)
 }
 
-/// What hangs on a chain that ends in a node which keys move. `parent`: the file's frame from that of its parent, if nothing above moves.
+/// Motion of a chain that ends in an animated node. `parent`: transform from its parent's frame to the file's, used
+/// if nothing above it moves.
 fn animated(name: String, parent: DAffine3, inherited: Option<Moves>, keyed: Keyed) -> Moves {
     let mut links = match inherited {
         Some(Moves::Animated { animated, body_from_node }) => {
@@ -136,7 +141,7 @@ fn animated(name: String, parent: DAffine3, inherited: Option<Moves>, keyed: Key
     Moves::Animated { animated: Arc::new(Animated::new(name, links)), body_from_node: DAffine3::IDENTITY }
 }
 
-/// A node that keys move; what they do not mention is as the node has it.
+/// Transform of an animated node; quantities without keys are constant, as the node has them.
 fn keyed(transform: &Transform, moved: &Moved) -> Keyed {
     let rotation = transform.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let rotation = if rotation.length().is_normal() { rotation.normalize() } else { DQuat::IDENTITY };
@@ -148,7 +153,8 @@ fn keyed(transform: &Transform, moved: &Moved) -> Keyed {
     }
 }
 
-/// Nodes without a parent. If there are none but nodes, the tree is a circle, which the first node will show.
+/// Indices of the nodes without a parent. If every node has one, the tree has a circle; then the first node alone,
+/// which reveals it.
 fn orphans(document: &Document) -> Vec<usize> {
     let nodes = &document.json.nodes;
     let mut orphan = vec![true; nodes.len()];
@@ -178,7 +184,7 @@ fn local(transform: &Transform, place: &str, notices: &mut Notices) -> DAffine3 
     DAffine3 { matrix3: DMat3::from_quat(rotation) * DMat3::from_diagonal(scale), translation }
 }
 
-/// The box round all finite vertices, in the file's frame.
+/// Bounding box of all finite vertices, in the file's frame.
 pub(super) struct Bounds {
     least: DVec3,
     most: DVec3,
@@ -205,7 +211,7 @@ impl Bounds {
         !self.least.cmple(self.most).all()
     }
 
-    /// The file's own origin where f32 is fine enough there, else the middle of the box in whole metres.
+    /// Origin for the scene: the file's own if f32 is fine enough there, else the middle of the box in whole metres.
     pub(super) fn origin(&self) -> DVec3 {
         if self.is_empty() || self.least.abs().max(self.most.abs()).max_element() <= NEAR {
             DVec3::ZERO
@@ -214,7 +220,7 @@ impl Bounds {
         }
     }
 
-    /// The file's origin if it lies within the box, else on the ground in front of it, looking at it.
+    /// Start at the file's origin if it lies within the box, else on the ground in front of the box, looking at it.
     pub(super) fn start(&self) -> Start {
         let within = self.least.cmple(DVec3::ZERO).all() && self.most.cmpge(DVec3::ZERO).all();
         if self.is_empty() || within {

@@ -1,6 +1,7 @@
-//! Pictures: PNG and JPEG to 8-bit sRGB.
+//! Pictures: PNG and JPEG, decoded to 8-bit sRGB.
 //!
-//! A few kilobytes of PNG can claim gigabytes of pixels, so sizes are read and added up before anything is decoded.
+//! A few kilobytes of PNG can claim gigabytes of pixels, so sizes are read and added up before any picture is
+//! decoded.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
@@ -18,13 +19,13 @@ use super::notices::Notices;
 use super::progress::{Progress, Stage};
 use scene::{Material, Texture, Wrap};
 
-/// The longest side of a picture, in pixels: what graphics processors take.
+/// Longest side of a picture, pixels: the limit of graphics processors.
 const MAX_SIDE: u32 = 16384;
 
-/// The most bytes that all pictures of a scene may have when decoded.
+/// Largest number of bytes that all decoded pictures of a scene may have.
 const MAX_BYTES: u64 = 4 << 30;
 
-/// All textures that materials draw, whose texture indices it replaces by those into the result.
+/// Textures that materials draw; the materials' texture indices become indices into the result.
 ///
 /// Textures of the file that differ in neither picture nor sampling become one.
 pub(super) fn textures(
@@ -36,7 +37,7 @@ pub(super) fn textures(
     let mut used: Vec<usize> = textures_used(materials).into_iter().collect();
     used.sort_unstable();
 
-    // Which picture each texture shows, and how.
+    // Find the picture and the sampling of each texture.
     let mut looks = BTreeMap::new();
     for index in used {
         let place = format!("textures[{index}]");
@@ -63,7 +64,7 @@ pub(super) fn textures(
         looks.insert(index, Look { source, name, wrap, nearest });
     }
 
-    // Each picture once.
+    // Decode each picture once.
     let sources: BTreeSet<usize> = looks.values().map(|look| look.source).collect();
     let mut encoded = Vec::new();
     let mut bytes = 0;
@@ -91,7 +92,7 @@ pub(super) fn textures(
     };
     let pictures: BTreeMap<usize, RgbaImage> = encoded.par_iter().map(decode).collect::<Result<_, GltfError>>()?;
 
-    // Textures, and where the file's indices have gone.
+    // Make the textures, and note where the file's indices have gone.
     let mut textures: Vec<Texture> = Vec::new();
     let mut place_of_look = BTreeMap::new();
     let mut place_of_index = BTreeMap::new();
@@ -117,7 +118,7 @@ pub(super) fn textures(
     Ok(textures)
 }
 
-/// A texture of the file before its picture is decoded.
+/// Texture of the file before its picture is decoded.
 struct Look {
     /// Index into the file's images.
     source: usize,
@@ -126,7 +127,7 @@ struct Look {
     nearest: bool,
 }
 
-/// A picture as it stands in the file, and its size.
+/// Picture as it stands in the file, and its size.
 struct Encoded {
     /// Index into the file's images.
     source: usize,

@@ -1,4 +1,4 @@
-//! Triangles: from accessors to arrays, and from a node's frame into the world.
+//! Primitives: triangles, from accessors to arrays, and from a node's frame into the world.
 
 use ::gltf::json;
 use ::gltf::json::accessor::Type;
@@ -14,10 +14,10 @@ use super::error::GltfError;
 use super::notices::Notices;
 use scene::Mesh;
 
-/// How far a normal's squared length may be off before it is normalised: f32 rounding.
+/// Tolerance of a normal's squared length, for f32 rounding; beyond it the normal is normalised.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
-/// Triangles in the frame of the node that bears them. All vertex arrays have the same length.
+/// Triangles in the frame of their node. All vertex arrays have the same length.
 pub(super) struct Primitive {
     pub(super) positions: Vec<Vec3>,
     pub(super) indices: Vec<u32>,
@@ -27,7 +27,7 @@ pub(super) struct Primitive {
     material: usize,
 }
 
-/// How many entries its longest array will have at most, or `None` if it has no triangles. Nothing is read.
+/// Upper bound of the length of the primitive's longest array, or `None` if it has no triangles. No data are read.
 pub(super) fn corners(
     document: &Document,
     primitive: &json::mesh::Primitive,
@@ -79,7 +79,7 @@ impl Primitive {
         let material = material.unwrap_or(document.json.materials.len()); // the default one is the last
         let channel = channels[material];
 
-        // Attributes.
+        // Read the attributes.
         let index = positions(document, primitive, &place)?;
         let vectors = |index, name: &str| {
             let place = format!("{place}.attributes.{name}");
@@ -117,7 +117,7 @@ impl Primitive {
             }
         }
 
-        // Triangles.
+        // Read the triangles.
         let corners = match primitive.indices {
             Some(index) => {
                 let place = format!("{place}.indices");
@@ -145,7 +145,7 @@ impl Primitive {
         Ok(read)
     }
 
-    /// Gives each triangle its own vertices and its own normal, as glTF demands where a file has no normals.
+    /// Gives each triangle its own vertices and its own normal, as glTF demands for a file without normals.
     fn flatten(&mut self) {
         fn spread<T: Copy>(values: &mut Vec<T>, indices: &[u32]) {
             *values = indices.iter().map(|&index| values[index as usize]).collect();
@@ -161,10 +161,11 @@ impl Primitive {
         self.normals = self.positions.as_chunks().0.iter().flat_map(normal).collect();
     }
 
-    /// The mesh in the world, relative to `origin`, and how many of its vertices are not finite.
+    /// Mesh in the world, relative to `origin`, and the number of its vertices that are not finite.
     ///
-    /// A mirroring transform turns triangles round, so their winding is turned back. Normals transform by the inverse transpose, which is
-    /// the cofactor matrix but for length and the determinant's sign, and exists for flat transforms too.
+    /// A mirroring transform reverses the winding of triangles, so it is reversed again. Normals transform by the
+    /// inverse transpose, which is the cofactor matrix but for length and the determinant's sign, and exists for flat
+    /// transforms too.
     pub(super) fn place(&self, name: String, mut transform: DAffine3, origin: DVec3) -> (Mesh, usize) {
         transform.translation -= origin;
         let linear = transform.matrix3;
@@ -198,13 +199,14 @@ impl Primitive {
     }
 }
 
-/// The largest component, by which to divide so that products neither overflow nor vanish; 1 where that is impossible.
+/// Largest component of a matrix; dividing by it keeps products from overflowing or vanishing. 1 if it is not a
+/// normal number.
 fn largest(matrix: DMat3) -> f64 {
     let largest = matrix.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
     if largest.is_normal() { largest } else { 1.0 }
 }
 
-/// A unit vector; up where there is no direction. One that is unit already stays the same to the bit.
+/// Unit vector of a normal, or up if it has no direction. A normal that is unit already stays the same to the bit.
 fn unit(normal: DVec3) -> Vec3 {
     if (normal.length_squared() - 1.0).abs() <= UNIT_TOLERANCE {
         normal.as_vec3()
@@ -213,7 +215,7 @@ fn unit(normal: DVec3) -> Vec3 {
     }
 }
 
-/// Each vertex makes a triangle with the two before it; every other one is turned round.
+/// Triangles of a strip: each vertex with the two before it; every other triangle is reversed.
 fn strip(corners: &[u32]) -> Vec<u32> {
     let triangle = |(index, corner): (usize, &[u32])| {
         if index % 2 == 0 { [corner[0], corner[1], corner[2]] } else { [corner[0], corner[2], corner[1]] }
@@ -221,7 +223,7 @@ fn strip(corners: &[u32]) -> Vec<u32> {
     corners.windows(3).enumerate().flat_map(triangle).collect()
 }
 
-/// Each vertex makes a triangle with the one before it and the first (glTF 2.0, 3.7.2.1: the first comes last).
+/// Triangles of a fan: each vertex with the one before it and the first (glTF 2.0, 3.7.2.1: the first comes last).
 fn fan(corners: &[u32]) -> Vec<u32> {
     let first = corners.first().copied().unwrap_or_default();
     corners.get(1..).unwrap_or_default().windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()

@@ -1,21 +1,21 @@
 //! Progress of reading a file.
 
-/// What `load` is doing.
+/// Stage of `load`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Decoding pictures.
+    /// Decoding of pictures.
     Pictures,
-    /// Placing meshes.
+    /// Placing of meshes.
     Meshes,
 }
 
-/// How far `load` is.
+/// Progress of `load`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// What is being done.
+    /// Current stage.
     pub stage: Stage,
-    /// Pictures or meshes that are ready.
+    /// Number of pictures or meshes that are ready.
     pub done: usize,
-    /// Pictures or meshes in all.
+    /// Total number of pictures or meshes.
     pub total: usize,
 }

@@ -1,8 +1,8 @@
-//! Spectra of materials and lights: `extras.spectrum`, which glTF leaves to us.
+//! Spectra of materials and lights: `extras.spectrum`, this program's own addition to glTF.
 //!
-//! A spectrum is one of `{"planck": K}`, `{"sampled": [[nm, value], …]}`, `{"sampled": "paint.csv"}`, `{"rgb": [r, g, b]}` and
-//! `{"gray": true}`; `"paint.csv"` and `"gray"` alone say the same. Someone who writes these by hand makes more than one mistake at a time,
-//! so all of a file's are collected and told together.
+//! A spectrum is one of `{"planck": K}`, `{"sampled": [[nm, value], …]}`, `{"sampled": "paint.csv"}`, `{"rgb": [r, g,
+//! b]}` and `{"gray": true}`; `"paint.csv"` and `"gray"` alone mean the same. Hand-written spectra often have more
+//! than one mistake, so all mistakes of a file are collected and reported together.
 
 use std::path::Path;
 
@@ -14,16 +14,16 @@ use serde_json::{Value, json};
 use super::container::Document;
 use super::error::{GltfError, SpectrumFault};
 
-/// What a spectrum may be.
+/// Keys of the kinds of spectra.
 const KINDS: [&str; 4] = ["planck", "sampled", "rgb", "gray"];
 
-/// Reads the spectra of a file and remembers what is wrong with them.
+/// Reader of a file's spectra, which collects their faults.
 pub(super) struct Spectra<'a> {
     document: &'a Document,
     faults: Vec<SpectrumFault>,
 }
 
-/// Keys below `spectrum`, and what is wrong there.
+/// Path of keys below `spectrum`, and the fault there.
 type Refusal = (&'static str, String);
 
 impl<'a> Spectra<'a> {
@@ -31,12 +31,12 @@ impl<'a> Spectra<'a> {
         Self { document, faults: Vec::new() }
     }
 
-    /// The spectrum in somebody's extras, if there is one and it is good.
+    /// Spectrum in an object's extras, if there is a valid one.
     pub(super) fn of_extras(&mut self, extras: &Extras, owner: &str) -> Option<Spectrum> {
         in_extras(extras).and_then(|value| self.read(&value, owner, "extras.spectrum"))
     }
 
-    /// A spectrum, if it is good; `key` is where in its owner it stands.
+    /// Spectrum, if it is valid; `key` is its place in its owner.
     pub(super) fn read(&mut self, value: &Value, owner: &str, key: &str) -> Option<Spectrum> {
         match self.parse(value) {
             Ok(spectrum) => Some(spectrum),
@@ -52,7 +52,7 @@ impl<'a> Spectra<'a> {
         self.faults.push(SpectrumFault { owner: owner.into(), key: key.into(), fault: fault.into() });
     }
 
-    /// Refuses the file if anything was wrong.
+    /// Refuses the file if any spectrum was invalid.
     pub(super) fn finish(self) -> Result<(), GltfError> {
         if self.faults.is_empty() {
             return Ok(());
@@ -107,7 +107,7 @@ impl<'a> Spectra<'a> {
         }
     }
 
-    /// Samples from a file beside the scene.
+    /// Spectrum from a table of samples in a file beside the scene.
     fn csv(&self, name: &str) -> Result<Spectrum, String> {
         if !is_csv(name) {
             return Err(format!("expected the name of a .csv file, not \"{name}\""));
@@ -127,13 +127,13 @@ impl<'a> Spectra<'a> {
     }
 }
 
-/// What stands under `spectrum` in extras, which may hold anything of anybody.
+/// Value of `spectrum` in extras, which may hold other programs' data too.
 pub(super) fn in_extras(extras: &Extras) -> Option<Value> {
     let value: Value = serde_json::from_str(extras.as_deref().map(RawValue::get)?).ok()?;
     value.get("spectrum").cloned()
 }
 
-/// A spectrum as it is read back to the bit.
+/// Spectrum as JSON that reads back the same to the bit.
 pub(crate) fn to_json(spectrum: &Spectrum) -> Value {
     match spectrum {
         Spectrum::Planck { kelvin } => json!({ "planck": kelvin }),
@@ -160,7 +160,8 @@ fn sample((index, value): (usize, &Value)) -> Result<[f64; 2], String> {
     numbers(value).ok_or_else(|| format!("expected a pair [nm, value], but sample {index} is {value}"))
 }
 
-/// The samples of a table `nm,value` with the lines, from 1, on which they stand. `#` begins a comment; the first line may be a heading.
+/// Samples of a table `nm,value`, each with the number of its line, from 1. `#` begins a comment; the first line may
+/// be a heading.
 fn samples_of_csv(text: &str) -> Result<Vec<(usize, [f64; 2])>, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let contents =
@@ -185,7 +186,8 @@ fn samples_of_csv(text: &str) -> Result<Vec<(usize, [f64; 2])>, String> {
 
 #[cfg(test)]
 mod tests {
-    //! A wrong reader of tables would take a heading for data or the other way round, lose a line, or point at the wrong one.
+    //! Laws under test: a heading is not data, no line is lost, and a fault is reported with its own line. A wrong
+    //! reader would take a heading for data or the reverse, lose a line, or name the wrong one.
 
     use super::super::container::stays_below;
     use super::*;

@@ -1,7 +1,7 @@
-//! The faces of a cube, laid out in one picture, to an equirectangular panorama.
+//! Cube maps: the faces of a cube, laid out in one picture, and their conversion to an equirectangular panorama.
 //!
-//! Each face is a picture as it is seen from the middle. Cube maps are left-handed: they call what is ahead +z and what is to the
-//! right +x. In this program ahead is −z, so z changes its sign on the way in, and nothing is seen in a mirror.
+//! Each face is a picture as seen from the middle. Cube maps are left-handed: ahead is +z and right is +x. In this
+//! program ahead is −z, so z changes its sign on reading, and the panorama is not mirrored.
 
 use std::f32::consts::{PI, TAU};
 
@@ -10,18 +10,18 @@ use rayon::prelude::*;
 
 use scene::Panorama;
 
-/// Pixels round the horizon for each along a face's edge: as many as there are on the four faces round it.
+/// Width of the panorama in face widths: four faces stand round the horizon.
 pub(super) const WIDTH_PER_SIDE: u32 = 4;
 
-/// How six faces lie in a picture.
+/// Layout of six faces in a picture.
 pub(super) struct Unfolding {
-    /// Faces across the picture.
+    /// Number of faces across the picture.
     pub(super) columns: u32,
-    /// Faces from its top to its bottom.
+    /// Number of faces from its top to its bottom.
     pub(super) rows: u32,
-    /// Column and row of right, left, up, down, ahead, behind: a cube map's +x, −x, +y, −y, +z, −z.
+    /// Column and row of the faces right, left, up, down, ahead, behind: a cube map's +x, −x, +y, −y, +z, −z.
     cells: [[u32; 2]; 6],
-    /// The face behind stands on its head, because it is joined to the lower one.
+    /// True if the face behind is upside down, because it is joined to the lower one.
     behind_turned: bool,
 }
 
@@ -34,7 +34,7 @@ const UNFOLDINGS: [Unfolding; 4] = [
 ];
 
 impl Unfolding {
-    /// The unfolding with these proportions.
+    /// Layout for these proportions.
     pub(super) fn of(width: u32, height: u32) -> Option<&'static Self> {
         UNFOLDINGS.iter().find(|Self { columns, rows, .. }| {
             let side = width / columns;
@@ -42,7 +42,7 @@ impl Unfolding {
         })
     }
 
-    /// The panorama, bilinear within each face.
+    /// Panorama of the faces, bilinear within each face.
     pub(super) fn equirectangular(&self, picture: &Panorama) -> Panorama {
         let side = picture.width / self.columns;
         let (width, height) = (WIDTH_PER_SIDE * side, WIDTH_PER_SIDE / 2 * side);
@@ -56,13 +56,14 @@ impl Unfolding {
         Panorama { width, height, rgb: directions.map(|direction| self.seen(picture, side, direction)).collect() }
     }
 
-    /// What is seen along a direction, world axes.
+    /// Radiance along a direction, world axes.
     fn seen(&self, picture: &Panorama, side: u32, direction: Vec3) -> [f32; 3] {
         let (face, [mut s, mut t]) = face(direction);
         if self.behind_turned && face == 5 {
             (s, t) = (1.0 - s, 1.0 - t);
         }
-        // Between the middles of pixels; their outer halves, at the edges of the face, have one neighbour less.
+        // Interpolate between the centres of pixels; beyond the outermost centres, at the edges of the face, the
+        // value is constant.
         let last = side - 1;
         let place = |share: f32| {
             let place = (share * side as f32 - 0.5).clamp(0.0, last as f32);
@@ -80,7 +81,8 @@ impl Unfolding {
     }
 }
 
-/// The face that a direction meets, and the place on it as shares from its left and from its top (OpenGL 4.6, table 8.19).
+/// Face that a direction meets, and the place on it as shares from its left and from its top (OpenGL 4.6, table
+/// 8.19).
 fn face(direction: Vec3) -> (usize, [f32; 2]) {
     let [x, y, z] = [direction.x, direction.y, -direction.z];
     let [across, up, along] = [x.abs(), y.abs(), z.abs()];

@@ -1,8 +1,9 @@
-//! A picture of everything around as a scene: PNG, JPEG, HDR (Radiance) or EXR.
+//! Panoramas: pictures of all directions as scenes, from PNG, JPEG, HDR (Radiance) or EXR.
 //!
-//! A picture twice as wide as high is equirectangular already; the shapes that cube maps come in (`cube`) are converted, so that
-//! everything behind knows one shape. PNG and JPEG are sRGB and become linear, HDR and EXR are linear and stay as they are.
-//! Sizes are known before anything is decoded; what is larger than graphics processors take is scaled down while it becomes linear.
+//! A picture twice as wide as high is equirectangular already; the layouts of cube maps (`cube`) are converted, so
+//! that all later code knows one layout. PNG and JPEG are sRGB and become linear; HDR and EXR are linear and stay
+//! unchanged. Sizes are checked before anything is decoded. Pictures larger than graphics processors take are scaled
+//! down while they become linear.
 
 mod cube;
 
@@ -17,80 +18,80 @@ use self::cube::Unfolding;
 use scene::mipmap::linear_from_srgb;
 use scene::{Lighting, Panorama, Scene};
 
-/// How the names of pictures end.
+/// File name endings of pictures.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 
-/// The widest panorama, in pixels: what graphics processors take.
+/// Largest width of a panorama, pixels: the limit of graphics processors.
 pub const MAX_WIDTH: u32 = 16384;
 
-/// The most bytes that a picture may have when decoded, before it is scaled down.
+/// Largest number of bytes of a decoded picture, before it is scaled down.
 const MAX_BYTES: u64 = 4 << 30;
 
-/// Stands for an infinite radiance: the largest half float, beyond which EXR files overflow.
+/// Replacement for an infinite radiance: the largest half float, beyond which EXR files overflow.
 const BRIGHTEST: f32 = 65504.0;
 
-/// Why a picture is no panorama. Every message says what is wrong, where, and what to do.
+/// Reason why a picture is no panorama. Every message says what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum PanoramaError {
-    /// The operating system refuses.
+    /// A picture that the operating system cannot read.
     #[error("cannot read {path}: {error}; check the name and the permissions")]
     Read {
-        /// The picture.
+        /// Path of the picture.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
-    /// Another format.
+    /// A file of another format.
     #[error("{path} is no picture that can be read; save it as PNG, JPEG, HDR (Radiance) or EXR")]
     Format {
-        /// The picture.
+        /// Path of the picture.
         path: PathBuf,
     },
-    /// Damaged, or of a kind that is not read.
+    /// A damaged picture, or one of an unsupported kind.
     #[error("{path} cannot be decoded: {fault}; save it again as PNG, JPEG, HDR (Radiance) or EXR")]
     Damaged {
-        /// The picture.
+        /// Path of the picture.
         path: PathBuf,
-        /// As the decoder says it.
+        /// Message of the decoder.
         fault: String,
     },
-    /// More than is worth decoding.
+    /// A picture that is too large to decode.
     #[error(
         "{path} would have {bytes} bytes when decoded, above {MAX_BYTES}; scale it down to {MAX_WIDTH} pixels in width"
     )]
     TooLarge {
-        /// The picture.
+        /// Path of the picture.
         path: PathBuf,
-        /// Its size.
+        /// Size of the decoded picture, bytes.
         bytes: u64,
     },
-    /// Not all around.
+    /// A picture that does not show all directions.
     #[error(
         "{path} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a cube \
          side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)"
     )]
     Shape {
-        /// The picture.
+        /// Path of the picture.
         path: PathBuf,
-        /// Pixels.
+        /// Width, pixels.
         width: u32,
-        /// Pixels.
+        /// Height, pixels.
         height: u32,
     },
 }
 
-/// Whether a file is a picture, by its name.
+/// True if a file is a picture, judged by its name.
 pub fn is_picture(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
-/// Reads a picture as a scene without meshes: a visitor hangs in its middle and looks at the middle of the picture.
+/// Loads a picture as a scene without meshes: the observer is in its middle and looks at the middle of the picture.
 ///
 /// # Errors
 /// [`PanoramaError`].
 pub fn load(path: &Path) -> Result<Scene, PanoramaError> {
     let cannot_read = |error| PanoramaError::Read { path: path.into(), error };
-    // A pipe would never come to an end.
+    // Only regular files are read: reading a pipe would never end.
     if !fs::metadata(path).map_err(cannot_read)?.is_file() {
         return Err(PanoramaError::Format { path: path.into() });
     }
@@ -105,7 +106,8 @@ pub fn load(path: &Path) -> Result<Scene, PanoramaError> {
     })
 }
 
-/// Reads a picture of any of the shapes above; `path` is for messages, `notice` takes what had to be changed.
+/// Decodes a picture of any of the shapes above. `path` is for messages; `notice` receives the changes that were
+/// needed.
 pub(super) fn decode(bytes: &[u8], path: &Path, notice: impl FnMut(String)) -> Result<Panorama, PanoramaError> {
     decode_up_to(MAX_WIDTH, bytes, path, notice)
 }
@@ -116,7 +118,7 @@ fn decode_up_to(
     path: &Path,
     mut notice: impl FnMut(String),
 ) -> Result<Panorama, PanoramaError> {
-    // Look at the size before decoding.
+    // Check the size before decoding.
     let damaged = |error: image::ImageError| PanoramaError::Damaged { path: path.into(), fault: error.to_string() };
     let format = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr | ImageFormat::OpenExr)) => format,
@@ -132,7 +134,7 @@ fn decode_up_to(
     let (width, height) = decoder.dimensions();
     let shape = Shape::of(width, height).ok_or_else(|| PanoramaError::Shape { path: path.into(), width, height })?;
 
-    // Decode, and make it linear and no larger than need be.
+    // Decode, make it linear, and reduce it if necessary.
     let image = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     let [target_width, target_height] = shape.reduced([width, height], max_width);
     let (picture, mended) = linear(image, [target_width, target_height]);
@@ -150,13 +152,13 @@ fn decode_up_to(
     })
 }
 
-/// Whether a picture is twice as wide as high, as nearly as stitchers make it.
+/// True if a picture is twice as wide as high, within 1 in 1000, as stitching programs make it.
 pub(super) fn is_equirectangular(width: u32, height: u32) -> bool {
     let (width, height) = (u64::from(width), u64::from(height));
     width > 0 && 1000 * width.abs_diff(2 * height) <= width
 }
 
-/// What a picture's proportions say it is.
+/// Layout of a picture, as its proportions show.
 #[derive(Clone, Copy)]
 enum Shape {
     Equirectangular,
@@ -171,7 +173,8 @@ impl Shape {
         Unfolding::of(width, height).map(Self::Cube)
     }
 
-    /// The size at which no panorama is wider than `max_width`: divided by a whole number, cubes face by face.
+    /// Size at which the panorama is not wider than `max_width`: the size divided by a whole number, for cubes face
+    /// by face.
     fn reduced(self, [width, height]: [u32; 2], max_width: u32) -> [u32; 2] {
         match self {
             Self::Equirectangular => {
@@ -187,7 +190,8 @@ impl Shape {
     }
 }
 
-/// A picture in linear light, each of its pixels the mean of those of `image` that it covers, and the number of values that no light has.
+/// Picture in linear light, each of its pixels the mean of the pixels of `image` that it covers, and the number of
+/// values that were not valid radiances.
 fn linear(image: DynamicImage, [width, height]: [u32; 2]) -> (Panorama, usize) {
     match image {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
@@ -213,7 +217,7 @@ fn linear(image: DynamicImage, [width, height]: [u32; 2]) -> (Panorama, usize) {
     }
 }
 
-/// Makes a radiance of any number; says whether that was needed.
+/// Makes a valid radiance of any number; true if a change was needed.
 fn mend(value: &mut f32) -> bool {
     let bad = !(value.is_finite() && *value >= 0.0);
     if bad {

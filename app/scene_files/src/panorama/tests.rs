@@ -1,5 +1,6 @@
-//! What is drawn in a picture is seen where it was meant: exactly for an equirectangular one, within the resolution of a face for
-//! cubes. A wrong reader would swap left and right, put the sky below, show sRGB numbers as light, or let a pixel of one face leak into another.
+//! Law under test: a thing drawn in a picture is seen in its intended direction, exactly for an equirectangular
+//! picture, within the resolution of a face for cubes. A wrong reader would swap left and right, put the sky below,
+//! show sRGB numbers as light, or let a pixel of one face leak into another.
 
 use std::f32::consts::PI;
 
@@ -10,11 +11,12 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 
-/// Bilinear interpolation of a smooth function over faces of [`SIDE`] pixels; at edges the outer half of a pixel is constant.
+/// Tolerance for bilinear interpolation of a smooth function over faces of [`SIDE`] pixels; at edges the outer half
+/// of a pixel is constant.
 const INTERPOLATION: f32 = 0.6 / SIDE as f32;
 const SIDE: u32 = 64;
 
-/// How many broken files are tried in each format.
+/// Number of broken files tried in each format.
 const BROKEN_FILES: usize = 500;
 
 fn encoded(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
@@ -29,7 +31,7 @@ fn read(bytes: &[u8]) -> (Panorama, Vec<String>) {
     (panorama, notices)
 }
 
-/// The pixel in which a direction lies.
+/// Value of the pixel in which a direction lies.
 fn along(panorama: &Panorama, direction: Vec3) -> [f32; 3] {
     let direction = direction.normalize();
     let u = direction.x.atan2(-direction.z) / (2.0 * PI) + 0.5;
@@ -38,12 +40,13 @@ fn along(panorama: &Panorama, direction: Vec3) -> [f32; 3] {
     panorama.rgb[(at(v, panorama.height) * panorama.width + at(u, panorama.width)) as usize]
 }
 
-/// A colour for every direction.
+/// Test colour for every direction.
 fn colour(direction: Vec3) -> [f32; 3] {
     (direction.normalize() * 0.4 + 0.5).to_array()
 }
 
-/// Faces as a painter in the middle would paint them, who looks along `ahead` with `up` above: right, left, up, down, ahead, behind.
+/// Faces painted as seen from the middle, looking along `ahead` with `up` above: right, left, up, down, ahead,
+/// behind.
 fn painted() -> Vec<Vec<[f32; 3]>> {
     let views = [
         (Vec3::X, Vec3::Y),
@@ -62,7 +65,7 @@ fn painted() -> Vec<Vec<[f32; 3]>> {
     views.into_iter().map(face).collect()
 }
 
-/// A picture with faces at these cells.
+/// Picture with the painted faces at these cells.
 fn laid_out(columns: u32, rows: u32, cells: [[u32; 2]; 6], behind_turned: bool) -> Rgb32FImage {
     let mut picture = Rgb32FImage::new(columns * SIDE, rows * SIDE);
     for (index, (face, [column, row])) in painted().into_iter().zip(cells).enumerate() {
@@ -79,7 +82,7 @@ fn laid_out(columns: u32, rows: u32, cells: [[u32; 2]; 6], behind_turned: bool) 
 
 #[test]
 fn codes_become_light_and_the_middle_is_ahead() {
-    // Left to right: behind, left, ahead, right, each half a column apart from where it begins.
+    // The columns from left to right are behind, left, ahead, right, each centred half a column after its beginning.
     let mut picture = RgbImage::new(4, 2);
     for (x, code) in [0, 64, 128, 255].into_iter().enumerate() {
         picture.put_pixel(x as u32, 0, image::Rgb([code; 3]));
@@ -100,7 +103,7 @@ fn linear_files_stay_as_they_are() {
     let (panorama, notices) = read(&encoded(picture.clone(), ImageFormat::OpenExr));
     assert_eq!(panorama.rgb.as_flattened(), values);
     assert!(notices.is_empty());
-    // A shared exponent and eight bits of mantissa.
+    // HDR has a shared exponent and eight bits of mantissa.
     let (panorama, _) = read(&encoded(picture, ImageFormat::Hdr));
     for (read, written) in panorama.rgb.iter().zip(values.as_chunks::<3>().0) {
         assert!((read[2] / written[2] - 1.0).abs() < 1.0 / 128.0, "{} is not {}", read[2], written[2]);
@@ -160,7 +163,7 @@ fn large_pictures_are_scaled_down_by_their_mean() {
     assert!((small.rgb.as_flattened().iter().sum::<f32>() / 54.0 - mean).abs() < 1e-6);
     assert!(notices[0].contains("12 × 6 pixels was scaled down to 6 × 3"), "{notices:?}");
 
-    // A cube is scaled face by face, and no panorama is wider than asked.
+    // A cube is scaled face by face, and the panorama is not wider than requested.
     let cube = laid_out(6, 1, std::array::from_fn(|face| [face as u32, 0]), false);
     let small = decode_up_to(100, &encoded(cube, ImageFormat::OpenExr), Path::new("x.exr"), |_| {}).unwrap();
     assert_eq!((small.width, small.height), (84, 42));

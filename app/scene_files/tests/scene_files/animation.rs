@@ -1,8 +1,8 @@
-//! Law: what a file's animations say is where its nodes are at each second of the world, under whatever hangs above them; what cannot be is refused
-//! in a sentence, and what is not shown is named.
+//! Law: a file's animations place its nodes at each second of the world, under all their parents. An impossible
+//! animation is refused in a sentence, and a part that is not shown is named.
 //!
-//! A wrong program shows: nodes that stand still, keys read in the wrong order, a child that forgets its parents, an animation that jumps back
-//! where it should go on, or a body faster than light.
+//! A wrong program shows nodes that stand still, keys read in the wrong order, a child that ignores its parents, an
+//! animation that jumps back where it should go on, or a body faster than light.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 mod scene_file;
@@ -16,10 +16,10 @@ use rapidity::scene::source;
 use scene_file::File;
 use serde_json::{Value, json};
 
-/// Metres a second: slower than light for all that moves here.
+/// Speed of light, m/s: faster than everything that moves here.
 const SPEED_OF_LIGHT: f64 = 20.0;
 
-/// Keys are f32.
+/// Tolerance, metres, for keys in f32.
 const ROUNDED: f64 = 1e-6;
 
 fn scalars(file: &mut File, values: &[f32]) -> usize {
@@ -27,7 +27,7 @@ fn scalars(file: &mut File, values: &[f32]) -> usize {
     file.accessor(&bytes, 5126, "SCALAR", values.len())
 }
 
-/// One more animation, of one channel.
+/// Adds an animation with one channel.
 fn animate(file: &mut File, node: usize, path: &str, interpolation: &str, times: &[f32], values: &[f32]) {
     let input = scalars(file, times);
     let output = file.floats(if path == "rotation" { "VEC4" } else { "VEC3" }, values);
@@ -41,7 +41,7 @@ fn animate(file: &mut File, node: usize, path: &str, interpolation: &str, times:
     }
 }
 
-/// A carousel: root 0 stands and is twice as large, 1 turns on it, 2 is moved on 1, 3 bears the triangle.
+/// Carousel: node 0 rests and is twice as large, 1 turns on it, 2 is moved on 1, 3 has the triangle.
 fn carousel() -> File {
     let mut file = File::triangle();
     file.json["scenes"][0]["nodes"] = json!([0]);
@@ -72,7 +72,7 @@ fn animated(scene: &Scene) -> &Animated {
     animated
 }
 
-/// World place of the triangle's first corner, seconds after the world began.
+/// World position of the triangle's first corner, `time_s` after the world's start.
 fn corner(scene: &Scene, time_s: f64) -> DVec3 {
     let pose = animated(scene).at(time_s * SPEED_OF_LIGHT);
     pose.position(scene.meshes[0].positions[0].as_dvec3())
@@ -89,7 +89,7 @@ fn a_carousel_turns_for_ever_under_its_parents() {
         let found = corner(&scene, time);
         assert!(found.distance(expected) < 10.0 * ROUNDED, "{found} {expected} at {time} s");
     }
-    // It passes 6 m from the axis, its furthest corner further.
+    // The triangle's node passes 6 m from the axis, its furthest corner further out.
     let report = Report::new(&scene).unwrap();
     assert!(report.moving[0].contains("\"carousel\"") && report.moving[0].contains("11.327"), "{:?}", report.moving);
     assert!(report.to_string().contains("moves       \"carousel\""));
@@ -98,12 +98,12 @@ fn a_carousel_turns_for_ever_under_its_parents() {
 #[test]
 fn a_chain_of_two_moves_as_both_say() {
     let mut file = carousel();
-    // In half a second into the third dimension and back: cubic, at rest at its keys.
+    // The horse rises by 1 along y in two seconds: cubic, at rest at its keys.
     let up = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     animate(&mut file, 2, "translation", "CUBICSPLINE", &[0.0, 2.0], &up);
     let scene = read(&file, SPEED_OF_LIGHT).unwrap();
     assert_eq!(animated(&scene).name, "horse");
-    // Half way the cubic is half way up; it stays at its end, since it does not end as it began.
+    // Half way in time the cubic is half way up; it stays at its end, since it does not end as it began.
     for (time, height) in [(-1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (50.0, 1.0)] {
         let (sine, cosine) = (std::f64::consts::FRAC_PI_2 * time).sin_cos();
         let expected = DVec3::new(10.0, 2.0 + 2.0 * height, 0.0) + 6.0 * DVec3::new(sine, 0.0, cosine);
@@ -118,7 +118,7 @@ fn what_would_be_faster_than_light_is_refused() {
     assert!(said.contains("scene.glb: carousel moves at 11.327"), "{said}");
     assert!(said.contains("s of its animation, and light at 9.000000 m/s"), "{said}");
     assert!(said.contains("slow the animation down, or raise --speed-of-light"), "{said}");
-    // By less than one part of a thousand faster it may.
+    // A speed below that of light by less than one part in a thousand is accepted.
     assert!(read(&carousel(), 11.33).is_ok());
 }
 

@@ -1,6 +1,6 @@
-//! Writing glTF: what is written is read back to the bit, here and by an independent reader.
+//! Law: a written glTF file is read back to the bit, here and by an independent reader.
 //!
-//! A wrong writer would lose a texture's wrapping, round an emission, forget where the street begins, or produce files that other
+//! A wrong writer would lose a texture's wrapping, round an emission, forget the start, or produce files that other
 //! programs refuse.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
@@ -16,7 +16,7 @@ use rapidity::scene::gltf::load;
 use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, Start, Texture, Wrap};
 use tempfile::TempDir;
 
-/// A scene in which everything differs from its default, with numbers that have no short decimal form.
+/// Scene in which everything differs from its default, with numbers that have no short decimal form.
 fn scene(origin: DVec3) -> Scene {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut mesh = |name: &str, material, solid| {
@@ -96,7 +96,7 @@ fn scene(origin: DVec3) -> Scene {
     }
 }
 
-/// A spectrum of a hundred samples of no short decimal form.
+/// Spectrum of a hundred samples with no short decimal form.
 fn measured(random: &mut ChaCha8Rng) -> Spectrum {
     let sample = |index| [300.0 + f64::from(index) + random.random::<f64>(), random.random::<f64>() * 1e13];
     Spectrum::sampled((0..100).map(sample).collect::<Vec<_>>()).unwrap()

@@ -1,7 +1,7 @@
-//! Reading glTF: what a file says is what stands in the scene.
+//! Law: the loaded scene is what the glTF file describes.
 //!
-//! A wrong loader would show mirrored parts inside out, lose millimetres far from the origin, or turn textures the wrong
-//! way round.
+//! A wrong loader would show mirrored parts inside out, lose millimetres far from the origin, or turn textures the
+//! wrong way round.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -61,7 +61,7 @@ fn what_moves_hangs_together_and_is_not_solid() {
     assert_eq!(motions, [Some(0), Some(0), Some(1), None]);
     assert_eq!(scene.meshes.iter().map(|mesh| mesh.solid).collect::<Vec<_>>(), [false, false, false, true]);
 
-    // Written and read again it moves as before.
+    // After writing and reading again it moves as before.
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("again.glb");
     write_glb(&scene, &path).unwrap();
@@ -101,7 +101,7 @@ fn incomplete_triangles_are_left_out_and_named() {
 #[test]
 fn transforms_compose_from_child_to_root() {
     let mut file = File::triangle();
-    // Root: moved by 10 along x. Child: turned by 90° about y (x goes to −z), then scaled by 2 before that.
+    // Root: moved by 10 along x. Child: scaled by 2, then turned by 90° about y (x goes to −z).
     let half = 0.5_f64.sqrt();
     file.json["nodes"] = json!([
         { "translation": [10, 0, 0], "children": [1] },
@@ -129,7 +129,7 @@ fn mirrored_nodes_are_not_inside_out() {
         let mut file = File::triangle();
         file.json["nodes"][0]["scale"] = json!(scale);
         let scene = file.scene();
-        // Front faces and normals stay together: both point where the mirrored +z does.
+        // Front faces and normals agree: both point along the mirrored +z.
         let expected = Vec3::Z * f32::signum(scale[2]);
         assert_eq!(face_normal(&scene, 0), expected, "scale {scale:?}");
         assert_eq!(scene.meshes[0].normals[0], expected, "scale {scale:?}");
@@ -158,7 +158,7 @@ fn flattened_nodes_keep_their_normal() {
 
 #[test]
 fn far_worlds_keep_their_millimetres() {
-    // A thousand kilometres away, f32 has steps of 6 cm.
+    // At a thousand kilometres, f32 has steps of 6 cm.
     let mut file = File::triangle();
     file.json["nodes"] = json!([
         { "translation": [1_000_000.125, -2_000_000.25, 3e9], "children": [1] },
@@ -182,7 +182,7 @@ fn near_worlds_keep_the_files_coordinates() {
 #[test]
 fn integers_become_numbers() {
     let mut file = File::triangle();
-    // Quantised positions as they are, normalised coordinates and colours as fractions.
+    // Quantised positions are used as they are, normalised coordinates and colours as fractions.
     let positions = file.accessor(&[0, 0, 0, 0, 9, 0, 0, 0, 0, 254, 0, 0], 5120, "VEC3", 3);
     let view = file.json["accessors"][positions]["bufferView"].as_u64().unwrap() as usize;
     file.json["bufferViews"][view]["byteStride"] = json!(4);
@@ -279,7 +279,7 @@ fn texture_transforms_are_baked() {
     let uvs = file.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
     file.attribute("TEXCOORD_1", uvs);
     let texture = file.texture(json!({}));
-    // A quarter turn counter-clockwise, with v downwards: u runs up.
+    // The transform is a quarter turn counter-clockwise, with v downwards: u runs up.
     let transform =
         json!({ "offset": [0.5, 0.25], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 3], "texCoord": 1 });
     let extensions = json!({ "KHR_texture_transform": transform });

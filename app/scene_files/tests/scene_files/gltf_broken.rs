@@ -1,8 +1,8 @@
-//! Files that are no scenes, or say so falsely: each ends in a sentence that names the file and the place, none in a panic
-//! or in more memory than a scene may have.
+//! Law: each file that is no scene, or lies about its contents, ends in a sentence that names the file and the place;
+//! none ends in a panic or in more memory than a scene may have.
 //!
-//! A wrong loader would believe an offset, a count or a picture's size before it has looked, walk in circles, or
-//! take half a file for a whole one.
+//! A wrong loader would believe an offset, a count or a picture's size without checking it, walk in circles, or take
+//! half a file for a whole one.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -17,7 +17,7 @@ use scene_file::{File, load_bytes, png, write};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// How many broken files are tried in each of two ways.
+/// Number of broken files tried in each of two ways.
 const BROKEN_FILES: usize = 2000;
 
 #[test]
@@ -96,7 +96,7 @@ fn contradictions_are_named_with_their_place() {
 
 #[test]
 fn a_bomb_of_instances_is_refused_before_it_goes_off() {
-    // Ten thousand nodes, each with a mesh whose ten thousand primitives share one accessor.
+    // The file has ten thousand nodes, each with a mesh whose ten thousand primitives share one accessor.
     let mut file = File::triangle();
     let primitive = file.primitive().clone();
     file.json["meshes"][0]["primitives"] = json!(vec![primitive; 10_000]);
@@ -122,14 +122,14 @@ fn a_picture_bomb_is_refused_before_it_is_decoded() {
     assert!(error.contains("65536 × 65536"), "{error}");
 }
 
-/// The checksum of PNG chunks (ISO 3309).
+/// Checksum of PNG chunks (ISO 3309).
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
     })
 }
 
-/// A file in which nearly everything that is read occurs.
+/// File that uses nearly everything that the loader reads.
 fn rich_file() -> File {
     let mut file = File::triangle();
     let normals = file.floats("VEC3", &[[0.0, 0.0, 1.0]; 3].concat());
@@ -167,7 +167,7 @@ fn rich_file() -> File {
     file
 }
 
-/// Loads what may be broken: any result will do if it is sound.
+/// Loads a file that may be broken; any valid scene or proper error will do. True if it loaded.
 fn survive(bytes: &[u8]) -> bool {
     match load_bytes(bytes) {
         Ok(scene) => {

@@ -1,7 +1,8 @@
-//! Spectra and light of a glTF file: what is written is what is meant, and whatever is not meant is told by file, owner, key and reason.
+//! Law: spectra and lights of a glTF file are read as written, and each mistake is reported by file, owner, key and
+//! reason.
 //!
-//! A wrong loader would swallow a misspelt key and show grey, read a wavelength from the wrong line, let the sun shine out of the ground,
-//! or stop at the first of five mistakes.
+//! A wrong loader would swallow a misspelt key and show grey, read a wavelength from the wrong line, let the sun
+//! shine out of the ground, or stop at the first of five mistakes.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -29,7 +30,7 @@ fn with_spectrum(spectrum: &Value) -> File {
     file
 }
 
-/// A triangle and lights, each at a node of its own.
+/// File with a triangle and lights, each at a node of its own.
 fn with_lights(lights: &[Value]) -> File {
     let mut file = File::triangle();
     file.json["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
@@ -44,7 +45,7 @@ fn ours(file: &mut File, extras: Value) {
     file.json["scenes"][0]["extras"] = json!({ "rapidity": extras });
 }
 
-/// A scene whose only material has its spectrum in this table beside it.
+/// Scene whose only material has its spectrum in this table beside it.
 fn with_table(table: &str) -> Result<Scene, GltfError> {
     let folder = TempDir::new().unwrap();
     write(&folder, "paint.csv", table.as_bytes());
@@ -151,7 +152,7 @@ fn a_directional_light_is_the_sun() {
     let mut file = with_lights(&[json!({
         "type": "directional", "color": [1, 0.5, 0.25], "intensity": PI, "extras": { "spectrum": { "planck": 5800 } },
     })]);
-    // The node turns its −z, along which the light goes, downwards: about x by −90°.
+    // The node turns its −z, along which the light travels, downwards: about x by −90°.
     let half = 0.5_f64.sqrt();
     file.json["nodes"][1]["rotation"] = json!([-half, 0, 0, half]);
     let scene = file.scene();

@@ -1,4 +1,4 @@
-//! glTF files under construction, byte by byte, so that each test's file says one thing.
+//! Test files: glTF under construction, byte by byte, so that each test's file differs in one thing.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 #![allow(dead_code, reason = "each test program uses its part of it")]
@@ -10,14 +10,14 @@ use rapidity::scene::gltf::{GltfError, load};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// A file under construction: JSON and the binary chunk that it refers to.
+/// File under construction: JSON and the binary chunk that it refers to.
 pub struct File {
     pub json: Value,
     pub blob: Vec<u8>,
 }
 
 impl File {
-    /// One triangle in the plane z = 0, at the only node.
+    /// File with one triangle in the plane z = 0, at the only node.
     pub fn triangle() -> Self {
         let mut file = Self {
             json: json!({
@@ -87,7 +87,7 @@ impl File {
         self.push("textures", json!({ "source": image, "sampler": sampler }))
     }
 
-    /// Appends to one of the JSON's lists.
+    /// Appends an item to one of the JSON's lists; returns its index.
     pub fn push(&mut self, list: &str, item: Value) -> usize {
         let list = &mut self.json[list];
         if list.is_null() {
@@ -120,7 +120,7 @@ impl File {
         scene
     }
 
-    /// The error's text, which must name the file.
+    /// Text of the error on loading, which must name the file.
     pub fn error(&self) -> String {
         let error = self.load().expect_err("this file is wrong").to_string();
         assert!(error.contains("scene.glb"), "{error}");

@@ -1,7 +1,7 @@
-//! The old town through what every scene goes through: a check, a file and back, refinement, a lap.
+//! Law: the old town passes every stage of a scene: a check, a file and back, refinement, a lap.
 //!
-//! A wrong loader or writer shows in a scene of hundreds of meshes what it hides in one of three, and a town with a hole in its
-//! street would not carry a bicycle.
+//! A scene of hundreds of meshes reveals faults of a loader or writer that one of three meshes hides. A town with a
+//! hole in its street would not carry a bicycle.
 
 use rapidity::scene::check::Report;
 use rapidity::scene::collision::Collision;
@@ -31,7 +31,7 @@ fn the_town_is_sound_and_survives_a_file() {
     let back = load(&path, |_| {}).unwrap();
     assert!(back == town, "a part is lost: {:?}", back.notices);
 
-    // Without a circuit, from which some edges look short enough, all are cut.
+    // A circuit would allow longer edges far from it; without one, all are cut.
     let anywhere = rapidity::scene::Scene { circuit: Vec::new(), ..town };
     let refined = refine(&anywhere, 4.0).unwrap();
     assert!(Report::new(&refined).unwrap().longest_edge <= 4.0);

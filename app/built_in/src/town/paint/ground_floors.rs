@@ -10,16 +10,16 @@ use crate::town::canvas::{Area, Canvas, chance, cloud, noise, smoothstep};
 /// Width of a bay and height of a ground floor, metres.
 const BAY: f32 = 2.4;
 const HEIGHT: f32 = 3.1;
-/// What a strip of ground floor covers.
+/// Size of a strip of ground floor, metres.
 pub(in crate::town) const STRIP: Vec2 = vec2(6.0 * BAY, HEIGHT);
-/// The bays of a ground floor.
+/// Indices of the bays of a ground floor.
 pub(in crate::town) const DOOR: usize = 0;
 pub(in crate::town) const GROUND_WINDOWS: [usize; 2] = [1, 4];
 pub(in crate::town) const SHOP: usize = 2;
 pub(in crate::town) const ARCH: usize = 3;
 pub(in crate::town) const BARE: usize = 5;
 
-/// What a ground floor is made of.
+/// Material of a ground floor's wall.
 #[derive(Clone, Copy, PartialEq)]
 enum Wall {
     Ashlar,
@@ -37,7 +37,7 @@ pub(in crate::town) struct GroundFloor {
     shutter: Vec3,
 }
 
-/// The ground floors of the town.
+/// Ground floors of the town.
 pub(in crate::town) const GROUND_FLOORS: [GroundFloor; 5] = [
     GroundFloor {
         wall: Wall::Ashlar,
@@ -71,7 +71,7 @@ pub(in crate::town) const GROUND_FLOORS: [GroundFloor; 5] = [
     },
 ];
 
-/// Paints a ground floor: a strip of six bays, bare wall where they meet.
+/// Paints a ground floor: a strip of six bays, with bare wall where they meet.
 pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
     let courses = ivec2(20, 9);
     let mut canvas = Canvas::new([2048, 512], STRIP, |p| {
@@ -79,7 +79,7 @@ pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
             Wall::Ashlar => ashlar_at(p, STRIP, courses, seed),
             Wall::Rubble => rubble_at(p, STRIP, seed),
             Wall::Plaster(colour) | Wall::Timbered(colour) => {
-                // Plaster comes off above the damp plinth.
+                // Plaster flakes off above the damp plinth.
                 let edge = 0.55 + 0.10 * noise(p * vec2(2.5, 1.0), ivec2(36, 40), seed + 2);
                 let plinth = ashlar_at(p, STRIP, courses, seed) * 0.92;
                 let damp = 1.0 - 0.14 * smoothstep(1.3, 0.5, p.y + 0.3 * cloud(p * 2.0, ivec2(29, 40), 2, seed + 1));
@@ -131,7 +131,7 @@ pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
     canvas
 }
 
-/// Posts and beams of a timbered ground floor, clear of doors and windows.
+/// Paints posts and beams of a timbered ground floor, clear of doors and windows.
 fn frame_bay(canvas: &mut Canvas, bay: usize, timber: Vec3, seed: u32) {
     let left = bay as f32 * BAY;
     let mut beams = vec![
@@ -149,7 +149,7 @@ fn frame_bay(canvas: &mut Canvas, bay: usize, timber: Vec3, seed: u32) {
     join(canvas, &beams, timber, seed);
 }
 
-/// Whether a point lies on a stroke of an unreadable inscription in letters of unit height.
+/// True if a point lies on a stroke of an unreadable inscription in letters of unit height.
 fn lettering(p: Vec2, seed: u32) -> bool {
     let letter = p.x.floor() as i32;
     let q = vec2(p.x - p.x.floor(), p.y);

@@ -4,20 +4,20 @@ use glam::{IVec2, Vec2, Vec3, ivec2, vec2, vec3};
 
 use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
 
-/// The stone of a course at a point.
+/// Stone of a course, as seen from a point.
 struct Stone {
-    /// Signed distance from its outline, negative inside, metres.
+    /// Signed distance of the point from its outline, negative inside, metres.
     distance: f32,
-    /// Position within it, −1…1 in both directions.
+    /// Position of the point within it, −1…1 in both directions.
     place: Vec2,
-    /// Which stone it is, for its own chances.
+    /// Identity of the stone, for its random numbers.
     id: IVec2,
 }
 
 /// Finds the stone at `p` in courses of stones with irregular joints.
 ///
-/// `cells` are stones along and courses up a repetition of `tile` metres; `jitter` is how far a joint strays, as a share of
-/// a stone; `round` is the radius of corners in metres.
+/// `cells` are the numbers of stones along and of courses up a repetition of `tile` metres. `jitter` is the largest
+/// shift of a joint, as a share of a stone. `round` is the radius of corners in metres.
 fn course(p: Vec2, tile: Vec2, cells: IVec2, jitter: f32, round: f32, gap: f32, seed: u32) -> Stone {
     let cell = tile / cells.as_vec2();
     let row = (p.y / cell.y).floor() as i32;
@@ -43,13 +43,13 @@ fn course(p: Vec2, tile: Vec2, cells: IVec2, jitter: f32, round: f32, gap: f32, 
     Stone { distance, place: offset / half, id: ivec2(column.rem_euclid(cells.x), wrapped_row) }
 }
 
-/// The relief of a rounded stone as a factor on its colour: bright on top, darker down its sides.
+/// Relief of a rounded stone as a factor on its colour: bright on top, darker down its sides.
 fn dome(stone: &Stone, edge: f32) -> f32 {
     let depth = smoothstep(0.0, edge, -stone.distance);
     0.62 + 0.38 * depth + 0.07 * (stone.place.y - 0.5 * stone.place.x) * (1.0 - 0.5 * depth)
 }
 
-/// Street cobbles in rows across the way.
+/// Paints street cobbles in rows across the way.
 pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let wobble = vec2(noise(p * 4.0, ivec2(20, 20), seed), noise(p * 4.0, ivec2(20, 20), seed + 9)) * 0.012;
@@ -68,7 +68,7 @@ pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Can
     })
 }
 
-/// Small setts laid in overlapping arcs, as on market squares.
+/// Paints small setts laid in overlapping arcs, as on market squares.
 pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     // Width of an arc, and its rise as a share of that.
     const SPAN: f32 = 1.44;
@@ -77,7 +77,7 @@ pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
     Canvas::new(pixels, tile, |p| {
         let column = (p.x / SPAN).floor();
         let across = p.x - (column + 0.5) * SPAN;
-        // Rings of a circle about the middle of the column, cut off at its sides.
+        // Rings are arcs of a circle about the middle of the column, cut off at its sides.
         let rise = RISE * SPAN * (1.0 - (across / (0.5 * SPAN)).powi(2));
         let rings = (tile.y / 0.1).round() as i32;
         let ring = tile.y / rings as f32;
@@ -104,7 +104,7 @@ pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Pavement slabs.
+/// Paints pavement slabs.
 pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(5, 8), 0.5, 0.012, 0.014, seed);
@@ -117,7 +117,7 @@ pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Squared sandstone in courses.
+/// Paints squared sandstone in courses.
 pub(in crate::town) fn ashlar(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| ashlar_at(p, tile, ivec2(6, 11), seed))
 }
@@ -142,7 +142,7 @@ pub(super) fn ashlar_at(p: Vec2, tile: Vec2, cells: IVec2, seed: u32) -> Vec3 {
     vec3(0.50, 0.46, 0.39).lerp(top, smoothstep(0.003, -0.003, stone.distance))
 }
 
-/// Irregular fieldstones in mortar.
+/// Paints irregular fieldstones in mortar.
 pub(in crate::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| rubble_at(p, tile, seed))
 }
@@ -179,7 +179,7 @@ pub(super) fn rubble_at(p: Vec2, tile: Vec2, seed: u32) -> Vec3 {
     (vec3(0.60, 0.56, 0.48) * (0.72 + 0.1 * own)).lerp(top, smoothstep(0.06, 0.13, second - first))
 }
 
-/// Lime plaster, nearly white, to be tinted.
+/// Paints lime plaster, nearly white, to be tinted.
 pub(in crate::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| Vec3::splat(0.92) * plaster_at(p, tile, seed))
 }
@@ -198,12 +198,12 @@ pub(super) fn plaster_at(p: Vec2, tile: Vec2, seed: u32) -> f32 {
             )
 }
 
-/// Beaver-tail roof tiles, each course overlapping the one below.
+/// Paints beaver-tail roof tiles, each course overlapping the one below.
 pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     let cells = ivec2(24, 27);
     let cell = tile / cells.as_vec2();
     Canvas::new(pixels, tile, |p| {
-        // The tail of the course above hangs into this one where its rounded end reaches.
+        // The rounded tail of the course above hangs into this one.
         let place = |row: f32| {
             let wrapped = (row as i32).rem_euclid(cells.y);
             let x = p.x / cell.x + 0.5 * (wrapped % 2) as f32 + 0.1 * (chance(wrapped, 5, seed) - 0.5);
@@ -215,7 +215,7 @@ pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
         };
         let row = (p.y / cell.y).floor();
         let (mut at, mut id) = place(row);
-        // Below the rounded end of this course's tile one sees the course underneath.
+        // The course underneath shows below the rounded end of this course's tile.
         let round = |at: Vec2| at.y + 1.0 - 0.55 * (1.0 - (1.0 - at.x * at.x).max(0.0).sqrt());
         let mut under = 0.0;
         if round(at) < 0.0 {
@@ -238,7 +238,7 @@ pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Slates for spires.
+/// Paints slates for spires.
 pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(14, 18), 0.25, 0.03, 0.008, seed);
@@ -249,7 +249,7 @@ pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Weathered boards running up the picture.
+/// Paints weathered boards running up the picture.
 pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let board = (p.x / 0.2).floor();
@@ -262,7 +262,7 @@ pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canv
     })
 }
 
-/// Staves of a barrel with four hoops, from its foot to its rim.
+/// Paints staves of a barrel with four hoops, from its foot to its rim.
 pub(in crate::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, tile, |p| {
         let q = p / tile;

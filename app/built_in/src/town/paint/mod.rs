@@ -1,4 +1,4 @@
-//! The town's painters: each paints pictures of one craft.
+//! Painters of the town's pictures, one module for each craft.
 
 pub(super) mod ground_floors;
 pub(super) mod masonry;

@@ -1,13 +1,15 @@
-//! Leaves, flowers, grass, water, fruit.
+//! Pictures of leaves, flowers, grass, water and fruit.
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
 use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
 use crate::turn::circle;
 
-/// The topmost of many scattered things at a point: `layers` sheets of them, each on a jittered lattice of `cells` per unit.
+/// Topmost of many scattered things at a point: `layers` sheets of them, each on a jittered lattice of `cells` per
+/// unit.
 ///
-/// `outline` gives the signed distance in units of the thing's own size, for a place in −1…1 turned its own way.
+/// The closure `outline` gives the signed distance in units of the thing's own size, for a place in −1…1 turned with
+/// the thing.
 fn scatter(p: Vec2, cells: f32, layers: u32, seed: u32, outline: impl Fn(Vec2) -> f32) -> Option<(f32, Vec2, f32)> {
     for layer in (0..layers).rev() {
         let q = p * cells + 0.37 * layer as f32;
@@ -29,12 +31,12 @@ fn scatter(p: Vec2, cells: f32, layers: u32, seed: u32, outline: impl Fn(Vec2) -
     None
 }
 
-/// Shape of a leaf: two arcs that meet at its ends.
+/// Signed distance from the outline of a leaf: two arcs that meet at its ends.
 fn leaf(p: Vec2) -> f32 {
     p.y.abs() - 0.42 * (1.0 - p.x * p.x)
 }
 
-/// A spray of foliage in a unit square; nothing between the leaves.
+/// Paints a spray of foliage in a unit square, transparent between the leaves.
 pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
@@ -50,7 +52,7 @@ pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
     })
 }
 
-/// A hanging mat of ivy.
+/// Paints a hanging mat of ivy.
 pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
@@ -65,7 +67,7 @@ pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas 
     })
 }
 
-/// Geraniums and their leaves over the edge of a box, in a unit square that is full below and ragged above.
+/// Paints geraniums and their leaves over the edge of a box, in a unit square that is full below and ragged above.
 pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::with_opacity(pixels, size, |at| {
         let p = at / size;
@@ -93,7 +95,7 @@ pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Can
     })
 }
 
-/// Grass seen from above.
+/// Paints grass seen from above.
 pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let broad = cloud(p / 1.5, ivec2(6, 6), 4, seed);
@@ -103,7 +105,7 @@ pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Wooded slopes seen from afar.
+/// Paints wooded slopes seen from afar.
 pub(in crate::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let crowns = noise(p * 0.2, ivec2(12, 12), seed) * 0.5 + noise(p * 0.6, ivec2(36, 36), seed + 1);
@@ -111,7 +113,7 @@ pub(in crate::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Rippled water that mirrors the sky.
+/// Paints rippled water that mirrors the sky.
 pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let ripple =
@@ -120,7 +122,7 @@ pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Bark of a lime tree.
+/// Paints bark of a lime tree.
 pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     Canvas::new(pixels, size, |p| {
         let ridge =
@@ -129,7 +131,7 @@ pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas
     })
 }
 
-/// Heaps of fruit and vegetables, four kinds side by side in a unit square.
+/// Paints heaps of fruit and vegetables, four kinds side by side in a unit square.
 pub(in crate::town) fn produce(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     const KINDS: [[Vec3; 2]; 4] = [
         [vec3(0.72, 0.13, 0.10), vec3(0.80, 0.34, 0.14)],

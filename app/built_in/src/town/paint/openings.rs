@@ -1,20 +1,20 @@
-//! Windows, shutters and doors.
+//! Openings: windows, shutters and doors.
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
 
-/// A window to be painted.
+/// Style and place of a window.
 pub(super) struct Window {
     pub(super) opening: Area,
     /// Colour of frame and glazing bars.
     pub(super) frame: Vec3,
-    /// Colour of a stone surround.
+    /// Colour of a stone surround; `None` for no surround.
     pub(super) surround: Option<Vec3>,
-    /// Colour of open shutters on both sides.
+    /// Colour of open shutters on both sides; `None` for no shutters.
     pub(super) shutter: Option<Vec3>,
     pub(super) casements: u32,
-    /// Panes above one another.
+    /// Number of panes above one another.
     pub(super) rows: u32,
     pub(super) arched: bool,
 }
@@ -25,7 +25,7 @@ impl Window {
     }
 }
 
-/// Paints a window with its shutters, surround, frame, bars and what glass shows by day.
+/// Paints a window with its shutters, surround, frame, bars and the look of its glass by day.
 pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
     let opening = window.opening;
     let extent = opening.extent();
@@ -45,7 +45,7 @@ pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
             stone * grit * (0.86 + 0.14 * smoothstep(0.0, 0.02, -d))
         },
     );
-    // The reveal lies in shade, most of all under the lintel.
+    // The reveal lies in shade, deepest under the lintel.
     canvas.fill(
         opening,
         |p| window.distance(opening, p),
@@ -53,7 +53,7 @@ pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
     );
     let glass = opening.grown(-0.025);
     let glazing = |p: Vec2| {
-        // What lies behind: a dark room, pale curtains at the sides, the sky mirrored above.
+        // Behind the glass: a dark room, pale curtains at the sides; the sky is mirrored above.
         let q = (p - glass.low) / glass.extent();
         let tilt = chance((q.x * window.casements as f32) as i32, (q.y * window.rows as f32) as i32, seed + 3);
         let room = vec3(0.13, 0.15, 0.18) * (0.9 + 0.3 * tilt);
@@ -74,7 +74,7 @@ pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
             glazing(p) * shade
         },
     );
-    // Frame and glazing bars, as the distance from the nearest of them.
+    // Distance from the nearest of frame and glazing bars.
     let size = glass.extent();
     let bars = |p: Vec2| {
         let q = p - glass.low;
@@ -92,13 +92,13 @@ pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
             window.frame * (0.80 + 0.20 * smoothstep(0.0, 0.014, -d)) * lintel
         },
     );
-    // The sill throws a little shade.
+    // The sill casts a little shade.
     let sill = Area::new(opening.low.x - 0.1, opening.low.y - 0.09, extent.x + 0.2, 0.07);
     canvas.halo(sill, 0.05, 0.3);
     canvas.fill(sill, |p| sill.distance(p), |p, _| stone * (0.85 + 0.2 * smoothstep(sill.low.y, sill.high.y, p.y)));
 }
 
-/// A louvred shutter.
+/// Paints a louvred shutter.
 fn shutter(canvas: &mut Canvas, area: Area, colour: Vec3) {
     canvas.halo(area, 0.05, 0.35);
     canvas.fill(
@@ -119,17 +119,17 @@ fn shutter(canvas: &mut Canvas, area: Area, colour: Vec3) {
     );
 }
 
-/// A door to be painted.
+/// Style and place of a door.
 pub(super) struct Door {
     pub(super) opening: Area,
     /// Colours of the surround and of the leaves.
     pub(super) stone: Vec3,
     pub(super) colour: Vec3,
-    /// Round-arched and with two leaves.
+    /// True if the door is round-arched and has two leaves.
     pub(super) arched: bool,
 }
 
-/// A door of boards and panels in a stone surround.
+/// Paints a door of boards and panels in a stone surround.
 pub(super) fn door(canvas: &mut Canvas, door: &Door, seed: u32) {
     let Door { opening, arched, .. } = *door;
     let outline = |area: Area, p: Vec2| {

@@ -1,11 +1,11 @@
-//! What is painted to be read: clock faces, guild signs; and the stripes of awnings.
+//! Signs: clock faces and guild signs; also the stripes of awnings.
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
 use crate::town::canvas::{Area, Canvas, ENDLESS, cloud, noise, smoothstep};
 use crate::turn::circle;
 
-/// A clock face that fills a unit square: gilt hours on blue, hands at twenty to eleven.
+/// Paints a clock face that fills a unit square: gilt hours on blue, hands at twenty to eleven.
 pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     let hand = |p: Vec2, turns: f32, length: f32, width: f32| {
         let c = circle(turns);
@@ -36,7 +36,7 @@ pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
     })
 }
 
-/// Striped cloth, four kinds above one another, two stripes of each per metre.
+/// Paints striped cloth, four kinds above one another, two stripes of each per metre.
 pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     const STRIPES: [Vec3; 4] =
         [vec3(0.66, 0.17, 0.14), vec3(0.20, 0.40, 0.27), vec3(0.22, 0.33, 0.55), vec3(0.80, 0.58, 0.20)];
@@ -49,7 +49,7 @@ pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
     })
 }
 
-/// Guild signs, four by four in a unit square.
+/// Paints guild signs, four by four in a unit square.
 pub(in crate::town) fn signs(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     const GROUNDS: [Vec3; 4] =
         [vec3(0.14, 0.26, 0.19), vec3(0.42, 0.12, 0.10), vec3(0.13, 0.19, 0.36), vec3(0.86, 0.80, 0.66)];

@@ -1,7 +1,7 @@
 //! Storeys of house fronts: half-timber with its braces and windows, and plain plaster with shutters.
 //!
-//! A picture is a strip of six bays that repeats sideways. Every bay begins and ends in the middle of a post (or in bare
-//! plaster), so that a front may be put together from any bays in any order.
+//! A picture is a strip of six bays that repeats sideways. Every bay begins and ends in the middle of a post (or in
+//! bare plaster), so that a front may be assembled from any bays in any order.
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
@@ -9,25 +9,25 @@ use super::masonry::plaster_at;
 use super::openings::{Window, window};
 use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
 
-/// Bays of a strip.
+/// Number of bays in a strip.
 pub(in crate::town) const BAYS: usize = 6;
 /// Width of a bay and height of a storey, metres.
 const BAY: f32 = 2.4;
 const HEIGHT: f32 = 2.7;
-/// What a strip covers.
+/// Size of a strip, metres.
 pub(in crate::town) const STRIP: Vec2 = vec2(BAY * BAYS as f32, HEIGHT);
-/// Bays with a window, and without.
+/// Indices of bays with a window, and of bays without.
 pub(in crate::town) const WINDOWS: [usize; 4] = [0, 1, 3, 4];
 pub(in crate::town) const BLIND: [usize; 2] = [2, 5];
 
-/// Colours of a front.
+/// Colours and style of a front.
 pub(in crate::town) struct Front {
     plaster: Vec3,
-    /// None for a front that is plastered all over.
+    /// Colour of the timber; `None` for a front that is plastered all over.
     timber: Option<Vec3>,
     frame: Vec3,
     shutter: Option<Vec3>,
-    /// Which braces it favours.
+    /// Number that selects the kind of braces.
     manner: u32,
 }
 
@@ -37,13 +37,13 @@ const RED: Vec3 = vec3(0.47, 0.17, 0.13);
 const GREY: Vec3 = vec3(0.40, 0.36, 0.33);
 const WHITE: Vec3 = vec3(0.90, 0.88, 0.83);
 
-/// How many fronts houses choose from; the town hall's comes after them.
+/// Number of fronts that houses choose from; the town hall's comes after them.
 pub(in crate::town) const HOUSE_FRONTS: usize = 8;
 pub(in crate::town) const TOWN_HALL: usize = 8;
-/// Width of a window with its frame in the second bay, and the heights it lies between, metres.
+/// Width of a window with its frame in the second bay, and the heights of its lower and upper edge, metres.
 pub(in crate::town) const WINDOW_OUTLINE: [f32; 3] = [1.34, 0.83, 2.32];
 
-/// The fronts of the town.
+/// Fronts of the town.
 pub(in crate::town) const FRONTS: [Front; 9] = [
     Front {
         plaster: vec3(0.91, 0.86, 0.74),
@@ -105,24 +105,24 @@ pub(in crate::town) const FRONTS: [Front; 9] = [
 ];
 
 impl Front {
-    /// sRGB colour of the plaster, for walls that have no picture of their own.
+    /// Colour of the plaster (sRGB), for walls that have no picture of their own.
     pub(in crate::town) fn plaster(&self) -> Vec3 {
         self.plaster
     }
 
-    /// Whether it shows timber.
+    /// True if the front shows timber.
     pub(in crate::town) fn is_timbered(&self) -> bool {
         self.timber.is_some()
     }
 }
 
-/// A piece of timber.
+/// Piece of timber.
 #[derive(Clone, Copy)]
 pub(super) struct Beam {
     from: Vec2,
     to: Vec2,
     width: f32,
-    /// How far its middle bends to the left of the way from `from` to `to`.
+    /// Distance by which its middle bends to the left of the way from `from` to `to`, metres.
     bow: f32,
 }
 
@@ -143,7 +143,7 @@ impl Beam {
         Area { low: self.from.min(self.to), high: self.from.max(self.to) }.grown(self.width + self.bow.abs())
     }
 
-    /// Signed distance from its outline and place along and across it, metres.
+    /// Signed distance of a point from its outline, and the point's place along and across it, metres.
     fn locate(&self, p: Vec2) -> (f32, Vec2) {
         let axis = self.to - self.from;
         let length = axis.length();
@@ -155,7 +155,7 @@ impl Beam {
     }
 }
 
-/// Paints beams onto a wall: first the shade they throw, then the wood.
+/// Paints beams onto a wall: first their shade, then the wood.
 pub(super) fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32) {
     for beam in beams {
         canvas.darken(beam.area().grown(0.06), |p| {
@@ -199,7 +199,7 @@ pub(in crate::town) fn front(style: &Front, seed: u32) -> Canvas {
             windows(&mut canvas, style, bay, left, seed + bay as u32);
         }
     }
-    // What overhangs keeps light and rain away from the upper edge; the lower edge is soiled.
+    // The overhang above keeps light and rain away from the upper edge; the lower edge is soiled.
     let whole = Area { low: Vec2::ZERO, high: STRIP };
     canvas.darken(whole, |p| {
         (1.0 - 0.38 * smoothstep(HEIGHT - 0.55, HEIGHT, p.y)) * (1.0 - 0.10 * smoothstep(0.25, 0.0, p.y))
@@ -207,7 +207,7 @@ pub(in crate::town) fn front(style: &Front, seed: u32) -> Canvas {
     canvas
 }
 
-/// Height of the rail under the windows and of the one above.
+/// Heights of the rail under the windows and of the one above, metres.
 const SILL: f32 = 0.92;
 const HEAD: f32 = 2.22;
 
@@ -231,7 +231,7 @@ fn skeleton(bay: usize) -> Vec<Beam> {
     beams
 }
 
-/// The braces of a bay.
+/// Braces of a bay.
 fn braces(bay: usize, manner: u32) -> Vec<Beam> {
     let (low, rail) = (0.2, SILL - 0.1);
     let (left, right) = (BAY / 2.0 - 0.62, BAY / 2.0 + 0.62);
@@ -259,7 +259,7 @@ fn braces(bay: usize, manner: u32) -> Vec<Beam> {
             beam(left, low, BAY / 2.0, rail, 0.12).bowed(0.10),
             beam(right, low, BAY / 2.0, rail, 0.12).bowed(-0.10),
         ],
-        // The wild man: long struts from the foot of a post and short ones to its head.
+        // Wild man: long struts from the foot of a post and short ones to its head.
         (2, 0) | (5, 1) => vec![
             beam(BAY / 2.0, 0.1, BAY / 2.0, HEIGHT - 0.1, 0.18),
             beam(0.25, low, BAY / 2.0, 1.9, 0.14).bowed(0.08),
@@ -286,7 +286,7 @@ fn braces(bay: usize, manner: u32) -> Vec<Beam> {
     }
 }
 
-/// A moulding below the upper edge of a plastered storey.
+/// Paints a moulding at the lower edge of a plastered storey.
 fn cornice(canvas: &mut Canvas, left: f32, plaster: Vec3) {
     let band = Area::new(left, 0.0, BAY, 0.16);
     canvas.darken(band.grown(0.05), |p| 1.0 - 0.22 * smoothstep(0.05, 0.0, band.distance(p)));
@@ -300,7 +300,7 @@ fn cornice(canvas: &mut Canvas, left: f32, plaster: Vec3) {
     );
 }
 
-/// The window of a bay.
+/// Paints the windows of a bay.
 fn windows(canvas: &mut Canvas, style: &Front, bay: usize, left: f32, seed: u32) {
     let centre = left + BAY / 2.0;
     let plastered = style.timber.is_none();

@@ -1,4 +1,4 @@
-//! The church's windows and its portal.
+//! Windows and portal of the church.
 
 use glam::{Vec2, ivec2, vec2, vec3};
 
@@ -6,14 +6,14 @@ use super::masonry::ashlar_at;
 use super::openings::{Door, door};
 use crate::town::canvas::{Area, Canvas, chance, smoothstep};
 
-/// What a church window covers.
+/// Size of a church window, metres.
 pub(in crate::town) const LANCET: Vec2 = vec2(1.6, 4.2);
 
-/// A pointed church window with tracery; outside its outline there is nothing.
+/// Paints a pointed church window with tracery; outside its outline the picture is transparent.
 pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     let half = size.x / 2.0;
     let pointed = move |p: Vec2, inset: f32| {
-        // Two circles about the opposite springers.
+        // The point is made of two circles about the opposite springers.
         let x = (p.x - half).abs();
         let radius = 2.0 * half;
         let spring = size.y - radius * 0.866;
@@ -43,10 +43,10 @@ pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
     canvas
 }
 
-/// What the church's portal covers.
+/// Size of the church's portal, metres.
 pub(in crate::town) const PORTAL: Vec2 = vec2(3.6, 4.4);
 
-/// A stepped round portal with a double door.
+/// Paints a stepped round portal with a double door.
 pub(in crate::town) fn portal(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
     let opening = Area::new(0.8, 0.0, 2.0, 3.1);
     let mut canvas = Canvas::new(pixels, size, |p| {
