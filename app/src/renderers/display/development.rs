@@ -97,7 +97,8 @@ impl FromStr for Exposure {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 #[repr(u32)]
 pub enum Tone {
-    /// L (1 + L/w²) / (1 + L): the brightest gain, w, is white; linear while nothing is brighter than at rest (Reinhard et al. 2002, eq. 4)
+    /// L (1 + L/w²) / (1 + L): the brightest gain, w, is white; linear while nothing is brighter than at rest
+    /// (Reinhard et al. 2002, eq. 4)
     #[default]
     Reinhard = shaders::TONE_REINHARD,
     /// L: what is brighter than white is white

@@ -1,18 +1,21 @@
-//! The reference: one ray of light for every sample of every pixel, followed back to where it came from (W 5.2).
+//! The reference renderer: one ray of light for every sample of every pixel, followed back to its source (W 5.2).
 //!
-//! A pixel is a direction in the observer's frame. Aberration takes it to the frame of whatever it may meet, in f64 and without any
-//! approximation: to the world's for what rests there, to its own for each group of meshes that moves uniformly. In that frame nothing moves, so light
-//! travels along a straight line from a body that is where it always was, and a hierarchy of boxes finds the first triangle on the
-//! way (`hits`). What is met in several frames is compared by its distance in the observer's, which along one sight line also orders the
-//! times at which the light left. The surface there sends out what its material, sun and sky make it send out in its own frame
-//! (`surface`); the observer sees it shifted and brightened (`light`).
+//! A pixel is a direction in the observer's frame. Aberration takes it, in f64 and without approximation, to the
+//! frame of everything that it may meet: the world's for what rests there, its own for each group of meshes that
+//! moves uniformly. In that frame nothing moves. So light travels along a straight line from a body that does not
+//! change its place, and a hierarchy of boxes finds the first triangle on the way (`hits`). Hits in several frames
+//! are compared by their distance in the observer's frame, which along one sight line also orders the times at which
+//! the light left. The surface there emits what its material, sun and sky make it emit in its own frame (`surface`);
+//! the observer sees it shifted and brightened (`light`).
 //!
-//! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`); a lens and a shutter spread a pixel's rays over places and
-//! moments (`lens`).
+//! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`). A lens and a shutter spread a
+//! pixel's rays over places and moments (`lens`).
 //!
-//! What is animated rests in no frame: in its own a ray is a curve, which is followed where the body is (`curve`).
+//! Animated bodies rest in no frame. In the body's own frame a ray is a curve, which is followed near the body
+//! (`curve`).
 //!
-//! Edges bend by themselves, and no triangle is cut. It is slow, and right: what the other renderers draw is held against it.
+//! Edges bend without any cut of triangles. The tracer is slow and exact: the pictures of the other renderers are
+//! compared with its pictures.
 
 mod curve;
 mod finish;
@@ -40,10 +43,10 @@ use surface::Surfaces;
 pub use hits::Place;
 pub use lens::{Lens, Optics};
 
-/// Pixels along each side of what is traced in one go.
+/// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
 
-/// A scene, ready to be traced.
+/// A scene that is ready to be traced.
 pub struct RayTracer {
     surfaces: Surfaces,
     bodies: Bodies,
@@ -53,25 +56,25 @@ pub struct RayTracer {
     bounces: u32,
 }
 
-/// What was traced: rows from the top; black where nothing was.
+/// Result of tracing, rows from the top. Pixels that were not traced are black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Linear sRGB in cd/m².
+    /// Light of each pixel, linear sRGB in cd/m².
     pub light: Vec<DVec3>,
-    /// Luminance without any shift, relative to white.
+    /// Luminance of each pixel without any shift, relative to white.
     pub at_rest: Vec<f64>,
-    /// How the display is to take it.
+    /// Scale of the radiance, for the display.
     pub stored: Stored,
-    /// Tiles that are finished.
+    /// Number of tiles that are finished.
     pub done: usize,
-    /// Tiles of the whole picture.
+    /// Number of tiles of the whole picture.
     pub tiles: usize,
 }
 
 impl Traced {
-    /// The light as 32-bit floats; what those do not hold is their largest value.
+    /// Light as 32-bit floats. Values beyond the range of f32 become its largest value.
     pub fn image(&self) -> Rgb32FImage {
         let largest = f64::from(f32::MAX);
         Rgb32FImage::from_fn(self.size[0], self.size[1], |column, row| {
@@ -80,7 +83,7 @@ impl Traced {
         })
     }
 
-    /// The same as the renderers' targets hold it: relative to white, scaled, with the luminance at rest.
+    /// Light in the form of the renderers' targets: relative to white, scaled, with the luminance at rest as alpha.
     pub fn texels(&self) -> Vec<[f32; 4]> {
         let largest = f64::from(f32::MAX);
         let factor = self.stored.scale / self.stored.white;
@@ -91,8 +94,8 @@ impl Traced {
 }
 
 impl RayTracer {
-    /// Sorts the scene. `background`: linear radiance instead of its sky. `exact_light`: integrate the spectrum of every ray instead of
-    /// looking it up in the shift table.
+    /// Sorts the scene's triangles. `background` is a linear radiance that replaces the sky. If `exact_light` is
+    /// true, the spectrum of every ray is integrated instead of looked up in the shift table.
     ///
     /// # Errors
     /// [`SceneFault`] if the scene breaks a promise of its types.
@@ -105,13 +108,13 @@ impl RayTracer {
         Ok(Self { surfaces, bodies, light, background, optics: Optics::default(), bounces: 0 })
     }
 
-    /// The same through a lens, or with a shutter that is open for a while.
+    /// Tracer with this lens and shutter.
     #[must_use]
     pub fn with_optics(self, optics: Optics) -> Self {
         Self { optics, ..self }
     }
 
-    /// The same with mirrors and clear glass, which turn a ray up to so many times.
+    /// Tracer with mirrors and clear glass, which turn a ray up to `bounces` times.
     #[must_use]
     pub fn with_bounces(mut self, bounces: u32) -> Self {
         self.bounces = bounces;
@@ -119,7 +122,8 @@ impl RayTracer {
         self
     }
 
-    /// Traces a picture, on all cores, from its middle outwards; `finished` is told of every tile. Once `stop` is set, no further tile is begun.
+    /// Traces a picture on all cores, from its middle outwards. `finished` is called for every tile. Once `stop` is
+    /// set, no further tile is begun.
     ///
     /// The result does not depend on the number of threads.
     pub fn trace(
@@ -132,7 +136,7 @@ impl RayTracer {
     ) -> Traced {
         let tiles = tiles(size);
         let sight = self.bodies.sight(&self.surfaces, shot);
-        // Whoever is free takes the next tile, so that the order holds for any number of threads.
+        // The next free thread takes the next tile, so the order holds for any number of threads.
         let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
             .par_iter()
@@ -162,12 +166,12 @@ impl RayTracer {
         Traced { size, light, at_rest, stored, done, tiles: tiles.len() }
     }
 
-    /// Tiles of a picture.
+    /// Number of tiles of a picture.
     pub fn tile_count(size: [u32; 2]) -> u64 {
         u64::from(size[0].div_ceil(TILE)) * u64::from(size[1].div_ceil(TILE))
     }
 
-    /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface.
+    /// Place in the scene that each pixel's centre shows, row by row; `None` for a pixel that shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
         let sight = self.bodies.sight(&self.surfaces, shot);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
@@ -179,7 +183,7 @@ impl RayTracer {
         pixels.par_iter().map(place).collect()
     }
 
-    /// The mean of a pixel's samples.
+    /// Mean of a pixel's samples.
     fn pixel(&self, shot: &Shot, sight: &Sight, size: [u32; 2], pixel: [u32; 2], samples: u32) -> Seen {
         let samples = samples.max(1);
         let mut sum = Seen::default();
@@ -199,7 +203,7 @@ impl RayTracer {
     }
 }
 
-/// Where a place of a pixel looks, in eye axes: (x, y, −1).
+/// Direction of a place in a pixel, in eye axes: (x, y, −1).
 fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
     shot.camera.ahead(size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
 }
@@ -210,7 +214,7 @@ struct Tile {
     beyond: [u32; 2],
 }
 
-/// The tiles of a picture, those nearest to its middle first.
+/// Tiles of a picture, those nearest to its middle first.
 fn tiles(size: [u32; 2]) -> Vec<Tile> {
     let starts = |side: u32| (0..side).step_by(TILE as usize);
     let tile = |x: u32, y: u32| Tile { first: [x, y], beyond: [(x + TILE).min(size[0]), (y + TILE).min(size[1])] };
