@@ -259,8 +259,8 @@ impl Bodies {
         }
     }
 
-    /// True if the sun's light reaches a point (relative to the scene's origin) with this normal, at rest in the
-    /// world.
+    /// True if the sun's light reaches a point with this normal that rests in the world. The point is relative to the
+    /// scene's origin.
     ///
     /// The ray begins off the surface, at the distance that the other renderers leave between a surface and its own
     /// shadow.
