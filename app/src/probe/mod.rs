@@ -1,8 +1,8 @@
 //! `rapidity probe`: numbers on request, one JSON question a line, one JSON answer a line.
 //!
-//! It serves worksheets, scripts, and checks of the physics from outside: only the crate `physics` lies between
-//! question and answer. c = 1, lengths and times in metres, velocities as celerity (`celerity`, γβ) or, instead, as
-//! `beta`; numbers are read and written as f64 to the last bit.
+//! The command serves worksheets, scripts, and checks of the physics from outside: only the crate `physics` lies
+//! between question and answer. c = 1, lengths and times in metres, velocities as celerity (`celerity`, γβ) or,
+//! instead, as `beta`; numbers are read and written as f64 to the last bit.
 //!
 //! A line is read in three steps. `json` makes a complete tree of it, duplicate keys included; `keys` reads typed
 //! values from the tree and knows the path of each; `questions` asks the physics. If a step fails, the answer is the

@@ -103,7 +103,7 @@ pub fn rows(extent: Extent) -> Result<Vec<Row>, ExtremesError> {
 ///
 /// # Errors
 ///
-/// [`ExtremesError::Exceeded`].
+/// [`ExtremesError::Exceeded`] if an error is beyond the limit.
 pub fn check(rows: &[Row]) -> Result<(), ExtremesError> {
     let exceeding = rows.iter().filter(|row| !row.holds());
     let count = exceeding.clone().count();

@@ -29,7 +29,7 @@ pub struct Spectra {
     pub carriers: Vec<Carrier>,
     /// Carrier of the light that each material reflects or, if unlit, emits, in the scene's order.
     pub materials: Vec<usize>,
-    /// Carrier of the sky.
+    /// Index of the sky's carrier.
     pub sky: usize,
     /// Luminance that is white at rest, cd/m².
     pub white_luminance: f64,
