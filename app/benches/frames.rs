@@ -1,9 +1,10 @@
-//! What relativity costs a frame: the photo-surface against the plain draw of the same scene (W table 6.1).
+//! The cost of relativity for a frame: the photo-surface against the plain draw of the same scene (W table 6.1).
 //!
-//! Three scenes have just as many vertices and triangles as Weiskopf's. Each is drawn plainly, with the transform of the next frame overlapping the
-//! draw of this one, and with both in sequence (`--latency low`), in turns within one run, so that whatever else the machine does hits
-//! all alike. The eye moves at a hundredth of c: the kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that
-//! there is little drawing to hide behind.
+//! Three scenes have as many vertices and triangles as Weiskopf's. Each is drawn plainly, with the transform of the
+//! next frame overlapping the draw of this one, and with both in sequence (`--latency low`). The three ways take
+//! turns within one run, so that other load on the machine affects all alike. The eye moves at a hundredth of c: the
+//! kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that little drawing
+//! hides the cost.
 //!
 //! `cargo bench -p rapidity --bench frames`
 
@@ -24,19 +25,19 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
 
-/// Pixels of a frame.
+/// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 1024];
 
-/// Vertices and triangles of W table 6.1.
+/// Numbers of vertices and triangles in W table 6.1.
 const SIZES: [[usize; 2]; 3] = [[21_198, 18_770], [135_907, 113_397], [20_786, 19_864]];
 
-/// Frame rate of the overlapped relativistic draw that is aimed at, as a share of the plain one's.
+/// Target for the frame rate of the overlapped relativistic draw, as a share of the plain one's.
 const GOAL: f64 = 0.98;
 
-/// Frames drawn in one way before the next has its turn.
+/// Number of frames drawn in one way before the next way has its turn.
 const FRAMES: usize = 4;
 
-/// How long each scene is measured.
+/// Time for which each scene is measured.
 const TIME: Duration = Duration::from_secs(15);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -70,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A scene on the device, an eye in its midst, and a target.
+/// A scene on the device, an eye in its middle, and a target.
 struct Bench<'gpu> {
     gpu: &'gpu Gpu,
     renderer: SceneRenderer,
@@ -91,7 +92,8 @@ impl<'gpu> Bench<'gpu> {
         })
     }
 
-    /// Milliseconds of a frame drawn plainly, overlapped and in sequence, and of a transform alone: a median for each turn.
+    /// Times of a frame drawn plainly, overlapped and in sequence, and of a transform alone, milliseconds: a median
+    /// for each turn.
     fn run(&mut self) -> Result<[Vec<f64>; 4], Box<dyn Error>> {
         let eye = self.eye;
         let mut medians = [const { Vec::new() }; 4];
@@ -118,7 +120,7 @@ impl<'gpu> Bench<'gpu> {
                 bench.show(transformed)
             })?;
 
-            // The first turn compiles shaders and touches memory.
+            // The first turn compiles shaders and touches memory, so it does not count.
             if warm {
                 for (turns, frames) in medians.iter_mut().zip([plain, overlap, low, transforms]) {
                     turns.push(median(&frames));
@@ -129,7 +131,7 @@ impl<'gpu> Bench<'gpu> {
         Ok(medians)
     }
 
-    /// Milliseconds of each frame of a turn.
+    /// Times of the frames of a turn, milliseconds.
     fn turn(&mut self, mut frame: impl FnMut(&mut Self) -> Result<(), GpuError>) -> Result<Vec<f64>, GpuError> {
         let time = |_| {
             let started = Instant::now();
@@ -153,10 +155,11 @@ impl<'gpu> Bench<'gpu> {
     }
 }
 
-/// Boxes around the origin with just so many vertices and triangles.
+/// Boxes around the origin with exactly this many vertices and triangles.
 ///
-/// A box with whole faces has 24 and 12, one with faces of four by four squares 150 and 192: two equations for how many of each. What whole
-/// numbers leave, less than a percent, is made up by vertices without triangles and triangles drawn twice.
+/// A box with whole faces has 24 and 12, one with faces of four by four squares 150 and 192: two equations for the
+/// numbers of both. Whole numbers leave a rest of less than a percent, which vertices without triangles and triangles
+/// drawn twice make up.
 fn scene_of(vertices: usize, triangles: usize) -> Result<Scene, RefineError> {
     let cut = (2 * triangles - vertices) / 234;
     let whole = (vertices - 150 * cut) / 24;
@@ -181,7 +184,7 @@ fn scene_of(vertices: usize, triangles: usize) -> Result<Scene, RefineError> {
     Ok(Scene { meshes: vec![mesh], ..whole_box })
 }
 
-/// Adds a copy of `source`, moved.
+/// Adds a copy of `source`, moved by `offset`.
 fn append(mesh: &mut Mesh, source: &Mesh, offset: Vec3) {
     let first = mesh.positions.len() as u32;
     mesh.positions.extend(source.positions.iter().map(|&position| position + offset));
@@ -191,7 +194,7 @@ fn append(mesh: &mut Mesh, source: &Mesh, offset: Vec3) {
     mesh.indices.extend(source.indices.iter().map(|index| first + index));
 }
 
-/// Frame rate of the second over the first, turn by turn: median and quartiles.
+/// Ratios of the second frame rate to the first, turn by turn, as text: median and quartiles.
 fn ratios(plain: &[f64], other: &[f64]) -> String {
     let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
     let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));

@@ -1,7 +1,8 @@
-//! What the image renderer and each effect cost in the old town, over speed and over the map's fineness, and in memory.
+//! The cost of the image renderer and of each effect in the old town, over speed and over the map's resolution, and
+//! in memory.
 //!
-//! In each table the alternatives take turns, a few frames each, so that whatever else the machine does hits all alike; ratios are of frame
-//! times in one round. A frame is drawn as a window draws it, without the window.
+//! In each table the alternatives take turns, a few frames each, so that other load on the machine affects all alike;
+//! ratios are of frame times in one round. A frame is drawn as in a window, without the window.
 //!
 //! `cargo bench -p rapidity --bench light`
 
@@ -22,13 +23,13 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
 
-/// Pixels of a frame.
+/// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 720];
-/// Of a window that the CPU draws.
+/// Map quality of a window that the CPU draws.
 const QUALITY: MapQuality = MapQuality { texels_per_pixel: 0.9, smooth: true };
-/// Frames drawn in one way before the next has its turn.
+/// Number of frames drawn in one way before the next way has its turn.
 const FRAMES: usize = 3;
-/// How long each table is measured.
+/// Time for which each table is measured.
 const TIME: Duration = Duration::from_secs(15);
 /// Longest edge of a triangle of the polygon renderer, metres: the program's default.
 const EDGE_M: f32 = 0.5;
@@ -98,7 +99,7 @@ fn table<Row>(
                 frame(row)?;
                 times.push(milliseconds(begun.elapsed()));
             }
-            // The first round compiles shaders and touches memory.
+            // The first round compiles shaders and touches memory, so it does not count.
             if warm {
                 medians.push(median(&times));
             }
@@ -130,7 +131,7 @@ impl<'gpu> Stage<'gpu> {
         let format = Format::fast(1);
         let eye = scene.start.position + DVec3::Y * 1.6;
         let mut renderer = SceneRenderer::new(gpu, scene, format, None, method)?;
-        // The photo-surface stands still: what it costs, `frames` measures.
+        // The photo-surface stays the same; the benchmark `frames` measures its cost.
         if renderer.transforms(Effects::ALL) {
             renderer.submit(gpu, Eye::new(eye, scene.start.look * 0.8 / 0.6)?, 0.0)?;
             let transformed = renderer.receive()?;
@@ -159,7 +160,7 @@ impl<'gpu> Stage<'gpu> {
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);
         self.gpu.queue.submit([encoder.finish()]);
 
-        // To the screen.
+        // Show the frame on the screen.
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let development = Development::default();
         let radiance = self.target.result();

@@ -1,7 +1,7 @@
-//! What walls and eyes cost in the old town at 0.8 c, and what it costs that a screen is bent.
+//! The cost of walls and eyes in the old town at 0.8 c, and the cost of a bent screen.
 //!
-//! The alternatives take turns, a few frames each, so that whatever else the machine does hits all alike; ratios are of times in one round. A
-//! frame is drawn as windows draw it, without the windows.
+//! The alternatives take turns, a few frames each, so that other load on the machine affects all alike; ratios are of
+//! times in one round. A frame is drawn as in windows, without the windows.
 //!
 //! `cargo bench -p rapidity --bench walls`
 
@@ -25,15 +25,15 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
 
-/// Pixels along each side of a wall.
+/// Side of a wall, pixels.
 const SIDE: u32 = 320;
-/// Frames drawn in one way before the next has its turn.
+/// Number of frames drawn in one way before the next way has its turn.
 const FRAMES: usize = 3;
-/// How long each table is measured.
+/// Time for which each table is measured.
 const TIME: Duration = Duration::from_secs(20);
 /// Longest edge of a triangle, metres.
 const EDGE_M: f32 = 0.5;
-/// A map as windows have it that the CPU draws.
+/// Map quality of windows that the CPU draws.
 const MAP: Method = Method::Image(MapQuality { texels_per_pixel: 0.9, smooth: true });
 const SCREEN: wgpu::TextureFormat = wgpu::TextureFormat::Bgra8Unorm;
 
@@ -70,7 +70,7 @@ const BENT: &str =
     "[[screen]]\nname = \"s\"\ncylinder = { radius = 2.83, left = 45.0, right = -45.0, bottom = 0.5, top = 2.75 }\n";
 const CHANNEL: &str = "[[window]]\nname = \"w\"\nsize = [960, 540]\n[[channel]]\nname = \"c\"\nscreen = \"s\"\neye = \"centre\"\nwindow = \"w\"\n";
 
-/// Some walls of the built-in cave.
+/// Built-in cave, reduced to some walls and eyes.
 fn cave(walls: usize, eyes: usize) -> Display {
     let mut display = Display::built_in("cave4").expect("it comes with the program");
     let screens = [1, 0, 2, 3];
@@ -91,7 +91,7 @@ struct Row {
     walls: Walls,
     occupant: Occupant,
     screens: Vec<wgpu::TextureView>,
-    /// Medians of each round: frames, and photo-surfaces.
+    /// Medians of the frames and of the photo-surfaces in each round, milliseconds.
     frames: Vec<f64>,
     transforms: Vec<f64>,
 }
@@ -118,7 +118,7 @@ impl Row {
         })
     }
 
-    /// A frame: milliseconds of the photo-surfaces.
+    /// Draws a frame, and returns the time of its photo-surfaces, milliseconds.
     fn frame(&mut self, gpu: &Gpu) -> Result<f64, Box<dyn Error>> {
         let drawn = self.walls.draw(gpu, &mut self.renderer, &self.occupant, Effects::ALL)?;
         let development = Development::default();
@@ -145,7 +145,7 @@ fn table(gpu: &Gpu, rows: &mut [Row]) -> Result<(), Box<dyn Error>> {
                 transforms.push(row.frame(gpu)?);
                 frames.push(milliseconds(begun.elapsed()));
             }
-            // The first round compiles shaders and touches memory.
+            // The first round compiles shaders and touches memory, so it does not count.
             if warm {
                 row.frames.push(median(&frames));
                 row.transforms.push(median(&transforms));

@@ -1,7 +1,8 @@
-//! Spheres and boxes, at rest or in motion, and where they are seen.
+//! Spheres and boxes, at rest or in motion, and their apparent positions.
 //!
-//! What is expected of a moving place comes from its worldline in the world (`physics::apparent::moving`), not from the body's own frame, in
-//! which the program works; of a sphere's outline, from the boost of a circle of directions.
+//! The expected apparent position of a moving place comes from its worldline in the world
+//! (`physics::apparent::moving`), not from the body's own frame, in which the program works. The expected outline of
+//! a sphere comes from the boost of a circle of directions.
 
 use glam::{DMat3, DQuat, DVec3, Vec2, Vec3};
 use physics::apparent::{Apparent, moving};
@@ -12,13 +13,13 @@ use rapidity::scene::{Material, Mesh, Scene};
 
 use crate::view::{View, middle};
 
-/// What faces of a box are that look neither along x nor against it.
+/// Brightness of the faces of a box that look neither along x nor against it.
 pub const GREY: f32 = 0.5;
 
-/// A celerity by its velocity in units of c.
+/// Celerity for a velocity in units of c.
 ///
 /// # Panics
-/// From the speed of light on.
+/// If the velocity reaches the speed of light.
 pub fn celerity(beta: DVec3) -> Celerity {
     Beta::new(beta).expect("bodies of tests are slower than light").celerity()
 }
@@ -28,21 +29,21 @@ pub fn observer(position: DVec3, celerity: Celerity) -> Observer {
     Observer { event: Event { ct: 0.0, position }, celerity }
 }
 
-/// What has this velocity, and is seen from `eye` at world time 0 when it passes `position`.
+/// Motion with this velocity whose light, sent at `position`, reaches `eye` at world time 0.
 pub fn passing(beta: DVec3, position: DVec3, eye: DVec3) -> Uniform {
     Uniform { celerity: celerity(beta), anchor: Event { ct: -position.distance(eye), position } }
 }
 
-/// Unlit meshes of one material.
+/// Scene of unlit meshes with one material.
 pub fn unlit(meshes: Vec<Mesh>, motions: &[Uniform]) -> Scene {
     let materials = vec![Material { unlit: true, ..Material::default() }];
     Scene { materials, meshes, motions: motions.iter().copied().map(Motion::Uniform).collect(), ..Scene::default() }
 }
 
-/// Closed, white and unlit, of radius one about `centre`, of triangles with edges of at most `edge_m` metres.
+/// Closed, white and unlit sphere of radius one about `centre`, of triangles with edges of at most `edge_m` metres.
 ///
 /// # Panics
-/// If that makes too many.
+/// If that makes too many triangles.
 pub fn sphere(centre: DVec3, edge_m: f32) -> Scene {
     let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
     let octahedron = Mesh {
@@ -59,7 +60,7 @@ pub fn sphere(centre: DVec3, edge_m: f32) -> Scene {
     fine
 }
 
-/// A box about `centre`, of which a face's colour tells where it looks: red to −x, green to +x, grey elsewhere.
+/// Box about `centre`. The colour of a face tells its direction: red towards −x, green towards +x, grey elsewhere.
 pub fn cuboid(centre: DVec3, half: f64, motion: usize) -> Mesh {
     let mut mesh = Mesh { motion: Some(motion), ..Mesh::default() };
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -84,7 +85,7 @@ pub fn cuboid(centre: DVec3, half: f64, motion: usize) -> Mesh {
     mesh
 }
 
-/// What an observer sees of a place of a body, which its own frame gives: from its worldline in the world.
+/// Apparent position of a place of a body, from its worldline in the world. `place` is given in the body's own frame.
 pub fn exact(observer: &Observer, motion: &Uniform, place: DVec3) -> Apparent {
     let beta = motion.celerity.beta().vector();
     let gamma = motion.celerity.gamma();
@@ -95,7 +96,7 @@ pub fn exact(observer: &Observer, motion: &Uniform, place: DVec3) -> Apparent {
     moving(observer, &Source { position, celerity: motion.celerity })
 }
 
-/// The directions between neighbouring pixels of which one shows a body and one does not.
+/// Directions between neighbouring pixels of which one shows a body and the other does not.
 pub fn outline(view: &View, shown: impl Fn(u32, u32) -> bool) -> Vec<DVec3> {
     let [width, height] = view.size;
     let mut directions = Vec::new();
@@ -111,34 +112,35 @@ pub fn outline(view: &View, shown: impl Fn(u32, u32) -> bool) -> Vec<DVec3> {
     directions
 }
 
-/// The directions n with n·axis = cosine: a circle on the sphere of directions.
+/// Circle on the sphere of directions: the directions n with n·axis = cosine.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
-    /// Unit vector.
+    /// Axis of the cone, unit vector.
     pub axis: DVec3,
     cosine: f64,
 }
 
 impl Cone {
-    /// The tangents from the origin to the unit sphere about `centre`.
+    /// Cone of the tangents from the origin to the unit sphere about `centre`.
     pub fn around(centre: DVec3) -> Self {
         let distance = centre.length();
         Self { axis: centre / distance, cosine: (1.0 - 1.0 / (distance * distance)).sqrt() }
     }
 
-    /// The same directions as an observer sees them: those with n·a = cos α are orthogonal to the four-vector (−cos α, a), which is boosted.
+    /// Cone as an observer sees it: directions with n·a = cos α are orthogonal to the four-vector (−cos α, a), which
+    /// is boosted.
     pub fn seen_at(&self, celerity: Celerity) -> Self {
         let normal = Boost::observer_from_world(celerity).apply(FourVector { t: -self.cosine, r: self.axis });
         let length = normal.r.length();
         Self { axis: normal.r / length, cosine: -normal.t / length }
     }
 
-    /// The same directions in other axes.
+    /// Cone in other axes.
     pub fn turned(&self, rotation: DQuat) -> Self {
         Self { axis: rotation * self.axis, ..*self }
     }
 
-    /// The cone nearest to some directions: points of a sphere lie on a circle if they lie in a plane, n·m = 1.
+    /// Cone nearest to some directions: points of a sphere lie on a circle if they lie in a plane, n·m = 1.
     pub fn through(directions: &[DVec3]) -> Self {
         let outer = |n: DVec3| DMat3::from_cols(n * n.x, n * n.y, n * n.z);
         let squares = directions.iter().fold(DMat3::ZERO, |sum, &n| sum + outer(n));
@@ -146,29 +148,29 @@ impl Cone {
         Self { axis: normal.normalize(), cosine: 1.0 / normal.length() }
     }
 
-    /// Angle from its axis.
+    /// Angle from the axis to the cone, radians.
     pub fn half_angle(&self) -> f64 {
         self.cosine.acos()
     }
 
-    /// Angle from the cone to a direction.
+    /// Angle from the cone to a direction, radians.
     pub fn distance(&self, direction: DVec3) -> f64 {
         (direction.angle_between(self.axis) - self.half_angle()).abs()
     }
 
-    /// Looks at its middle and leaves room around it.
+    /// View that looks at the middle of the cone, with room around it.
     pub fn view(&self, size: [u32; 2]) -> View {
         let fov_degrees = (3.0 * self.half_angle()).to_degrees().min(120.0);
         View { look: self.axis, up: DVec3::new(0.3, 0.9, 0.2), fov_degrees, size }
     }
 
-    /// Root mean square distance of directions from it, pixels.
+    /// Root mean square distance of directions from the cone, pixels.
     pub fn residual(&self, directions: &[DVec3], view: &View) -> f64 {
         let squares: f64 = directions.iter().map(|&direction| self.distance(direction).powi(2)).sum();
         (squares / directions.len() as f64).sqrt() * view.focal_length()
     }
 
-    /// Distance of the furthest of directions from it, pixels.
+    /// Largest distance of directions from the cone, pixels.
     pub fn furthest(&self, directions: &[DVec3], view: &View) -> f64 {
         directions.iter().map(|&direction| self.distance(direction)).fold(0.0, f64::max) * view.focal_length()
     }

@@ -1,4 +1,5 @@
-//! What becomes of radiance on its way to the screen, in f64 and from the formulas alone; and a way to have the program do the same.
+//! The way of radiance to the screen, in f64 and from the formulas alone; and helpers that let the program do the
+//! same.
 
 use rapidity::renderers::display::{Adaptation, Development, Display, Gamut, Seen, Stored, Tone};
 use rapidity::renderers::picture::light;
@@ -9,7 +10,7 @@ use crate::photographer::gpu;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// A texture of `width` texels a row: linear red, green and blue as seen, and luminance unshifted.
+/// Texture with `width` texels a row: linear red, green and blue as seen, and luminance unshifted.
 pub fn texture(width: u32, texels: &[[f32; 4]]) -> wgpu::TextureView {
     let descriptor = wgpu::TextureDescriptor {
         label: Some("radiance"),
@@ -34,13 +35,13 @@ pub struct Onlooker {
 }
 
 impl Onlooker {
-    /// One that has seen nothing yet.
+    /// Onlooker that has seen nothing yet.
     #[expect(clippy::new_without_default, reason = "compiling shaders is not what a default is expected to do")]
     pub fn new() -> Self {
         Self { display: Display::new(gpu(), FORMAT, FORMAT), adaptation: Adaptation::new(gpu()) }
     }
 
-    /// The screen's values, encoded as sRGB, for texels in rows of `width`.
+    /// Screen values, encoded as sRGB, for texels in rows of `width`.
     pub fn encoded(
         &mut self,
         width: u32,
@@ -60,7 +61,7 @@ impl Onlooker {
         picture.pixels().map(|pixel| pixel.0).collect()
     }
 
-    /// The same, as linear light.
+    /// Screen values as linear light, for texels in rows of `width`.
     pub fn shown(
         &mut self,
         width: u32,
@@ -79,10 +80,10 @@ pub fn luminance(rgb: [f64; 3]) -> f64 {
     physics::colour::luminance(rgb.into())
 }
 
-/// A colour after its tone curve. `white`: the luminance that is white.
+/// Colour after its tone curve. `white` is the luminance that becomes white.
 ///
 /// # Panics
-/// For the histogram, whose curve is the frame's and no formula.
+/// For the histogram: its curve depends on the frame and has no formula.
 pub fn toned(tone: Tone, rgb: [f64; 3], white: f64) -> [f64; 3] {
     let bright = luminance(rgb);
     let screen = match tone {
@@ -95,7 +96,7 @@ pub fn toned(tone: Tone, rgb: [f64; 3], white: f64) -> [f64; 3] {
     rgb.map(|value| value * screen / bright)
 }
 
-/// The colour that a screen shows for one that it does not have.
+/// Colour that a screen shows for a colour outside its gamut.
 pub fn in_gamut(gamut: Gamut, rgb: [f64; 3]) -> [f64; 3] {
     let least = rgb.iter().copied().fold(f64::INFINITY, f64::min);
     let most = rgb.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -107,7 +108,7 @@ pub fn in_gamut(gamut: Gamut, rgb: [f64; 3]) -> [f64; 3] {
         Gamut::White => rgb.map(|value| (value - least.min(0.0)) / (most - least.min(0.0)).max(1.0)),
         Gamut::Desaturate => {
             let grey = luminance(rgb).clamp(0.0, 1.0);
-            // Bisection: the most saturated colour of this luminance and hue that the screen has.
+            // Bisection finds the most saturated colour of this luminance and hue inside the gamut.
             let mixed = |share: f64| rgb.map(|value| grey + share * (value - grey));
             let (mut inside, mut outside) = (0.0, 1.0);
             for _ in 0..60 {
@@ -120,8 +121,8 @@ pub fn in_gamut(gamut: Gamut, rgb: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// Mean of the base-2 logarithms of gains without the lowest and the highest tenth, none taken to be more than eight below the brightest; and the
-/// brightest: the logarithm that 99 of 100 do not exceed.
+/// Mean of the base-2 logarithms of gains, without the lowest and the highest tenth, none counted as more than eight
+/// below the brightest; and the brightest: the logarithm that 99 of 100 gains do not exceed.
 pub fn adapted(gains: &[f64]) -> (f64, f64) {
     let mut sorted: Vec<f64> = gains.iter().map(|gain| gain.log2()).collect();
     sorted.sort_by(f64::total_cmp);

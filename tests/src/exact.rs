@@ -1,7 +1,8 @@
-//! The exact picture of boxes: each ray is bent by aberration in f64 and met with planes, not with triangles.
+//! The exact picture of boxes: each ray is bent by aberration in f64 and intersected with planes, not with triangles.
 //!
-//! A box at rest needs no light-travel time: it is where it was. So the observer's direction, taken to the world, is followed straight
-//! back from the eye, and the first box on the way is what is seen, in its face's own colour.
+//! A box at rest does not change its place, so light-travel time does not matter. The observer's direction, taken to
+//! the world, is followed straight back from the eye. The pixel shows the first box on the way, in the colour of its
+//! face.
 
 use glam::DVec3;
 use image::{Rgba, RgbaImage};
@@ -15,7 +16,7 @@ use crate::view::{View, middle};
 /// Boxes along the axes of the world, before a background of one colour.
 pub struct Boxes {
     boxes: Vec<AxisAligned>,
-    /// Encoded, by axis and by whether the face looks along it or against it.
+    /// Encoded colours of the faces, by axis and by side: 0 for the face towards +, 1 for the face towards −.
     faces: [[[u8; 4]; 2]; 3],
     background: [u8; 4],
 }
@@ -25,7 +26,7 @@ struct AxisAligned {
     high: DVec3,
 }
 
-/// What one eye sees of some boxes.
+/// Exact sight of some boxes by one eye.
 pub struct Sight<'a> {
     boxes: &'a Boxes,
     view: View,
@@ -34,7 +35,7 @@ pub struct Sight<'a> {
 }
 
 impl Boxes {
-    /// The boxes of a lattice, before a background of this linear colour.
+    /// Boxes of a lattice, before a background of this linear colour.
     pub fn of(lattice: &Lattice, background: [f32; 3]) -> Self {
         let [columns, rows, layers] = lattice.count;
         let half = DVec3::splat(f64::from(lattice.side) / 2.0);
@@ -53,12 +54,12 @@ impl Boxes {
         }
     }
 
-    /// What an eye at `eye` sees that moves with `celerity`.
+    /// Sight of an eye at `eye` that moves with `celerity`.
     pub fn seen_by(&self, view: &View, eye: DVec3, celerity: Celerity) -> Sight<'_> {
         Sight { boxes: self, view: *view, eye, aberration: Aberration::new(celerity) }
     }
 
-    /// The encoded colour that a ray from `eye` along `direction` (world axes) meets first.
+    /// Encoded colour that a ray from `eye` along `direction` (world axes) meets first.
     pub fn first(&self, eye: DVec3, direction: DVec3) -> [u8; 4] {
         let hits = self.boxes.iter().filter_map(|target| target.meet(eye, direction));
         let nearest = hits.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -67,9 +68,10 @@ impl Boxes {
 }
 
 impl AxisAligned {
-    /// Distance to the face where the ray enters, and the axis that it is across; none if the ray misses or begins inside.
+    /// Distance to the face where the ray enters, and the axis across that face; none if the ray misses or begins
+    /// inside.
     fn meet(&self, eye: DVec3, direction: DVec3) -> Option<(f64, usize)> {
-        // Most boxes are missed by far: ask their sphere first.
+        // Most boxes are missed by far, so test the sphere around the box first.
         let centre = 0.5 * (self.low + self.high) - eye;
         let along = centre.dot(direction);
         if along < 0.0 || centre.length_squared() - along * along > 0.25 * (self.high - self.low).length_squared() {
@@ -83,13 +85,13 @@ impl AxisAligned {
 }
 
 impl Sight<'_> {
-    /// The exact colour at a place in the picture, pixels from the upper left corner.
+    /// Exact colour at a place in the picture, pixels from the upper left corner.
     pub fn colour(&self, place: [f64; 2]) -> [u8; 4] {
         let (direction, _) = self.aberration.world_from_observer(self.view.direction(place));
         self.boxes.first(self.eye, direction)
     }
 
-    /// The exact picture: the colour at the middle of each pixel.
+    /// Exact picture: the colour at the middle of each pixel.
     pub fn picture(&self) -> RgbaImage {
         let mut picture = RgbaImage::new(self.view.size[0], self.view.size[1]);
         picture.enumerate_rows_mut().par_bridge().for_each(|(_, pixels)| {
@@ -100,7 +102,8 @@ impl Sight<'_> {
         picture
     }
 
-    /// Whether `colour` can be seen anywhere within `reach` pixels of a pixel's middle, as on a grid of `steps` rays to the pixel.
+    /// True if `colour` can be seen within `reach` pixels of a pixel's middle, on a grid of `steps` rays to the
+    /// pixel.
     pub fn shows_near(&self, pixel: [u32; 2], colour: [u8; 4], reach: f64, steps: f64) -> bool {
         let [x, y] = middle(pixel);
         let count = (reach * steps).ceil() as i32;
@@ -109,7 +112,7 @@ impl Sight<'_> {
     }
 }
 
-/// The pixels that differ between two pictures of one size.
+/// Pixels that differ between two pictures of one size.
 pub fn differing(one: &RgbaImage, other: &RgbaImage) -> Vec<[u32; 2]> {
     assert_eq!(one.dimensions(), other.dimensions());
     let pairs = one.enumerate_pixels().zip(other.pixels());

@@ -1,10 +1,10 @@
-//! Lorentz transformations as textbooks write them: 4 × 4 matrices on (ct, x, y, z), multiplied out.
+//! Lorentz transformations in their textbook form: 4 × 4 matrices on (ct, x, y, z), multiplied out.
 //!
-//! The program never does it this way, since it cancels at high speeds; at moderate ones it is an independent check.
+//! The program never uses this form, since it cancels at high speeds; at moderate ones it is an independent check.
 
 use glam::{DMat3, DMat4, DQuat, DVec3, DVec4};
 
-/// The boost into the frame of what moves with celerity `u`, axes kept (Jackson, eq. 11.98).
+/// Boost into the frame of a body with celerity `u`, axes kept (Jackson, eq. 11.98).
 pub fn boost(u: DVec3) -> DMat4 {
     let gamma = (1.0 + u.length_squared()).sqrt();
     let column = |axis: DVec3| (-u.dot(axis), axis + u * (u.dot(axis) / (1.0 + gamma)));
@@ -15,7 +15,7 @@ pub fn boost(u: DVec3) -> DMat4 {
     DMat4::from_cols(DVec4::new(gamma, -u.x, -u.y, -u.z), columns[0], columns[1], columns[2])
 }
 
-/// A rotation in space.
+/// Matrix of a rotation in space.
 pub fn rotation(turn: DQuat) -> DMat4 {
     let columns = DVec3::AXES.map(|axis| {
         let turned = turn * axis;
@@ -24,17 +24,17 @@ pub fn rotation(turn: DQuat) -> DMat4 {
     DMat4::from_cols(DVec4::X, columns[0], columns[1], columns[2])
 }
 
-/// A four-vector.
+/// Four-vector with this time and space part.
 pub fn four(ct: f64, space: DVec3) -> DVec4 {
     DVec4::new(ct, space.x, space.y, space.z)
 }
 
-/// Its part in space.
+/// Space part of a four-vector.
 pub fn space(vector: DVec4) -> DVec3 {
     DVec3::new(vector.y, vector.z, vector.w)
 }
 
-/// The celerity and the rotation of a transformation that is a boost, then a rotation.
+/// Celerity and rotation of a transformation that is a boost followed by a rotation.
 pub fn parts(transformation: DMat4) -> (DVec3, DQuat) {
     let row = transformation.transpose().x_axis;
     let celerity = -space(row);

@@ -1,4 +1,4 @@
-//! Pictures by the program: a scene, a device, and a studio of one size.
+//! Pictures made by the program: a scene, a device, and a studio of one size.
 
 use glam::DVec3;
 use image::{Rgb32FImage, RgbaImage};
@@ -17,23 +17,24 @@ use std::sync::atomic::AtomicBool;
 
 use crate::view::View;
 
-/// The device that all tests of a process draw on.
+/// Device on which all tests of a process draw.
 ///
 /// # Panics
-/// Without a Vulkan driver, with a sentence that says which package to install: a test that cannot draw has failed.
+/// If there is no Vulkan driver, with a sentence that names the package to install: a test that cannot draw has
+/// failed.
 pub fn gpu() -> &'static Gpu {
-    // Not the panic itself, which would reach the first test alone.
+    // Keep the result, not the panic, which would reach only the first test.
     static GPU: LazyLock<Result<Gpu, GpuError>> = LazyLock::new(Gpu::new);
     #[expect(clippy::panic, reason = "a test without a driver fails, and says what to install")]
     GPU.as_ref().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// How pictures come about.
+/// Way in which pictures are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum By {
-    /// Drawn.
+    /// Drawn by a renderer.
     Method(Method),
-    /// Ray by ray.
+    /// Traced ray by ray.
     Rays,
 }
 
@@ -42,7 +43,7 @@ enum Way {
     Traced(Box<RayTracer>),
 }
 
-/// Takes pictures of one scene by one method.
+/// Photographer of one scene, with one method.
 pub struct Photographer {
     way: Way,
     studio: Studio,
@@ -51,20 +52,20 @@ pub struct Photographer {
 }
 
 impl Photographer {
-    /// Prepares pictures by the `polygon` renderer, of `size` pixels with `samples` each. `background`: linear radiance instead of the
-    /// scene's sky.
+    /// Prepares pictures by the `polygon` renderer, of `size` pixels with `samples` each. `background` is a linear
+    /// radiance that replaces the scene's sky.
     pub fn new(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>) -> Self {
         Self::with(scene, size, samples, background, Method::Polygon)
     }
 
-    /// The same by any method.
+    /// Prepares pictures by any renderer.
     pub fn with(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, method: Method) -> Self {
         let renderer = SceneRenderer::new(gpu(), scene, Studio::format(gpu()), background, method)
             .expect("scenes of tests have a finite origin");
         Self { way: Way::Drawn(Box::new(renderer)), studio: Studio::new(gpu(), size, samples), size, samples }
     }
 
-    /// The same by any method, rays among them.
+    /// Prepares pictures by any renderer or by rays.
     pub fn by(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, by: By) -> Self {
         match by {
             By::Method(method) => Self::with(scene, size, samples, background, method),
@@ -75,17 +76,17 @@ impl Photographer {
         }
     }
 
-    /// Where things are seen by an eye that moves.
+    /// Picture of an eye that moves, with the effect of geometry alone.
     pub fn moving(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> RgbaImage {
         self.seen(view, eye, celerity, Effects::GEOMETRY)
     }
 
-    /// The plain world, as if light were infinitely fast.
+    /// Picture of the plain world, as if light were infinitely fast.
     pub fn plain(&mut self, view: &View, eye: DVec3) -> RgbaImage {
         self.seen(view, eye, Celerity::ZERO, Effects::NONE)
     }
 
-    /// The same as a window holds it, in half floats.
+    /// Photographer with the half floats of a window.
     pub fn of_window(scene: &Scene, size: [u32; 2], method: Method) -> Self {
         let format = Format::fast(1);
         let renderer =
@@ -94,10 +95,10 @@ impl Photographer {
         Self { way: Way::Drawn(Box::new(renderer)), studio, size, samples: 1 }
     }
 
-    /// What an eye that moves sees, with these effects.
+    /// Picture of an eye that moves, with these effects.
     pub fn seen(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> RgbaImage {
         let shot = self.aim(view, eye, celerity, effects);
-        // Channels are cut off one by one, as `colour` does.
+        // Channels are clipped one by one, like in `colour`.
         let development = Development { gamut: Gamut::Clamp, ..Default::default() };
         let taken = match &mut self.way {
             Way::Drawn(renderer) => self.studio.photograph(gpu(), renderer, &shot, &development, None),
@@ -109,7 +110,7 @@ impl Photographer {
         taken.expect("the device is there")
     }
 
-    /// The light that an eye sees that moves: linear sRGB in cd/m².
+    /// Light that a moving eye sees: linear sRGB in cd/m².
     pub fn light(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Rgb32FImage {
         let shot = self.aim(view, eye, celerity, effects);
         match &mut self.way {
@@ -118,7 +119,7 @@ impl Photographer {
         }
     }
 
-    /// Where in the scene is what each pixel's centre shows to an eye that moves, row by row.
+    /// Place in the scene that each pixel's centre shows to a moving eye, row by row.
     pub fn places(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> Vec<Option<Shown>> {
         let shot = self.aim(view, eye, celerity, Effects::GEOMETRY);
         match &mut self.way {
@@ -145,5 +146,5 @@ impl Photographer {
     }
 }
 
-/// The map of the image renderer as a picture of one sample a pixel has it.
+/// Map of the image renderer in its quality for pictures with one sample a pixel.
 pub const DEFAULT_MAP: Method = Method::Image(MapQuality { texels_per_pixel: 8.0, smooth: false });

@@ -1,23 +1,23 @@
-//! Which way a pixel looks, from first principles.
+//! Direction of a pixel, from first principles.
 
 use glam::DVec3;
 use rapidity::views::Camera;
 
-/// A flat picture: where it looks, and how many pixels it has.
+/// Flat picture: its direction and its size.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Towards the middle of the picture, observer's axes, any length.
+    /// Direction towards the middle of the picture, observer's axes, of any length.
     pub look: DVec3,
-    /// Upward in the picture as far as can be; not along `look`.
+    /// Upward direction of the picture, as nearly as possible; not along `look`.
     pub up: DVec3,
     /// Full vertical angle, degrees.
     pub fov_degrees: f64,
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [u32; 2],
 }
 
 impl View {
-    /// The unit vector that a place in the picture sees along, observer's axes.
+    /// Unit vector along which a place in the picture looks, observer's axes.
     ///
     /// *Units:* pixels from the upper left corner; the middle of the first pixel is at one half.
     pub fn direction(&self, [x, y]: [f64; 2]) -> DVec3 {
@@ -28,18 +28,19 @@ impl View {
         (forward + ((x - 0.5 * width) * right + (0.5 * height - y) * above) / self.focal_length()).normalize()
     }
 
-    /// Distance of the picture from the eye in pixels: an angle near the middle, times this, is a length in the picture.
+    /// Distance of the picture from the eye in pixels. A small angle near the middle, times this distance, is a
+    /// length in the picture.
     pub fn focal_length(&self) -> f64 {
         0.5 * f64::from(self.size[1]) / (0.5 * self.fov_degrees.to_radians()).tan()
     }
 
-    /// The program's camera for the same picture.
+    /// Camera of the program for the same picture.
     pub fn camera(&self) -> Camera {
         Camera::looking(self.look, self.up, self.fov_degrees.to_radians())
     }
 }
 
-/// The middle of a pixel, in pixels from the upper left corner.
+/// Middle of a pixel, in pixels from the upper left corner.
 pub fn middle([column, row]: [u32; 2]) -> [f64; 2] {
     [f64::from(column) + 0.5, f64::from(row) + 0.5]
 }

@@ -1,8 +1,8 @@
-//! Law: the shader's `world_from_observer` is `physics::Aberration::world_from_observer` in f32, and its `doppler_of_world` the Doppler factor
-//! of `observer_from_world`. Sky, colours and brightness stand on them.
+//! The shader's `world_from_observer` must be `physics::Aberration::world_from_observer` in f32, and its
+//! `doppler_of_world` the Doppler factor of `observer_from_world`. Sky, colours and brightness depend on them.
 //!
-//! A wrong twin shows: with the textbook formula, directions that scatter ahead at high speed; with a swapped sign, agreement at rest only;
-//! with D for 1/D, a Doppler factor that is right nowhere but abeam of rest.
+//! In a wrong program, the textbook formula makes directions scatter ahead at high speed. A swapped sign agrees at
+//! rest only. D in place of 1/D gives a Doppler factor that is right nowhere but abeam at rest.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec3, Vec4};
@@ -13,18 +13,18 @@ use system_tests::photographer::gpu;
 use system_tests::random::{direction, seeded};
 use wgpu::util::DeviceExt;
 
-/// Steps of f32 by which a well-conditioned answer may be off: about eight operations of half a step go into one, and division and square root
-/// may be 2.5 steps off (WGSL 15.7.4).
+/// Tolerance in steps of f32 for a well-conditioned result: about eight operations of half a step contribute, and
+/// division and square root may be 2.5 steps off (WGSL 15.7.4).
 const STEPS: f64 = 8.0;
 
-/// One question to both: a motion as the shader takes it, and a direction in the observer's axes.
+/// Question to shader and physics: a motion in the shader's form, and a direction in the observer's axes.
 struct Question {
     motion: Vec4,
     observed: Vec3,
 }
 
 impl Question {
-    /// A random direction for a rapidity, `angle` away from the motion.
+    /// Random question for a rapidity, with a direction at `angle` from the motion.
     fn new(random: &mut ChaCha8Rng, rapidity: f64, angle: f64) -> Self {
         let along = direction(random);
         let across = along.cross(direction(random)).normalize();
@@ -34,7 +34,7 @@ impl Question {
         }
     }
 
-    /// The answer in f64 to the question as it was rounded.
+    /// Exact answer in f64 to the rounded question.
     fn exact(&self) -> (DVec3, f64) {
         let rapidity = f64::from(self.motion.w).ln();
         let celerity = Celerity::from_rapidity(self.motion.truncate().as_dvec3(), rapidity).unwrap();
@@ -42,7 +42,7 @@ impl Question {
     }
 }
 
-/// Runs an entry point of the probe shader.
+/// Answers of an entry point of the probe shader.
 fn answers(entry_point: &str, questions: &[Question]) -> Vec<Vec4> {
     let gpu = gpu();
     let device = &gpu.device;
@@ -88,7 +88,7 @@ fn answers(entry_point: &str, questions: &[Question]) -> Vec<Vec4> {
         ],
     });
 
-    // Ask.
+    // Submit the questions.
     let mut encoder = device.create_command_encoder(&Default::default());
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -99,17 +99,18 @@ fn answers(entry_point: &str, questions: &[Question]) -> Vec<Vec4> {
     encoder.copy_buffer_to_buffer(&result, 0, &readback, 0, bytes);
     gpu.queue.submit([encoder.finish()]);
 
-    // Read.
+    // Read the answers.
     readback.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.wait().unwrap();
     let mapped = readback.get_mapped_range(..).unwrap();
     bytemuck::cast_slice(&mapped).to_vec()
 }
 
-/// Asserts that shader and physics agree to what rounding leaves.
+/// Asserts that shader and physics agree up to rounding.
 ///
-/// The part of a direction across the motion is known to a step. What becomes of that: aberration enlarges it by D, so much is a direction off;
-/// and D falls with that part's square from 2γ dead ahead, so close to there D is known only to a step by the angle.
+/// The part of a direction across the motion is known to one step. Aberration enlarges that error by D, which limits
+/// the error of the direction. D falls with the square of that part from 2γ dead ahead, so close to there D is known
+/// only to one step divided by the angle.
 fn assert_twins(questions: &[Question]) {
     for (question, answer) in questions.iter().zip(answers("aberration", questions)) {
         let Question { motion, observed } = question;
@@ -128,7 +129,7 @@ fn assert_twins(questions: &[Question]) {
 
 #[test]
 fn abeam_of_an_observer_at_0_6_c_light_comes_from_astern_gpu() {
-    // kappa = gamma + u = 1.25 + 0.75; cos(theta) = -beta, D = 1 / gamma.
+    // Here kappa = gamma + u = 1.25 + 0.75; cos(theta) = -beta, D = 1 / gamma.
     let question = Question { motion: Vec4::new(1.0, 0.0, 0.0, 2.0), observed: Vec3::Y };
     assert_eq!(answers("aberration", &[question]), [Vec4::new(-0.6, 0.8, 0.0, 0.8)]);
 }
@@ -184,7 +185,8 @@ fn doppler_factors_of_world_directions_agree_with_physics_gpu() {
         let rapidity = f64::from(motion.w).ln();
         let celerity = Celerity::from_rapidity(motion.truncate().as_dvec3(), rapidity).unwrap();
         let (_, doppler) = Aberration::new(celerity).observer_from_world(observed.as_dvec3());
-        // D falls with the square of the angle off astern down to 1/2γ: there it is known to a step by the angle.
+        // D falls with the square of the angle off astern down to 1/2γ, so there it is known to one step divided by
+        // the angle.
         let off_astern = observed.as_dvec3().distance(-motion.truncate().as_dvec3());
         let allowed = STEPS * f64::from(f32::EPSILON) * (1.0 + 1.0 / (off_astern + 1.0 / f64::from(motion.w)));
         let error = (f64::from(answer.x) / doppler - 1.0).abs();

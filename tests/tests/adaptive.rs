@@ -1,8 +1,10 @@
-//! Law: a scene that is cut for a picture is the same surface, and no place of it is drawn further from where light says than the tolerance.
+//! A scene cut for a picture must be the same surface, and no place of it may be drawn farther from its exact
+//! apparent position than the tolerance.
 //!
-//! A wrong program shows: where an edge is cut by more than its ends say, cracks; where a triangle's edges look fine and its inside was
-//! forgotten, the ground below the eye in the wrong place; where what is not in the picture was forgotten, triangles from astern across
-//! it; where vertices are f32 about the world's origin, astern at γ = 10⁶ nothing in its place.
+//! In a wrong program, edges cut by more than their own ends decide give cracks. A triangle that is judged by its
+//! edges alone puts the ground below the eye in the wrong place. If geometry outside the picture is ignored,
+//! triangles from astern cross the picture. Vertices in f32 about the world's origin leave nothing in its place
+//! astern at γ = 10⁶.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec2, DVec3, Vec3};
@@ -26,10 +28,10 @@ const TOLERANCE_PX: f64 = 0.5;
 const FINENESS: Fineness = Fineness { tolerance_px: TOLERANCE_PX, turn_rad: 0.0, triangles: 4_000_000 };
 const LATTICE: Lattice = Lattice { count: [4, 4, 4], spacing: 4.0, side: 1.0 };
 
-/// Pixels: what rounding of f64 does to a place astern at γ = 10⁶.
+/// Tolerance for the rounding of f64 in a place astern at γ = 10⁶, pixels.
 const ROUNDING_PX: f64 = 1e-4;
 
-/// A square of 100 m, corners counter-clockwise as seen from `normal`.
+/// Square of 100 m, with corners counter-clockwise as seen from `normal`.
 fn square(middle: DVec3, normal: DVec3) -> Mesh {
     let across = 50.0 * normal.any_orthonormal_vector();
     let up = normal.cross(across);
@@ -53,7 +55,7 @@ fn viewpoint(eye: DVec3, celerity: Celerity, look: DVec3, fov_degrees: f64) -> V
     Viewpoint::new(observer, Camera::looking(look, DVec3::Y, fov_degrees.to_radians()), SIZE)
 }
 
-/// Anybody anywhere among the boxes, looking anywhere.
+/// Random observer among the boxes, with a random direction of view.
 fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
     let eye = DVec3::from_array([0, 1, 2].map(|_| random.random_range(-7.0..7.0)));
     let celerity = Celerity::new(direction(random) * random.random_range(0.0..fastest).sinh()).unwrap();
@@ -62,7 +64,7 @@ fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
     viewpoint(eye, celerity, look, random.random_range(30.0..110.0))
 }
 
-/// Where in the picture a place of the observer's space is, pixels from its middle.
+/// Place in the picture of a place in the observer's space, pixels from the middle.
 fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
     let eye = viewpoint.pictures[0].0.observer_from_eye.conjugate() * seen.normalize();
     let focal_length = viewpoint.pictures[0].0.tangents(SIZE).focal_length(SIZE).y;
@@ -70,14 +72,14 @@ fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
     (eye.z < 0.0 && at.x.abs() < 0.5 * f64::from(SIZE[0]) && at.y.abs() < 0.5 * f64::from(SIZE[1])).then_some(at)
 }
 
-/// Errors in pixels at random places of the cut that are, or are drawn, in the picture.
+/// Errors in pixels at random places of the cut whose exact or drawn position is in the picture.
 fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut errors = Vec::new();
     for mesh in &cut.meshes {
         let image = |at| apparent::at_rest(&viewpoint.observer, at).position;
         let images: Vec<DVec3> = mesh.vertices.iter().map(|vertex| image(vertex.place)).collect();
         for corners in mesh.indices.chunks_exact(3) {
-            // Large ones are few, and could reach from far beside the picture into it.
+            // Large triangles are few, and could reach into the picture from far beside it.
             let [a, b, c] = [0, 1, 2].map(|corner: usize| images[corners[corner] as usize].normalize());
             let size = a.distance(b).max(b.distance(c)).max(c.distance(a));
             for _ in 0..1 + (40.0 * size) as usize {
@@ -92,7 +94,8 @@ fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64>
                 match (pixel(viewpoint, seen), pixel(viewpoint, drawn)) {
                     (Some(seen), Some(drawn)) => errors.push(seen.distance(drawn)),
                     (None, None) => {}
-                    // Beyond the picture's rim on one side: only nearly so.
+                    // If only one position is in the picture, use the angle, which agrees with the distance in pixels
+                    // approximately.
                     _ => {
                         let (seen, drawn) = (seen.normalize(), drawn.normalize());
                         let angle = seen.cross(drawn).length().atan2(seen.dot(drawn));
@@ -111,7 +114,7 @@ fn no_place_of_the_picture_is_further_off_than_the_tolerance() {
     let mut all = Vec::new();
     let boxes = LATTICE.build();
     for round in 0..60 {
-        // At γ up to 10⁶; half of the time a wall of 100 m is right behind, or the ground below.
+        // γ is up to 10⁶; half of the time a wall of 100 m is right behind, or the ground below.
         let viewpoint = somebody(&mut random, 14.5);
         let motion = viewpoint.observer.celerity.vector().normalize();
         let (away, distance) = (if round % 4 == 0 { -motion } else { DVec3::NEG_Y }, 10.0_f64.powi(round % 3 - 1));
@@ -135,7 +138,7 @@ fn no_place_of_the_picture_is_further_off_than_the_tolerance() {
 #[test]
 fn a_closed_surface_stays_closed_across_meshes_too() {
     let whole = LATTICE.build();
-    // The same triangles in meshes that know nothing of each other.
+    // Divide the triangles among meshes that are cut independently.
     let apart = |part: usize| {
         let mut mesh = whole.meshes[0].clone();
         let triangles = mesh.indices.chunks_exact(3).enumerate().filter(|(number, _)| number % 3 == part);
@@ -146,7 +149,7 @@ fn a_closed_surface_stays_closed_across_meshes_too() {
     let mut random = seeded(42);
     for _ in 0..12 {
         let viewpoint = somebody(&mut random, 8.0);
-        // Where the observer was a little before, there is much on the verge.
+        // A cut for a slightly earlier place of the observer leaves many edges close to the limit.
         let mut earlier = viewpoint.clone();
         earlier.observer.event.position += 0.1 * direction(&mut random);
         let before = Cut::new(&torn, &earlier, FINENESS, None);
@@ -175,7 +178,7 @@ fn a_small_step_changes_few_edges() {
     let first = Cut::new(&town, &looking(0.5), FINENESS, None);
     let mut changed = [0, 0];
     let mut kept = first.clone();
-    // To and fro: without a memory every edge on the verge would come and go.
+    // Turn to and fro: without the cut before, every edge close to the limit would change each time.
     for turn in 0..8 {
         let there = looking(0.5 - 0.02 * f64::from(turn % 2));
         let forgetful = Cut::new(&town, &there, FINENESS, None);
@@ -221,14 +224,14 @@ fn at_rest_nothing_is_cut() {
     assert_eq!(cut.triangle_count(), scene.triangle_count());
 }
 
-/// Linear, unlike any face's colour.
+/// Linear colour, unlike the colour of any face.
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 
-/// Metres; and the corner of a box, which is dead astern of the motion.
+/// Place of the eye, metres; then the corner of a box, which is dead astern of the motion.
 const EYE: DVec3 = DVec3::new(0.375, -0.21875, 0.53125);
 const CORNER: Vec3 = Vec3::new(5.5, -1.5, 2.5);
 
-/// What may differ at the outlines: at γ = 701 the picture ahead holds the whole world.
+/// Largest share of pixels that may differ at the outlines: at γ = 701 the picture ahead holds the whole world.
 const SHARE_AT_MOST: f64 = 0.005;
 
 #[test]
@@ -237,7 +240,7 @@ fn at_gamma_701_boxes_are_where_exact_rays_meet_them() {
     let tolerance = Tolerance { pixels: TOLERANCE_PX, pace: Pace::Still };
     let method = Method::Adaptive(tolerance);
     let mut photographer = Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), method);
-    // A little beside the corner, since that much is enlarged 1400 times.
+    // The motion is aimed a little beside the corner, since that offset is enlarged 1400 times.
     let motion = EYE - CORNER.as_dvec3() + DVec3::new(4e-4, -2e-4, 7e-4);
     let celerity = Celerity::new(motion.normalize() * (701.0_f64 * 701.0 - 1.0).sqrt()).unwrap();
     for look in [motion, motion.cross(DVec3::Y), -motion] {

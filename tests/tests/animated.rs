@@ -1,9 +1,10 @@
-//! Law: what an animation moves is seen, point by point, where it was when its light left: at the event where its worldline crosses the observer's
-//! past light cone. Its light is shifted by that point's own motion there. What moves evenly by keys looks like the same body with a celerity.
+//! Each point of an animated body must be seen where it was when its light left: at the event where its worldline
+//! crosses the observer's past light cone. Its light must be shifted by that point's own motion there. A body that
+//! keys move evenly must look like the same body with a celerity.
 //!
-//! A wrong program shows: bodies at their present places, which are metres away; a Doppler factor of the wrong moment, of the body's middle or
-//! of the world; two renderers that differ.
-//! What is expected comes from closed forms of the worldlines, bisection on the light cone, and a Lorentz transformation as in a textbook.
+//! A wrong program shows bodies at their present places, which are metres away; or a Doppler factor of the wrong
+//! moment, of the body's middle or of the world; or two renderers that differ. The expected values come from closed
+//! forms of the worldlines, bisection on the light cone, and a textbook Lorentz transformation.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3};
@@ -29,31 +30,31 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [320, 240];
 
-/// Metres, and of D: what the program promises.
+/// Accuracy that the program promises, in metres and in D.
 const EXACT: f64 = 1e-9;
 
-/// Pixels between a small body's centre of gravity and the exact place of its middle.
+/// Largest distance in pixels between a small body's centre of gravity and the exact place of its middle.
 const GRAVITY_PX: f64 = 0.25;
 
-/// Of light: the table's own error, f32, and D between vertices.
+/// Relative tolerance of light: the table's own error, f32, and D between vertices.
 const LIGHT_TOLERANCE: f64 = 0.004;
 
-/// Light of the worlds here, m/s.
+/// Speed of light in the worlds here, m/s.
 const SPEED_OF_LIGHT: f64 = 10.0;
 
 const ADAPTIVE: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
 
-/// A body whose worldlines are known in closed form: place and v/c of a point of it at world time `ct`.
+/// Body whose worldlines are known in closed form: place and v/c of a point of it at world time `ct`.
 struct Known {
     motion: Motion,
     at: fn(DVec3, f64) -> (DVec3, DVec3),
 }
 
-/// Of the circle: its middle, and its period in seconds.
+/// Middle of the circle, then its period in seconds.
 const CENTRE: DVec3 = DVec3::new(2.0, 1.0, -12.0);
 const PERIOD_S: f64 = 4.0;
 
-/// It hangs on a node that turns once about the upright, evenly, in four seconds.
+/// Body on a node that turns once about the vertical, evenly, in four seconds.
 fn circling() -> Known {
     let turn = |quarter: u32| DQuat::from_rotation_y(FRAC_PI_2 * f64::from(quarter));
     let times = (0..=4).map(|quarter| 0.25 * PERIOD_S * f64::from(quarter)).collect();
@@ -71,11 +72,11 @@ fn circling() -> Known {
     Known { motion, at }
 }
 
-/// Of the hyperbola: c²/a, and where it turns round.
+/// Length c²/a of the hyperbola, then the place of its turning point.
 const LENGTH_M: f64 = 10.0;
 const TURN: DVec3 = DVec3::new(-3.0, 0.5, -8.0);
 
-/// It moves along x with one proper acceleration, by a key every centimetre of light travel.
+/// Body that moves along x with constant proper acceleration, with a key every centimetre of light travel.
 fn accelerated() -> Known {
     let cts: Vec<f64> = (-6000..=2000).map(|step| f64::from(step) * 0.01).collect();
     let root = |ct: f64| ct.hypot(LENGTH_M);
@@ -96,7 +97,7 @@ fn at(beta: DVec3) -> Celerity {
     Beta::new(beta).unwrap().celerity()
 }
 
-/// The world time of the light by which an observer sees what is where it is known to be: by bisection.
+/// World time at which the light left by which the observer sees a point of known position, by bisection.
 fn light_left(observer: &Observer, position: impl Fn(f64) -> DVec3) -> f64 {
     let lag = |ct: f64| (observer.event.ct - ct) - position(ct).distance(observer.event.position);
     let (mut early, mut late) = (observer.event.ct - 1000.0, observer.event.ct);
@@ -107,7 +108,7 @@ fn light_left(observer: &Observer, position: impl Fn(f64) -> DVec3) -> f64 {
     0.5 * (early + late)
 }
 
-/// Where it appears, and D.
+/// Exact apparent position and D of a point of a body.
 fn expected(observer: &Observer, known: &Known, place: DVec3) -> (DVec3, f64) {
     let ct = light_left(observer, |ct| (known.at)(place, ct).0);
     let (position, velocity) = (known.at)(place, ct);
@@ -120,7 +121,7 @@ fn expected(observer: &Observer, known: &Known, place: DVec3) -> (DVec3, f64) {
     (apparent, (gamma + u.dot(n)) / sent)
 }
 
-/// Somebody somewhere in front of both, at rest or moving.
+/// Random observer in front of both bodies, at rest or moving.
 fn somebody(random: &mut ChaCha8Rng) -> Observer {
     let mut number = |from: f64, to: f64| random.random_range(from..to);
     let position = DVec3::new(number(-4.0, 4.0), number(-2.0, 3.0), number(-3.0, 6.0));
@@ -129,7 +130,7 @@ fn somebody(random: &mut ChaCha8Rng) -> Observer {
     Observer { event: Event { ct, position }, celerity: Celerity::new(direction(random) * speed).unwrap() }
 }
 
-/// A sphere of triangles.
+/// Sphere of triangles, with motion 0.
 fn ball(middle: DVec3, radius: f64, fineness: f32) -> Mesh {
     let mut mesh = sphere(DVec3::ZERO, fineness).meshes.remove(0);
     mesh.positions.iter_mut().for_each(|place| *place = (middle + radius * place.as_dvec3()).as_vec3());
@@ -237,7 +238,7 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
         for mesh in &cut.meshes {
             for corners in mesh.indices.chunks_exact(3) {
                 let corners = [0, 1, 2].map(|corner: usize| mesh.vertices[corners[corner] as usize].place);
-                // An edge is inside, and two triangles have it, or on the rim, where one has it.
+                // Inside the plate two triangles share an edge, on the rim an edge belongs to one.
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {
                     let mut ends = [corners[a], corners[b]].map(|end| end.to_array().map(f64::to_bits));
                     ends.sort_unstable();
@@ -267,7 +268,7 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
     }
 }
 
-/// The mean place of what is bright, pixels from the upper left corner.
+/// Mean place of the bright pixels, pixels from the upper left corner.
 fn centre_of_gravity(brightness: impl Iterator<Item = f64>) -> DVec2 {
     let (mut sum, mut weight) = (DVec2::ZERO, 0.0);
     for (index, bright) in brightness.enumerate() {
@@ -278,7 +279,7 @@ fn centre_of_gravity(brightness: impl Iterator<Item = f64>) -> DVec2 {
     sum / weight
 }
 
-/// Where in the picture a direction is.
+/// Place of a direction in the picture, pixels.
 fn pixel(view: &View, seen: DVec3) -> DVec2 {
     let eye = view.camera().observer_from_eye.conjugate() * seen;
     let at = eye.truncate() / -eye.z * view.focal_length();
@@ -294,7 +295,7 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
     for beta in [DVec3::ZERO, DVec3::new(0.3, 0.2, -0.4)] {
         let who = Observer { event: Event { ct: 0.0, position: DVec3::new(1.0, 2.0, 0.0) }, celerity: at(beta) };
         let (apparent, _) = expected(&who, &known, place);
-        // Off the picture's middle, lest a body that follows the camera pass.
+        // Look beside the body, so that a program whose bodies follow the camera fails.
         let look = apparent.normalize() + DVec3::new(0.1, 0.06, 0.0);
         let view = View { look, up: DVec3::Y, fov_degrees: 30.0, size: SIZE };
         let exact = pixel(&view, apparent);
@@ -311,7 +312,7 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
         found.push(centre_of_gravity(traced.light.iter().map(|light| light.y)));
         println!("{beta}: exact {exact}, found {found:?}");
         assert!(found.iter().all(|found| found.distance(exact) < GRAVITY_PX), "{exact}: {found:?}");
-        // Without light's delay it is where it is now.
+        // If light takes no time, the body is at its present place.
         let mut photographer = Photographer::with(&scene, SIZE, 16, Some([0.0; 3]), ADAPTIVE);
         let towards = (known.at)(place, 0.0).0 - who.event.position;
         let view = View { look: towards + DVec3::X, ..view };
@@ -326,7 +327,7 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
     }
 }
 
-/// A box about the origin, grey.
+/// Grey box about the origin.
 fn cuboid(half: DVec3) -> Mesh {
     let mut mesh = Mesh { motion: Some(0), ..Mesh::default() };
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -356,7 +357,7 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
     let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
     let by_keys = Motion::Animated(Arc::new(Animated::new("train", vec![Link::Keyed(node)])));
     let has_celerity = Motion::Uniform(Uniform { celerity, anchor });
-    // Keys say where every point is in the world: there it is shorter.
+    // Keys give the places of all points in the world, where the box is contracted.
     let half = DVec3::new(1.0, 0.8, 1.2);
     let across = DVec3::new(0.2, 0.3, 0.4);
     for (lit, beta) in [(false, across), (true, across), (true, DVec3::ZERO)] {
@@ -387,7 +388,7 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
             let mut worst = 0.0_f64;
             for (&found, &expected) in picture.iter().zip(&reference) {
                 let off = (found - expected).length() / expected.length().max(1e-9);
-                // One of two faces at an edge.
+                // A pixel at an edge may show the other of two faces.
                 if off > 0.05 { outline += 1 } else { worst = worst.max(off) }
             }
             println!("lit {lit}, {beta}, picture {number}: {worst:.1e} off, {outline} of {shown} at edges");

@@ -1,8 +1,9 @@
-//! Law: a thin lens blurs a point to a circle whose diameter is the aperture's, as it appears from the point beside the plane that is sharp; an
-//! open shutter smears what moves over the angle that it runs through meanwhile. Both hold of apparent places, in the observer's frame and by his clock.
+//! A thin lens must blur a point to a circle of the diameter A |1/f − 1/d|, as a tangent, with A the aperture, d the
+//! distance of the point and f that of the focal plane. An open shutter must smear a moving body over the angle that
+//! it passes meanwhile. Both hold for apparent positions, in the observer's frame and by the observer's clock.
 //!
-//! A wrong program shows: with world distances in the place of apparent ones, circles of another size; with the world's time in the place of the
-//! observer's own, streaks longer by γ; with samples that leave holes, another mean.
+//! In a wrong program, world distances in place of apparent ones give circles of another size; the world's time in
+//! place of proper time gives streaks longer by γ; samples that leave holes give another mean.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2, Vec3};
@@ -17,17 +18,17 @@ use system_tests::view::{View, middle};
 
 const BLACK: Option<[f32; 3]> = Some([0.0; 3]);
 
-/// Of the blurred circle's diameter: a few thousand samples hit it.
+/// Relative tolerance of the blurred circle's diameter: a few thousand samples hit it.
 const CIRCLE_TOLERANCE: f64 = 0.02;
 
-/// Pixels, of a streak's ends: they are between pixels.
+/// Tolerance of a streak's ends, pixels: they lie between pixels.
 const STREAK_TOLERANCE: f64 = 1.0;
 
 fn at(beta: DVec3) -> Celerity {
     Beta::new(beta).unwrap().celerity()
 }
 
-/// A white disc about `centre` that faces +z, unlit.
+/// White, unlit disc about `centre` that faces +z.
 fn disc(centre: DVec3, radius: f32) -> Scene {
     const CORNERS: u32 = 24;
     let corner = |number: u32| {
@@ -63,7 +64,7 @@ fn trace(scene: &Scene, optics: Optics, shot: &Shot, size: [u32; 2], samples: u3
     tracer.trace(shot, size, samples, &AtomicBool::new(false), || {})
 }
 
-/// Mean square distance of a picture's light from its own middle, pixels.
+/// Mean square distance of a picture's light from its own middle, square pixels.
 fn spread(traced: &Traced) -> f64 {
     let pixels = (0..traced.size[1]).flat_map(|row| (0..traced.size[0]).map(move |column| middle([column, row])));
     let (mut light, mut mean, mut squares) = (0.0, [0.0; 2], 0.0);
@@ -84,7 +85,7 @@ fn what_is_not_in_focus_is_a_circle_of_the_lenss_size() {
         (DVec3::ZERO, 2.0),
         (DVec3::ZERO, 9.0),
         (DVec3::NEG_Z * 0.9, 6.0),
-        // The lens reaches along the motion, so the world's time is another at each of its points.
+        // The lens extends along the motion, so the world's time differs between its points.
         (DVec3::X * 0.9, 3.0),
     ] {
         let celerity = at(beta);
@@ -92,7 +93,7 @@ fn what_is_not_in_focus_is_a_circle_of_the_lenss_size() {
         let place = apparent::at_rest(&observer, centre).position;
         let distance = place.length();
         let view = View { look: place, up: DVec3::Y, fov_degrees: 6.0, size: SIZE };
-        // So wide that the circle has a radius of 18 pixels, and a disc of two.
+        // Choose the aperture so that the circle has a radius of 18 pixels, and the disc one of two.
         let per_metre = (1.0 / focus_m - 1.0 / distance).abs() * view.focal_length();
         let aperture_m = 36.0 / per_metre;
         let scene = disc(centre, (2.0 * distance / view.focal_length()) as f32);
@@ -142,13 +143,15 @@ fn what_crosses_the_picture_leaves_a_streak() {
     let radius = 0.1;
     let half = radius / FAR_M * view.focal_length();
 
-    // It flies past an observer at rest: X = γ²β (t − √(β²t² + b²/γ²)) is where it appears at time t if it is abeam at time 0.
+    // The disc flies past an observer at rest: X = γ²β (t − √(β²t² + b²/γ²)) is its apparent position at time t if it
+    // is abeam at time 0.
     for beta in [0.3, 0.8] {
         let gamma_squared = 1.0 / (1.0 - beta * beta);
         let seen = |t: f64| gamma_squared * beta * (t - (beta * beta * t * t + FAR_M * FAR_M / gamma_squared).sqrt());
         let centre = DVec3::new(0.0, 0.0, -FAR_M);
         let mut scene = disc(centre, radius as f32);
-        // Abeam so much sooner that it appears in the middle of the picture when it is taken: the light takes its time.
+        // The disc is abeam earlier by the light's travel time, so that it appears in the middle of the picture when
+        // that is taken.
         let anchor = Event { ct: -FAR_M, position: centre };
         scene.motions = vec![Motion::Uniform(Uniform { celerity: at(DVec3::X * beta), anchor })];
         scene.meshes[0].motion = Some(0);
@@ -160,7 +163,7 @@ fn what_crosses_the_picture_leaves_a_streak() {
         assert!((last - (ends[1] + half)).abs() < STREAK_TOLERANCE + 0.3 * half, "{beta} c: {last} {ends:?}");
     }
 
-    // The observer flies past it: his own time counts, along his worldline.
+    // The observer flies past the disc, so proper time along the observer's worldline counts.
     let celerity = at(DVec3::X * 0.6);
     let view = View { look: DVec3::new(0.75, 0.0, -1.0), up: DVec3::Y, fov_degrees: 14.0, size: SIZE };
     let scene = disc(DVec3::new(0.0, 0.0, -FAR_M), radius as f32);

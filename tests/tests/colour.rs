@@ -1,8 +1,8 @@
-//! Law: the colour of an unlit material is the radiance that leaves it, so its linear factor reaches the picture as its nearest sRGB byte
-//! (IEC 61966-2-1), whichever way it was given and however many samples a pixel has.
+//! The colour of an unlit material is the radiance that leaves it. So its linear factor must reach the picture as its
+//! nearest sRGB byte (IEC 61966-2-1), in whatever form it was given and with any number of samples a pixel.
 //!
-//! A wrong program shows: a byte off in the darks, where half floats or a gamma of 2.2 stand in for the curve; everything a little off
-//! after several samples, where their mean is taken of encoded values; colours dimmed by the sun.
+//! In a wrong program, half floats or a gamma of 2.2 in place of the curve put dark values a byte off. A mean of
+//! encoded values puts everything a little off after several samples. Light of the sun dims the colours.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2, Vec3};
@@ -14,30 +14,30 @@ use system_tests::photographer::Photographer;
 use system_tests::random::seeded;
 use system_tests::view::View;
 
-/// Tiles along each side of a chart.
+/// Number of tiles along each side of a chart.
 const SIDE: u32 = 16;
 
-/// Pixels along each side of a tile: enough for one that no other tile touches.
+/// Side of a tile, pixels: enough for a pixel that no other tile touches.
 const TILE: u32 = 4;
 
-/// Steps of a byte: how close to half way between two bytes f32 may take the other one. The power function of a graphics driver
-/// is good to about 1e-5.
+/// Distance in bytes from half way between two bytes at which f32 may take the other one. The power function of a
+/// graphics driver is accurate to about 1e-5.
 const TIE: f64 = 4e-3;
 
-/// Where a tile's colour is written.
+/// Place where a tile's colour is written.
 #[derive(Clone, Copy, Debug)]
 enum Carrier {
     Factor,
     FactorWithWhiteTexture,
     Vertices,
-    /// A quarter here, four times as much there: the product counts, and is exact.
+    /// A quarter in the factor, four times the colour in the vertices: the product counts, and is exact.
     FactorAndVertices,
 }
 
 const CARRIERS: [Carrier; 4] =
     [Carrier::Factor, Carrier::FactorWithWhiteTexture, Carrier::Vertices, Carrier::FactorAndVertices];
 
-/// A wall of square tiles one metre ahead that fills a picture of 90°.
+/// Wall of square tiles one metre ahead that fills a picture of 90°.
 fn chart(colours: &[[f32; 3]], carrier: Carrier) -> Scene {
     let opaque = |[red, green, blue]: [f32; 3]| [red, green, blue, 1.0];
     let mut scene = Scene { name: "chart".into(), textures: vec![white()], ..Default::default() };
@@ -77,7 +77,7 @@ fn white() -> Texture {
     Texture { name: "white".into(), width, height, rgba: vec![255; 64], wrap: [Wrap::Repeat; 2], nearest: false }
 }
 
-/// The chart as a file brings it to whoever opens it.
+/// Chart as read back from a picture file.
 fn file_of(scene: &Scene, samples: u32) -> RgbaImage {
     let size = [SIDE * TILE; 2];
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 90.0, size };
@@ -88,7 +88,7 @@ fn file_of(scene: &Scene, samples: u32) -> RgbaImage {
     image::open(&path).unwrap().into_rgba8()
 }
 
-/// Checks each tile's middle pixels against what `accepts` allows for a linear value.
+/// Checks the middle pixels of each tile: `accepts` must be true for the linear value and the byte.
 fn assert_chart(colours: &[[f32; 3]], carrier: Carrier, samples: u32, accepts: impl Fn(f64, u8) -> bool) {
     let file = file_of(&chart(colours, carrier), samples);
     for (tile, colour) in (0..SIDE * SIDE).zip(colours) {
@@ -110,7 +110,7 @@ fn assert_chart(colours: &[[f32; 3]], carrier: Carrier, samples: u32, accepts: i
 #[test]
 fn all_256_steps_come_out_as_themselves() {
     let step = |byte: u8| linear(byte) as f32;
-    // A different step for each channel, so that channels cannot trade places.
+    // Use a different step for each channel, so that exchanged channels are found.
     let colours: Vec<_> = (0..=255u8).map(|byte| [byte, 255 - byte, byte.wrapping_mul(7)].map(step)).collect();
     for carrier in CARRIERS {
         for samples in [1, 4] {

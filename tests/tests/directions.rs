@@ -1,8 +1,10 @@
-//! Law: what a pixel shows is what sends light to it. For each pixel the program says which place of the scene it shows; light from
-//! there arrives from a direction that is known exactly, and must be the pixel's own.
+//! A pixel must show the place from which light reaches it. For each pixel the program tells the place of the scene
+//! that it shows. Light from there arrives from a direction that is known exactly, and that must be the pixel's own
+//! direction.
 //!
-//! A wrong program shows: with a vertex formula that cancels, astern, minutes of arc that grow as γ² (other programs: 17′, 12′ and 7′ at γ = 701 and
-//! 100); with flat triangles too large, degrees between vertices; with a map too coarse, its texels.
+//! In a wrong program, a vertex formula that cancels gives errors astern of minutes of arc that grow as γ² (other
+//! programs: 17′, 12′ and 7′ at γ = 701 and 100). Flat triangles that are too large give degrees between vertices. A
+//! map that is too coarse gives the size of its texels.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -20,16 +22,16 @@ use system_tests::view::{View, middle};
 const SIZE: [u32; 2] = [320, 240];
 const FOV_DEGREES: f64 = 60.0;
 
-/// Arcminutes in a pixel at the middle of such a picture.
+/// Size of a pixel at the middle of such a picture, arcminutes.
 const PIXEL_ARCMIN: f64 = 16.5;
 
-/// What `polygon` is asked for.
+/// Tolerance requested from `polygon`, pixels.
 const TOLERANCE_PX: f64 = 0.05;
 
-/// A tenth of the smallest error that other programs' formulas have at γ = 701.
+/// Tenth of the smallest error that other programs' formulas have at γ = 701, arcminutes.
 const TENTH_OF_OTHERS_ARCMIN: f64 = 1.2;
 
-/// Half the diagonal of a texel of the default map, eight to the pixel.
+/// Half the diagonal of a texel of the default map, eight to the pixel, arcminutes.
 const MAP_ARCMIN: f64 = 0.5 * std::f64::consts::SQRT_2 * PIXEL_ARCMIN / 8.0;
 
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
@@ -52,8 +54,8 @@ fn polygon() -> Method {
     Method::Adaptive(Tolerance { pixels: TOLERANCE_PX, pace: Pace::Still })
 }
 
-/// Holds a picture's errors against the bounds of each method: of all pixels, and of 99 of 100. `rounding`: arcminutes that the
-/// places, which come in f32, are uncertain by themselves.
+/// Checks a picture's errors against the bounds of each method, for all pixels and for 99 of 100. `rounding` is the
+/// uncertainty of the places themselves, which are in f32, arcminutes.
 fn hold(scene: &Scene, eye: DVec3, celerity: DVec3, look: DVec3, rounding: f64) {
     for (method, most, usual) in [
         (polygon(), TOLERANCE_PX * PIXEL_ARCMIN, 0.5 * TOLERANCE_PX * PIXEL_ARCMIN),
@@ -79,7 +81,8 @@ fn boxes_are_where_they_are_seen() {
     for gamma in [1.0, 1.25, 2.3, 7.1] {
         hold(&scene, DVec3::new(0.3, 0.4, 2.0), DVec3::NEG_Z * celerity(gamma), DVec3::NEG_Z, 0.0);
     }
-    // At γ = 701 all that is in the picture, but for its middle, is astern in the world: a box 1.6 m behind, 1400 times enlarged at most.
+    // At γ = 701 everything in the picture but its middle is astern in the world: a box 1.6 m behind, enlarged 1400
+    // times at most.
     let rounding = 2.0_f64.powi(-23) / 1.6 * 1402.0 * ARCMIN_PER_RAD;
     hold(&scene, DVec3::new(2.1, 1.9, -0.1), DVec3::NEG_Z * celerity(701.0), DVec3::new(0.1, 0.0, -1.0), rounding);
 }

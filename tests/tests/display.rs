@@ -1,8 +1,10 @@
-//! Laws: what the screen can show passes unchanged; exposure takes back on the average what motion has added, in the observer's own time; tone curves
-//! are the published ones and keep hue; gamut mapping keeps luminance and hue; a file of light holds the light to the bit.
+//! Colours inside the gamut must pass unchanged. Exposure must take back on average the brightness that motion has
+//! added, in proper time. Tone curves must be the published ones and keep hue. Gamut mapping must keep luminance and
+//! hue. A file of light must hold the light to the bit.
 //!
-//! A wrong program shows: a picture at rest that is not the scene's own colours; a frame that flickers or stays dark after a jump; hues that turn
-//! where a channel is cut off; black or garish pixels where radiance is beyond all bounds.
+//! A wrong program shows a picture at rest that does not have the scene's own colours; a frame that flickers or stays
+//! dark after a jump; hues that turn where a channel is clipped; black or garish pixels where radiance is beyond all
+//! bounds.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use exr::prelude::{FlatImage, FlatSamples, read_all_flat_layers_from_file};
@@ -21,9 +23,10 @@ use system_tests::photographer::Photographer;
 use system_tests::random::seeded;
 use system_tests::view::{View, middle};
 
-/// Relative error of a shader's result: powers and exponentials of graphics devices, there and back through the screen's curve.
+/// Relative error of a shader's result: powers and exponentials of graphics devices, there and back through the
+/// screen's curve.
 const SHADER: f64 = 5e-5;
-/// Width of the light meter's bins, in stops.
+/// Width of the light meter's bins, stops.
 const BIN: f64 = 0.125;
 
 const SHIFTED: Stored = Stored { white: 1.0, scale: 1.0, shifted: true };
@@ -38,7 +41,7 @@ fn automatic(tone: Tone) -> Development {
     Development { exposure: Exposure::AUTO, ..fixed(0.0, tone) }
 }
 
-/// Greys of these luminances, seen with a gain.
+/// Greys with these luminances at rest and these gains.
 fn greys(seen: impl IntoIterator<Item = (f64, f64)>) -> Vec<[f32; 4]> {
     seen.into_iter()
         .map(|(at_rest, gain)| {
@@ -52,7 +55,7 @@ fn relative(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()
 }
 
-/// Colours that the screen has, the ends of its range among them.
+/// Colours inside the gamut, the ends of its range among them.
 fn colours(seed: u64) -> Vec<[f32; 4]> {
     let mut random = seeded(seed);
     let mut colours: Vec<_> = (0..1022).map(|_| [random.random(), random.random(), random.random(), 0.5]).collect();
@@ -124,7 +127,7 @@ fn automatic_exposure_is_the_trimmed_mean_of_gains_over_the_picture() {
     let mut random = seeded(4);
     for spread in [0.5, 5.0, 30.0] {
         let gains: Vec<f64> = (0..4000).map(|_| (spread * random.random_range(-1.0..1.0_f64).powi(3)).exp2()).collect();
-        // The first is dim enough never to be cut off.
+        // The first pixel is dim enough never to be clipped.
         let mut texels = greys(gains.iter().map(|gain| (0.3, *gain)));
         let probe = (1e-12, gains[0]);
         texels[0] = greys([probe])[0];
@@ -143,12 +146,12 @@ fn pixels_that_are_dark_by_themselves_have_no_say() {
     texels.extend(greys((0..400).map(|_| (0.5, 0.0))));
     let shown = eye.shown(30, &texels, SHIFTED, automatic(Tone::Linear), None);
     assert!(relative(shown[0][0], 0.5) < SHADER, "{:?}", shown[0]);
-    // With none at all, the exposure stays.
+    // If no gain is metered, the exposure stays.
     let dark = vec![[0.0; 4]; 64];
     assert!(eye.shown(8, &dark, SHIFTED, automatic(Tone::Reinhard), None).iter().all(|rgb| *rgb == [0.0; 3]));
 }
 
-/// The exposure, in stops, after these frames: the gain of each, and the time before it.
+/// Exposure, in stops, after these frames. Each frame has a gain, and the time before it.
 fn exposure_after(frames: &[(f64, Option<f64>)]) -> f64 {
     let mut eye = Onlooker::new();
     let mut shown = f64::NAN;
@@ -166,7 +169,7 @@ fn the_eye_adapts_by_1_less_e_to_the_minus_t_over_tau() {
         let exposure = exposure_after(&[(1.0, None), (gain, Some(elapsed))]);
         let expected = 4.0 * (-elapsed / TIME_CONSTANT_S).exp_m1();
         assert!((exposure - expected).abs() < 1e-3, "{exposure} instead of {expected} after {elapsed} s");
-        // Whatever the frame rate.
+        // The result must not depend on the frame rate.
         let halves = exposure_after(&[(1.0, None), (gain, Some(0.5 * elapsed)), (gain, Some(0.5 * elapsed))]);
         assert!((exposure - halves).abs() < 1e-3);
     }
@@ -195,7 +198,7 @@ fn reinhards_white_is_the_brightest_gain_but_for_one_in_a_hundred() {
     let texels = greys(gains.iter().map(|gain| (1.0, *gain)));
     let shown = Onlooker::new().shown(50, &texels, SHIFTED, fixed(0.0, Tone::Reinhard), None);
     for (gain, shown) in gains.iter().zip(&shown) {
-        // What is clearly above is white, what is clearly below is not.
+        // Gains clearly above the limit are white, gains clearly below it are not.
         let white = shown[0] > 1.0 - SHADER;
         assert!(gain.log2() < bright + BIN || white, "{gain}: {shown:?}");
         assert!(gain.log2() > bright - BIN || !white, "{gain}: {shown:?}");
@@ -207,7 +210,7 @@ fn tone_curves_are_the_published_ones_and_keep_hue() {
     let mut eye = Onlooker::new();
     let mut random = seeded(7);
     for tone in TONES {
-        // A fixed exposure of unshifted light: every gain is 2^stops, and so is white.
+        // At a fixed exposure of unshifted light, every gain is 2^stops, and so is white.
         for stops in [0.0, 4.0, 10.0] {
             let texels: Vec<[f32; 4]> = (0..1024)
                 .map(|_| {
@@ -318,7 +321,7 @@ fn desaturation_keeps_luminance_and_hue_and_loses_no_more_colour_than_it_must() 
         let colour = [r, g, b].map(|value| f64::from(*value));
         let (before, after) = (luminance(colour), luminance(shown));
         assert!((before.clamp(0.0, 1.0) - after).abs() < SHADER, "{colour:?} is {shown:?}");
-        // Differences from grey stay in proportion, and their signs.
+        // Differences from grey keep their proportions and their signs.
         let cross =
             |a: usize, b: usize| (colour[a] - before) * (shown[b] - after) - (colour[b] - before) * (shown[a] - after);
         if (0.0..=1.0).contains(&before) {
@@ -354,7 +357,7 @@ fn a_histogram_without_peaks_gives_a_straight_curve_over_the_screens_range() {
 #[test]
 fn a_histogram_exaggerates_no_contrast_and_wastes_no_range() {
     let mut random = seeded(10);
-    // Nine pixels of ten at one brightness: without the ceiling they would get nine tenths of the screen's range.
+    // Nine pixels of ten have one brightness: without the ceiling they would get nine tenths of the screen's range.
     let scene: Vec<f64> = (0..4096)
         .map(|index| if index % 10 == 0 { random.random_range(-15.0..15.0) } else { random.random_range(0.0..0.5) })
         .collect();
@@ -452,7 +455,7 @@ fn light_of_a_scene_is_its_picture_before_the_screen_and_the_searchlight_effect_
             assert!((encoded(f64::from(*light)) - f64::from(byte)).abs() < 0.51, "{light} cd/m² is {byte}");
         }
     }
-    // Only brightness, in the directions of rest: D = γ + u·n.
+    // The searchlight effect alone changes only brightness, in the directions at rest: D = γ + u·n.
     let searchlight = Effects { searchlight: true, ..Effects::NONE };
     for beta in [0.6, 0.999] {
         let celerity = Beta::new(DVec3::NEG_Z * beta).unwrap().celerity();

@@ -1,8 +1,9 @@
-//! Law: a lamp's light falls off with the square of the distance and with the cosine of its angle, behind something there is none of it, and what moves gets it
-//! as its own observer would see it: from the aberrated direction, of another colour, D² as much.
+//! A lamp's light must fall off with the square of the distance and with the cosine of its angle, and must not reach
+//! what is in shadow. A moving body must receive it as an observer on it sees it: from the aberrated direction, in
+//! the shifted colour, D² as much.
 //!
-//! A wrong program shows: with the direction of the world's frame, a floor that is bright in the wrong place; with another power of D, another
-//! brightness; with shadow rays that go on beyond the lamp, shadows of what is behind it.
+//! In a wrong program, the direction of the world's frame makes a floor bright in the wrong place; another power of D
+//! gives another brightness; shadow rays that continue beyond the lamp give shadows of things behind it.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2, Vec3};
@@ -18,13 +19,13 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [64, 48];
 
-/// Of light that f32 coordinates and colours have gone through.
+/// Relative tolerance of light after f32 coordinates and colours.
 const LIGHT_TOLERANCE: f64 = 1e-5;
 
 const LAMP: DVec3 = DVec3::new(0.5, 1.0, -3.0);
 const COLOUR: [f32; 3] = [3.0, 2.0, 1.0];
 
-/// A level square about a place that faces up.
+/// Level square about a place, facing up.
 fn level(x: f32, y: f32, z: f32, half: f32) -> Mesh {
     let corners = [[-half, half], [half, half], [half, -half], [-half, -half]];
     Mesh {
@@ -37,7 +38,7 @@ fn level(x: f32, y: f32, z: f32, half: f32) -> Mesh {
     }
 }
 
-/// A floor under a lamp, and nothing else that shines.
+/// Floor under a lamp, without any other light.
 fn scene(meshes: Vec<Mesh>) -> Scene {
     let lamp = Lamp { name: "lamp".into(), position: LAMP, colour: COLOUR, range: None, spot: None, spectrum: None };
     Scene {
@@ -49,7 +50,8 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
     }
 }
 
-/// Holds each pixel of the floor, a metre below the eye, against what is expected for its place in the world; `None`: too near an edge.
+/// Checks each pixel of the floor, a metre below the eye, against the light expected for its place in the world.
+/// `None` marks a place too near an edge.
 fn hold(scene: Scene, expected: impl Fn(DVec3) -> Option<DVec3>) -> [usize; 2] {
     let view = View { look: DVec3::new(0.0, -0.3, -1.0), up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
     let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap();
@@ -73,7 +75,7 @@ fn hold(scene: Scene, expected: impl Fn(DVec3) -> Option<DVec3>) -> [usize; 2] {
 
 #[test]
 fn a_lamp_lights_the_floor_and_what_is_between_shades_it() {
-    // A sheet between the lamp and the floor, and one above the lamp that shades nothing.
+    // One sheet lies between the lamp and the floor; one above the lamp shades nothing.
     let floor = level(0.0, -1.0, 0.0, 90.0);
     let scene = scene(vec![floor, level(0.7, 0.6, -3.1, 0.3), level(0.5, 2.0, -3.0, 4.0)]);
     let compared = hold(scene, |place| {
@@ -105,7 +107,8 @@ fn a_floor_that_moves_gets_the_lamp_as_it_sees_it() {
             let away = LAMP - place;
             let (distance, towards) = (away.length(), away.normalize());
             let doppler = celerity.gamma() * (1.0 + beta.dot(towards));
-            // D² of light per area across it, on a floor that it meets at an angle of cosine n_y / D.
+            // Light per area across its direction has D² of the light, and meets the floor at an angle of cosine n_y
+            // / D.
             let strength = doppler * towards.y / (distance * distance);
             Some(white.rgb_from_weights(doppler) * Vec3::from_array(COLOUR).as_dvec3() * strength)
         });

@@ -1,10 +1,11 @@
-//! Law: a pixel shows what light brought to the eye along its middle's direction, once that direction is taken from the observer's axes to
-//! the world's (W 5.1, B 4.1). The `polygon` picture of boxes, drawn with triangles from bent vertices, and the `image` picture, looked up in a
-//! map of the world, must be the picture that rays traced one by one give.
+//! A pixel must show the light that reaches the eye along its middle's direction, with that direction taken from the
+//! observer's axes to the world's (W 5.1, B 4.1). The `polygon` picture of boxes, drawn with triangles from bent
+//! vertices, and the `image` picture, looked up in a map of the world, must agree with the picture of rays traced one
+//! by one.
 //!
-//! A wrong program shows: with aberration the wrong way round, boxes crowded astern; with Lorentz contraction alone, straight edges in the
-//! wrong places; with a picture mirrored or shifted by half a pixel, every outline wrong; with a wrong near plane, holes; with
-//! coordinates in f32 about the world's origin, boxes torn apart a million metres away.
+//! In a wrong program, aberration the wrong way round makes boxes crowd astern. Lorentz contraction alone puts
+//! straight edges in the wrong places. A picture mirrored or shifted by half a pixel has every outline wrong. A wrong
+//! near plane makes holes. Coordinates in f32 about the world's origin tear boxes apart a million metres away.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -19,34 +20,37 @@ use system_tests::exact::{Boxes, Sight, differing};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::view::View;
 
-/// Pixels of every picture here.
+/// Size of every picture here, pixels.
 const SIZE: [u32; 2] = [640, 480];
 
-/// Linear, unlike any face's colour.
+/// Linear colour, unlike the colour of any face.
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
 
-/// Metres: at 0.99 c and the nearest box, edges this long leave the true curve by a fifth of a pixel.
+/// Longest edge, metres: at 0.99 c and the nearest box, such edges deviate from the true curve by a fifth of a pixel.
 const EDGE_M: f32 = 0.09;
 
-/// What may differ. A quarter of a promille was measured for a pixel's 256 steps of rasterisation, half of one for straight edges at
-/// 0.99 c; what the program promises is 0.005.
+/// Largest share of pixels that may differ. A quarter of a promille was measured for a pixel's 256 steps of
+/// rasterisation, half a promille for straight edges at 0.99 c. The program promises 0.005.
 const SHARE_AT_MOST: f64 = 0.002;
 
-/// The same for the `image` renderer: with eight texels to a pixel the nearest one is a fifteenth of a pixel away in the mean.
+/// Largest share for the `image` renderer: with eight texels to a pixel the nearest one is on average a fifteenth of
+/// a pixel away.
 const SHARE_OF_MAP: f64 = 0.003;
 
-/// Pixels: how far from its place an outline may be drawn. Straight edges and f32 together were never seen to move one by a quarter.
+/// Largest distance of an outline from its exact place, pixels. Straight edges and f32 together were never seen to
+/// move one by a quarter.
 const REACH: f64 = 0.5;
 
-/// Rays to a pixel where an outline is looked for: as fine as the thinnest sliver of a face that was seen.
+/// Rays to a pixel in the search for an outline: as fine as the thinnest sliver of a face that was seen.
 const RAYS_PER_PIXEL: f64 = 32.0;
 
-/// Metres, between the boxes; no coordinate lies in the plane of a face.
+/// Place of the eye, metres, between the boxes; no coordinate lies in the plane of a face.
 const EYE: DVec3 = DVec3::new(0.375, -0.21875, 0.53125);
 
-/// The motion: its stern points at the corner of a box 5.7 m away, since what is dead astern is enlarged most.
+/// Direction of the motion. Dead astern is the corner of a box 5.7 m away, since things dead astern are enlarged
+/// most.
 const MOTION: DVec3 = DVec3::new(-5.13, 1.29, -1.97);
 
 static REFINED: LazyLock<Scene> = LazyLock::new(|| refine(&LATTICE.build(), EDGE_M).unwrap());
@@ -59,7 +63,7 @@ fn photographer(samples: u32) -> Photographer {
     Photographer::new(&REFINED, SIZE, samples, Some(BACKGROUND))
 }
 
-/// Ahead, abeam, astern and obliquely, at several focal lengths.
+/// Views ahead, abeam, astern and obliquely, at several focal lengths.
 fn views() -> [View; 4] {
     let view = |look, up, fov_degrees| View { look, up, fov_degrees, size: SIZE };
     [
@@ -74,7 +78,8 @@ fn at(beta: f64) -> Celerity {
     Beta::new(MOTION.normalize() * beta).unwrap().celerity()
 }
 
-/// Few pixels differ from the exact picture, and each of those shows a colour that is truly there, half a pixel away at most.
+/// Asserts that few pixels differ from the exact picture, and that each of those shows a colour that is exact at most
+/// half a pixel away.
 fn assert_exact(drawn: &RgbaImage, sight: &Sight<'_>, at_most: f64, what: &str) {
     let exact = sight.picture();
     let mut colours: Vec<_> = exact.pixels().collect();
@@ -119,7 +124,8 @@ fn at_0_99_c_boxes_are_where_exact_rays_meet_them() {
     assert_exact_at(0.99);
 }
 
-/// The `image` renderer needs no fine triangles, and no fewer texels at any speed.
+/// Asserts that the map's picture is exact at a speed, with triangles as they are and the same number of texels as at
+/// any speed.
 fn assert_map_exact_at(beta: f64, views: &[View]) {
     let boxes = boxes();
     let mut photographer = Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), DEFAULT_MAP);
@@ -151,7 +157,7 @@ fn at_0_99_c_the_map_shows_what_exact_rays_meet() {
 
 #[test]
 fn at_0_9999_c_the_map_shows_what_exact_rays_meet() {
-    // Obliquely there is nothing but background.
+    // The oblique view has nothing but background.
     assert_map_exact_at(0.9999, &views()[..3]);
 }
 
@@ -169,7 +175,7 @@ fn without_effects_the_picture_is_the_plain_world() {
 
 #[test]
 fn a_million_metres_from_the_origin_not_a_pixel_changes() {
-    // Every sum with this is exact in f64.
+    // Every sum with this place is exact in f64.
     let far_away = DVec3::new(1_048_576.0, -262_144.0, 2_097_152.0);
     let mut here = photographer(1);
     let moved = Scene { origin: far_away, ..REFINED.clone() };
@@ -204,7 +210,7 @@ fn many_samples_blend_outlines_and_leave_flat_faces_exact() {
     }
 }
 
-/// The pixels at most two columns and two rows away.
+/// Pixels at most two columns and two rows away.
 fn surroundings(picture: &RgbaImage, [column, row]: [u32; 2]) -> impl Iterator<Item = image::Rgba<u8>> {
     let along = |middle: u32, size: u32| middle.saturating_sub(2)..size.min(middle + 3);
     let rows = along(row, picture.height());

@@ -1,7 +1,7 @@
-//! Law: the memory that pictures need does not grow with their number, so a ride or a film may last.
+//! The memory of the process must not grow with the number of pictures, so that a ride or a film may last.
 //!
-//! A wrong program shows: a condition in a shader that all pixels share, for whose every value lavapipe compiles and keeps a shader (256 KiB a draw, it was);
-//! buffers of old cuts that something holds.
+//! A wrong program has a condition in a shader that is equal for all pixels: for its every value lavapipe compiles
+//! and keeps a shader (256 KiB a draw, it was). Or it holds on to buffers of old cuts.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -16,14 +16,14 @@ use system_tests::view::View;
 
 const SIZE: [u32; 2] = [64, 36];
 
-/// Pictures until everything is compiled and every pool is filled, and pictures after that.
+/// Pictures until everything is compiled and every pool is filled, then pictures after that.
 const FIRST: usize = 12;
 const MORE: usize = 36;
 
-/// What pools may still grow by, MiB: a leak of one cut, map or shader a picture is some hundreds.
+/// Growth that pools may still have, MiB: a leak of one cut, map or shader a picture is some hundreds.
 const SPREAD_MIB: f64 = 60.0;
 
-/// Memory that the process has, MiB.
+/// Resident memory of the process, MiB.
 fn resident() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap();
     let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
@@ -34,7 +34,7 @@ fn resident() -> f64 {
 fn a_film_needs_no_more_memory_the_longer_it_is() {
     let mut scene = town::build(1);
     let (start, look) = (scene.start.position + DVec3::Y * 1.6, scene.start.look);
-    // Something that moves as well, which the map's method draws another way.
+    // Add a moving body as well, which the map's method draws in another way.
     let place = start + 6.0 * look.normalize();
     let mut ball = sphere(place, 0.3).meshes.remove(0);
     ball.positions.iter_mut().for_each(|position| *position += (place - scene.origin).as_vec3());

@@ -1,8 +1,10 @@
-//! Law: mirrors and glass obey their laws in the frame in which they rest. So a receding mirror reddens what it shows by (1 − β)/(1 + β), and shows it
-//! under the angle that Einstein found in 1905; a pane at rest displaces a ray by Snell's law and returns what Fresnel says.
+//! Mirrors and glass must obey their laws in the frame in which they rest. So a receding mirror reddens its image by
+//! (1 − β)/(1 + β), and shows it under the angle that Einstein found in 1905. A pane at rest displaces a ray by
+//! Snell's law and reflects by Fresnel's equations.
 //!
-//! A wrong program shows: with the law of reflection taken in the world's frame, an image at the wrong height; with one Doppler factor for two, the
-//! wrong brightness; with the mirror where it is now and not where the light met it, both.
+//! In a wrong program, the law of reflection in the world's frame puts an image at the wrong height; one Doppler
+//! factor in place of two gives the wrong brightness; the mirror's present place, instead of the place where the
+//! light met it, gives both errors.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
@@ -18,7 +20,7 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [64, 64];
 
-/// Of light that two boosts and four powers of D have gone through, in colours of f32.
+/// Relative tolerance of light after two boosts and four powers of D, with colours in f32.
 const LIGHT_TOLERANCE: f64 = 1e-5;
 
 /// Colours of the wall below and above its edge.
@@ -26,7 +28,7 @@ const WALL: [[f32; 3]; 2] = [[0.5, 0.25, 0.125], [0.25, 0.5, 1.0]];
 
 const SEARCHLIGHT: Effects = Effects { geometry: true, doppler: false, searchlight: true };
 
-/// A rectangle across z, `low` to `high` in x and y, that faces +z or, `back`, −z.
+/// Rectangle across z, from `low` to `high` in x and y. It faces +z or, if `back` is true, −z.
 fn rectangle(z: f32, low: [f32; 2], high: [f32; 2], back: bool, material: usize) -> Mesh {
     let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
     Mesh {
@@ -40,7 +42,7 @@ fn rectangle(z: f32, low: [f32; 2], high: [f32; 2], back: bool, material: usize)
     }
 }
 
-/// Two materials of a wall, and one that turns rays.
+/// Two materials of a wall, then one that turns rays.
 fn materials(turning: Material) -> Vec<Material> {
     let paint = |[red, green, blue]: [f32; 3]| Material {
         unlit: true,
@@ -61,7 +63,8 @@ fn trace(scene: Scene, view: &View, bounces: u32) -> Traced {
     tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {})
 }
 
-/// Holds each pixel against the height on the wall at which its ray arrives and the brightness of what it finds there.
+/// Checks each pixel's light. `expected` returns the height on the wall at which the ray arrives, and the brightness
+/// there.
 fn hold(traced: &Traced, view: &View, edge: f64, expected: impl Fn(DVec3) -> (f64, f64)) {
     let mut compared = [0; 2];
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
@@ -84,7 +87,7 @@ fn a_flying_mirror_shows_what_einstein_says() {
     const MIRROR_M: f64 = 5.0;
     const WALL_M: f64 = 3.0;
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
-    // Receding, at rest, approaching.
+    // The mirror recedes, is at rest, approaches.
     for beta in [0.6, 0.0, -0.5] {
         let mirror = Material { metallic: 1.0, roughness: 0.0, ..Material::default() };
         let edge = 0.8;
@@ -113,7 +116,7 @@ fn a_flying_mirror_shows_what_einstein_says() {
         };
         let traced = trace(scene, &view, 1);
         hold(&traced, &view, f64::from(edge), expected);
-        // In the middle: straight on.
+        // In the middle the light goes straight on.
         let middle = traced.light[(SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize].x / f64::from(WALL[0][0]);
         let straight = ((1.0 - beta) / (1.0 + beta)).powi(4);
         assert!((middle / straight - 1.0).abs() < 1e-3, "{middle} {straight}");
@@ -124,7 +127,7 @@ fn pane(index_of_refraction: f32) -> Material {
     Material { transmission: 1.0, roughness: 0.0, solid_glass: true, index_of_refraction, ..Material::default() }
 }
 
-/// What a surface lets through (Fresnel's equations in their form with angles).
+/// Share of light that a surface transmits (Fresnel's equations in their form with angles).
 fn through(angle: f64, index: f64) -> f64 {
     let inner = (angle.sin() / index).asin();
     let across = ((angle - inner).sin() / (angle + inner).sin()).powi(2);
@@ -134,7 +137,7 @@ fn through(angle: f64, index: f64) -> f64 {
 
 #[test]
 fn a_pane_displaces_what_is_behind_it_and_dims_it() {
-    // Two metres in front of the eye, a metre thick; a wall three metres behind it.
+    // The pane is two metres in front of the eye and a metre thick; a wall is three metres behind it.
     let (edge, index) = (0.4_f32, 1.5_f32);
     let [below, above] = wall(-6.0, edge, false);
     let (front, back) =
@@ -154,7 +157,8 @@ fn a_pane_displaces_what_is_behind_it_and_dims_it() {
 
 #[test]
 fn glass_that_flies_through_the_picture_shifts_nothing() {
-    // In and out of its frame with the same angles: no colour and no brightness is left of it but Fresnel's, at its own angle.
+    // Light enters and leaves the glass's frame at the same angles. No change of colour or brightness is left but
+    // Fresnel's, at the angle in the glass's own frame.
     let (beta, index, edge) = (0.6, 1.5_f32, 0.4_f32);
     let [below, above] = wall(-60.0, edge, false);
     let (mut front, mut back) =
@@ -166,18 +170,19 @@ fn glass_that_flies_through_the_picture_shifts_nothing() {
     let scene = Scene { materials: materials(pane(index)), meshes, motions, ..Scene::default() };
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 20.0, size: SIZE };
     let expected = |direction: DVec3| {
-        // In the glass's frame, which recedes: cos θ' = (cos θ + β)/(1 + β cos θ).
+        // Angle in the glass's frame, which recedes: cos θ' = (cos θ + β)/(1 + β cos θ).
         let cosine = -direction.z;
         let own = (cosine + beta) / (1.0 + beta * cosine);
         let angle = own.acos();
         let across = DVec3::new(direction.x, direction.y, 0.0).normalize().y;
         let inner = (angle.sin() / f64::from(index)).asin();
-        // By its own clock the light is in the glass for n / cos θ'' metres; meanwhile the glass moves on.
+        // By the glass's own clock the light is inside for n / cos θ'' metres; meanwhile the glass moves on.
         let gamma = 1.0 / (1.0 - beta * beta).sqrt();
         let distance = 2.0 / (cosine + beta);
         let entered = direction * distance;
         let (in_glass, shift) = (f64::from(index) / inner.cos(), inner.tan());
-        // From the face at which it leaves towards the eye to that at which it came in: an interval of the glass's frame, boosted.
+        // Interval in the glass's frame, boosted, from the face where the light leaves towards the eye to the face
+        // where it entered.
         let z = gamma * (-1.0 + beta * in_glass);
         let met = DVec3::new(0.0, entered.y + across * shift, entered.z + z);
         let height = met.y + across * (60.0 + met.z) * (1.0 - cosine * cosine).sqrt() / cosine;
@@ -186,7 +191,7 @@ fn glass_that_flies_through_the_picture_shifts_nothing() {
     hold(&trace(scene, &view, 1), &view, f64::from(edge), expected);
 }
 
-/// Moves by keys along a direction as fast as β of light, and is where it was modelled when the world's clock shows 0.
+/// Motion by keys with velocity β. The body is at its modelled place when the world's clock shows 0.
 fn by_keys(beta: DVec3) -> Motion {
     const SPEED_OF_LIGHT: f64 = 10.0;
     let end_s = 40.0;
@@ -196,7 +201,7 @@ fn by_keys(beta: DVec3) -> Motion {
     Motion::Animated(Arc::new(Animated::new("slide", vec![Link::Keyed(node)])))
 }
 
-/// A scene with a mirror 5 m ahead; a wall 3 m behind the eye moves.
+/// Scene with a mirror 5 m ahead and a moving wall 3 m behind the eye.
 fn mirrored(motion: Motion) -> Scene {
     let mirror = Material { metallic: 1.0, roughness: 0.0, ..Material::default() };
     let [mut below, mut above] = wall(3.0, 0.0, true);
@@ -209,7 +214,8 @@ fn mirrored(motion: Motion) -> Scene {
 
 #[test]
 fn a_mirror_shows_what_moves_by_keys_like_what_has_that_celerity() {
-    // Upwards: its edge is seen where it was when the light left it for the mirror, metres below its place now.
+    // The wall moves upwards. Its edge is seen where it was when the light left it for the mirror, metres below its
+    // present place.
     let beta = DVec3::Y * 0.5;
     let view = View { look: DVec3::new(0.0, -0.5, -1.0), up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
     let uniform = Uniform { celerity: Beta::new(beta).unwrap().celerity(), anchor: Event::default() };

@@ -1,9 +1,10 @@
-//! Law: what moves is seen where its light comes from, in the light's own shift. A sphere that passes keeps a circular outline (Penrose 1959), a cube
-//! that passes shows its back, and of two boxes that fly apart each has the Doppler factor of its own motion relative to the observer.
+//! A moving body must be seen where its light comes from, with its light's own shift. A sphere that passes keeps a
+//! circular outline (Penrose 1959). A cube that passes shows its back. Two boxes that fly apart each have the Doppler
+//! factor of their own motion relative to the observer.
 //!
-//! A wrong program shows: contracted ovals; no back; both boxes in one brightness, that of the world at rest, or of velocities that were subtracted.
-//! What is expected comes from worldlines in the world (`physics::apparent::moving`), not from the objects' own frames, in which the
-//! program works.
+//! A wrong program shows contracted ovals; no back; or both boxes in one brightness, that of the world at rest or of
+//! subtracted velocities. The expected values come from worldlines in the world (`physics::apparent::moving`), not
+//! from the objects' own frames, in which the program works.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -18,16 +19,17 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [320, 240];
 
-/// Pixels off a circle, root mean square: an even spread over one pixel, 0.29, and a margin for triangles.
+/// Root mean square distance from a circle, pixels: an even spread over one pixel, 0.29, and a margin for triangles.
 const RESIDUAL_TOLERANCE: f64 = 0.4;
 
-/// Pixels that the outline may be from the outermost exact places: half a pixel is lost in looking for it.
+/// Largest distance of the outline from the outermost exact places, pixels: the search for it is uncertain by half a
+/// pixel.
 const OUTLINE_TOLERANCE: f64 = 0.8;
 
-/// Pixels that anything may be drawn from its exact place.
+/// Largest distance of anything drawn from its exact place, pixels.
 const PLACE_TOLERANCE: f64 = 0.1;
 
-/// Of light: the table's own error, and f32.
+/// Relative tolerance of light: the table's own error, and f32.
 const LIGHT_TOLERANCE: f64 = 0.002;
 
 fn methods() -> [By; 4] {
@@ -71,7 +73,7 @@ fn a_sphere_that_passes_keeps_a_circular_outline() {
 
 #[test]
 fn a_cube_that_passes_shows_its_back() {
-    // It is abeam when the light leaves it that arrives now.
+    // The cube is abeam when the light leaves it that arrives now.
     let anchor = Event { ct: -10.0, position: DVec3::NEG_Z * 10.0 };
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 30.0, size: SIZE };
     for method in methods() {
@@ -84,7 +86,7 @@ fn a_cube_that_passes_shows_its_back() {
             let count = |is: fn(&[u8; 4]) -> bool| picture.pixels().filter(|pixel| is(&pixel.0)).count();
             let (red, green) =
                 (count(|rgba| rgba[0] > 200 && rgba[1] < 50), count(|rgba| rgba[1] > 200 && rgba[0] < 50));
-            // Turned by arcsin β, it shows 0.9 of its back's width: more than of its side.
+            // The cube appears turned by arcsin β, so it shows 0.9 of its back's width: more than of its side.
             assert_eq!(red > 2000, back, "{method:?} at {speed} c: {red} pixels of its back");
             assert_eq!(green, 0, "{method:?} at {speed} c: pixels of its front");
         }
@@ -101,7 +103,8 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
     let whole = unlit(meshes, &[away, hither]);
     let scene = refine(&whole, 0.1).unwrap();
     let searchlight = Effects { searchlight: true, ..Effects::GEOMETRY };
-    // At rest; as fast as the one, so that the other comes at 0.8 c; and across, where axes turn.
+    // The observer is at rest; is as fast as one body, so that the other approaches at 0.8 c; or moves across, where
+    // axes turn.
     for speed in [DVec3::ZERO, half, DVec3::new(0.3, 0.6, -0.2)] {
         let who = observer(DVec3::new(0.2, 0.1, -0.3), celerity(speed));
         let look = exact(&who, &hither, DVec3::new(20.0, -1.5, 1.0)).position.normalize()
@@ -122,14 +125,14 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
                 let off = expected.position.angle_between(direction) * view.focal_length();
                 assert!(off < PLACE_TOLERANCE, "{what}: {off} pixels from its place");
 
-                // Red and green faces have the luminance of their colour: the brightest channel tells.
+                // The brightest channel of red and green faces has the brightness of the face.
                 let rgb = light.get_pixel(pixel[0], pixel[1]).0;
                 let at_rest = if rgb[0] == rgb[1] { GREY } else { 1.0 };
                 let found = f64::from(rgb[0].max(rgb[1]) / at_rest);
                 let error = (found / expected.doppler.powi(4) - 1.0).abs();
                 assert!(error < LIGHT_TOLERANCE, "{what}: {found} instead of {}^4", expected.doppler);
                 if speed == half {
-                    // Relative velocities of 0 and of 0.8 c.
+                    // Bounds of D for relative velocities of 0 and of 0.8 c.
                     let range = [0.9999..1.0001, 2.8..3.0001];
                     assert!(range[body].contains(&found.powf(0.25)), "{what}: D = {}", found.powf(0.25));
                 }
@@ -143,7 +146,7 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
 
 #[test]
 fn the_plain_picture_shows_a_body_shorter_at_its_place_now() {
-    // At world time 0, ten metres further on than at −20.
+    // At world time 0 the body is ten metres further on than at −20.
     let anchor = Event { ct: -20.0, position: DVec3::new(-12.0, 0.0, -10.0) };
     let motion = Uniform { celerity: celerity(DVec3::X * 0.6), anchor };
     let scene = unlit(vec![cuboid(anchor.position, 1.0, 0)], &[motion]);
@@ -157,7 +160,7 @@ fn the_plain_picture_shows_a_body_shorter_at_its_place_now() {
             let of = lit.iter().map(|pixel| pixel[axis]);
             (of.clone().min().unwrap(), of.max().unwrap() + 1)
         };
-        // Its near face is nine metres away: 0.8 m to either side, 1 m up and down.
+        // The near face is nine metres away: 0.8 m to either side, 1 m up and down.
         let scale = view.focal_length() / 9.0;
         for (axis, half) in [(0, 0.8), (1, 1.0)] {
             let (low, high) = span(axis);

@@ -1,9 +1,11 @@
-//! Law: black-body light stays black-body light in motion, of temperature D·T (W 3.3, B 2.4), so an eye within walls that glow at T sees, in
-//! each direction n', exactly the colour and luminance of a black body at D(n')·T. With one effect alone: the shift of wavelengths keeps the
-//! radiance of all of them together, D L(Dλ), and the searchlight effect multiplies it by D⁴.
+//! Black-body light must stay black-body light in motion, of temperature D·T (W 3.3, B 2.4). So an eye within walls
+//! that glow at T sees, in each direction n', exactly the colour and luminance of a black body at D(n')·T. With one
+//! effect alone, the shift of wavelengths keeps the radiance of all of them together, D L(Dλ), and the searchlight
+//! effect multiplies it by D⁴.
 //!
-//! A wrong program shows: with D² or D³ instead of D⁵ per wavelength, walls too dark ahead; with D from a direction scaled by the field of
-//! view, rings of wrong colour; with a spectrum of a few lines, black ahead; with D interpolated between corners, facets.
+//! In a wrong program, D² or D³ instead of D⁵ per wavelength makes walls too dark ahead. D from a direction scaled by
+//! the field of view makes rings of wrong colour. A spectrum of a few lines is black ahead. D interpolated between
+//! corners makes facets.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec3};
@@ -21,18 +23,18 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [96, 72];
 
-/// What the issue of this renderer promises; the table's own error is a tenth of it.
+/// Relative tolerance that the renderer promises; the table's own error is a tenth of it.
 const TOLERANCE: f64 = 0.01;
 
 const KELVIN: f64 = 5000.0;
 
-/// The walls of a room around the eye, all of one glow.
+/// Walls of a room around the eye, all of one material.
 fn room(material: Material) -> Scene {
     let lattice = Lattice { count: [1; 3], spacing: 1.0, side: 8.0 };
     let mut room = lattice.build();
     for mesh in &mut room.meshes {
         mesh.material = 0;
-        // Seen from within.
+        // The walls are seen from within.
         mesh.indices.chunks_exact_mut(3).for_each(|corners| corners.swap(0, 1));
         mesh.colours.fill([1.0; 4]);
         mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
@@ -61,7 +63,8 @@ fn at(beta: f64) -> Celerity {
     Beta::new(DVec3::new(0.3, -0.2, -1.0).normalize() * beta).unwrap().celerity()
 }
 
-/// Checks every pixel against the colour (XYZ, cd/m²) that light of its Doppler factor must have, and counts those that were compared.
+/// Checks every pixel against the colour (XYZ, cd/m²) that light with its Doppler factor must have. Returns the
+/// number of pixels compared.
 fn assert_light(
     light: &Rgb32FImage,
     view: &View,
@@ -107,7 +110,7 @@ fn walls_of_5000_kelvin_look_as_walls_of_d_times_5000() {
                     assert_light(&light, &view, at(beta), true, planck, &format!("{name} at {beta} c to {look}"));
             }
         }
-        // What lies beyond a tenth and ten is not compared; nearly all is within.
+        // Pixels with D below a tenth or above ten are not compared; nearly all are within.
         assert!(compared > 60_000, "{name}: {compared} pixels");
     }
 }
@@ -150,7 +153,7 @@ fn a_colour_is_a_spectrum_too() {
 
 #[test]
 fn light_far_brighter_than_the_screen_keeps_its_colour_on_file() {
-    // 10,000 K at D = 3.3: 1e9 times what a screen shows.
+    // Black body of 10,000 K at D = 3.3: 1e9 times the luminance that a screen shows.
     let spectrum = Spectrum::planck(10_000.0).unwrap();
     let (mut photographer, _) = photographers(&glowing(10_000.0)).into_iter().next().unwrap();
     let ahead = view(at(0.8).vector());
@@ -160,7 +163,7 @@ fn light_far_brighter_than_the_screen_keeps_its_colour_on_file() {
     assert!((f64::from(brightest) / expected - 1.0).abs() < TOLERANCE, "{brightest} instead of {expected}");
 }
 
-/// The renderers of windows, for coarse and fine.
+/// Photographers with the renderers of windows, for coarse and fine.
 fn windows(scene: &Scene) -> [(Photographer, &'static str); 2] {
     let map = Method::Image(MapQuality { texels_per_pixel: 1.5, smooth: true });
     [
@@ -169,12 +172,13 @@ fn windows(scene: &Scene) -> [(Photographer, &'static str); 2] {
     ]
 }
 
-/// How far half floats may be off: two steps of theirs, of weights and of light.
+/// Relative tolerance of half floats: two of their steps, of weights and of light.
 const HALF_TOLERANCE: f64 = 0.01 + 2.0 / 1024.0;
 
 #[test]
 fn half_floats_hold_black_bodies_of_any_brightness() {
-    // Red-hot to blue-white; a base colour that dims an absolute luminance of 1e10 cd/m² to that of a lamp.
+    // Bodies from red-hot to blue-white, and a base colour that dims an absolute luminance of 1e10 cd/m² to that of a
+    // lamp.
     for (kelvin, base, white) in [(2800.0, 1.0, None), (10_000.0, 4e-9, Some(100.0)), (10_000.0, 1.0, None)] {
         let spectrum = Spectrum::planck(kelvin).unwrap();
         let material =
@@ -209,7 +213,7 @@ fn half_floats_hold_the_whole_picture_at_high_speed() {
 
 #[test]
 fn a_scene_in_candela_is_the_same_at_rest_with_any_effects() {
-    // A white wall in daylight of 80,000 lux, and what is shown as white a little darker.
+    // The white wall is in daylight of 80,000 lux, and the luminance shown as white is a little lower.
     let mut scene = room(Material { base_colour: [0.5, 0.25, 0.125, 1.0], ..Material::default() });
     scene.materials[0].unlit = false;
     scene.white = Some(25_000.0);

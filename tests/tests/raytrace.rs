@@ -1,8 +1,8 @@
-//! Law: the light of a pixel is that of one ray, bent by aberration, shifted and brightened by D. The ray tracer follows it in f64; here it is held
-//! against closed forms first, and then the other renderers against it.
+//! The light of a pixel must be that of one ray, bent by aberration, shifted and brightened by D. The ray tracer
+//! follows it in f64. Here it is compared with closed forms first, and then the other renderers with it.
 //!
-//! A wrong program shows: with a boost the wrong way, spheres that are ovals; with the wrong power of D, walls too dark ahead; with a renderer that
-//! bends or lights differently, more than outlines that differ.
+//! In a wrong program, a boost the wrong way makes spheres oval; the wrong power of D makes walls too dark ahead; a
+//! renderer that bends or lights differently differs in more than outlines.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2, Vec3};
@@ -25,13 +25,15 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [96, 64];
 
-/// Of a colour that is integrated and multiplied: f32 base colours, and the integral that makes white white.
+/// Relative tolerance of a colour that is integrated and multiplied: f32 base colours, and the integral that makes
+/// white white.
 const LIGHT_TOLERANCE: f64 = 1e-4;
 
-/// Of f64 coordinates of a few metres through two boosts.
+/// Relative tolerance of f64 coordinates of a few metres after two boosts.
 const PLACE_TOLERANCE: f64 = 1e-9;
 
-/// Pixels: an outline runs between the middles of two pixels, and the sphere is made of triangles.
+/// Largest distance of an outline, pixels: it runs between the middles of two pixels, and the sphere is made of
+/// triangles.
 const OUTLINE_TOLERANCE: f64 = 0.6;
 
 /// Polygons cut for a twentieth of a pixel, which is less than shows.
@@ -45,12 +47,12 @@ fn trace(tracer: &RayTracer, shot: &Shot) -> Traced {
     tracer.trace(shot, SIZE, 1, &AtomicBool::new(false), || {})
 }
 
-/// The walls of a room around the eye, all of one colour that they send out themselves.
+/// Walls of a room around the eye, all of one colour that they emit themselves.
 fn room(colour: [f32; 3]) -> Scene {
     let mut room = Lattice { count: [1; 3], spacing: 1.0, side: 8.0 }.build();
     for mesh in &mut room.meshes {
         mesh.material = 0;
-        // Seen from within.
+        // The walls are seen from within.
         mesh.indices.chunks_exact_mut(3).for_each(|corners| corners.swap(0, 1));
         mesh.colours.fill([1.0; 4]);
     }
@@ -86,13 +88,13 @@ fn looked_up_light_is_integrated_light() {
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 90.0, size: SIZE };
     let shot = shot(&view, DVec3::ZERO, celerity(DVec3::NEG_Z * 0.8), Effects::ALL);
     let (one, other) = (trace(&looked_up, &shot), trace(&integrated, &shot));
-    // The table's own promise, of which this is a tenth in luminance.
+    // The limit is the table's own promise; in luminance its error is a tenth of it.
     for (one, other) in one.light.iter().zip(&other.light) {
         assert!((*one - *other).length() < 1e-3 * other.length(), "{one} {other}");
     }
 }
 
-/// A sphere that flies past at nine tenths of the speed of light, and what is seen of it by an observer with this celerity.
+/// Checks a sphere that flies past at 0.9 c, as an observer with this celerity sees it.
 fn hold_flying_sphere(observer_celerity: Celerity) {
     let centre = DVec3::new(0.3, 0.8, -2.2);
     let mut scene = sphere(centre, 0.03);
@@ -101,7 +103,7 @@ fn hold_flying_sphere(observer_celerity: Celerity) {
     scene.meshes[0].motion = Some(0);
     let observer = observer(DVec3::ZERO, observer_celerity);
 
-    // The circle where it must be: tangents in the sphere's own frame, boosted.
+    // The expected circle: tangents in the sphere's own frame, boosted.
     let seen_by = uniform.seen_by(&observer);
     let circle = Cone::around(centre - seen_by.position).seen_at(seen_by.celerity).turned(seen_by.observer_from_group);
     let view = circle.view([320, 240]);
@@ -112,7 +114,7 @@ fn hold_flying_sphere(observer_celerity: Celerity) {
     let pixels = circle.furthest(&outline, &view);
     assert!(pixels < OUTLINE_TOLERANCE, "{pixels} pixels off the exact circle");
 
-    // Each point is where a moving point appears.
+    // Each point must be at the apparent position of a moving point.
     let mut compared = 0;
     for place in places.iter().flatten() {
         let direct = exact(&observer, &uniform, place.position + centre);
@@ -130,7 +132,7 @@ fn a_sphere_that_flies_past_is_round_and_where_it_appears() {
     hold_flying_sphere(celerity(DVec3::new(0.1, 0.3, -0.5)));
 }
 
-/// Share of pixels whose channels differ by no more than a part of the brighter one's largest channel.
+/// Share of pixels whose channels differ by no more than `part` of the brighter one's largest channel.
 fn alike(light: &Rgb32FImage, traced: &Traced, part: f64) -> f64 {
     let pairs = light.pixels().zip(&traced.light);
     let alike = pairs.filter(|(drawn, traced)| {
@@ -141,7 +143,8 @@ fn alike(light: &Rgb32FImage, traced: &Traced, part: f64) -> f64 {
     alike.count() as f64 / traced.light.len() as f64
 }
 
-/// Holds both renderers against rays at several speeds: this share of pixels must be alike to this part.
+/// Compares both renderers with rays at several speeds. `shares` are the shares of pixels that must be alike to
+/// `part`.
 fn hold(scene: &Scene, eye: DVec3, look: DVec3, part: f64, shares: [f64; 2]) {
     let tracer = RayTracer::new(scene.clone(), None, false).unwrap();
     let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
@@ -161,22 +164,25 @@ fn hold(scene: &Scene, eye: DVec3, look: DVec3, part: f64, shares: [f64; 2]) {
 #[test]
 fn renderers_draw_the_lattice_as_rays_see_it() {
     let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
-    // Faces of one colour: only outlines may differ, and of a map with eight texels to the pixel a few more.
+    // Faces have one colour each, so only outlines may differ, and a few more pixels of a map with eight texels to
+    // the pixel.
     hold(&scene, DVec3::new(0.3, 0.4, 2.0), DVec3::NEG_Z, 0.01, [0.99, 0.98]);
 }
 
 #[test]
 fn renderers_draw_the_town_as_rays_see_it() {
-    // Where a texture is finer than pixels, a ray sees one texel and the other renderers the mean of many: so each texture is its mean.
+    // Each texture is replaced by its mean: if a texture is finer than pixels, a ray sees one texel, and the other
+    // renderers the mean of many.
     let mut scene = town::build(1);
     for texture in &mut scene.textures {
         let mean = mipmap(texture).pop().unwrap();
         (texture.width, texture.height, texture.rgba) = (mean.width, mean.height, mean.rgba);
     }
     let eye = scene.start.position + DVec3::Y * 1.6;
-    // The sun's shadows are a map there, with soft edges, and rays here: a fifth covers what is not quite at an edge.
+    // The renderers' sun shadows are a map with soft edges, those of rays are exact; a fifth covers pixels that are
+    // not quite at an edge.
     hold(&scene, eye, scene.start.look, 0.2, [0.98, 0.97]);
-    // Without them only the outlines remain, in a town of many corners.
+    // Without shadows only outlines differ, in a town of many corners.
     scene.light.shadows = false;
     hold(&scene, eye, scene.start.look, 0.01, [0.99, 0.97]);
 }
@@ -228,7 +234,7 @@ fn what_is_stopped_has_its_middle() {
     }
 }
 
-/// A square across z about the axis, of one unlit colour with this opacity.
+/// Square across z about the axis, of one unlit colour with this opacity.
 fn sheet(z: f32, half: f32, colour: [f32; 4], alpha: Alpha) -> (Mesh, Material) {
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
     let mesh = Mesh {
@@ -256,7 +262,7 @@ fn sheets(sheets: impl IntoIterator<Item = (Mesh, Material)>) -> Scene {
 fn sheets_are_mixed_in_their_order_and_masks_are_there_or_not() {
     let scene = sheets([
         sheet(-6.0, 9.0, [0.1, 0.2, 0.4, 1.0], Alpha::Opaque),
-        // The nearer one is listed before the further one: the ray sorts them.
+        // The nearer sheet is listed before the farther one; the ray must sort them.
         sheet(-3.0, 9.0, [1.0, 0.0, 0.5, 0.25], Alpha::Blend),
         sheet(-4.0, 9.0, [0.0, 1.0, 0.5, 0.5], Alpha::Blend),
         sheet(-2.0, 9.0, [9.0, 9.0, 9.0, 0.3], Alpha::Mask(0.5)),
@@ -321,7 +327,7 @@ fn lit_boxes_that_move_are_drawn_as_rays_see_them() {
 
 #[test]
 fn traced_light_is_developed_as_drawn_light_is() {
-    // The same light on both ways: what was drawn, fetched and put in where traced light is, is the same picture.
+    // Light that was drawn, then fetched and put in the place of traced light, must give the same picture.
     let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
     let (eye, motion) = (DVec3::new(0.3, 0.4, 2.0), celerity(DVec3::NEG_Z * 0.5));
@@ -342,7 +348,7 @@ fn traced_light_is_developed_as_drawn_light_is() {
     assert!(apart(&drawn, &own, 2) < 0.02, "{} of the values differ", apart(&drawn, &own, 2));
 }
 
-/// Traced light as a picture, as the photographer takes it.
+/// Picture developed from traced light in the photographer's way.
 fn develop(traced: &Traced) -> RgbaImage {
     let development = Development { gamut: Gamut::Clamp, ..Development::default() };
     let mut studio = Studio::new(gpu(), traced.size, 1);

@@ -1,8 +1,9 @@
-//! Law: where no surface is, a pixel shows the world's sky in the direction that aberration assigns to it. Sky, haze and sun are
-//! functions of a world direction; the shader takes each pixel's direction there in f32, this test by `physics` in f64.
+//! A pixel without a surface must show the world's sky in the direction that aberration assigns to it. Sky, haze and
+//! sun are functions of a world direction; the shader takes each pixel's direction there in f32, this test by
+//! `physics` in f64.
 //!
-//! A wrong program shows: with the boost the wrong way round, a sky drawn out where it should crowd ahead; with a direction that is not
-//! normalised, bands towards the corners; with the plain sky behind moving boxes, a horizon that stays level.
+//! In a wrong program, a boost the wrong way round stretches the sky where it should crowd ahead. A direction that is
+//! not normalised makes bands towards the corners. The plain sky behind moving boxes keeps its horizon level.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -14,10 +15,11 @@ use system_tests::view::{View, middle};
 
 const SIZE: [u32; 2] = [160, 120];
 
-/// Steps of a byte: half for rounding, half for f32 where the sun's limb rises by 255 steps within 0.4°.
+/// Tolerance in steps of a byte: half for rounding, half for f32 where the sun's limb rises by 255 steps within 0.4°.
 const TOLERANCE: f64 = 1.0;
 
-/// Linear sky in a world direction: a gradient up to the zenith, haze below the horizon, a glow and a disc at the sun.
+/// Linear colour of the sky in a world direction: a gradient up to the zenith, haze below the horizon, a glow and a
+/// disc at the sun.
 fn sky(light: &Lighting, direction: DVec3) -> DVec3 {
     let colour = |rgb: [f32; 3]| DVec3::from_array(rgb.map(f64::from));
     let rise = |from: f64, to: f64, x: f64| {

@@ -1,5 +1,6 @@
-//! Law: a sphere's outline is a circle on every observer's sphere of directions, however fast he moves (Penrose 1959; W 4.2): aberration maps circles
-//! to circles. Which circle is known exactly: directions n with n·a = cos α are orthogonal to the four-vector (−cos α, a), and that can be boosted.
+//! A sphere's outline must be a circle on every observer's sphere of directions, at any speed (Penrose 1959; W 4.2):
+//! aberration maps circles to circles. The circle is known exactly: directions n with n·a = cos α are orthogonal to
+//! the four-vector (−cos α, a), and that can be boosted.
 //!
 //! A wrong program shows the Lorentz-contracted ellipsoid: an oval, off by tens of pixels.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
@@ -11,16 +12,18 @@ use system_tests::photographer::Photographer;
 
 const SIZE: [u32; 2] = [640, 480];
 
-/// Metres along the edges of the octahedron from which the sphere is made: its flat triangles stay within 2e-4 of its radius.
+/// Length of the edges into which the sphere is cut, metres: its flat triangles stay within 2e-4 of its radius.
 const EDGE_M: f32 = 0.03;
 
-/// Pixels. An outline runs between the middles of two pixels, so half a pixel is lost in looking for it; the rest is for triangles.
+/// Largest distance of the outline from the circle, pixels. It runs between the middles of two pixels, so the search
+/// is uncertain by half a pixel; the rest is for triangles.
 const OUTLINE_TOLERANCE: f64 = 0.6;
 
-/// Pixels: root mean square of an even spread over one pixel, 0.29, and a margin.
+/// Root mean square distance, pixels: an even spread over one pixel, 0.29, and a margin.
 const RESIDUAL_TOLERANCE: f64 = 0.35;
 
-/// Pixels that a contracted ellipsoid's outline must be from any circle, for this test to be worth having.
+/// Smallest distance of a contracted ellipsoid's outline from any circle, pixels, so that the test can tell them
+/// apart.
 const OVAL: f64 = 3.0;
 
 /// Centres of spheres that an eye at the origin, moving along x, is about to pass, is passing and has passed.

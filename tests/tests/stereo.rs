@@ -1,7 +1,8 @@
-//! Law: where both eyes share pixels, each eye gets what is meant for it: every other row, column or field of the monitor, not of the window; or
-//! those colours that its filter passes. What is white to both eyes is white.
+//! If both eyes share pixels, each eye must get its own picture: every other row, column or field of the monitor, not
+//! of the window; or the colours that its filter passes. White to both eyes must be white.
 //!
-//! A wrong program shows: eyes changed over; rows that follow the window when it is moved by one pixel; matrices applied to encoded values.
+//! A wrong program exchanges the eyes, has rows that follow the window when it is moved by one pixel, or applies
+//! matrices to encoded values.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use rapidity::renderers::display::{Combiner, Stored};
@@ -12,13 +13,13 @@ use system_tests::display::texture;
 use system_tests::photographer::gpu;
 
 const SIZE: u32 = 4;
-/// Of what is left of f32 after the screen's curve and back.
+/// Tolerance of f32 after the screen's curve and back.
 const TOLERANCE: f64 = 1e-5;
 
 const LEFT: [f32; 3] = [0.8, 0.3, 0.1];
 const RIGHT: [f32; 3] = [0.1, 0.6, 0.4];
 
-/// What a screen shows of two pictures of one colour each, linear, row by row.
+/// Linear light that a screen shows of two pictures of one colour each, row by row.
 fn shown(combine: Combine, swap: bool, [left, right]: [[f32; 3]; 2], first_pixel: [i32; 2]) -> Vec<[f64; 3]> {
     let plain = |[red, green, blue]: [f32; 3]| texture(SIZE, &[[red, green, blue, 1.0]; (SIZE * SIZE) as usize]);
     let screen = plain([0.0; 3]);
@@ -68,7 +69,7 @@ fn eyes_take_turns_on_the_monitor_wherever_the_window_is() {
     }
 }
 
-/// Of linear sRGB, IEC 61966-2-1.
+/// Luminance of linear sRGB, IEC 61966-2-1.
 fn luminance([red, green, blue]: [f64; 3]) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
@@ -76,7 +77,7 @@ fn luminance([red, green, blue]: [f64; 3]) -> f64 {
 #[test]
 fn filters_pass_to_each_eye_what_is_meant_for_it() {
     let [left, right] = [LEFT, RIGHT].map(|colour| colour.map(f64::from));
-    // The rows of Dubois's published matrices, left eye's and right eye's.
+    // Rows of Dubois's published matrices, left eye's and right eye's.
     let dubois = [
         [0.4561, 0.500484, 0.176381, -0.0434706, -0.0879388, -0.00155529],
         [-0.0400822, -0.0378246, -0.0157589, 0.378476, 0.73364, -0.0184503],
@@ -101,7 +102,7 @@ fn filters_pass_to_each_eye_what_is_meant_for_it() {
 fn what_is_white_to_both_eyes_is_white() {
     for combine in Combine::ALL.into_iter().filter(|combine| *combine != Combine::None) {
         for pixel in shown(combine, false, [[1.0; 3]; 2], [0, 0]) {
-            // The matrices' rows add up to 1 within what is printed of them.
+            // The matrices' rows add up to 1 within their printed digits.
             let off = pixel.iter().map(|value| (value - 1.0).abs()).fold(0.0, f64::max);
             assert!(off < 2e-3, "{combine:?}: {pixel:?}");
         }

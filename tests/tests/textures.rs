@@ -1,8 +1,10 @@
-//! Law: the light of a part of a picture is the mean of what rays see there. A ray takes a texture at full size, at one place; drawn pictures ask for
-//! the mean over a pixel or a texel, ready-made. Over blocks of pixels, each with hundreds of rays, both must come to the same.
+//! The light of a part of a picture must be the mean over its rays. A ray takes a texture at full size, at one place;
+//! drawn pictures use a ready-made mean over a pixel or a texel. Over blocks of pixels, each with hundreds of rays,
+//! both must agree.
 //!
-//! A wrong program shows: textures averaged as sRGB numbers, darker everywhere; shifted or mirrored, other blocks altogether; looked up in copies
-//! too small, blocks that mix with their neighbours, however large.
+//! In a wrong program, textures averaged as sRGB numbers are darker everywhere. Textures that are shifted or mirrored
+//! change whole blocks. Textures looked up in copies too small mix blocks with their neighbours, however large the
+//! blocks are.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec3};
@@ -15,25 +17,28 @@ use system_tests::bodies::celerity;
 use system_tests::photographer::{By, Photographer};
 use system_tests::view::View;
 
-/// Four times as wide and high as the pictures of the other tests, with a ray a pixel: in them a block is four pixels wide, with 256 rays.
+/// Size in pixels: four times as wide and high as the pictures of the other tests, with a ray a pixel. A block thus
+/// has 256 rays, and is as large as four pixels of those pictures along each side.
 const SIZE: [u32; 2] = [768, 512];
 const BLOCK: u32 = 16;
 
-/// Of half of the blocks, and of 99 of 100, relative to the brighter one's largest channel.
+/// Largest differences of half of the blocks, and of 99 of 100, relative to the brighter one's largest channel.
 ///
-/// A copy of a texture is as small as the pixel is long, not as it is wide (a software driver is not asked for more looks): on the pavement and on
-/// walls seen at a slant a pixel takes in some of its neighbours. A block of one colour beside one of another then has a seam some
-/// pixels wide, a tenth of its area. The map is finer than the picture, and the seam narrower.
+/// A copy of a texture is as small as the pixel is long, not as it is wide (a software driver is not asked for more
+/// samples). So on the pavement and on walls seen at a slant a pixel takes in some of its neighbours. A block of one
+/// colour beside one of another then has a seam some pixels wide, a tenth of its area. The map is finer than the
+/// picture, and its seam is narrower.
 const POLYGON: [f64; 2] = [0.012, 0.16];
 const IMAGE: [f64; 2] = [0.008, 0.09];
 
-/// What is left of the error of 99 of 100 blocks if they are twice as wide: half, were it seams alone.
+/// Ratio of the error of 99 of 100 blocks for blocks twice as wide; it would be one half if seams were the only
+/// error.
 const LEFT: f64 = 0.7;
 
-/// Of the whole picture: no light is lost or won.
+/// Largest difference of the whole picture: no light is lost or gained.
 const WHOLE: f64 = 0.006;
 
-/// Means of blocks of pixels.
+/// Means over blocks of pixels.
 fn blocks(light: &Rgb32FImage, side: u32) -> Vec<DVec3> {
     let pixel = |column, row| Vec3::from_array(light.get_pixel(column, row).0).as_dvec3();
     let mean = |[column, row]: [u32; 2]| {
@@ -57,7 +62,7 @@ fn differences(drawn: &Rgb32FImage, traced: &Rgb32FImage, side: u32) -> Vec<f64>
 #[test]
 fn the_town_in_its_own_textures_is_what_many_rays_see() {
     let mut scene = town::build(1);
-    // Their edges are a map's, and soft: `raytrace.rs` knows them.
+    // The renderers' shadows are a map with soft edges, which `raytrace.rs` tests.
     scene.light.shadows = false;
     let eye = scene.start.position + DVec3::Y * 1.6;
     let look = scene.start.look;

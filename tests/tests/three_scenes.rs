@@ -1,8 +1,10 @@
-//! Law: where things move among things at rest, every renderer shows what a ray meets first, in its light and in its place. Along one line of sight the
-//! nearer apparent position sent its light later, so it hides the others, whoever moves.
+//! Among bodies at rest and in motion, every renderer must show what a ray meets first, with its light and in its
+//! place. Along one line of sight the nearer apparent position sent its light later, so it hides the others, at rest
+//! or in motion.
 //!
-//! A wrong program shows: bodies that pass before what hides them, or behind what they hide, where depths are compared that are not of one
-//! frame; places off by minutes of arc. (Lattice and town are the other two scenes: `raytrace.rs`, `directions.rs`.)
+//! In a wrong program, bodies pass in front of what hides them, or behind what they hide, if depths of different
+//! frames are compared; or places are off by minutes of arc. (Lattice and town are the other two scenes:
+//! `raytrace.rs`, `directions.rs`.)
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
@@ -25,29 +27,31 @@ const SIZE: [u32; 2] = [320, 240];
 /// Polygons cut for a twentieth of a pixel, which is less than shows.
 const POLYGON: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
 
-/// Of light: what differs by more is something else, or its outline.
+/// Relative tolerance of light: a larger difference means another surface, or its outline.
 const ALIKE: f64 = 0.01;
 
-/// Shares of the pixels that must be alike: all but outlines, of a map with eight texels to the pixel a few more.
+/// Shares of the pixels that must be alike: all but outlines, and a little less for a map with eight texels to the
+/// pixel.
 const SHARES: [f64; 2] = [0.99, 0.985];
 
-/// Pixels of which a renderer says wrongly what moves in them, beside those in which something does: outlines of bodies that are some ten pixels wide.
+/// Largest ratio of pixels with a wrong motion to pixels with a moving body: outlines of bodies some ten pixels wide.
 const WRONG: f64 = 0.03;
 
-/// A tenth of the smallest error that other programs' formulas have at γ = 701, which 99 of 100 pixels must keep to.
+/// Tenth of the smallest error that other programs' formulas have at γ = 701, arcminutes; the limit for 99 of 100
+/// pixels.
 const TENTH_OF_OTHERS_ARCMIN: f64 = 1.2;
 
-/// Pixels that must be hidden, either way, for the test to be worth having.
+/// Smallest number of pixels hidden, either way, for the test to be worth having.
 const HIDDEN: usize = 40;
 
-/// A scene and how its motions were made.
+/// A scene, with the motions from which it was made.
 struct World {
     scene: Scene,
     motions: Vec<Uniform>,
 }
 
 impl World {
-    /// Puts moving meshes, each relative to its motion's anchor, among what rests.
+    /// Puts moving meshes, each relative to its motion's anchor, among the resting ones.
     fn new(mut scene: Scene, moving: Vec<(Mesh, Uniform)>) -> Self {
         let motions: Vec<Uniform> = moving.iter().map(|(_, motion)| *motion).collect();
         for (number, (mut mesh, motion)) in moving.into_iter().enumerate() {
@@ -60,14 +64,14 @@ impl World {
         Self { scene, motions }
     }
 
-    /// Only what rests, or only what moves.
+    /// Scene with only the moving meshes (`moves` is true), or only the resting ones.
     fn part(&self, moves: bool) -> Scene {
         let mut scene = self.scene.clone();
         scene.meshes.retain(|mesh| mesh.motion.is_some() == moves);
         scene
     }
 
-    /// Where light from a place that is shown comes from.
+    /// Exact apparent position of a place that is shown.
     fn apparent(&self, who: &Observer, shown: &Shown) -> DVec3 {
         let place = shown.position + self.scene.origin;
         match shown.motion {
@@ -76,7 +80,7 @@ impl World {
         }
     }
 
-    /// Holds both renderers against rays, in light, and against worldlines, in direction.
+    /// Compares the light of both renderers with rays, and their directions with worldlines.
     fn hold(&self, who: &Observer, look: DVec3) {
         let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
         let (eye, celerity) = (who.event.position, who.celerity);
@@ -111,7 +115,8 @@ impl World {
         }
     }
 
-    /// What rays meet first: of which something at rest hides what moves, and something that moves what rests.
+    /// Places that rays meet first. Among them must be resting surfaces that hide moving ones, and moving ones that
+    /// hide resting ones.
     fn met(&self, view: &View, who: &Observer) -> Vec<Option<Shown>> {
         let places = |scene: &Scene| {
             let mut photographer = Photographer::by(scene, SIZE, 1, None, By::Rays);
@@ -132,7 +137,7 @@ impl World {
     }
 }
 
-/// Share of pixels whose channels differ by little beside the brighter one's largest.
+/// Share of pixels whose channels differ by little compared with the brighter one's largest.
 fn alike(one: &Rgb32FImage, other: &Rgb32FImage) -> f64 {
     let is_alike = |(one, other): &(&image::Rgb<f32>, &image::Rgb<f32>)| {
         let channels = || one.0.into_iter().zip(other.0).map(|(a, b)| (f64::from(a), f64::from(b)));
@@ -152,10 +157,10 @@ fn along(gamma: f64) -> Celerity {
     Celerity::new(DVec3::NEG_Z * (gamma * gamma - 1.0).sqrt()).unwrap()
 }
 
-/// A lattice around the eye with boxes and balls that fly through its alleys, in front of its boxes and behind them.
+/// Lattice around the eye, with boxes and balls that fly through its alleys, in front of its boxes and behind them.
 fn lattice(eye: DVec3) -> World {
     let mut scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
-    // Daylight, shifted, on one of them.
+    // One of the balls is lit by shifted daylight.
     scene.materials.push(Material { base_colour: [0.7, 0.5, 0.3, 1.0], ..Material::default() });
     scene.light = Default::default();
     scene.light.shadows = false;
@@ -167,10 +172,10 @@ fn lattice(eye: DVec3) -> World {
         fly(lit, DVec3::X * -0.9, DVec3::new(3.6, 4.0, -8.5)),
         fly(ball(1.2), DVec3::new(0.1, 0.5, -0.3), DVec3::new(-3.5, -3.4, -8.0)),
         fly(cuboid(DVec3::ZERO, 0.5, 0), DVec3::Z * 0.6, DVec3::new(-1.0, 0.4, -5.0)),
-        // Abeam.
+        // These two pass abeam.
         fly(cuboid(DVec3::ZERO, 0.6, 0), DVec3::Y * -0.5, DVec3::new(3.9, 1.4, 4.5)),
         fly(ball(1.2), DVec3::Z * 0.7, DVec3::new(-6.6, 4.8, 2.3)),
-        // Astern.
+        // These two are astern.
         fly(cuboid(DVec3::ZERO, 0.7, 0), DVec3::Y * 0.9, DVec3::new(0.9, 0.5, 8.0)),
         fly(ball(1.0), DVec3::X * -0.9, DVec3::new(3.8, 3.5, 12.5)),
     ];
@@ -189,8 +194,8 @@ fn what_moves_hides_and_is_hidden_as_rays_see_it() {
 
 #[test]
 fn the_same_holds_astern_at_gamma_701() {
-    // Ahead of such an observer everything is seen that lies up to within a quarter of a degree of astern: things of centimetres,
-    // enlarged some hundred times.
+    // Ahead of such an observer everything appears that lies further than a quarter of a degree from astern. The test
+    // things are some centimetres large, and enlarged some hundred times.
     let eye = DVec3::new(2.0, 1.0, -3.0);
     let wall = |half: f64, x: f64, y: f64, z: f64| {
         let mut mesh = cuboid(DVec3::new(x, y, z), half, 0);
@@ -217,7 +222,7 @@ fn a_finger_before_a_wall_is_seen_and_a_finger_behind_it_is_not() {
     let eye = DVec3::new(0.0, 0.2, 0.5);
     let view = View { look: DVec3::new(0.2, 0.1, -1.0), up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
     for (offset, seen) in [(GAP_M, true), (-GAP_M, false)] {
-        // Its near face is that far before the wall's, or behind.
+        // The near face of the box is that far in front of the wall's, or behind it.
         let mut wall = cuboid(DVec3::NEG_Z * 108.0, 100.0, 0);
         wall.motion = None;
         let motion = passing(DVec3::X * 0.6, DVec3::new(1.0, 0.3, -9.0 + offset), eye);
@@ -225,7 +230,7 @@ fn a_finger_before_a_wall_is_seen_and_a_finger_behind_it_is_not() {
         for method in [POLYGON, DEFAULT_MAP] {
             let mut photographer = Photographer::with(&world.scene, SIZE, 1, None, method);
             for gamma in [1.0, 1.25, 2.3] {
-                // Its sides are in the wall.
+                // The sides of the box are in the wall.
                 let face = -8.0 + offset - 0.5 * GAP_M;
                 let in_front = |shown: &&Shown| shown.motion.is_some() && shown.position.z > face;
                 let count = |places: Vec<Option<Shown>>| places.iter().flatten().filter(in_front).count();

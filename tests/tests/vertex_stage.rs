@@ -1,7 +1,9 @@
-//! Law: who bends a vertex does not show. The GPU's vertex stage, with the kernel for what lies astern, draws the picture that the kernel draws.
+//! The picture must not depend on the place where vertices are bent. The GPU's vertex stage, with the kernel for
+//! vertices astern, must draw the same picture as the kernel alone.
 //!
-//! A wrong program shows: astern at high speed minutes of arc to radians, where f32 alone loses the part across the motion; vertices left where they were bent
-//! for the frame before; bodies that move seen from the world's eye.
+//! In a wrong program, f32 alone loses the part across the motion, which gives errors of minutes of arc to radians
+//! astern at high speed. Vertices may stay where they were bent for the frame before. Moving bodies may be seen from
+//! the world's eye.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2};
@@ -16,17 +18,17 @@ use system_tests::view::View;
 
 const SIZE: [u32; 2] = [200, 150];
 
-/// Share of pixels, on outlines, that may show something else, since two ways of rounding differ.
+/// Share of pixels, on outlines, that may show another surface, since the two ways round differently.
 const OUTLINE_SHARE: f64 = 0.003;
 
-/// How far apart the places that both show in a pixel may be, in edges of the cut scene.
+/// Largest distance between the places that both show in a pixel, in edges of the cut scene.
 const PLACE_TOLERANCE: f64 = 0.02;
 
 const EDGE_M: f64 = 0.25;
 
 fn lattice() -> Scene {
     let mut scene = Lattice { count: [5, 5, 5], spacing: 3.0, side: 0.8 }.build();
-    // Half of it flies away from the other half.
+    // Half of the lattice flies away from the other half.
     let uniform = Uniform { celerity: Celerity::new(DVec3::new(0.2, 0.7, 0.1)).unwrap(), anchor: Event::default() };
     scene.motions = vec![Motion::Uniform(uniform)];
     let mut moving = scene.meshes[0].clone();
@@ -58,7 +60,7 @@ fn the_vertex_stage_draws_what_the_kernel_draws() {
         assert!(apart <= OUTLINE_SHARE * f64::from(SIZE[0] * SIZE[1]), "u = {u} towards {look}: {apart} pixels differ");
         total += shown;
 
-        // Light as well: the shift of each body is that of its own view.
+        // Compare light as well: the shift of each body is that of its own view.
         let [by_kernel, by_stage] =
             pictures.each_mut().map(|photographer| photographer.light(&view, eye, celerity, Effects::ALL));
         let close = |(a, b): &(&image::Rgb<f32>, &image::Rgb<f32>)| {
@@ -70,7 +72,7 @@ fn the_vertex_stage_draws_what_the_kernel_draws() {
     assert!(total > 50_000, "{total} pixels show a surface");
 }
 
-/// A square of `half` metres to either side about the world's origin, facing `towards`, cut into small ones.
+/// Square of `half` metres to either side about the world's origin, facing `towards`, divided into small squares.
 fn square(towards: DVec3, half: f64) -> Scene {
     const CELLS: u32 = 40;
     let (right, up) = towards.any_orthonormal_pair();
@@ -101,7 +103,7 @@ fn what_lies_astern_keeps_its_digits() {
         [Method::Polygon, Method::VertexStage].map(|method| Photographer::with(&scene, SIZE, 1, None, method));
     let view = View { look: -ahead, up: DVec3::Y, fov_degrees: 70.0, size: SIZE };
     let celerity = Celerity::new(ahead * gamma).unwrap();
-    // From there, from where nothing is astern, and back: the streams must not keep what they held.
+    // Look from there, from a place with nothing astern, and from there again: the streams must not keep old values.
     let [there, _, back] = [ahead * distance, -ahead * distance, ahead * distance].map(|eye| {
         let [by_kernel, by_stage] = pictures.each_mut().map(|photographer| photographer.places(&view, eye, celerity));
         let shown = by_kernel.iter().flatten().count();

@@ -1,11 +1,13 @@
-//! Law: a pixel of a wall shows what the viewer's eye sees in the direction from the eye to that pixel, in the axes of his own frame, which
-//! is a pure boost of the vehicle's as his head moves in it (W 6.3, 6.4.1, B 4.1). Both eyes are at one moment of his own time.
+//! A pixel of a wall must show what the viewer's eye sees in the direction from the eye to that pixel, in the axes of
+//! the viewer's own frame. That frame is a pure boost of the vehicle's, by the motion of the head in it (W 6.3,
+//! 6.4.1, B 4.1). Both eyes are at one moment of the viewer's time.
 //!
-//! Held against boxes met by rays one by one: wall pixels are re-projected to directions by plain geometry here, and taken to the world by
-//! Lorentz matrices multiplied out, which share nothing with the program's own composition of boosts.
+//! The pictures are compared with boxes met by rays one by one. Wall pixels are projected back to directions by plain
+//! geometry here, and taken to the world by multiplied-out Lorentz matrices, which share nothing with the program's
+//! own composition of boosts.
 //!
-//! A wrong program shows: walls that do not meet in their corners; both eyes alike, or changed over; a head that is taken to rest while it
-//! walks, or is added to the vehicle without the rotation that two boosts make.
+//! A wrong program shows walls that do not meet in their corners; eyes that are alike or exchanged; a head that
+//! counts as at rest while it walks, or is added to the vehicle without the rotation that two boosts make.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DMat4, DQuat, DVec2, DVec3};
@@ -29,16 +31,16 @@ use system_tests::photographer::gpu;
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
-/// Metres, as in `lattice_pixels`.
+/// Longest edge, metres, like in `lattice_pixels`.
 const EDGE_M: f32 = 0.09;
-/// What may differ: what the project promises for pixels of walls.
+/// Largest share of pixels that may differ: the project's promise for pixels of walls.
 const SHARE_AT_MOST: f64 = 0.01;
-/// Pixels that an outline may be away from its place.
+/// Largest distance of an outline from its exact place, pixels.
 const REACH: f64 = 0.75;
 
 static REFINED: LazyLock<Scene> = LazyLock::new(|| refine(&LATTICE.build(), EDGE_M).unwrap());
 
-/// A built-in display with pixels that are so many times larger.
+/// Built-in display with pixels `coarser` times as large.
 fn display(name: &str, coarser: u32) -> Display {
     let mut display = Display::built_in(name).unwrap();
     for window in &mut display.windows {
@@ -47,14 +49,14 @@ fn display(name: &str, coarser: u32) -> Display {
     for channel in &mut display.channels {
         channel.viewport = channel.viewport.map(|side| side / coarser);
     }
-    // Gains change colours, which say here what is seen.
+    // Gains would change the colours, by which this test recognises surfaces.
     for projector in &mut display.projectors {
         (projector.even, projector.blend) = (false, false);
     }
     display
 }
 
-/// A vehicle between the boxes, turned somehow, with this celerity.
+/// Vehicle between the boxes, turned arbitrarily, with this celerity.
 fn vehicle(celerity: DVec3) -> State {
     let orientation = DQuat::from_rotation_y(0.4) * DQuat::from_rotation_x(-0.3);
     let event = Event { ct: 0.7, position: DVec3::new(0.375, -1.81875, 0.53125) };
@@ -69,7 +71,7 @@ fn head(viewer: &Viewer, celerity: DVec3) -> Head {
     }
 }
 
-/// What each channel shows.
+/// Pictures of all channels, for each occupant.
 fn drawn(display: &Display, method: Method, scene: &Scene, occupants: &[Occupant]) -> Vec<Vec<RgbaImage>> {
     let format = Studio::format(gpu());
     let quality = Quality { format, samples: 1, density: 3.0, smooth: false };
@@ -86,12 +88,12 @@ fn drawn(display: &Display, method: Method, scene: &Scene, occupants: &[Occupant
     pictures
 }
 
-/// What a channel must show, by textbook formulas.
+/// Exact picture of a channel, by textbook formulas.
 struct Exact<'a> {
     boxes: &'a Boxes,
     display: &'a Display,
     channel: &'a Channel,
-    /// From the head's axes, named as the room's, to the world's.
+    /// Transformation from the head's frame, with axes named like the room's, to the world's.
     world_from_head: DMat4,
     eye_m: DVec3,
     eye_in_world: DVec3,
@@ -110,13 +112,13 @@ impl<'a> Exact<'a> {
         Self { boxes, display, channel, world_from_head, eye_m, eye_in_world }
     }
 
-    /// At a place of the viewport, in pixels; black where no surface is lit.
+    /// Exact colour at a place of the viewport, in pixels; black where no surface is lit.
     fn colour(&self, at: DVec2) -> [u8; 4] {
         let [width, height] = self.channel.size().map(f64::from);
         let Some(point) = self.channel.point(self.display, at / DVec2::new(width, height)) else {
             return [0, 0, 0, 255];
         };
-        // The light came from there, a while ago.
+        // The light came from there, at an earlier time.
         let from = self.world_from_head * four(-1.0, (point - self.eye_m).normalize());
         self.boxes.first(self.eye_in_world, space(from).normalize())
     }
@@ -127,7 +129,7 @@ impl<'a> Exact<'a> {
     }
 }
 
-/// Shares of pixels of a channel that differ, and that show what is nowhere near.
+/// Share of pixels of a channel that differ, and share of those that show a colour found nowhere near.
 fn compare(picture: &RgbaImage, exact: &Exact<'_>) -> (f64, f64) {
     let pixels: Vec<_> = picture.enumerate_pixels().collect();
     let middle = |column: u32, row: u32| DVec2::new(f64::from(column), f64::from(row)) + 0.5;
@@ -186,7 +188,7 @@ fn a_curved_screen_shows_what_the_eye_sees_by_maps() {
 
 #[test]
 fn every_projector_of_a_dome_shows_what_the_eye_sees() {
-    // Six pictures that are each where they should be agree where they overlap.
+    // Six pictures must agree where they overlap, if each is in its place.
     assert_walls("dome6", 4, Method::Polygon, &REFINED);
 }
 
@@ -196,7 +198,7 @@ fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let fast = DVec3::new(-0.9, 0.4, -1.5);
     let walking = Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::new(0.7, -0.2, 0.5)) };
 
-    // The same by one boost, at the same event.
+    // Reference: one boost, at the same event.
     let Occupant { vehicle, head } = walking;
     let room_from_world = rotation(vehicle.orientation).inverse() * boost(fast);
     let head_from_world = boost(head.celerity.vector()) * room_from_world;
@@ -213,7 +215,7 @@ fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
         let differing = walking.pixels().zip(one.pixels()).filter(|(a, b)| a != b).count();
         let share = differing as f64 / f64::from(walking.width() * walking.height());
         println!("{}: {share:.6}", channel.name);
-        // A sixteenth-bit of rounding may take an outline across a pixel's middle, here and there.
+        // A rounding of a sixteenth of a bit may move an outline across a pixel's middle in a few places.
         assert!(share < 2e-4, "{}: {share} of the pixels differ", channel.name);
     }
 }

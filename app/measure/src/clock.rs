@@ -1,4 +1,4 @@
-//! How long the stages of a picture take, and what its renderer holds on the device.
+//! Times of the stages of a picture, and memory that its renderer holds on the device.
 
 use std::time::Instant;
 
@@ -8,25 +8,25 @@ use crate::renderers::target::Radiance;
 use crate::renderers::{SceneRenderer, Shot};
 use crate::views::sample_offset;
 
-/// Milliseconds that one picture's stages took.
+/// Times of one picture's stages, milliseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stages {
-    /// Photo-surface, cut, or plan of the map: what the CPU works out.
+    /// Photo-surface, cut, or plan of the map: the computation on the CPU.
     pub bend: f64,
-    /// Getting that onto the device.
+    /// Transfer of the result to the device.
     pub upload: f64,
-    /// Drawing, the map's panes included, until the device is done.
+    /// Drawing, including the map's panes, until the device is done.
     pub draw: f64,
 }
 
 impl Stages {
-    /// All of it.
+    /// Sum of all stages, milliseconds.
     pub fn total(self) -> f64 {
         self.bend + self.upload + self.draw
     }
 }
 
-/// Begins the photo-surface, where there is one.
+/// Begins the photo-surface, if the renderer has one.
 ///
 /// # Errors
 /// A lost device.
@@ -37,7 +37,7 @@ pub fn submit(gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<()
     Ok(())
 }
 
-/// A picture from nothing, as a still is: each stage waits for the one before.
+/// Draws a picture from nothing, like a still: each stage waits for the one before.
 ///
 /// # Errors
 /// A lost device.
@@ -53,8 +53,8 @@ pub fn still(
     picture(gpu, renderer, radiance, shot, samples, watch)
 }
 
-/// A frame as a ride has it: the photo-surface that is drawn was begun a frame ago, and the `next` one is worked out meanwhile; a cut is the newest
-/// there is.
+/// Draws a frame like one of a ride. The photo-surface that is drawn was begun a frame ago, and the `next` one is
+/// computed meanwhile; a cut is the newest there is.
 ///
 /// # Errors
 /// A lost device.
@@ -73,7 +73,7 @@ pub fn frame(
     picture(gpu, renderer, radiance, shown, 1, watch)
 }
 
-/// Takes the oldest photo-surface that was begun, and draws.
+/// Takes the oldest photo-surface under way, and draws.
 fn picture(
     gpu: &Gpu,
     renderer: &mut SceneRenderer,
@@ -92,7 +92,7 @@ fn picture(
     renderer.prepare(gpu, shot, radiance.size);
     let prepared = watch.lap();
     if let Some(map) = renderer.map_stats() {
-        // Its panes are being drawn already: to wait for them is part of drawing.
+        // The map's panes are already being drawn, so the wait for them belongs to drawing.
         (stages.bend, stages.upload) = (map.plan_ms, prepared - map.plan_ms);
     } else {
         *(if transforms { &mut stages.upload } else { &mut stages.bend }) += prepared;
@@ -110,7 +110,7 @@ fn picture(
     Ok(stages)
 }
 
-/// Milliseconds between one look and the next.
+/// Stopwatch that returns the milliseconds since the last reading.
 struct Watch(Instant);
 
 impl Watch {
@@ -124,12 +124,13 @@ impl Watch {
     }
 }
 
-/// Bytes that buffers and textures take on the device, all renderers' together; `None` where the driver does not say.
+/// Memory of all buffers and textures on the device, of all renderers together, bytes; `None` if the driver does not
+/// tell.
 ///
 /// # Errors
 /// A lost device.
 pub fn device_bytes(gpu: &Gpu) -> Result<Option<i64>, Error> {
-    // What nobody holds any more goes once the device is done with it.
+    // Resources that are no longer used are freed once the device is done with them.
     gpu.queue.submit([]);
     gpu.wait()?;
     Ok(gpu.device.generate_allocator_report().map(|report| report.total_allocated_bytes as i64))

@@ -1,8 +1,9 @@
-//! How far from its colour is everything drawn: two pictures of one view developed alike, compared pixel by pixel by ΔE2000.
+//! Colour errors: two pictures of one view, developed alike, compared pixel by pixel by ΔE2000.
 //!
-//! Light is compared as a screen would show it: by one exposure for both, the one by which the reference is on the average as bright as the same surfaces
-//! are at rest; by 1 − e^(−L), which knows nothing of the rest of the picture (B eq. 5.1); and by fading what is not on the screen to the grey
-//! of its luminance. So a brighter picture is a difference, and is not adapted away.
+//! Light is compared in the form in which a screen would show it. Both pictures have the same exposure: the one by
+//! which the reference is on average as bright as the same surfaces at rest. The curve is 1 − e^(−L), which does not
+//! depend on the rest of the picture (B eq. 5.1). Colours outside the screen's gamut are mixed with the grey of their
+//! luminance. So a brighter picture counts as a difference, and is not adapted away.
 
 use glam::DVec3;
 use physics::colour::difference::{delta_e_2000, lab_from_xyz};
@@ -11,10 +12,10 @@ use rayon::prelude::*;
 
 use super::quantiles::Sorted;
 
-/// Luminances below this share of white are left out of the mean brightness.
+/// Share of white below which luminances are left out of the mean brightness.
 const DARK: f64 = 1e-6;
 
-/// The factor by which light in cd/m² becomes exposed luminance, white being 1.
+/// Factor from light in cd/m² to exposed luminance, white being 1.
 ///
 /// # Arguments
 /// * `light` — linear sRGB in cd/m² of the reference.
@@ -27,7 +28,7 @@ pub fn exposure(light: &[DVec3], at_rest: &[f64], white: f64) -> f64 {
     (sum / f64::from(count.max(1))).exp() / white
 }
 
-/// What a screen shows of light: linear sRGB from 0 to 1.
+/// Colour that a screen shows for light: linear sRGB from 0 to 1.
 pub fn developed(light: DVec3, exposure: f64) -> DVec3 {
     let exposed = light * exposure;
     let bright = luminance(exposed);
@@ -37,7 +38,7 @@ pub fn developed(light: DVec3, exposure: f64) -> DVec3 {
     let shown = -(-bright).exp_m1();
     let grey = DVec3::splat(shown);
     let from_grey = exposed * (shown / bright) - grey;
-    // As far from grey as every channel stays within 0 to 1.
+    // Largest distance from grey at which every channel stays within 0 to 1.
     let room = |apart: f64| match apart {
         apart if apart > 0.0 => (1.0 - shown) / apart,
         apart if apart < 0.0 => shown / -apart,
@@ -57,13 +58,14 @@ pub fn differences(first: &[DVec3], second: &[DVec3]) -> Sorted {
 
 #[cfg(test)]
 mod tests {
-    //! Law: what is as bright as at rest is left so, what is not on the screen keeps its luminance, and twice the light is a difference.
+    //! Three laws: a picture as bright as at rest stays so, a colour outside the gamut keeps its luminance, and twice
+    //! the light is a difference.
 
     use super::*;
 
     #[test]
     fn exposure_takes_back_what_motion_has_added_on_the_average() {
-        // Twice and eight times as bright as at rest: four times in the geometric mean.
+        // Pixels twice and eight times as bright as at rest: four times in the geometric mean.
         let light = [DVec3::splat(200.0), DVec3::splat(400.0), DVec3::ZERO];
         let exposed = exposure(&light, &[1.0, 0.5, 0.3], 100.0);
         assert!((exposed - 0.25 / 100.0).abs() < 1e-12, "{exposed}");

@@ -1,8 +1,9 @@
-//! How far from its place is everything drawn: the angle between the direction that a pixel sees and the one in which light really comes from
-//! what it shows.
+//! Direction errors: the angle between the direction of a pixel and the exact direction of the light from the place
+//! that it shows.
 //!
-//! The renderer is asked for the place in the scene that each pixel shows ([`crate::renderers::Subject::Places`]); where light from there arrives is
-//! known exactly ([`physics::apparent`]). So the error is one of geometry alone: colours, textures and the ray tracer have no part in it.
+//! The renderer tells the place in the scene that each pixel shows ([`crate::renderers::Subject::Places`]). The
+//! direction from which light from there arrives is known exactly ([`physics::apparent`]). So the error is one of
+//! geometry alone: colours, textures and the ray tracer have no part in it.
 
 use glam::DVec3;
 use physics::{Observer, apparent};
@@ -12,17 +13,18 @@ use super::quantiles::Sorted;
 /// Minutes of arc in a radian.
 pub const ARCMIN_PER_RAD: f64 = 180.0 * 60.0 / std::f64::consts::PI;
 
-/// Of a picture of things at rest in the world: by how many arcminutes each pixel is off.
+/// Errors of a picture of things at rest in the world, arcminutes for each pixel.
 ///
-/// *Frames:* `shown` pairs the unit direction of each pixel, observer's axes, with the world place it shows, metres.
+/// *Frames:* `shown` pairs the unit direction of each pixel, observer's axes, with the world place that it shows,
+/// metres.
 pub fn errors(observer: &Observer, shown: impl IntoIterator<Item = (DVec3, DVec3)>) -> Sorted {
     between(shown.into_iter().map(|(direction, place)| (direction, apparent::at_rest(observer, place).position)))
 }
 
-/// The same of pixels' unit directions and the apparent positions of what they show, observer's axes.
+/// Angles between pixels' unit directions and the apparent positions of what they show, observer's axes, arcminutes.
 pub fn between(pairs: impl IntoIterator<Item = (DVec3, DVec3)>) -> Sorted {
     let error = |(direction, apparent): (DVec3, DVec3)| {
-        // By the chord: the arc cosine of a product next to 1 would lose half the digits.
+        // Use the chord: the arc cosine of a product close to 1 would lose half the digits.
         2.0 * (0.5 * direction.distance(apparent.normalize_or_zero())).min(1.0).asin() * ARCMIN_PER_RAD
     };
     Sorted::of(pairs.into_iter().map(error))
@@ -30,7 +32,7 @@ pub fn between(pairs: impl IntoIterator<Item = (DVec3, DVec3)>) -> Sorted {
 
 #[cfg(test)]
 mod tests {
-    //! Angles of known size come back, however small.
+    //! Angles of known size must come back, however small.
 
     use super::*;
     use physics::{Celerity, Event};
@@ -49,12 +51,13 @@ mod tests {
 
     #[test]
     fn aberration_is_counted_as_what_it_is() {
-        // From abeam at 0.6 c light comes from cos θ' = 0.6 ahead; a picture that leaves it abeam is off by asin 0.6.
+        // At 0.6 c, light from abeam arrives from cos θ' = 0.6 ahead. A picture that leaves it abeam is off by asin
+        // 0.6.
         let observer = Observer { event: Event::default(), celerity: Celerity::new(DVec3::Z * -0.75).expect("finite") };
         let exact = DVec3::new(0.8, 0.0, -0.6);
         let errors = errors(&observer, [(exact, DVec3::X * 9.0), (DVec3::X, DVec3::X * 9.0)]);
         assert!(errors.quantile(0.5) < 1e-11);
-        // Kept in 24 bits.
+        // The results are stored in 24 bits.
         assert!((errors.quantile(1.0) - 0.6_f64.asin() * ARCMIN_PER_RAD).abs() < 2e-4);
         assert_eq!(errors.share_above(1.0), 0.5);
     }

@@ -1,13 +1,16 @@
-//! How different two pictures look when one flips between them: FLIP, for pictures on a screen.
+//! FLIP, the visible difference between two pictures on a screen that alternate in the same place.
 //!
-//! *Source:* Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, *FLIP: A Difference Evaluator for Alternating Images*, Proceedings of
-//! the ACM on Computer Graphics and Interactive Techniques 3 (2), 2020; equation numbers below are its own. In words:
+//! *Source:* Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, *FLIP: A Difference Evaluator for
+//! Alternating Images*, Proceedings of the ACM on Computer Graphics and Interactive Techniques 3 (2), 2020; equation
+//! numbers below are those of the paper. In words:
 //!
-//! - **Colour.** The eye blurs fine patterns, those of colour more than those of brightness: each picture is filtered by the eye's sensitivity to contrast.
-//!   What is left differs by the HyAB distance in CIELAB, in which dark colours count for less (Hunt's effect); large differences are compressed.
-//! - **Features.** Where an edge or a point is in one picture and not in the other, the difference is seen all the more.
+//! - **Colour.** The eye blurs fine patterns, those of colour more than those of brightness, so each picture is
+//!   filtered by the eye's contrast sensitivity. The filtered colours differ by the HyAB distance in CIELAB, in which
+//!   dark colours count for less (Hunt's effect); large differences are compressed.
+//! - **Features.** If an edge or a point is in one picture and not in the other, the difference is more visible.
 //!
-//! A pixel's distance is ΔE_colour^(1 − ΔE_features), from 0, alike, to 1; a picture's is the mean over its pixels.
+//! The distance of a pixel is ΔE_colour^(1 − ΔE_features), from 0, alike, to 1. The distance of two pictures is the
+//! mean over their pixels.
 
 use std::f64::consts::PI;
 
@@ -16,46 +19,48 @@ use physics::colour::difference::lab_from_xyz;
 use physics::colour::{rgb_from_xyz, xyz_from_rgb};
 use rayon::prelude::*;
 
-/// Pixels in a degree of the field of view, for somebody 0.7 m from a screen that is 0.7 m wide and has 3840 pixels across (section 4.1).
+/// Pixels in a degree of the field of view, at 0.7 m from a screen that is 0.7 m wide and 3840 pixels across (section
+/// 4.1).
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// Sensitivity to contrast, as sums of Gaussians over the angle in degrees (table 1): weight a and breadth b of each, for luminance, red
-/// against green, and blue against yellow.
+/// Contrast sensitivity for luminance, red–green and blue–yellow, as sums of Gaussians over the angle in degrees
+/// (table 1): weight a and breadth b of each.
 const LUMINANCE: &[[f64; 2]] = &[[1.0, 0.0047]];
 const RED_GREEN: &[[f64; 2]] = &[[1.0, 0.0053]];
 const BLUE_YELLOW: &[[f64; 2]] = &[[34.1, 0.04], [13.5, 0.025]];
-/// The broadest of them, which decides how far the filters reach.
+/// Largest breadth of all, which decides the reach of the filters.
 const BROADEST: f64 = 0.04;
 
-/// Exponent that compresses differences of colour (q_c, eq. 12), and the share of the largest difference up to which the compressed one rises to
-/// `KNEE_HEIGHT` (p_c and p_t, eq. 13).
+/// Exponent that compresses differences of colour (q_c, eq. 12), and the share of the largest difference up to which
+/// the compressed one rises to `KNEE_HEIGHT` (p_c and p_t, eq. 13).
 const COLOUR_EXPONENT: f64 = 0.7;
 const KNEE: f64 = 0.4;
 const KNEE_HEIGHT: f64 = 0.95;
 
-/// Breadth of an edge or point that the eye makes out, degrees (w, section 4.3), and the exponent of its difference (q_f, eq. 15).
+/// Breadth of an edge or point that the eye can see, degrees (w, section 4.3), and the exponent of its difference
+/// (q_f, eq. 15).
 const FEATURE_DEGREES: f64 = 0.082;
 const FEATURE_EXPONENT: f64 = 0.5;
 
-/// A picture as it is perceived.
+/// Picture in the form in which FLIP compares it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perceived {
     size: [u32; 2],
-    /// CIELAB after filtering, a* and b* by Hunt's effect.
+    /// CIELAB colours after filtering, with a* and b* by Hunt's effect.
     lab: Vec<DVec3>,
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
 impl Perceived {
-    /// Of linear sRGB colours from 0 to 1, row by row.
+    /// Perceived form of linear sRGB colours from 0 to 1, row by row.
     pub fn new(size: [u32; 2], rgb: &[DVec3], pixels_per_degree: f64) -> Self {
         let white = xyz_from_rgb() * DVec3::ONE;
         let opponent: Vec<DVec3> = rgb.iter().map(|rgb| opponent_from_xyz(xyz_from_rgb() * *rgb / white)).collect();
         let channel = |index: usize| Plane { size, values: opponent.iter().map(|colour| colour[index]).collect() };
         let luminance = channel(0);
 
-        // Filter by the sensitivity to contrast, and go on to what the screen can show of it.
+        // Filter by contrast sensitivity, then limit the colours to those of the screen.
         let radius = (3.0 * (BROADEST / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i32;
         let filtered = [(luminance.clone(), LUMINANCE), (channel(1), RED_GREEN), (channel(2), BLUE_YELLOW)]
             .map(|(plane, gaussians)| plane.contrast(gaussians, radius, pixels_per_degree));
@@ -72,7 +77,7 @@ impl Perceived {
     }
 }
 
-/// The distance of each pixel, 0 to 1, row by row. Both pictures must be of one size.
+/// Distance of each pixel, 0 to 1, row by row. Both pictures must have the same size.
 pub fn distances(first: &Perceived, second: &Perceived) -> Vec<f64> {
     debug_assert_eq!(first.size, second.size);
     let largest = largest_difference();
@@ -87,12 +92,12 @@ pub fn distances(first: &Perceived, second: &Perceived) -> Vec<f64> {
     pixels.map(distance).collect()
 }
 
-/// The mean of all distances: the pictures' own.
+/// Mean of the pixels' distances, which is the distance of the pictures.
 pub fn mean(distances: &[f64]) -> f64 {
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 
-/// Y C_x C_z of tristimulus values relative to white: CIELAB without its cube roots (eq. 2).
+/// Opponent colour Y C_x C_z of tristimulus values relative to white: CIELAB without its cube roots (eq. 2).
 fn opponent_from_xyz(xyz: DVec3) -> DVec3 {
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
@@ -102,26 +107,26 @@ fn xyz_from_opponent(opponent: DVec3) -> DVec3 {
     DVec3::new(y + opponent.y / 500.0, y, y - opponent.z / 200.0)
 }
 
-/// Colours look paler in the dark (eq. 9).
+/// Colour with Hunt's effect: colours look paler in the dark (eq. 9).
 fn hunt(lab: DVec3) -> DVec3 {
     let factor = 0.01 * lab.x;
     DVec3::new(lab.x, factor * lab.y, factor * lab.z)
 }
 
-/// Of large differences a better measure than the straight line (eq. 10).
+/// HyAB distance of two colours, for large differences a better measure than the Euclidean distance (eq. 10).
 fn hyab(first: DVec3, second: DVec3) -> f64 {
     let apart = first - second;
     apart.x.abs() + apart.y.hypot(apart.z)
 }
 
-/// That of the screen's green and blue, compressed (eq. 11).
+/// Largest difference of colours, compressed: that of the screen's green and blue (eq. 11).
 fn largest_difference() -> f64 {
     let white = xyz_from_rgb() * DVec3::ONE;
     let [green, blue] = [DVec3::Y, DVec3::Z].map(|rgb| hunt(lab_from_xyz(xyz_from_rgb() * rgb, white)));
     hyab(green, blue).powf(COLOUR_EXPONENT)
 }
 
-/// From 0 to 1, most of it for differences below the knee (eq. 13).
+/// Difference mapped to 0 to 1, most of the range for differences below the knee (eq. 13).
 fn compressed(difference: f64, largest: f64) -> f64 {
     let knee = KNEE * largest;
     if difference < knee {
@@ -139,7 +144,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// Filtered by Gaussians whose sum, over the square that the radius spans, is 1 (eq. 5 to 7).
+    /// Plane filtered by Gaussians whose sum over the square of the radius is 1 (eq. 5 to 7).
     fn contrast(&self, gaussians: &[[f64; 2]], radius: i32, pixels_per_degree: f64) -> Self {
         let kernels: Vec<(f64, Vec<f64>)> = gaussians
             .iter()
@@ -158,7 +163,8 @@ impl Plane {
         Self { size: self.size, values: sum }
     }
 
-    /// How strong an edge, and how strong a point, each pixel is in: lengths of the filtered gradient and second derivative (section 4.3).
+    /// Strength of the edge and of the point at each pixel: lengths of the filtered gradient and second derivative
+    /// (section 4.3).
     fn features(&self, pixels_per_degree: f64) -> [Vec<f64>; 2] {
         let deviation = 0.5 * FEATURE_DEGREES * pixels_per_degree;
         let radius = (3.0 * deviation).ceil() as i32;
@@ -179,7 +185,7 @@ impl Plane {
         [along(&slope), along(&curve)]
     }
 
-    /// Each row filtered; beyond its ends there is what is at them.
+    /// Plane with each row filtered. Rows continue beyond their ends with the end value.
     fn across(&self, kernel: &[f64]) -> Self {
         let width = self.size[0] as usize;
         let radius = kernel.len() / 2;
@@ -194,7 +200,7 @@ impl Plane {
         Self { size: self.size, values }
     }
 
-    /// Each column filtered.
+    /// Plane with each column filtered.
     fn down(&self, kernel: &[f64]) -> Self {
         let [width, height] = self.size.map(|side| side as usize);
         let radius = kernel.len() / 2;

@@ -1,4 +1,4 @@
-//! `rapidity measure`: what each speed-up costs in error, and what the physics is off by where it is hardest.
+//! `rapidity measure`: the error that each speed-up costs, and the error of the physics in the hardest cases.
 
 pub mod choice;
 pub mod clock;
@@ -25,7 +25,7 @@ use crate::error::Error;
 /// Carries out `rapidity measure`.
 ///
 /// # Errors
-/// Whatever keeps it from being measured or written, and errors of the physics beyond what it promises.
+/// Any fault that prevents measuring or writing, and errors of the physics beyond its limit.
 pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
     if options.extremes { extremes::run() } else { sweep::run(options) }
 }

@@ -1,12 +1,14 @@
-//! Pictures at several settings of the renderers' dials: how long they take, what they hold on the device, and how far off they are.
+//! Pictures at several settings of the renderers' dials: their times, their memory on the device, and their errors.
 //!
-//! At each pose every setting draws the same picture, one after the other, several times over: what the machine does besides falls on all alike.
+//! At each pose every setting draws the same picture in turn, several times over, so that other load on the machine
+//! affects all alike.
 //!
-//! - **Stills** are drawn from nothing: each picture waits for its cut or map. Their light is compared with rays traced through the same points of the
-//!   same pixels.
-//! - **Frames of a ride** are drawn one after another from an eye that goes on: photo-surfaces are one frame ahead, cuts are made beside the drawing and
-//!   are a little late, maps are smooth. Their times are those of frames in that steady state, frames that take over a new cut among them, and their errors
-//!   are those of the frame after, which has whatever cut it has.
+//! - **Stills** are drawn from nothing: each picture waits for its cut or map. Their light is compared with rays
+//!   traced through the same points of the same pixels.
+//! - **Frames of a ride** are drawn one after another from an eye that moves on: photo-surfaces are one frame ahead,
+//!   cuts are made beside the drawing and are a little late, maps are smooth. Their times are those of frames in this
+//!   steady state, frames that take over a new cut among them. Their errors are those of the frame after, with the
+//!   cut that it has.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -31,29 +33,30 @@ use crate::scene::Scene;
 /// Samples of each pixel whose light is compared.
 pub const SAMPLES: u32 = 4;
 
-/// Whoever has taken so long at a pose is not timed there again, milliseconds: what is slow is so in one round as well.
+/// Time at a pose after which a setting is not timed there again, milliseconds: slow settings are known well enough
+/// from one round.
 const LONG_MS: f64 = 1500.0;
 
-/// Frames of a ride that are drawn in one go.
+/// Number of frames of a ride that are drawn in one go.
 const FRAMES: u32 = 4;
 
-/// Hardware mixes so many samples of a window's pixel; software has one.
+/// Samples of a window's pixel where hardware draws; software takes one.
 const WINDOW_SAMPLES: u32 = 4;
 
-/// What kind of picture is measured.
+/// Kind of pictures that are measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Whoever asks for it waits.
+    /// Stills, each of which waits for its cut or map.
     Stills,
-    /// One after another.
+    /// Frames of a ride, one after another.
     Rides {
-        /// Own time from frame to frame, metres of light travel.
+        /// Proper time from frame to frame, metres of light travel.
         own_m: f64,
     },
 }
 
 impl Kind {
-    /// Who waits for whom.
+    /// Pace of the cuts for this kind.
     fn pace(self) -> Pace {
         match self {
             Self::Stills => Pace::Still,
@@ -62,42 +65,42 @@ impl Kind {
     }
 }
 
-/// What is measured on what.
+/// Subject and extent of a measurement.
 pub struct Measurement<'a> {
-    /// The device.
+    /// Device that draws.
     pub gpu: &'a Gpu,
-    /// The scene.
+    /// Scene that is drawn.
     pub scene: &'a Scene,
-    /// Where pictures are taken.
+    /// Poses at which pictures are taken.
     pub shots: &'a [Shot],
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [u32; 2],
     /// Stills, or frames of a ride.
     pub kind: Kind,
-    /// How often each is timed.
+    /// Number of times that each picture is timed.
     pub rounds: u32,
 }
 
-/// What was measured of a setting.
+/// Results for a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The setting.
+    /// Setting of a dial.
     pub setting: Setting,
-    /// Milliseconds a picture takes: median and 95th percentile.
+    /// Time of a picture, milliseconds: median and 95th percentile.
     pub ms: [f64; 2],
-    /// The same of bending, uploading and drawing.
+    /// Times of bending, uploading and drawing, milliseconds: median and 95th percentile.
     pub stages_ms: [[f64; 2]; 3],
-    /// The most that its renderer held on the device, bytes, where the driver says.
+    /// Largest memory of the renderer on the device, bytes, if the driver tells.
     pub bytes: Option<f64>,
-    /// Pixels that showed a surface, in all pictures.
+    /// Number of pixels that showed a surface, in all pictures.
     pub pixels: usize,
-    /// Minutes of arc: median, 99th percentile and largest.
+    /// Direction errors, minutes of arc: median, 99th percentile and largest.
     pub arcmin: [f64; 3],
     /// Share of pixels that are off by more than one minute of arc.
     pub above_one: f64,
-    /// Of stills: ΔE2000 of their pixels, median, 99th percentile and largest, and FLIP.
+    /// Colour errors of stills: ΔE2000 of their pixels, median, 99th percentile and largest, and FLIP.
     pub colour: Option<([f64; 3], f64)>,
-    /// No other setting is both faster and closer (by the 99th percentile).
+    /// True if no other setting is both faster and more accurate (by the 99th percentile).
     pub best: bool,
 }
 
@@ -108,18 +111,18 @@ struct Candidate {
     times: Vec<Stages>,
     directions: Vec<Sorted>,
     compared: Vec<Compared>,
-    /// Held now, and at most.
+    /// Memory held now, and the most so far, bytes.
     bytes: Option<(i64, i64)>,
-    /// Frames drawn at this pose.
+    /// Number of frames drawn at this pose.
     frames: u32,
-    /// How much of times, directions and comparisons is of the poses before.
+    /// Numbers of times, directions and comparisons from the poses before.
     before: [usize; 3],
 }
 
-/// Measures these settings. Once `stop` is set, what was measured until then is returned.
+/// Measures these settings. Once `stop` is set, the results until then are returned.
 ///
 /// # Errors
-/// What keeps the scene from being drawn.
+/// An error of the device or of the tracer that prevents drawing.
 pub fn measure(
     measurement: &Measurement<'_>,
     settings: &[Setting],
@@ -134,7 +137,7 @@ pub fn measure(
     };
     let radiance = Radiance::new(gpu, size, format);
     let mut studio = Studio::new(gpu, size, SAMPLES);
-    // Make everything ready before anything is timed.
+    // Prepare everything before anything is timed.
     let mut candidates = Vec::new();
     for &setting in settings {
         match ready(measurement, setting, format) {
@@ -147,7 +150,7 @@ pub fn measure(
     for (poses, shot) in shots.iter().enumerate() {
         candidates.iter_mut().for_each(Candidate::begin_pose);
         let reference = tracer.map(|tracer| Reference::trace(tracer, shot, size, SAMPLES, stop));
-        // The first pictures compile pipelines and warm caches: they are the ones that are compared.
+        // The first pictures compile pipelines and warm caches. They are compared, not timed.
         for candidate in &mut candidates {
             if stop.load(Ordering::Relaxed) {
                 break;
@@ -187,7 +190,7 @@ pub fn measure(
             bar.inc(1);
         }
         if stop.load(Ordering::Relaxed) {
-            // Settings are compared at the same poses, if there is one that all have been at.
+            // Settings are compared at the same poses, if there is a pose that all have completed.
             candidates.iter_mut().filter(|_| poses > 0).for_each(Candidate::forget_pose);
             break;
         }
@@ -200,7 +203,7 @@ pub fn measure(
     Ok(rows)
 }
 
-/// Uploads the scene as a setting wants it.
+/// Uploads the scene in the form that a setting needs.
 fn ready(measurement: &Measurement<'_>, setting: Setting, format: Format) -> Result<Candidate, Error> {
     let gpu = measurement.gpu;
     let choice = setting.choose(measurement.scene.clone(), measurement.kind.pace())?;
@@ -221,12 +224,12 @@ fn ready(measurement: &Measurement<'_>, setting: Setting, format: Format) -> Res
 }
 
 impl Candidate {
-    /// What comes now is of another pose.
+    /// Begins a new pose.
     fn begin_pose(&mut self) {
         self.before = [self.times.len(), self.directions.len(), self.compared.len()];
     }
 
-    /// Leaves out what was measured of this pose.
+    /// Drops the results of this pose.
     fn forget_pose(&mut self) {
         let [times, directions, compared] = self.before;
         self.times.truncate(times);
@@ -234,12 +237,12 @@ impl Candidate {
         self.compared.truncate(compared);
     }
 
-    /// Whether there is time to time it at this pose once more.
+    /// True if the setting is quick enough to be timed at this pose once more.
     fn is_quick(&self) -> bool {
         self.times[self.before[0]..].iter().map(|stages| stages.total()).sum::<f64>() < LONG_MS
     }
 
-    /// One more picture of a pose; in a ride, of the pose that it has come to.
+    /// Draws and times one more picture of a pose; in a ride, of the pose that the ride has reached.
     fn picture(&mut self, gpu: &Gpu, radiance: &Radiance, shot: &Shot, kind: Kind) -> Result<Stages, Error> {
         match kind {
             Kind::Stills => clock::still(gpu, &mut self.renderer, radiance, shot, 1),
@@ -252,18 +255,18 @@ impl Candidate {
         }
     }
 
-    /// A ride begins somewhere else.
+    /// Begins a ride at another place.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
         self.frames = 0;
         while self.renderer.pending() > 0 {
             self.renderer.discard()?;
         }
-        // What was uploaded last frees its memory.
+        // The last upload frees its memory once the device is done.
         gpu.wait()?;
         Ok(())
     }
 
-    /// Asks where everything is drawn.
+    /// Measures the direction errors of a still.
     fn judge(
         &mut self,
         gpu: &Gpu,
@@ -279,8 +282,9 @@ impl Candidate {
         Ok(())
     }
 
-    /// The same of the frame that comes after those that were timed. Windows have half floats, which places do not fit; and mixed texels have no place, so
-    /// of a map the nearest is taken, which is no closer than the mixture.
+    /// Measures the direction errors of the frame after those that were timed. Windows have half floats, which cannot
+    /// hold places. Interpolated texels have no place, so the nearest texel of a map is taken, which is no more
+    /// accurate than the interpolation.
     fn judge_ride(
         &mut self,
         gpu: &Gpu,
@@ -298,7 +302,7 @@ impl Candidate {
         Ok(())
     }
 
-    /// Counts what its renderer has come to hold.
+    /// Updates the memory that the renderer holds.
     fn hold(&mut self, before: Option<i64>, after: Option<i64>) {
         let grown = before.zip(after).map_or(0, |(before, after)| after - before);
         self.bytes = self.bytes.map(|(now, most)| (now + grown, most.max(now + grown)));
@@ -335,7 +339,8 @@ fn of_picture(shot: &Shot, size: [u32; 2], places: &[Option<Shown>]) -> Sorted {
     direction::between(shown)
 }
 
-/// Marks the rows of the Pareto front: no other is at once as fast and as close, and better in one of the two.
+/// Marks the rows of the Pareto front: no other row is at least as fast and at least as accurate, and better in one
+/// of the two.
 fn mark_best(rows: &mut [Row]) {
     let points: Vec<[f64; 2]> = rows.iter().map(|row| [row.ms[0], row.arcmin[1]]).collect();
     for (row, &[ms, arcmin]) in rows.iter_mut().zip(&points) {
@@ -346,7 +351,7 @@ fn mark_best(rows: &mut [Row]) {
 
 #[cfg(test)]
 mod tests {
-    //! The front holds exactly what nothing beats.
+    //! The front must hold exactly the rows that no other row beats.
 
     use super::*;
 

@@ -1,4 +1,4 @@
-//! The table as a picture: time across, error up, both in logarithms; what nothing beats is joined by a line.
+//! Plot of the table: time across, error up, both logarithmic; a line joins the rows that no other row beats.
 
 use std::path::Path;
 
@@ -11,17 +11,18 @@ use std::ops::Range;
 
 use super::pictures::Row;
 
-/// Pixels.
+/// Size of the plot, pixels.
 const SIZE: (u32, u32) = (1000, 620);
 const FONT: &str = "sans-serif";
 const FRONT: RGBColor = RGBColor(120, 120, 120);
 
-/// What a dial's points look like.
+/// Appearance of a dial's points.
 struct Kind {
     dial: &'static str,
     name: &'static str,
     colour: RGBColor,
-    /// Whether values stand below their points on the left, where no point is that is better; or above them on the right.
+    /// True if values stand on the lower left of their points, where no better point can be; otherwise on the upper
+    /// right.
     below: bool,
 }
 
@@ -47,7 +48,7 @@ const KINDS: [Kind; 4] = [
     },
 ];
 
-/// Why there is no plot.
+/// Failure to draw or write a plot.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot plot {path}: {reason}")]
 pub struct PlotError {
@@ -58,8 +59,8 @@ pub struct PlotError {
 /// Draws the rows into an .svg or .png file.
 ///
 /// # Arguments
-/// * `title` — what was measured, on what.
-/// * `pixel_arcmin` — size of a pixel, for a line across.
+/// * `title` — the subject and the machine of the measurement.
+/// * `pixel_arcmin` — size of a pixel, arcminutes, for a horizontal line.
 ///
 /// # Errors
 /// [`PlotError`] if the file cannot be written.
@@ -74,7 +75,8 @@ pub fn plot(rows: &[Row], title: &str, pixel_arcmin: f64, path: &Path) -> Result
     }
 }
 
-/// `space`: between words; in bitmaps, where letters are set without their sides, one is hardly seen.
+/// Draws the plot. `space` stands between words; in bitmaps, where letters have no side bearings, a single space is
+/// hardly visible.
 fn draw<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     rows: &[Row],
@@ -117,7 +119,7 @@ fn draw<B: DrawingBackend>(
         .draw()
         .map_err(told)?;
 
-    // A pixel, and what nothing beats.
+    // Line of one pixel, and line of the best rows.
     let pixel = [(across.start, pixel_arcmin), (across.end, pixel_arcmin)];
     chart.draw_series(LineSeries::new(pixel, BLACK.mix(0.35))).map_err(told)?;
     let note = Text::new(words("one pixel"), (across.start * 1.03, pixel_arcmin * 0.93), (FONT, 15).into_font());
@@ -158,14 +160,14 @@ fn draw<B: DrawingBackend>(
     area.present().map_err(told)
 }
 
-/// Numbers along a logarithmic axis: those that begin with 1, 2 or 5, for there is no room for more.
+/// Labels along a logarithmic axis: numbers that begin with 1, 2 or 5, since there is no room for more.
 fn numbers(range: &Range<f64>) -> Vec<f64> {
     let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
     let all = decades.flat_map(|power| [1.0, 2.0, 5.0].map(|first| first * 10.0_f64.powi(power)));
     all.filter(|number| range.contains(number)).collect()
 }
 
-/// As many digits as such a number needs.
+/// Number as text, with as many digits as its size needs.
 fn label(value: &f64) -> String {
     let digits = (-(value.log10() + 1e-9).floor()).max(0.0) as usize;
     format!("{value:.digits$}")
@@ -173,7 +175,7 @@ fn label(value: &f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! Numbers along an axis are what they stand for, in as many digits as they need.
+    //! Labels along an axis must show their own numbers, in as many digits as they need.
 
     use super::*;
 

@@ -1,4 +1,5 @@
-//! The precision of the transform: f32 in the kernel that bends fixed meshes, f64 for the vertices of a cut; either is written as f32.
+//! Precision of the transform: f32 in the kernel that bends fixed meshes, f64 for the vertices of a cut. Both results
+//! are written as f32.
 
 use std::time::Instant;
 
@@ -13,20 +14,20 @@ use super::views::Views;
 use crate::error::Error;
 use crate::scene::cut::Sight;
 
-/// How often each is timed.
+/// Number of times that each is timed.
 const ROUNDS: usize = 5;
 
-/// Directions and time of one way.
+/// Direction errors and times of one kind of transform.
 #[derive(Default)]
 struct Found {
     directions: Vec<f64>,
     ns: Vec<f64>,
 }
 
-/// Measures it on all vertices at rest, from all poses.
+/// Measures the precision on all vertices at rest, from all poses.
 ///
 /// # Errors
-/// A scene that is nowhere.
+/// A scene whose origin is not finite.
 pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
     let meshes = scene.meshes.iter().filter(|mesh| mesh.motion.is_none());
     let offsets: Vec<Vec3> = meshes.flat_map(|mesh| mesh.positions.iter().copied()).collect();
@@ -80,14 +81,14 @@ fn by_kernel(eye: Eye, vertices: &Vertices, [x, y, z]: &mut [Vec<f32>; 3]) -> Re
     Ok(())
 }
 
-/// As `renderers::polygon` bends the vertices of a cut.
+/// Bends vertices in f64, like `renderers::polygon` those of a cut.
 fn in_full(sight: &Sight, offsets: &[Vec3], places: &mut [Vec3]) {
     places.par_iter_mut().zip(offsets).for_each(|(place, offset)| {
         *place = (sight.observer_from_group * sight.bend.apparent(offset.as_dvec3() - sight.place)).as_vec3();
     });
 }
 
-/// The angle between two directions, by the chord.
+/// Angle between two directions, by the chord, radians.
 fn apart(place: Vec3, exact: DVec3) -> f64 {
     let [seen, exact] = [place.as_dvec3(), exact].map(DVec3::normalize_or_zero);
     2.0 * (0.5 * seen.distance(exact)).min(1.0).asin()
@@ -95,7 +96,8 @@ fn apart(place: Vec3, exact: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Law: the kernel keeps to 7e-7 rad (`physics::photo_surface`), and f64 to what writing f32 rounds: half a unit in the last of 24 bits along each axis.
+    //! Limits of the two transforms: 7e-7 rad for the kernel (`physics::photo_surface`); for f64 the rounding of the
+    //! result to f32, half a unit in the last of 24 bits along each axis.
 
     use super::*;
     use crate::command::SceneChoice;

@@ -1,42 +1,42 @@
-//! Numbers in order, and how many of them are small.
+//! Sorted numbers, their quantiles, and shares above a limit.
 
-/// Sorted numbers, kept short: millions of pixels make one list.
+/// Sorted numbers, stored as f32, since millions of pixels make one list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sorted(Vec<f32>);
 
 impl Sorted {
-    /// Of any numbers.
+    /// Sorted list of any numbers.
     pub fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
         let mut numbers: Vec<f32> = numbers.into_iter().map(|number| number as f32).collect();
         numbers.sort_unstable_by(f32::total_cmp);
         Self(numbers)
     }
 
-    /// Of several lists as of one.
+    /// Several lists joined into one.
     pub fn together(lists: impl IntoIterator<Item = Self>) -> Self {
         let mut numbers: Vec<f32> = lists.into_iter().flat_map(|list| list.0).collect();
         numbers.sort_unstable_by(f32::total_cmp);
         Self(numbers)
     }
 
-    /// How many numbers there are.
+    /// Count of the numbers.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// The number that this share of all, 0 to 1, does not exceed; 0 if there are none.
+    /// Number that this share of all, 0 to 1, does not exceed; 0 if the list is empty.
     pub fn quantile(&self, share: f64) -> f64 {
         let last = self.0.len().saturating_sub(1);
         let index = (share.clamp(0.0, 1.0) * self.0.len() as f64).ceil() as usize;
         self.0.get(index.saturating_sub(1).min(last)).copied().map_or(0.0, f64::from)
     }
 
-    /// Median, 99th percentile and the largest.
+    /// Median, 99th percentile and largest number.
     pub fn summary(&self) -> [f64; 3] {
         [0.5, 0.99, 1.0].map(|share| self.quantile(share))
     }
 
-    /// Median and 95th percentile, as of times.
+    /// Median and 95th percentile, the summary of times.
     pub fn usual_and_slow(&self) -> [f64; 2] {
         [0.5, 0.95].map(|share| self.quantile(share))
     }
@@ -50,7 +50,7 @@ impl Sorted {
 
 #[cfg(test)]
 mod tests {
-    //! Quantiles are those of the sorted list, whatever the order in which it came, and in however many pieces.
+    //! Quantiles must be those of the sorted list, in whatever order and in however many pieces the numbers came.
 
     use super::*;
 

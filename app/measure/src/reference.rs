@@ -1,4 +1,4 @@
-//! A picture traced ray by ray, and how others look beside it.
+//! Reference picture, traced ray by ray, and the comparison of other pictures with it.
 
 use std::sync::atomic::AtomicBool;
 
@@ -11,7 +11,7 @@ use super::quantiles::Sorted;
 use crate::renderers::Shot;
 use crate::renderers::raytrace::RayTracer;
 
-/// The picture that is right.
+/// Reference picture of one shot.
 pub struct Reference {
     size: [u32; 2],
     exposure: f64,
@@ -19,17 +19,17 @@ pub struct Reference {
     perceived: Perceived,
 }
 
-/// How one picture looks beside the right one.
+/// Differences of one picture from the reference.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compared {
     /// ΔE2000 of each pixel.
     pub delta_e: Sorted,
-    /// The mean distance by FLIP.
+    /// Mean distance by FLIP.
     pub flip: f64,
 }
 
 impl Reference {
-    /// Traces it.
+    /// Traces the reference picture of a shot.
     pub fn trace(tracer: &RayTracer, shot: &Shot, size: [u32; 2], samples: u32, stop: &AtomicBool) -> Self {
         let traced = tracer.trace(shot, size, samples, stop, || {});
         let exposure = colour::exposure(&traced.light, &traced.at_rest, traced.stored.white);
@@ -38,7 +38,7 @@ impl Reference {
         Self { size, exposure, developed, perceived }
     }
 
-    /// Develops `light`, linear sRGB in cd/m², by the same exposure, and compares.
+    /// Develops `light`, linear sRGB in cd/m², by the exposure of the reference, and compares.
     pub fn compare(&self, light: &Rgb32FImage) -> Compared {
         let light = light.pixels().map(|pixel| DVec3::from(pixel.0.map(f64::from)));
         let developed: Vec<DVec3> = light.map(|light| colour::developed(light, self.exposure)).collect();

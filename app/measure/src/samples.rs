@@ -1,4 +1,4 @@
-//! The dial `--samples`: what taking few samples of each pixel costs, beside rays through very many places of it.
+//! The dial `--samples`: the error of few samples of each pixel, against rays through very many places of it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -16,12 +16,12 @@ use crate::renderers::raytrace::RayTracer;
 use crate::renderers::target::Radiance;
 
 const COUNTS: [u32; 3] = [1, 4, 16];
-/// Samples of the reference.
+/// Samples of each pixel of the reference.
 const MANY: u32 = 32;
-/// How finely triangles are cut, so that what is left is of the samples.
+/// Fine cut of triangles, so that the remaining error is that of the samples.
 const FINE: Setting = Setting::Tolerance(0.25);
 
-/// Measures it at the pose in the middle of the path. Once `stop` is set, what was measured until then is returned.
+/// Measures the dial at the pose in the middle of the path. Once `stop` is set, the results until then are returned.
 ///
 /// # Errors
 /// A lost device.
@@ -39,7 +39,7 @@ pub fn measure(
     let mut table = Markdown::new(&["samples a pixel", "", "ms", "ΔE2000", "99 %", "most", "FLIP"]);
     let mut lines = Vec::new();
     for count in COUNTS {
-        // A reference that was interrupted is none.
+        // An interrupted reference is of no use.
         if stop.load(Ordering::Relaxed) {
             break;
         }

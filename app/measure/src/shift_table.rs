@@ -1,4 +1,4 @@
-//! The size of the shift table: what looking up shifted light costs beside integrating its spectrum.
+//! Size of the shift table: the error and time of looking up shifted light, against integrating its spectrum.
 
 use std::time::Instant;
 
@@ -14,19 +14,19 @@ use crate::error::Error;
 use crate::renderers::world::Spectra;
 
 const NODES: [usize; 6] = [255, 511, 1023, 2047, 4095, ShiftTable::NODES];
-/// Doppler factors looked up, from 1/20 to 20.
+/// Number of Doppler factors looked up, from 1/20 to 20.
 const DOPPLERS: u32 = 400;
 const FARTHEST: f64 = 20.0;
-/// Each weight alone, and all together.
+/// Weights looked up: all together, and each alone.
 const WEIGHTS: [DVec3; 4] = [DVec3::ONE, DVec3::X, DVec3::Y, DVec3::Z];
 
-/// Measures it on all carriers of the scene's light: ΔE2000 of a colour that is as bright as white.
+/// Measures the tables on all carriers of the scene's light: ΔE2000 of a colour as bright as white.
 ///
 /// # Errors
-/// None.
+/// None; the result has the type of the other measurements.
 pub fn measure(Views { scene, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
     let carriers = Spectra::of(scene).carriers;
-    // Evenly over ln D, by a step that no table's nodes are a multiple of.
+    // Spread evenly over ln D, in steps that are no multiple of any table's node distance.
     let doppler = |number: u32| FARTHEST.powf(2.0 * (f64::from(number) + 0.381_966) / f64::from(DOPPLERS) - 1.0);
     let places = (0..carriers.len()).flat_map(|carrier| (0..DOPPLERS).map(move |number| (carrier, doppler(number))));
     let places: Vec<(usize, f64)> = places.collect();
@@ -56,10 +56,10 @@ pub fn measure(Views { scene, .. }: &Views) -> Result<(String, Vec<Line>), Error
     Ok((table.text(), lines))
 }
 
-/// With the brightness of the true colour as white, the strictest reading.
+/// Difference ΔE2000 with the brightness of the true colour as white, which gives the largest value.
 fn difference(looked_up: DVec3, exact: DVec3) -> f64 {
     let [looked_up, exact] = [looked_up, exact].map(|rgb| xyz_from_rgb() * rgb);
-    // Of a spectrum that ends, nothing may be left, and nothing to be wrong.
+    // A spectrum that ends may leave no light, and then there is no error.
     if exact.y <= 0.0 || !exact.is_finite() {
         return 0.0;
     }
@@ -69,7 +69,8 @@ fn difference(looked_up: DVec3, exact: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Law: interpolation's error goes with the square of the distance of the nodes. A wrong program shows: an error that stays, of a node that is elsewhere.
+    //! Error of interpolation, which scales with the square of the distance between nodes. In a wrong program, a node
+    //! at a wrong place leaves an error that does not shrink.
 
     use super::*;
     use crate::scene::spectra;
@@ -81,7 +82,7 @@ mod tests {
         let (_, lines) = measure(&views).unwrap();
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "delta_e_99").unwrap().1;
         let errors: Vec<f64> = lines.iter().map(most).collect();
-        // From 511 nodes on: with fewer, a node is further from the next than the spectra's own features are.
+        // Start at 511 nodes: with fewer, the distance between nodes is larger than the features of the spectra.
         for pair in errors[1..].windows(2) {
             assert!((2.5..6.0).contains(&(pair[0] / pair[1])), "{errors:?}");
         }

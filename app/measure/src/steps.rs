@@ -1,13 +1,16 @@
-//! Integrator and step: how far a worldline strays, in the steps of frames, from a ride whose every point is known.
+//! Integrator and step: the error of a worldline in steps of frames, against a ride of which every point is known.
 //!
-//! The built-in rider goes round the scene's circuit, or round a circle where there is none. His celerity at every fifth of a second, where steps of all
-//! lengths end, is joined by cubic polynomials of his own time: their integral is where he is, exactly, and their slope is the thrust that keeps him there,
+//! The built-in rider goes round the scene's circuit, or round a circle if the scene has none. Its celerity is taken
+//! at every fifth of a second, where steps of all lengths end. Cubic polynomials of proper time join these
+//! celerities. Their integral is the exact place of the ride, and their slope gives the thrust that keeps the rider
+//! there,
 //!
 //! ```text
 //! a = u̇ − u (u·u̇) / (γ (1 + γ))
 //! ```
 //!
-//! (the inverse of u̇ = a + u (u·a)/(1 + γ), W 4.7). Each integrator is given that thrust, as a function of proper time, and nothing else.
+//! (the inverse of u̇ = a + u (u·a)/(1 + γ), W 4.7). Each integrator is given that thrust, as a function of proper
+//! time, and nothing else.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -23,19 +26,20 @@ use crate::error::Error;
 use crate::simulation::{Setup, Simulation, Start, Tour};
 use crate::vehicle::{OpenPlane, VehicleSettings, World};
 
-/// Steps a second.
+/// Rates of the steps, steps a second.
 const RATES: [u32; 4] = [240, 60, 30, 15];
-/// Seconds of the ride, and of each polynomial.
+/// Length of the ride, seconds; then the number of knots a second.
 const SECONDS: u32 = 20;
 const KNOTS_PER_SECOND: u32 = 5;
-/// Until the rider is under way, and how long he is followed then, seconds: slopes at the end need a knot beyond.
+/// Time until the rider is under way, and time of the comparison after that, seconds. Slopes at the end need a knot
+/// beyond.
 const BEGINNING_S: u32 = 5;
 const FOLLOWED_S: u32 = 14;
 /// Corners of the circle, and its radius, metres.
 const CORNERS: u32 = 32;
 const RADIUS_M: f64 = 15.0;
 
-/// Measures it.
+/// Measures all integrators at all rates.
 ///
 /// # Errors
 /// A worldline that cannot be integrated.
@@ -71,15 +75,15 @@ pub fn measure(Views { scene, world, .. }: &Views) -> Result<(String, Vec<Line>)
     Ok((table.text(), lines))
 }
 
-/// Celerity as a function of proper time.
+/// A ride: celerity as a function of proper time.
 struct Ride {
-    /// Metres of light travel between knots.
+    /// Proper time between knots, metres of light travel.
     spacing: f64,
     celerities: Vec<DVec3>,
 }
 
 impl Ride {
-    /// The built-in rider's, once he is under way.
+    /// Ride of the built-in rider, once it is under way.
     fn of(circuit: &[DVec3], world: World) -> Result<Self, Error> {
         let angle = |corner: u32| std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
         let ring: Vec<DVec3> =
@@ -109,14 +113,14 @@ impl Ride {
         Ok(Self { spacing: world.metres(1.0 / f64::from(KNOTS_PER_SECOND)), celerities })
     }
 
-    /// The last knot before a proper time, and the share of the way to the next that has gone by.
+    /// Last knot before a proper time, and the share of the interval to the next knot that has passed.
     fn place(&self, proper_time: f64) -> (usize, f64) {
         let place = (proper_time / self.spacing).clamp(0.0, (self.celerities.len() - 2) as f64);
         let knot = (place.floor() as usize).min(self.celerities.len() - 2);
         (knot, place - knot as f64)
     }
 
-    /// Celerity, and the way since the beginning.
+    /// Celerity, and the displacement since the beginning.
     fn at(&self, proper_time: f64) -> [DVec3; 2] {
         let (knot, t) = self.place(proper_time);
         let whole = (0..knot).map(|knot| self.polynomial(knot).way(1.0)).sum::<DVec3>();
@@ -124,7 +128,7 @@ impl Ride {
         [polynomial.value(t), (whole + polynomial.way(t)) * self.spacing]
     }
 
-    /// From one knot to the next, with the slopes of the chords about them.
+    /// Polynomial from one knot to the next, with the slopes of the chords about them.
     fn polynomial(&self, knot: usize) -> Cubic {
         let at = |knot: usize| self.celerities[knot.min(self.celerities.len() - 1)];
         let slope = |knot: usize| 0.5 * (at(knot + 1) - at(knot.saturating_sub(1)));
@@ -132,7 +136,7 @@ impl Ride {
         Cubic([from, leaving, 3.0 * (to - from) - 2.0 * leaving - arriving, 2.0 * (from - to) + leaving + arriving])
     }
 
-    /// The thrust at a proper time, in the axes of the boost.
+    /// Thrust at a proper time, in the axes of the boost.
     fn acceleration(&self, proper_time: f64) -> DVec3 {
         let (knot, t) = self.place(proper_time);
         let polynomial = self.polynomial(knot);
@@ -141,7 +145,7 @@ impl Ride {
         rate - celerity * (celerity.dot(rate) / (gamma * (1.0 + gamma)))
     }
 
-    /// The state after each step.
+    /// States after each step.
     fn follow(&self, integrator: &dyn Integrator, step: f64, steps: u32) -> Result<Vec<State>, Error> {
         let start = Celerity::new(self.celerities[0]).unwrap_or_default();
         let mut state = State::new(Event::default(), start, glam::DQuat::IDENTITY);
@@ -154,12 +158,13 @@ impl Ride {
         Ok(states)
     }
 
-    /// How far a state is from where the ride is then: metres, and the rapidity of its motion against the ride's.
+    /// Distance of a state from the place of the ride at its proper time, metres, and the rapidity of their relative
+    /// motion.
     fn strayed(&self, state: &State) -> [f64; 2] {
         let [celerity, way] = self.at(state.proper_time);
         let gamma = |celerity: DVec3| (1.0 + celerity.length_squared()).sqrt();
         let found = state.celerity.vector();
-        // |relative celerity|² = |Δu|² − (Δγ)²; Δγ by its quotient, which does not cancel.
+        // |relative celerity|² = |Δu|² − (Δγ)²; Δγ is computed by its quotient, without cancellation.
         let apart = found - celerity;
         let slower = apart.dot(found + celerity) / (gamma(found) + gamma(celerity));
         let relative = (apart.length_squared() - slower * slower).max(0.0).sqrt();
@@ -167,7 +172,7 @@ impl Ride {
     }
 }
 
-/// c₀ + c₁ t + c₂ t² + c₃ t³.
+/// Polynomial c₀ + c₁ t + c₂ t² + c₃ t³.
 struct Cubic([DVec3; 4]);
 
 impl Cubic {
@@ -181,7 +186,7 @@ impl Cubic {
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
     }
 
-    /// Its integral from 0.
+    /// Integral of the polynomial from 0.
     fn way(&self, t: f64) -> DVec3 {
         let [c0, c1, c2, c3] = self.0;
         t * (c0 + t * (c1 / 2.0 + t * (c2 / 3.0 + t * c3 / 4.0)))
@@ -190,8 +195,8 @@ impl Cubic {
 
 #[cfg(test)]
 mod tests {
-    //! Law: the ride is the solution of the equation of motion, so finer steps come closer to it, by the order of their integrator as far as the
-    //! polynomials are smooth. A wrong thrust or a wrong integral leaves an error that no step removes.
+    //! The ride solves the equation of motion, so finer steps come closer to it, by the order of their integrator as
+    //! far as the polynomials are smooth. A wrong thrust or a wrong integral leaves an error that no step removes.
 
     use super::*;
     use crate::scene::Scene;
@@ -207,7 +212,7 @@ mod tests {
         };
         for name in ["rk4", "exact"] {
             let ([fine_m, fine], [coarse_m, coarse]) = (error(name, 240), error(name, 15));
-            // 16 times finer: 256 times closer by the midpoint's second order.
+            // 16 times finer steps are 256 times closer by the midpoint's second order.
             assert!(fine_m < coarse_m / 100.0 && fine < coarse / 100.0, "{name}: {fine_m} {coarse_m} {fine} {coarse}");
             assert!(coarse_m < 0.1 && fine_m > 0.0, "{name}: {coarse_m}");
         }

@@ -1,4 +1,4 @@
-//! What was measured, for people and for programs: a table on the terminal, and a file of comma-separated values.
+//! Results as a table on the terminal, and as a file of comma-separated values for programs.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::pictures::Row;
 use crate::error::Error;
 
-/// Columns of the file. Every dial has those that say something of it; the others stay empty.
+/// Columns of the file. Each dial fills the columns that apply to it; the others stay empty.
 const COLUMNS: [&str; 24] = [
     "ms_median",
     "ms_95",
@@ -34,14 +34,14 @@ const COLUMNS: [&str; 24] = [
     "pareto",
 ];
 
-/// A setting of a dial, and its numbers.
+/// Setting of a dial, and its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The dial's name.
+    /// Name of the dial.
     pub dial: &'static str,
-    /// What it is set to, as the command line has it where it can.
+    /// Value of the setting, in the form of the command line if there is one.
     pub setting: String,
-    /// Names are among `COLUMNS`.
+    /// Numbers with their names, which are among `COLUMNS`.
     pub numbers: Vec<(&'static str, f64)>,
 }
 
@@ -64,7 +64,7 @@ impl From<&Row> for Line {
     }
 }
 
-/// The settings of the renderers' dials, as Markdown, which a terminal shows as well.
+/// Table of the renderers' dials as Markdown, which is readable on a terminal as well.
 pub fn of_pictures(rows: &[Row]) -> String {
     let coloured = rows.iter().any(|row| row.colour.is_some());
     let mut columns =
@@ -89,11 +89,11 @@ pub fn of_pictures(rows: &[Row]) -> String {
     table.text() + "* no other is both faster and closer by the 99th percentile\n"
 }
 
-/// A table of text that grows.
+/// Markdown table that grows row by row.
 pub struct Markdown(Vec<Vec<String>>);
 
 impl Markdown {
-    /// With these headings: the first two columns are of words, the others of numbers.
+    /// Table with these headings. The first two columns are of words, the others of numbers.
     pub fn new(columns: &[&str]) -> Self {
         Self(vec![columns.iter().map(|heading| (*heading).to_owned()).collect()])
     }
@@ -103,7 +103,7 @@ impl Markdown {
         self.0.push(cells);
     }
 
-    /// The text, its columns below each other.
+    /// Text of the table, with aligned columns.
     pub fn text(&self) -> String {
         let columns = self.0[0].len();
         let length = |cell: &String| cell.chars().count();
@@ -134,7 +134,7 @@ impl Markdown {
 /// Writes all lines into one file.
 ///
 /// # Errors
-/// [`Error::Write`].
+/// [`Error::Write`] if the file cannot be written.
 pub fn write_csv(lines: &[Line], path: &Path) -> Result<(), Error> {
     std::fs::write(path, csv(lines)).map_err(|error| Error::Write { path: path.to_owned(), reason: error.to_string() })
 }
@@ -155,7 +155,7 @@ fn csv(lines: &[Line]) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! Every number stands below its name, whatever numbers a line has.
+    //! Every number must stand below its name, whatever numbers a line has.
 
     use super::*;
 

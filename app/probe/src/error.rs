@@ -1,4 +1,4 @@
-//! Why a line has no answer, as the sentence with which it is answered instead.
+//! Errors of a question; the sentence of the error is given as the answer.
 
 use std::str::Utf8Error;
 
@@ -11,114 +11,115 @@ use thiserror::Error;
 
 use super::{LONGEST_LINE, MOST_STEPS};
 
-/// Why a line has no answer. Keys are given with their path, as in `observer.position` or `legs[2].duration`.
+/// Reason for which a line has no answer. Keys are given with their path, as in `observer.position` or
+/// `legs[2].duration`.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ProbeError {
-    /// More than [`LONGEST_LINE`] bytes.
+    /// A line of more than [`LONGEST_LINE`] bytes.
     #[error("the line is too long: expected at most {LONGEST_LINE} bytes")]
     TooLong,
-    /// Not text.
+    /// A line that is not text.
     #[error("the line is not text: expected UTF-8 ({0})")]
     NotUtf8(#[from] Utf8Error),
-    /// Not JSON, or a number that no f64 can hold.
+    /// A line that is not JSON, or has a number that no f64 can hold.
     #[error(
         "the line cannot be read: {reason} in column {column}, at the end of `{near}`: expected one JSON object a line, \
          its numbers within 1.7e308, its brackets a hundred deep at most"
     )]
     NotJson {
-        /// As the parser says it.
+        /// Reason given by the parser.
         reason: String,
-        /// Where it stopped, counted in bytes from 1.
+        /// Column where the parser stopped, counted in bytes from 1.
         column: usize,
-        /// The text before that.
+        /// Text before that column.
         near: String,
     },
-    /// JSON, but no question.
+    /// A line of JSON that is not an object.
     #[error("the line is {found}: expected an object with the key \"ask\"")]
     NotAnObject {
-        /// What is there.
+        /// Description of the value found.
         found: String,
     },
-    /// A key that the question needs is not there.
+    /// A missing key that the question needs.
     #[error("`{key}` is missing: expected {expected}")]
     Missing {
-        /// Its path.
+        /// Path of the key.
         key: String,
-        /// What it should hold.
+        /// Value that the key should hold.
         expected: &'static str,
     },
     /// A key that the question does not have.
     #[error("`{key}` is unknown here: expected no other keys than {known}")]
     Unknown {
-        /// Its path.
+        /// Path of the key.
         key: String,
-        /// All that may stand there.
+        /// Names of the keys that are allowed there.
         known: String,
     },
     /// A key twice in one object.
     #[error("`{key}` is given more than once: expected each key once")]
     Doubled {
-        /// Its path.
+        /// Path of the key.
         key: String,
     },
     /// A value of another kind, or out of range.
     #[error("`{key}` is {found}: expected {expected}")]
     Wrong {
-        /// Its path.
+        /// Path of the key.
         key: String,
-        /// What is there.
+        /// Description of the value found.
         found: String,
-        /// What should be.
+        /// Description of the value expected.
         expected: &'static str,
     },
-    /// Both `celerity` and `beta`.
+    /// Two velocities: both `celerity` and `beta`.
     #[error("`{celerity}` and `{beta}` are both given: expected one of them")]
     TwoVelocities {
-        /// Path of the one.
+        /// Path of `celerity`.
         celerity: String,
-        /// Path of the other.
+        /// Path of `beta`.
         beta: String,
     },
-    /// Not a velocity.
+    /// A value that is not a velocity.
     #[error("`{key}` is no velocity: {reason}")]
     Velocity {
-        /// Its path.
+        /// Path of the key.
         key: String,
-        /// What was expected.
+        /// Reason given by the physics.
         reason: CelerityError,
     },
-    /// Not a spectrum.
+    /// A value that is not a spectrum.
     #[error("`{key}` is no spectrum: {reason}")]
     Spectrum {
-        /// Its path.
+        /// Path of the key.
         key: String,
-        /// What was expected.
+        /// Reason given by the physics.
         reason: SpectrumError,
     },
     /// A worldline of too many steps.
     #[error("`legs` take {steps:.0} steps of `step` in all: expected at most {MOST_STEPS:.0}")]
     TooManySteps {
-        /// How many.
+        /// Number of steps.
         steps: f64,
     },
-    /// No pair of eyes.
+    /// A pair of eyes that is not possible.
     #[error(transparent)]
     Eyes(#[from] EyesError),
-    /// Nothing perceived at one place.
+    /// Two sight lines without a perceived point.
     #[error(transparent)]
     Perceived(#[from] PerceivedError),
     /// A worldline that leads beyond what is computed.
     #[error("leg {leg} of `legs` fails: {reason}")]
     Worldline {
-        /// Its index, from 0.
+        /// Index of the leg, from 0.
         leg: usize,
-        /// What went wrong.
+        /// Reason given by the physics.
         reason: WorldlineError,
     },
     /// A result that no f64 can hold.
     #[error("the answer's `{key}` is beyond the range of 64-bit numbers: expected a question with smaller numbers")]
     NotFinite {
-        /// The answer's key.
+        /// Key of the answer.
         key: &'static str,
     },
 }

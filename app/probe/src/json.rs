@@ -1,6 +1,6 @@
-//! One line of JSON as a tree that forgets nothing: keys in their order, doubled ones too.
+//! One line of JSON as a complete tree: keys in their order, duplicate ones too.
 //!
-//! The tree of `serde_json` keeps the last of two equal keys in silence; a question must not be read that way.
+//! The tree of `serde_json` silently keeps only the last of two equal keys; a question must not be read that way.
 
 use std::fmt;
 
@@ -19,13 +19,13 @@ pub(super) enum Node {
     Object(Vec<(String, Node)>),
 }
 
-/// Reads a line.
+/// Parses a line.
 ///
-/// Numbers are rounded to the nearest f64. One that is too large for any is an error, and so is nesting deeper than a
-/// hundred-odd brackets.
+/// Numbers are rounded to the nearest f64. A number too large for f64 is an error, and so is nesting deeper than
+/// about a hundred brackets.
 pub(super) fn parse(line: &str) -> Result<Node, ProbeError> {
     serde_json::from_str(line).map_err(|error| {
-        // The parser counts columns in bytes, and ends its sentence with the place.
+        // The parser counts columns in bytes, and ends its sentence with the position.
         let column = error.column();
         let before = String::from_utf8_lossy(&line.as_bytes()[..column.min(line.len())]);
         let sentence = error.to_string();
@@ -34,13 +34,13 @@ pub(super) fn parse(line: &str) -> Result<Node, ProbeError> {
     })
 }
 
-/// The end of a text, short enough to quote.
+/// End of a text, short enough to quote.
 fn last_characters(text: &str) -> &str {
     const MOST: usize = 32;
     text.char_indices().rev().nth(MOST - 1).map_or(text, |(start, _)| &text[start..])
 }
 
-/// A text in quotation marks, cut if it is too long to quote.
+/// Text in quotation marks, cut if it is too long to quote.
 pub(super) fn quoted(text: &str) -> String {
     const MOST: usize = 64;
     match text.char_indices().nth(MOST) {
@@ -50,7 +50,7 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 impl fmt::Display for Node {
-    /// What the value is, in words, for error messages.
+    /// Writes a description of the value, for error messages.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Null => write!(f, "null"),

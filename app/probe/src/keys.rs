@@ -1,4 +1,4 @@
-//! Typed values out of a question's tree, each with the path that an error message names.
+//! Typed values from a question's tree, each with the path that an error message gives.
 
 use std::collections::HashSet;
 
@@ -27,7 +27,7 @@ pub(super) struct Place<'a> {
     node: &'a Node,
 }
 
-/// An object in the question, no key of which is doubled.
+/// An object in the question, without duplicate keys.
 pub(super) struct Keys<'a> {
     path: String,
     entries: &'a [(String, Node)],
@@ -45,7 +45,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// A number that `accepts` it.
+    /// Number for which `accepts` is true.
     pub(super) fn number_that(&self, accepts: impl Fn(f64) -> bool, expected: &'static str) -> Result<f64, ProbeError> {
         self.number().ok().filter(|number| accepts(*number)).ok_or_else(|| self.wrong(expected))
     }
@@ -57,13 +57,13 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// The entries of a list of any length.
+    /// Entries of a list of any length.
     pub(super) fn list(&self, expected: &'static str) -> Result<Vec<Place<'a>>, ProbeError> {
         let Node::List(entries) = self.node else { return Err(self.wrong(expected)) };
         Ok(entries.iter().enumerate().map(|(index, node)| self.entry(index, node)).collect())
     }
 
-    /// The entries of a list of this length.
+    /// Entries of a list of this length.
     pub(super) fn list_of<const N: usize>(&self, expected: &'static str) -> Result<[Place<'a>; N], ProbeError> {
         match self.node {
             Node::List(entries) if entries.len() == N => {
@@ -81,9 +81,9 @@ impl<'a> Place<'a> {
         self.numbers(VECTOR).map(DVec3::from_array)
     }
 
-    /// A vector of which only the direction counts: brought to a length whose square neither overflows nor vanishes.
+    /// Vector of which only the direction counts, scaled to a length whose square neither overflows nor vanishes.
     pub(super) fn direction(&self) -> Result<DVec3, ProbeError> {
-        /// 2⁶⁰⁰: a power of two, so that nothing is rounded.
+        /// Scale 2⁶⁰⁰: a power of two, so that nothing is rounded.
         const STRETCH: f64 = f64::from_bits((1023 + 600) << 52);
         const SHORT: f64 = 1e-150;
         let vector = self.vector()?;
@@ -95,7 +95,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// An object that has none but the known keys.
+    /// Object that has only the known keys.
     pub(super) fn object(&self, expected: &'static str, known: &[&str]) -> Result<Keys<'a>, ProbeError> {
         let Node::Object(entries) = self.node else { return Err(self.wrong(expected)) };
         let keys = Keys::new(self.path.clone(), entries)?;
@@ -107,7 +107,7 @@ impl<'a> Place<'a> {
         convert(self.vector()?).map_err(|reason| ProbeError::Velocity { key: self.path.clone(), reason })
     }
 
-    /// A velocity under a key of its own: three numbers are a celerity; an object says which it is.
+    /// Velocity under its own key. Three numbers are a celerity; an object has the key `celerity` or `beta`.
     pub(super) fn velocity(&self) -> Result<Celerity, ProbeError> {
         match self.node {
             Node::Object(_) => self.object(OBJECT, &["celerity", "beta"])?.velocity(),
@@ -127,7 +127,7 @@ impl<'a> Place<'a> {
         spectrum.map_err(|reason| ProbeError::Spectrum { key: self.path.clone(), reason })
     }
 
-    /// A spectrum, of the kind that its only key says.
+    /// Spectrum, of the kind given by its only key.
     pub(super) fn spectrum(&self) -> Result<Spectrum, ProbeError> {
         const KINDS: [&str; 3] = ["planck", "sampled", "rgb"];
         let keys = self.object(SPECTRUM, &KINDS)?;
@@ -152,7 +152,7 @@ impl<'a> Place<'a> {
 }
 
 impl<'a> Keys<'a> {
-    /// The keys of the whole line.
+    /// Keys of the whole line.
     pub(super) fn of_line(node: &'a Node) -> Result<Self, ProbeError> {
         match node {
             Node::Object(entries) => Self::new(String::new(), entries),
@@ -169,7 +169,7 @@ impl<'a> Keys<'a> {
         }
     }
 
-    /// Fails if there is any other key than these.
+    /// Fails if there is any key but these.
     pub(super) fn only(&self, known: &[&str]) -> Result<(), ProbeError> {
         match self.entries.iter().find(|(key, _)| !known.contains(&key.as_str())) {
             Some((key, _)) => Err(ProbeError::Unknown { key: self.path_of(key), known: known.join(", ") }),
@@ -202,7 +202,7 @@ impl<'a> Keys<'a> {
         self.required(key, SPECTRUM)?.spectrum()
     }
 
-    /// The keys of a source.
+    /// Keys of a source.
     pub(super) fn source(&self, key: &str) -> Result<Keys<'a>, ProbeError> {
         self.required(key, SOURCE)?.object(SOURCE, &["position", "celerity", "beta"])
     }
@@ -211,7 +211,7 @@ impl<'a> Keys<'a> {
         self.required(key, OBSERVER)?.observer()
     }
 
-    /// `celerity`, or `beta` instead of it, if either is there.
+    /// Velocity from `celerity` or from `beta`, if one of them is there.
     pub(super) fn optional_velocity(&self) -> Result<Option<Celerity>, ProbeError> {
         match (self.optional("celerity"), self.optional("beta")) {
             (Some(celerity), Some(beta)) => Err(ProbeError::TwoVelocities { celerity: celerity.path, beta: beta.path }),
@@ -221,7 +221,7 @@ impl<'a> Keys<'a> {
         }
     }
 
-    /// `celerity`, or `beta` instead of it.
+    /// Velocity from `celerity` or from `beta`.
     pub(super) fn velocity(&self) -> Result<Celerity, ProbeError> {
         let missing = || ProbeError::Missing { key: self.path_of("celerity"), expected: VELOCITY };
         self.optional_velocity()?.ok_or_else(missing)

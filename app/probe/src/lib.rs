@@ -1,12 +1,12 @@
 //! `rapidity probe`: numbers on request, one JSON question a line, one JSON answer a line.
 //!
-//! For worksheets, for scripts, and for checking the physics from outside: nothing lies between question and answer but
-//! the crate `physics`. c = 1, lengths and times in metres, velocities as celerity (`celerity`, γβ) or, instead, as
-//! `beta`; numbers go in and out as f64 to the last bit.
+//! The command serves worksheets, scripts, and checks of the physics from outside: only the crate `physics` lies
+//! between question and answer. c = 1, lengths and times in metres, velocities as celerity (`celerity`, γβ) or,
+//! instead, as `beta`; numbers are read and written as f64 to the last bit.
 //!
-//! A line passes three doors. `json` makes a tree of it that forgets nothing, doubled keys included; `keys` reads typed
-//! values from the tree and knows the path of each; `questions` asks the physics. What fails at any of them is a
-//! [`ProbeError`], the line is answered with its sentence, and the next line is read.
+//! A line is read in three steps. `json` makes a complete tree of it, duplicate keys included; `keys` reads typed
+//! values from the tree and knows the path of each; `questions` asks the physics. If a step fails, the answer is the
+//! sentence of a [`ProbeError`], and the next line is read.
 //!
 //! ```
 //! let answer = rapidity::probe::answer(r#"{"ask": "aberration", "beta": [0.6, 0, 0], "direction": [0, 2, 0]}"#)?;
@@ -26,29 +26,30 @@ mod results;
 
 pub use error::ProbeError;
 
-/// The longest line that is read, in bytes. A question of this length has some fifty thousand legs; beyond it a line is
-/// no question but something else on standard input, and must not fill the memory.
+/// Longest line that is read, bytes. A question of this length has some fifty thousand legs. A longer line is not a
+/// question but other data on standard input, and must not fill the memory.
 pub const LONGEST_LINE: usize = 4 << 20;
 
-/// The most steps of one `worldline` question, all legs together: seconds of computing.
+/// Largest number of steps of one `worldline` question, all legs together: seconds of computing.
 pub const MOST_STEPS: f64 = 1e8;
 
 /// Answers one line.
 ///
 /// # Errors
-/// The line is not a question, or its answer cannot be computed; the sentence says what, which key, and what was
-/// expected.
+/// [`ProbeError`] if the line is not a question, or its answer cannot be computed; the sentence gives the fault, the
+/// key, and the expected value.
 pub fn answer(line: &str) -> Result<Value, ProbeError> {
     questions::answer(&json::parse(line)?)
 }
 
-/// Answers every line of `reader` on a line of `writer`, in order, each flushed before the next is read.
+/// Answers every line of `reader` on a line of `writer`, in order. Each answer is flushed before the next line is
+/// read.
 ///
-/// Returns whether all lines could be answered. Blank lines are skipped. Ends in peace when nobody reads any more (a
-/// broken pipe).
+/// Returns true if all lines could be answered. Blank lines are skipped. Ends without error if the reading end is
+/// closed (a broken pipe).
 ///
 /// # Errors
-/// Reading or writing fails.
+/// An error of reading or writing.
 pub fn run(mut reader: impl BufRead, mut writer: impl Write) -> io::Result<bool> {
     let mut all_answered = true;
     let mut line = Vec::new();

@@ -1,4 +1,4 @@
-//! The questions: each reads its keys, asks the physics, and names the results.
+//! Questions of the probe: each reads its keys, asks the physics, and names the results.
 
 use clap::ValueEnum;
 use physics::aberration::Aberration;
@@ -18,7 +18,7 @@ use crate::vehicle::IntegratorKind;
 
 const QUESTIONS: &str = "one of aberration, boost, compose, apparent, eyes, worldline, perceived, colour";
 
-/// Error of an adaptive step: a question is asked for its numbers, so near the limit of f64.
+/// Tolerance of an adaptive step, near the limit of f64, since the numbers are what a question is for.
 const ADAPTIVE_TOLERANCE: f64 = 1e-12;
 
 /// Answers the question in a tree.
@@ -109,9 +109,9 @@ fn colour(question: &Keys<'_>) -> Result<Answer, ProbeError> {
     Answer::default().vector("xyz", xyz)?.vector("rgb", rgb_from_xyz() * xyz)
 }
 
-/// Follows a worldline leg by leg, each with a constant acceleration in the axes of the pure boost from the world.
+/// Follows a worldline leg by leg. Each leg has a constant acceleration in the axes of the pure boost from the world.
 ///
-/// A leg is cut into equal steps, as few as are none longer than `step`.
+/// A leg is divided into equal steps, the fewest that are not longer than `step`.
 fn worldline(question: &Keys<'_>) -> Result<Answer, ProbeError> {
     question.only(&["ask", "start", "legs", "step", "integrator"])?;
     const STEP: &str = "a number above 0";

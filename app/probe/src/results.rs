@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::ProbeError;
 
-/// An answer that is filled key by key. A number that is not finite has no JSON form and makes an error of it.
+/// An answer that is filled key by key. A number that is not finite has no JSON form and is an error.
 #[derive(Debug, Default)]
 pub(super) struct Answer(Map<String, Value>);
 
@@ -20,18 +20,18 @@ impl Answer {
         self.list(key, &vector.to_array())
     }
 
-    /// [t, x, y, z].
+    /// Adds a four-vector, as [t, x, y, z].
     pub(super) fn four_vector(self, key: &'static str, vector: FourVector) -> Result<Self, ProbeError> {
         let FourVector { t, r } = vector;
         self.list(key, &[t, r.x, r.y, r.z])
     }
 
-    /// [x, y, z, w].
+    /// Adds a quaternion, as [x, y, z, w].
     pub(super) fn quaternion(self, key: &'static str, quaternion: DQuat) -> Result<Self, ProbeError> {
         self.list(key, &quaternion.to_array())
     }
 
-    /// An object of `position` and `time`.
+    /// Adds an event, as an object of `position` and `time`.
     pub(super) fn event(self, key: &'static str, event: Event) -> Result<Self, ProbeError> {
         let object = Self::default().vector("position", event.position)?.number("time", event.ct)?;
         Ok(self.with(key, object.finish()))

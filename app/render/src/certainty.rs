@@ -1,7 +1,9 @@
-//! How far from their places things may be drawn: an estimate for the picture that is shown now, from a few hundred edges.
+//! Certainty of a picture: an estimate of how far from their exact places things are drawn, from a few hundred edges
+//! of the scene.
 //!
-//! Two things move them. Straight edges should bend ([`physics::bend`]), and a map has texels; and f32 has 24 bits, of which the map of the
-//! world astern loses as many as a boost enlarges by. What is estimated is the largest of either that was found in the picture.
+//! Two errors are estimated. First, straight edges should bend ([`physics::bend`]), and a map has texels of finite
+//! size. Second, f32 has 24 bits, and in the map the boost enlarges the rounding errors of the world astern. The
+//! largest error of each kind found in the picture is reported.
 
 use glam::{DVec2, DVec3};
 use physics::Aberration;
@@ -11,54 +13,56 @@ use super::Shot;
 use scene::Scene;
 use scene::cut::{Chord, Cut, Sight};
 
-/// Edges that are looked at.
+/// Number of edges sampled.
 const SAMPLES: usize = 512;
 
-/// Fewer edges than this in the picture say little of it.
+/// Smallest number of edges in the picture that says enough about it.
 const FEW: usize = 8;
 
-/// A rounded direction, radians.
+/// Rounding error of a direction in f32, radians.
 const STEP: f64 = f32::EPSILON as f64;
 
-/// What the transform's kernel promises, radians (`physics::photo_surface`): up to this γ, and beyond.
+/// Accuracy of the transform's kernel (`physics::photo_surface`): error in radians up to γ, that γ, error in radians
+/// beyond.
 const KERNEL: (f64, f64, f64) = (7e-7, 1e9, 4e-4);
 
-/// Pixels from which on the picture should not be trusted without a word.
+/// Error from which on a picture gets a notice, pixels.
 const NOTICED_PX: f64 = 2.0;
 
-/// How the directions of a picture come about.
+/// Way in which the directions of a picture are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drawn {
     /// Straight edges between vertices that the kernel has bent.
     ByKernel,
-    /// The same, bent in f64.
+    /// Straight edges between vertices that were bent in f64.
     InFull,
-    /// Looked up in a map that has so many texels a pixel along each axis.
+    /// Directions looked up in a map.
     FromMap {
-        /// Texels.
+        /// Texels for each pixel of the picture, along each axis.
         texels_per_pixel: f64,
     },
 }
 
-/// Some edges of a scene.
+/// Sample of a scene's edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Edges {
-    /// Ends relative to the scene's origin, and the mesh's motion.
+    /// Ends of each edge in metres relative to the scene's origin, and the motion of its mesh.
     ends: Vec<([DVec3; 2], Option<usize>)>,
 }
 
-/// How far things may be from their places.
+/// Estimated errors of a picture's directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certainty {
-    /// Because edges are straight, or texels not points; radians.
+    /// Error of straight edges or of texels of finite size, radians.
     pub drawn_rad: f64,
-    /// Because numbers are rounded, radians.
+    /// Error of rounded numbers, radians.
     pub rounded_rad: f64,
-    /// A pixel in the picture's middle, radians.
+    /// Angle of a pixel in the middle of the picture, radians.
     pub pixel_rad: f64,
 }
 
-/// What edges are like, wherever they are: their lengths, and the lengths of their coordinates, for each metre of their distance.
+/// Lengths of edges, and sizes of their coordinates, both divided by their distance from the eye. They stand for
+/// edges anywhere.
 #[derive(Default)]
 struct Usual {
     lengths: Vec<f64>,
@@ -79,27 +83,27 @@ impl Usual {
 }
 
 impl Edges {
-    /// Of a scene.
+    /// Sample of the edges of a scene.
     pub fn of(scene: &Scene) -> Self {
         let meshes = scene.meshes.iter().map(|mesh| (mesh.indices.as_slice(), mesh.motion));
         Self::sampled(meshes, |mesh, corner: u32| scene.meshes[mesh].positions[corner as usize].as_dvec3())
     }
 
-    /// Of what rests in a scene.
+    /// Sample of the edges of what rests in a scene.
     pub fn of_resting(scene: &Scene) -> Self {
         let resting: Vec<_> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
         let meshes = resting.iter().map(|mesh| (mesh.indices.as_slice(), None));
         Self::sampled(meshes, |mesh, corner: u32| resting[mesh].positions[corner as usize].as_dvec3())
     }
 
-    /// Of a scene that was cut.
+    /// Sample of the edges of a scene that was cut.
     pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
         let motions = scene.meshes.iter().map(|mesh| mesh.motion);
         let meshes = cut.meshes.iter().zip(motions).map(|(mesh, motion)| (mesh.indices.as_slice(), motion));
         Self::sampled(meshes, |mesh, corner: u32| cut.meshes[mesh].vertices[corner as usize].place)
     }
 
-    /// Every so many triangles one edge, each time another.
+    /// Takes one edge of every n-th triangle, in turn its first, second and third.
     fn sampled<'a>(
         meshes: impl Iterator<Item = (&'a [u32], Option<usize>)> + Clone,
         place: impl Fn(usize, u32) -> DVec3,
@@ -117,7 +121,7 @@ impl Edges {
 }
 
 impl Certainty {
-    /// Of a picture in which these edges are, each seen as `sight_of` its motion.
+    /// Certainty of a picture that shows these edges. `sight_of` returns how each motion is seen.
     pub fn of(
         edges: &Edges,
         sight_of: impl Fn(Option<usize>) -> Sight,
@@ -176,7 +180,7 @@ impl Certainty {
                 certainty.drawn_rad = certainty.drawn_rad.max(error);
             }
         }
-        // Where so little of the world fills the picture that no edge was met, those elsewhere have to do.
+        // If hardly any edge is in the picture, estimate from the usual edges of the scene.
         if seen_edges < FEW && drawn != Drawn::InFull && !edges.ends.is_empty() {
             let aberration = Aberration::new(shot.celerity());
             let bend = Bend::new(shot.celerity());
@@ -195,7 +199,7 @@ impl Certainty {
         certainty
     }
 
-    /// The larger of each error of two parts of a picture.
+    /// Larger of each error of two parts of a picture.
     pub fn or_worse(self, other: Self) -> Self {
         Self {
             drawn_rad: self.drawn_rad.max(other.drawn_rad),
@@ -204,27 +208,27 @@ impl Certainty {
         }
     }
 
-    /// Both together, radians.
+    /// Sum of both errors, radians.
     pub fn error_rad(&self) -> f64 {
         self.drawn_rad + self.rounded_rad
     }
 
-    /// Both together, pixels.
+    /// Sum of both errors, pixels.
     pub fn error_px(&self) -> f64 {
         if self.pixel_rad > 0.0 { self.error_rad() / self.pixel_rad } else { 0.0 }
     }
 
-    /// The reading, in arcminutes.
+    /// Sum of both errors as text, in arcminutes or a unit that fits.
     pub fn reading(&self) -> String {
         format!("±{}", arcminutes(self.error_rad()))
     }
 
-    /// What should be known of a picture that is too far off.
+    /// Notice for a picture whose error is above [`NOTICED_PX`].
     pub fn notice(&self) -> Option<String> {
         (self.error_px() > NOTICED_PX).then(|| self.sentence())
     }
 
-    /// How far off, and why.
+    /// Sentence that says how large the error is, and why.
     pub fn sentence(&self) -> String {
         let about = arcminutes(self.error_rad());
         if self.rounded_rad > self.drawn_rad {
@@ -237,7 +241,7 @@ impl Certainty {
     }
 }
 
-/// An angle for people.
+/// An angle as text, in degrees, arcminutes or arcseconds.
 fn arcminutes(angle_rad: f64) -> String {
     match angle_rad.to_degrees() * 60.0 {
         minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
@@ -249,7 +253,8 @@ fn arcminutes(angle_rad: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! What is said of a picture must be what is so: coarse edges are told in pixels, fine ones are not, and the map's loss astern is found.
+    //! The estimate must agree with the picture: coarse edges get a notice, fine ones do not, and the map's rounding
+    //! errors astern are found.
 
     use super::*;
     use view::Effects;
@@ -287,7 +292,7 @@ mod tests {
         let map = Drawn::FromMap { texels_per_pixel: 4.0 };
         let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 701.0, DVec3::Z, map));
         assert!(slow.notice().is_none() && slow.rounded_rad < 1e-4, "{slow:?}");
-        // A step of f32, enlarged 1400 times.
+        // One rounding step of f32, enlarged 1400 times.
         assert!((1e-4..1e-2).contains(&fast.rounded_rad), "{fast:?}");
         assert!(of(&scene, 1e6, DVec3::Z, map).notice().is_some_and(|said| said.contains("astern")));
         let ahead = of(&scene, 1e6, DVec3::NEG_Z, map);

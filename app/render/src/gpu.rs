@@ -1,46 +1,46 @@
 //! The graphics device: found once, shared by every renderer and window.
 //!
-//! Vulkan on Linux, in hardware or in software (lavapipe). Where there is none, [`GpuError::NoAdapter`] says which
-//! package to install. A device can be lost at any time (a driver reset, a pulled eGPU): [`Gpu::lost`] tells, and the
-//! caller ends what it is doing in good order, a recording or a film completed.
+//! Vulkan on Linux, in hardware or in software (lavapipe). If no driver is found, [`GpuError::NoAdapter`] names the
+//! package to install. A device can be lost at any time (a driver reset, a pulled eGPU). [`Gpu::lost`] then returns
+//! an error, and the caller ends its work in good order: a recording or a film is completed.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
-/// Why no picture can be drawn.
+/// Reason for which no picture can be drawn.
 #[derive(Debug, Error)]
 pub enum GpuError {
-    /// No driver, or no loader.
+    /// A missing driver or loader.
     #[error(
         "no Vulkan driver was found ({0}); on Debian or Ubuntu install libvulkan1 and mesa-vulkan-drivers \
          (`sudo apt-get install libvulkan1 mesa-vulkan-drivers`), or your graphics card's own driver"
     )]
     NoAdapter(String),
-    /// The driver refused to open the device.
+    /// A device that the driver refused to open.
     #[error("the graphics device {adapter} could not be opened: {reason}")]
     NoDevice {
-        /// As the driver calls it.
+        /// Name of the device, from the driver.
         adapter: String,
-        /// As the driver says it.
+        /// Reason given by the driver.
         reason: String,
     },
-    /// The driver would not do what was asked of it.
+    /// A command that the driver refused.
     #[error("the graphics device refused to draw: {0}; a smaller --size or a longer --edge may help")]
     Refused(String),
-    /// The driver went away, or broke, while drawing.
+    /// A driver that went away or failed while drawing.
     #[error("the graphics device was lost: {0}; restart the program, and update the driver if it happens again")]
     Lost(String),
 }
 
 /// An open device and its queue.
 pub struct Gpu {
-    /// For surfaces of windows.
+    /// Instance that makes the surfaces of windows.
     pub instance: wgpu::Instance,
-    /// What was chosen.
+    /// Adapter that was chosen.
     pub adapter: wgpu::Adapter,
-    /// Makes resources.
+    /// Logical device, which makes resources.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// Queue of the device, which takes the work.
     pub queue: wgpu::Queue,
     fault: Arc<Mutex<Option<Fault>>>,
 }
@@ -49,7 +49,7 @@ impl Gpu {
     /// Opens the best device there is, for drawing without a window.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] without a driver, [`GpuError::NoDevice`] if it does not open.
+    /// [`GpuError::NoAdapter`] if there is no driver, [`GpuError::NoDevice`] if the device does not open.
     pub fn new() -> Result<Self, GpuError> {
         Self::with_instance(wgpu::Instance::new(descriptor()), None)
     }
@@ -57,7 +57,7 @@ impl Gpu {
     /// Opens the best device that can draw into `surface`, made from `instance`.
     ///
     /// # Errors
-    /// As [`Gpu::new`].
+    /// Those of [`Gpu::new`].
     pub fn with_instance(instance: wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -85,23 +85,23 @@ impl Gpu {
         Ok(Self { instance, adapter, device, queue, fault })
     }
 
-    /// What draws: the adapter's name and driver, for the HUD and for reports.
+    /// Name and driver of the adapter, for the HUD and for reports.
     pub fn description(&self) -> String {
         let info = self.adapter.get_info();
         format!("{} ({:?}, {})", info.name, info.backend, info.driver_info)
     }
 
-    /// Whether drawing happens on the CPU.
+    /// True if drawing happens on the CPU.
     pub fn is_software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
-    /// Whether colour targets of 32-bit floats can be blended into, and filtered, here.
+    /// True if the device can blend into and filter colour targets of 32-bit floats.
     pub fn has_full_precision(&self) -> bool {
         self.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE)
     }
 
-    /// The first fault that the driver reported, if any.
+    /// Returns the first fault that the driver reported, if any.
     ///
     /// # Errors
     /// [`GpuError::Lost`] or [`GpuError::Refused`] with the driver's words.
@@ -123,23 +123,23 @@ impl Gpu {
     }
 }
 
-/// How the instance is asked for: Vulkan, or what the system has instead; `WGPU_BACKEND` overrides.
+/// Instance descriptor: Vulkan, or another API of the system; the environment variable `WGPU_BACKEND` overrides it.
 pub fn descriptor() -> wgpu::InstanceDescriptor {
     wgpu::InstanceDescriptor::new_without_display_handle_from_env()
 }
 
-/// What the driver reported.
+/// A fault that the driver reported, with its message.
 enum Fault {
     Lost(String),
     Refused(String),
 }
 
-/// Keeps the first fault only: what follows is its echo.
+/// Keeps the first fault only. Later faults are consequences of it.
 fn note(fault: &Mutex<Option<Fault>>, news: Fault) {
     fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(news);
 }
 
-/// A report of several lines as one.
+/// A report of several lines, joined into one line.
 fn one_line(report: &str) -> String {
     report.split_whitespace().collect::<Vec<_>>().join(" ")
 }

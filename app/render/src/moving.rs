@@ -1,9 +1,10 @@
-//! What moves, drawn as a world of its own.
+//! Views of moving bodies, each drawn as a world of its own.
 //!
-//! An observer is to a moving body what he is to the world, with another place and another celerity, in axes that Wigner's rotation turns into
-//! his own. So each motion has a view of its own of the same picture: light is shifted by the relative motion, and a pixel's direction is
-//! taken in the body's axes (W 5.1.2). What is animated is seen in the observer's own axes, since its places are solved for one by one, with
-//! their Doppler factors. Depth is common to all: along one line of sight the nearer apparent position is the later emission.
+//! Seen from a moving body, the observer has another place and another celerity, in axes that Wigner's rotation turns
+//! into the observer's. So each motion has its own view of the same picture: light is shifted by the relative motion,
+//! and a pixel's direction is taken in the body's axes (W 5.1.2). Animated bodies are seen in the observer's axes,
+//! since the program solves for each of their places, with its Doppler factor. All share the same depth: along one
+//! line of sight the nearer apparent position is the later emission.
 
 use scene::motion::{Animated, Motion, SeenBy};
 use crate::view_matrix::matrix;
@@ -11,22 +12,22 @@ use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
 use physics::photo_surface::Eye;
 use physics::{Celerity, Observer};
 
-/// Which axes the apparent positions of what moves are in.
+/// Axes of the apparent positions of a moving body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
-    /// The observer's: they are turned already.
+    /// Axes of the observer, after the rotation.
     Observer,
-    /// Those of the pure boost out of the body's frame.
+    /// Axes of the pure boost out of the body's frame.
     Group,
 }
 
-/// The observer as a body of this motion has him. `None` if he is nowhere.
+/// Eye of the observer in the frame of a body with this motion. `None` if the place or the celerity is not finite.
 pub fn eye(motion: &Motion, observer: &Observer) -> Option<Eye> {
     let seen = seen_by(motion, observer);
     Eye::new(seen.position, seen.celerity.vector()).ok()
 }
 
-/// Of a picture of the photo-surface, the view of what moves.
+/// View of a moving body, for the picture whose view of the resting world is `at_rest`.
 pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes: Axes) -> shaders::View {
     let seen = seen_by(motion, observer);
     let group_from_observer = seen.observer_from_group.conjugate();
@@ -47,8 +48,8 @@ pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes:
     }
 }
 
-/// Of a picture of the plain world about the eye, the view of what moves, for its own positions relative to `origin`: at its place at the
-/// observer's time, shorter along its motion.
+/// View of a moving body in a picture of the plain world about the eye. The body's own positions are relative to
+/// `origin`. It is drawn at its place at the observer's time, contracted along its motion.
 ///
 /// *Equation:* r = a + q − (1 − 1/γ)(q·n) n + β (ct − ct_a), q from the anchor in the body's frame.
 pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::View {
@@ -59,7 +60,7 @@ pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, 
     let celerity = uniform.celerity;
     let n = celerity.direction().unwrap_or(DVec3::ZERO);
     let gamma = celerity.gamma();
-    // 1 − 1/γ without a difference.
+    // 1 − 1/γ, computed without cancellation.
     let shorter = celerity.magnitude() / gamma * (celerity.magnitude() / (gamma + 1.0));
     let contraction = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z) * shorter;
     let anchor = uniform.anchor;
@@ -78,7 +79,8 @@ pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, 
     }
 }
 
-/// The same of an animated body: where it is at the observer's time. One velocity, its middle's, shifts the light of all of it.
+/// View of an animated body in a picture of the plain world: the body at the observer's time. The velocity of its
+/// middle shifts the light of the whole body.
 fn plain_pose(at_eye: &shaders::View, animated: &Animated, observer: &Observer) -> shaders::View {
     let pose = animated.as_seen(observer, false);
     let eye_from_world = DMat4::from_translation(-observer.event.position);
@@ -89,7 +91,8 @@ fn plain_pose(at_eye: &shaders::View, animated: &Animated, observer: &Observer) 
     }
 }
 
-/// What is animated is solved for in the world, and appears in the observer's own axes.
+/// View of a motion by the observer. Animated bodies are solved for in the world frame, and appear in the observer's
+/// axes.
 fn seen_by(motion: &Motion, observer: &Observer) -> SeenBy {
     match motion {
         Motion::Uniform(uniform) => uniform.seen_by(observer),

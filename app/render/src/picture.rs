@@ -1,4 +1,4 @@
-//! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB or as light.
+//! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB or as linear light.
 
 use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, Stored};
 use super::target::{Format, Radiance};
@@ -10,35 +10,36 @@ use half::f16;
 use image::{Rgb32FImage, RgbaImage};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// What a picture is stored as.
+/// Texture format in which a picture is stored.
 pub const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// What light is fetched as.
+/// Texture format in which light is fetched.
 const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// What a pixel's centre shows.
+/// Place in the scene that a pixel's centre shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown {
-    /// Metres relative to the scene's origin; of what moves, in its own frame.
+    /// Place in metres relative to the scene's origin; for a moving body, in its own frame.
     pub position: DVec3,
-    /// Index into the scene's motions.
+    /// Index into the scene's motions; `None` for what rests.
     pub motion: Option<usize>,
-    /// Where that place is seen, relative to the observer in his own axes, metres: not where it was drawn.
+    /// Exact apparent position of that place, relative to the observer in the observer's axes, metres. The place
+    /// where it was drawn may differ.
     pub apparent: DVec3,
 }
 
-/// Turns radiance into pictures in memory.
+/// Develops radiance into pictures in memory.
 pub struct Darkroom {
     display: Display,
     sheet: Sheet,
 }
 
 impl Darkroom {
-    /// For pictures of `size` pixels, from radiance of `format`.
+    /// Darkroom for pictures of `size` pixels, from radiance of `format`.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         Self { display: Display::new(gpu, format, SCREEN_FORMAT), sheet: Sheet::new(gpu, size, SCREEN_FORMAT) }
     }
 
-    /// Develops `radiance` as an eye sees it that is adapted to it, encodes it as 8-bit sRGB and fetches it.
+    /// Develops `radiance` for an eye in the state `adaptation`, encodes it as 8-bit sRGB and fetches it.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -57,7 +58,7 @@ impl Darkroom {
     }
 }
 
-/// A texture that can be fetched from the device.
+/// A texture whose contents can be fetched from the device.
 pub(crate) struct Sheet {
     texture: wgpu::Texture,
     readback: wgpu::Buffer,
@@ -92,7 +93,7 @@ impl Sheet {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
-    /// Submits what draws on the sheet, and fetches its bytes, row by row.
+    /// Submits the commands that draw on the sheet, and fetches its bytes, row by row.
     pub(crate) fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
@@ -125,12 +126,13 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Makes the targets. `samples` per pixel; one sample is each pixel's centre.
+    /// Makes the targets. `samples` is the number of samples for each pixel; a single sample lies at the pixel's
+    /// centre.
     pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
         Self::with_format(gpu, size, samples, Self::format(gpu))
     }
 
-    /// The same for renderers that draw in another format.
+    /// Makes the targets for renderers that draw in the given format.
     pub fn with_format(gpu: &Gpu, size: [u32; 2], samples: u32, format: Format) -> Self {
         let darkroom = Darkroom::new(gpu, size, format.colour);
         Self {
@@ -143,15 +145,16 @@ impl Studio {
         }
     }
 
-    /// The format that renderers must draw in to be photographed here.
+    /// Target format of the renderers whose pictures are taken here.
     pub fn format(gpu: &Gpu) -> Format {
         Format::exact(gpu)
     }
 
-    /// Takes a picture. Where `renderer` needs a photo-surface, it must have been submitted before; it is received here.
+    /// Takes a picture. If `renderer` needs a photo-surface, it must have been submitted before; it is received here.
     ///
     /// # Arguments
-    /// * `elapsed_s` — the observer's own time since the picture before, to which his eye is still adapted; `None` adapts it at once.
+    /// * `elapsed_s` — the observer's proper time since the picture before, seconds, for the adaptation of the eye;
+    ///   `None` adapts it at once.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -172,20 +175,22 @@ impl Studio {
         self.darkroom.develop(gpu, radiance, &self.adaptation, development)
     }
 
-    /// The same as light: linear sRGB in cd/m², before exposure, tone and gamut. What f32 does not hold is its largest value.
+    /// Takes a picture as light: linear sRGB in cd/m², before exposure, tone curve and gamut. Values beyond the range
+    /// of f32 become its largest value.
     ///
     /// # Errors
-    /// As [`Studio::photograph`].
+    /// Those of [`Studio::photograph`].
     pub fn expose(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Rgb32FImage, GpuError> {
         let stored = self.draw(gpu, renderer, shot)?;
         let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
         light(gpu, radiance, &stored)
     }
 
-    /// Develops light that was worked out elsewhere: texels as renderers draw them, row by row, of this studio's size.
+    /// Develops light that was computed elsewhere: texels as the renderers draw them, row by row, for a picture of
+    /// this studio's size.
     ///
     /// # Errors
-    /// As [`Studio::photograph`].
+    /// Those of [`Studio::photograph`].
     pub fn develop(
         &mut self,
         gpu: &Gpu,
@@ -202,11 +207,11 @@ impl Studio {
         self.darkroom.develop(gpu, &radiance, &self.adaptation, development)
     }
 
-    /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface. Only where the device draws
-    /// 32-bit floats is this true.
+    /// Place in the scene that each pixel's centre shows, row by row; `None` for a pixel that shows no surface. The
+    /// places are exact only if the device draws 32-bit floats.
     ///
     /// # Errors
-    /// As [`Studio::photograph`].
+    /// Those of [`Studio::photograph`].
     pub fn places(
         &mut self,
         gpu: &Gpu,
@@ -226,7 +231,7 @@ impl Studio {
         Ok(texels(gpu, self.radiance.result())?.into_iter().map(shown).collect())
     }
 
-    /// Draws each sample, and adds it up.
+    /// Draws all samples, and adds them up.
     fn draw(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Stored, GpuError> {
         self.draw_samples(gpu, renderer, shot, self.samples)
     }
@@ -256,7 +261,7 @@ impl Studio {
     }
 }
 
-/// Puts texels into a texture of one of the formats that renderers draw in.
+/// Uploads texels into a texture of one of the formats that renderers draw in.
 fn upload(gpu: &Gpu, size: [u32; 2], texels: &[[f32; 4]], format: wgpu::TextureFormat) -> wgpu::TextureView {
     let descriptor = wgpu::TextureDescriptor {
         label: Some("radiance"),
@@ -298,7 +303,7 @@ pub fn light(gpu: &Gpu, radiance: &wgpu::TextureView, stored: &Stored) -> Result
     Ok(Rgb32FImage::from_raw(size.width, size.height, values).expect("the sheet has three colours a pixel"))
 }
 
-/// Fetches a texture as it is.
+/// Fetches a texture as 32-bit floats, without any conversion of the values.
 fn texels(gpu: &Gpu, texture: &wgpu::TextureView) -> Result<Vec<[f32; 4]>, GpuError> {
     let size = texture.texture().size();
     let sheet = Sheet::new(gpu, [size.width, size.height], LIGHT_FORMAT);
@@ -307,7 +312,7 @@ fn texels(gpu: &Gpu, texture: &wgpu::TextureView) -> Result<Vec<[f32; 4]>, GpuEr
     Ok(bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&sheet.fetch(gpu, encoder)?))
 }
 
-/// Size of the largest picture that the device can draw, pixels along each side.
+/// Largest side of a picture that the device can draw, pixels.
 pub fn largest_side(gpu: &Gpu) -> u32 {
     gpu.device.limits().max_texture_dimension_2d
 }

@@ -1,43 +1,44 @@
-//! What renderers draw into: linear radiance with depth.
+//! Targets of the renderers: linear radiance with depth.
 
 use crate::gpu::Gpu;
 
-/// Reversed: 1 at the near plane, 0 infinitely far.
+/// Depth format. Depth is reversed: 1 at the near plane, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Which pipelines can draw into a target.
+/// Format of a target. A pipeline can draw only into targets of its own format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Format {
-    /// Of the radiance.
+    /// Texture format of the radiance.
     pub colour: wgpu::TextureFormat,
     /// Samples per pixel, 1 or 4.
     pub samples: u32,
 }
 
 impl Format {
-    /// For pictures that are kept: every value exact to f32, where the device can mix such values.
+    /// Format for pictures that are kept: every value exact to f32, if the device can blend such values.
     pub fn exact(gpu: &Gpu) -> Self {
         let colour =
             if gpu.has_full_precision() { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float };
         Self { colour, samples: 1 }
     }
 
-    /// The largest value that every channel holds.
+    /// Largest value that every channel can hold.
     pub fn largest(self) -> f32 {
         if self.colour == wgpu::TextureFormat::Rgba32Float { f32::MAX } else { shaders::HALF_LIMIT }
     }
 
-    /// For windows: half the memory traffic, edges smoothed by the hardware.
+    /// Format for windows: half the memory traffic, edges smoothed by the hardware.
     pub fn fast(samples: u32) -> Self {
         Self { colour: wgpu::TextureFormat::Rgba16Float, samples }
     }
 }
 
-/// A colour and a depth texture of one size; with several samples a pixel, also the texture they resolve into.
+/// A colour and a depth texture of one size; with several samples a pixel, also the texture into which they are
+/// resolved.
 pub struct Radiance {
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [u32; 2],
-    /// As created.
+    /// Format with which the textures were made.
     pub format: Format,
     colour: wgpu::TextureView,
     depth: wgpu::TextureView,
@@ -58,7 +59,7 @@ impl Radiance {
         }
     }
 
-    /// The radiance to read: one sample a pixel.
+    /// Radiance to read, one sample a pixel.
     pub fn result(&self) -> &wgpu::TextureView {
         self.resolved.as_ref().unwrap_or(&self.colour)
     }

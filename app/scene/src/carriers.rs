@@ -1,40 +1,43 @@
-//! Which spectra a scene's light has, and what the observer makes of them.
+//! Spectra of a scene's light, and their colours for the observer.
 //!
-//! Every radiance is three weights on a carrier spectrum ([`physics::colour::Carrier`]). An ordinary scene has one carrier, the white
-//! whose weights are linear sRGB; each spectrum that a material or the illuminant names adds one. The shift table of all
-//! carriers is worked out once, on all cores, and the shaders look it up (B eq. 2.16, 2.17).
+//! Every radiance is three weights on a carrier spectrum ([`physics::colour::Carrier`]). An ordinary scene has one
+//! carrier, the white for which weights are linear sRGB. Each spectrum that a material or the illuminant names adds
+//! one. The shift table of all carriers is computed once, on all cores, and the shaders look it up (B eq. 2.16,
+//! 2.17).
 
 use crate::material::Material;
 use crate::scene::Scene;
 use glam::DVec3;
 use physics::colour::Carrier;
 
-/// The carrier whose weights are linear sRGB: of plain colours, of a background and of a panorama.
+/// Index of the carrier whose weights are linear sRGB: that of plain colours, of a background and of a panorama.
 pub const WHITE: usize = 0;
 
-/// Luminances below this, cd/m², are none: a carrier that dark at rest is not measured by what it is at rest.
+/// Luminance below which a carrier counts as dark at rest, cd/m². Its weights are then not scaled by its luminance at
+/// rest.
 const DARKEST: f64 = 1e-30;
 
-/// The carriers of a scene, each once.
+/// Carriers of a scene, each once.
 ///
-/// Weights are given to the shaders relative to what is white at rest, whatever the carrier: absolute luminance differs by many orders of
-/// magnitude from black body to black body, and half floats hold but few. [`Spectra::factor`] says by how much.
+/// For every carrier the shaders get weights relative to what is white at rest. Absolute luminance differs by many
+/// orders of magnitude from black body to black body, and half floats hold only a few. [`Spectra::factor`] is the
+/// ratio.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectra {
-    /// What weights are on.
+    /// Carriers, to which the weights belong.
     pub carriers: Vec<Carrier>,
-    /// The carrier of what each material reflects or, unlit, sends out, in the scene's order.
+    /// Carrier of the light that each material reflects or, if unlit, emits, in the scene's order.
     pub materials: Vec<usize>,
-    /// Carrier of the sky.
+    /// Index of the sky's carrier.
     pub sky: usize,
     /// Luminance that is white at rest, cd/m².
     pub white_luminance: f64,
-    /// Of each carrier at rest with weights of 1, cd/m².
+    /// Luminance of each carrier at rest with weights of 1, cd/m².
     luminances: Vec<f64>,
 }
 
 impl Spectra {
-    /// Finds the carriers that a scene needs.
+    /// Finds the carriers of a scene.
     pub fn of(scene: &Scene) -> Self {
         let mut carriers = vec![Carrier::white()];
         let mut number = |carrier: Carrier| {
@@ -63,7 +66,7 @@ impl Spectra {
         &self.luminances
     }
 
-    /// What weights on a carrier are multiplied by to be relative to the scene's white.
+    /// Factor from weights on a carrier to weights relative to the scene's white.
     pub fn factor(&self, carrier: usize) -> f32 {
         (self.luminances[carrier] / self.white_luminance) as f32
     }

@@ -1,4 +1,5 @@
-//! All of `rapidity measure` but the extremes: pictures by each renderer's dials, the dials beside them, what comes of it.
+//! `rapidity measure` without the extremes: pictures by each renderer's dials, the other dials, and the output of the
+//! results.
 
 use std::sync::atomic::Ordering;
 
@@ -15,19 +16,19 @@ use crate::render::{interrupted, writable};
 use crate::renderers::picture::largest_side;
 use crate::renderers::raytrace::RayTracer;
 
-/// Pixels of pictures that are compared, and of a ride's window.
+/// Size of pictures that are compared, and of a ride's window, pixels.
 const STILL_SIZE: [u32; 2] = [640, 360];
 const RIDE_SIZE: [u32; 2] = [1280, 720];
 
-/// A ride for which nothing says how long its frames may take is looked at as often as screens are, seconds.
+/// Frame time of a ride without a goal for it, seconds: that of usual screens.
 const FRAME_S: f64 = 1.0 / 60.0;
-/// Nobody rides by frames that are further apart, seconds.
+/// Longest frame time at which a ride is measured, seconds.
 const LONGEST_FRAME_S: f64 = 1.0 / 15.0;
 
 /// Measures and writes the results.
 ///
 /// # Errors
-/// What keeps the scene from being drawn or the results from being written, and a goal that no setting reaches.
+/// Any fault that prevents drawing the scene or writing the results, and a goal that no setting reaches.
 pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     let stop = interrupted();
     for path in options.out.iter().chain(&options.plot) {
@@ -78,7 +79,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
                 lines.extend(of_dial);
             }
         };
-        // Before each, as whoever interrupts wants the end.
+        // Test `stop` before each one, so that an interrupt ends the run soon.
         if !stop.load(Ordering::Relaxed) {
             add(samples::measure(&measurement, tracer, &stop)?);
         }
@@ -104,7 +105,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     }
 }
 
-/// Writes the files that were asked for.
+/// Writes the files that the options name.
 fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pixel_arcmin: f64) -> Result<(), Error> {
     if let Some(out) = &options.out {
         table::write_csv(lines, out)?;

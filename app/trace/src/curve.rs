@@ -1,44 +1,46 @@
-//! A ray of light back through an animated body, in the body's own frame.
+//! A ray of light, followed back through an animated body in the body's own frame.
 //!
-//! s metres of light travel ago the light that is seen now from the direction n was at o + n s, and the body as its keys had it then. In the body's
-//! frame, where its triangles rest, that is a curve, y(s) = M(ct − s)⁻¹ (o + n s), y' = M⁻¹ (n + β(y)). It is followed only inside a ball around
-//! the body, which is stepped up to by distances that nothing slower than light can outrun; there, in chords that leave it by less than the boxes
-//! are wide of their triangles. Every triangle whose box a chord meets is solved for on the curve itself (Newton's method on the distance from its
-//! plane), so that what is found is as exact as the keys.
+//! The light that is seen now from the direction n was at o + n s when it had s metres still to travel. The body then
+//! stood as its keys say. In the body's frame, where its triangles rest, the light's path is a curve, y(s) = M(ct −
+//! s)⁻¹ (o + n s), y' = M⁻¹ (n + β(y)). The curve is followed only inside a ball around the body. Outside, steps are
+//! bounded by the gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less
+//! than the margin of the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved
+//! for on the curve itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the
+//! keys.
 
 use glam::{DMat3, DVec3};
 use physics::Observer;
 
 use scene::motion::{Animated, Ball};
 
-/// How far a chord may be from the curve, and by how much boxes are wide: in radii of the body.
+/// Largest distance of a chord from the curve, and margin of the boxes, both in radii of the body.
 pub const SLACK: f64 = 1e-2;
 
-/// Looks at a chord are this much stricter than what they are to ensure between them.
+/// Factor on the slack where a chord is tested, since it is tested only at a few places.
 const STRICT: f64 = 0.5;
 
-/// The most steps along one ray.
+/// Largest number of steps along one ray.
 const STEPS: usize = 100_000;
 
-/// A body's curve for one ray.
+/// Path of one ray in the frame of a body.
 pub struct Curve<'a> {
     pub animated: &'a Animated,
-    /// Who sees it; s = 0 is here.
+    /// Observer that sees the light; s = 0 is here.
     pub observer: &'a Observer,
-    /// Unit vector, world.
+    /// Direction of sight, unit vector, world axes.
     pub direction: DVec3,
 }
 
 /// A piece of a curve, and the chord that stands for it.
 pub struct Chord {
-    /// s at its ends.
+    /// Values of s at the ends.
     pub span: [f64; 2],
-    /// y at its ends.
+    /// Values of y at the ends, metres.
     pub ends: [DVec3; 2],
 }
 
 impl Curve<'_> {
-    /// y and y'.
+    /// Place y and its derivative y'.
     pub fn at(&self, s: f64) -> (DVec3, DVec3) {
         let pose = self.animated.at(self.observer.event.ct - s);
         let body_from_world: DMat3 = pose.world_from_body.matrix3.inverse();
@@ -47,16 +49,16 @@ impl Curve<'_> {
         (place, body_from_world * (self.direction + pose.beta(place)))
     }
 
-    /// How far the light is from the middle of a ball of the body.
+    /// Distance of the light from the middle of a ball of the body, metres.
     fn distance(&self, ball: &Ball, s: f64) -> f64 {
         let centre = self.animated.at(self.observer.event.ct - s).position(ball.centre);
         centre.distance(self.observer.event.position + self.direction * s)
     }
 
-    /// The first chord after `after` of which something `meets`; what it says.
+    /// Result of `meets` for the first chord after `after` for which it returns one.
     ///
     /// * `ball` — around the body, in its own frame.
-    /// * `world_radius` — of the same in the world, at most.
+    /// * `world_radius` — largest radius of that ball in the world.
     /// * `reach` — a ball of the world that the body never leaves.
     pub fn first<T>(
         &self,
@@ -70,7 +72,7 @@ impl Curve<'_> {
         let last = reach.centre.distance(self.observer.event.position) + reach.radius + near;
         let (mut s, mut chord) = (after, 2.0 * near);
         for _ in 0..STEPS {
-            // Both light and body come no nearer than 2 metres in a metre.
+            // Light and body together close a gap by less than 2 metres for each metre that the light travels.
             let gap = self.distance(ball, s) - near;
             if gap > 0.0 {
                 s += 0.5 * gap + 0.25 * SLACK * world_radius;
@@ -97,7 +99,7 @@ impl Curve<'_> {
         None
     }
 
-    /// How far the curve is from a chord of it, as far as looks tell.
+    /// Distance of the curve from a chord of it, as measured at three places.
     fn leaves(&self, chord: &Chord) -> f64 {
         let [a, b] = chord.ends;
         let off = |share: f64| {
@@ -107,7 +109,7 @@ impl Curve<'_> {
         off(0.5).max(off(0.25)).max(off(0.75))
     }
 
-    /// Where a piece of the curve passes through the plane of a triangle.
+    /// Value of s at which a piece of the curve passes through the plane of a triangle.
     pub fn crosses(&self, chord: &Chord, [a, b, c]: [DVec3; 3]) -> Option<f64> {
         let normal = (b - a).cross(c - a);
         let height = |place: DVec3| normal.dot(place - a);
@@ -115,7 +117,7 @@ impl Curve<'_> {
         let slack = 1e-9 * (last - first);
         let [low, high] = chord.ends.map(height);
         let mut s = if low == high { first } else { first + (last - first) * (low / (low - high)).clamp(0.0, 1.0) };
-        // Newton's method; bisection where that leaves the piece and the ends are on either side.
+        // Newton's method; bisection if it leaves the piece and the ends lie on opposite sides.
         let mut bracket = (low * high <= 0.0).then_some([first, last]);
         for _ in 0..100 {
             let (place, rate) = self.at(s);

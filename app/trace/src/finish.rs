@@ -1,40 +1,41 @@
-//! What a smooth surface does to a ray of light, in the frame in which it rests: mirror, dielectric, glass.
+//! Reflection and refraction at a smooth surface, in the frame in which it rests: mirror, dielectric, glass.
 //!
-//! Polished metal returns light by its base colour. Anything else that is smooth returns by its outermost skin what Fresnel's equations say, for
-//! its index of refraction; of what enters, glass lets a share through (`KHR_materials_transmission`), bent where it has a volume
-//! (`KHR_materials_volume`) and straight on where it is a pane, and all else is diffuse.
+//! Polished metal reflects light by its base colour. Any other smooth surface reflects at its outermost layer what
+//! Fresnel's equations give for its index of refraction. Of the light that enters, glass transmits a share
+//! (`KHR_materials_transmission`): bent if the glass has a volume (`KHR_materials_volume`), straight on if it is a
+//! pane. The rest is diffuse.
 
 use scene::Material;
 use glam::DVec3;
 
-/// Rougher than this is not a mirror.
+/// Largest roughness of a mirror.
 const SMOOTH: f32 = 0.1;
 
-/// A smooth surface.
+/// Optical properties of a smooth surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
     base: DVec3,
     metallic: f64,
     transmission: f64,
-    /// Of what lies behind the surface.
+    /// Index of refraction behind the surface.
     pub index: f64,
-    /// Whether there is a volume behind it, which bends light.
+    /// True if there is a volume behind the surface, which bends light.
     pub solid: bool,
 }
 
-/// Where the light of a smooth surface comes from. Together no more than 1.
+/// Sources of a smooth surface's light, as shares. Together they are at most 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shares {
-    /// Mirrored, by colour.
+    /// Share of the mirrored light, by colour.
     pub mirrored: DVec3,
-    /// From behind, by colour.
+    /// Share of the light from behind, by colour.
     pub through: DVec3,
-    /// Diffuse.
+    /// Share of the diffuse light.
     pub diffuse: f64,
 }
 
 impl Finish {
-    /// Of a material with this base colour; `None` if it is rough.
+    /// Finish of a material with this base colour; `None` if it is rough.
     pub fn of(material: &Material, base: impl FnOnce() -> DVec3) -> Option<Self> {
         (material.roughness <= SMOOTH && !material.unlit).then(|| Self {
             base: base(),
@@ -45,12 +46,12 @@ impl Finish {
         })
     }
 
-    /// Index of refraction beyond the surface over that before it, by the side that is met.
+    /// Index of refraction beyond the surface over that before it, by the side that the ray meets.
     pub fn beyond(&self, front: bool) -> f64 {
         if self.solid && !front { 1.0 / self.index } else { self.index }
     }
 
-    /// For light that leaves a side at an angle of this cosine to the normal.
+    /// Shares for light that leaves a side at an angle with this cosine to the normal.
     pub fn shares(&self, cosine: f64, front: bool) -> Shares {
         let skin = fresnel(cosine, self.beyond(front));
         let entering = (1.0 - self.metallic) * (1.0 - skin);
@@ -62,16 +63,18 @@ impl Finish {
     }
 }
 
-/// The direction that a mirror shows along `direction`; `normal` is towards the side that it comes from.
+/// Direction that a mirror shows along `direction`. `normal` points to the side from which the ray comes.
 ///
-/// Where an interpolated normal would show what is behind the surface, that of the flat triangle, `plane`, is taken.
+/// If the interpolated normal would show what is behind the surface, `plane`, the normal of the flat triangle, is
+/// used.
 pub fn mirrored(direction: DVec3, normal: DVec3, plane: DVec3) -> DVec3 {
     let by = |normal: DVec3| direction - normal * (2.0 * normal.dot(direction));
     let smooth = by(normal);
     if smooth.dot(plane) > 0.0 { smooth } else { by(plane) }
 }
 
-/// The direction beyond a surface, of which `index` is the index of refraction beyond over that before; `None` where all light is reflected.
+/// Direction beyond a surface. `index` is the index of refraction beyond over that before. `None` if all light is
+/// reflected.
 ///
 /// *Equation:* Snell's law: the component along the surface is 1/index of what it was.
 pub fn refracted(direction: DVec3, normal: DVec3, index: f64) -> Option<DVec3> {
@@ -81,7 +84,8 @@ pub fn refracted(direction: DVec3, normal: DVec3, index: f64) -> Option<DVec3> {
     (inner > 0.0).then(|| along - normal * inner.sqrt())
 }
 
-/// Share of unpolarised light that is reflected (Fresnel), by the cosine of its angle to the normal; `index` as for [`refracted`].
+/// Share of unpolarised light that is reflected (Fresnel), by the cosine of its angle to the normal. `index` is that
+/// of [`refracted`].
 pub fn fresnel(cosine: f64, index: f64) -> f64 {
     let inner = 1.0 - (1.0 - cosine * cosine) / (index * index);
     if inner <= 0.0 {
@@ -95,7 +99,8 @@ pub fn fresnel(cosine: f64, index: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Fresnel's and Snell's laws at their exact points. A wrong program shows at Brewster's angle, at total reflection, or loses light.
+    //! Fresnel's and Snell's laws at their exact points. A wrong program fails at Brewster's angle or at total
+    //! reflection, or loses light.
 
     use super::*;
 
@@ -103,11 +108,11 @@ mod tests {
     fn glass_reflects_what_fresnel_says() {
         assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-15);
         assert!((fresnel(1e-9, 1.5) - 1.0).abs() < 1e-7);
-        // Brewster's angle, tan θ = n: half of sin²(θ − θ') is left, and θ' = 90° − θ.
+        // At Brewster's angle, tan θ = n, half of sin²(θ − θ') is left, and θ' = 90° − θ.
         let brewster = 1.5_f64.atan();
         let expected = 0.5 * (2.0 * brewster - std::f64::consts::FRAC_PI_2).sin().powi(2);
         assert!((fresnel(brewster.cos(), 1.5) - expected).abs() < 1e-15);
-        // The same from both sides of the surface; beyond the critical angle all.
+        // Reflection is equal from both sides of the surface, and total beyond the critical angle.
         let inner = (1.0 - 0.36 / 2.25_f64).sqrt();
         assert!((fresnel(0.8, 1.5) - fresnel(inner, 1.0 / 1.5)).abs() < 1e-15);
         assert_eq!(fresnel(0.7, 1.0 / 1.5), 1.0);

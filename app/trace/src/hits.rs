@@ -1,8 +1,9 @@
-//! What a ray of light comes from: the first triangle on its way back.
+//! Hits of a ray of light: the first triangle on its way back.
 //!
-//! Each group of meshes with one motion is a body with a frame of its own, in which it rests. The observer's event and celerity are
-//! taken there once for a picture, a pixel's direction once for a ray. Along one sight line the apparent distance |x'| = r D (r in the body's frame, D from it to
-//! the observer) is how long ago by the observer's clock the light left, in every body's case: the smallest is seen.
+//! Each group of meshes with one motion is a body with its own frame, in which it rests. The observer's event and
+//! celerity are taken to that frame once for each picture, a pixel's direction once for each ray. Along one sight
+//! line the apparent distance is |x'| = r D, with r in the body's frame and D from that frame to the observer. For
+//! every body it is the time since the light left, by the observer's clock, so the smallest one is seen.
 
 mod onward;
 
@@ -22,7 +23,7 @@ use std::sync::Arc;
 
 pub use onward::{Emission, Turn};
 
-/// By how much boxes are larger than what is in them, relative to its coordinates, so that rounding misses nothing.
+/// Relative margin of the boxes around triangles, in their coordinates, so that rounding misses no hit.
 const MARGIN: f64 = 1e-9;
 
 /// A point of a triangle that a ray meets.
@@ -30,40 +31,40 @@ const MARGIN: f64 = 1e-9;
 pub struct Hit {
     /// Index into the scene's meshes.
     pub mesh: usize,
-    /// Indices into its vertices.
+    /// Indices of the corners into the mesh's vertices.
     pub corners: [usize; 3],
-    /// Share of each corner.
+    /// Share of each corner at the point.
     pub weights: [f64; 3],
-    /// Where, in metres relative to the scene's origin, in the body's frame.
+    /// Place in the body's frame, metres relative to the scene's origin.
     pub position: DVec3,
-    /// From where the ray begins, metres in the body's frame.
+    /// Distance from the beginning of the ray, metres in the body's frame.
     pub distance: f64,
-    /// Along the normal of the triangle's front, of any length.
+    /// Vector along the normal of the triangle's front, of any length.
     pub plane: DVec3,
-    /// Whether the ray meets its front.
+    /// True if the ray meets the front.
     pub front: bool,
 }
 
-/// A hit, and in which body.
+/// A hit, with its body.
 pub struct Found {
-    /// Where.
+    /// Point that the ray meets.
     pub hit: Hit,
-    /// ν_observed / ν_sent.
+    /// Doppler factor ν_observed / ν_emitted.
     pub doppler: f64,
     body: usize,
     apparent: f64,
 }
 
-/// What a pixel shows.
+/// Place in the scene that a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Metres relative to the scene's origin; of what moves, in its own frame.
+    /// Place in metres relative to the scene's origin; for a moving body, in its own frame.
     pub position: DVec3,
-    /// Index into the scene's motions.
+    /// Index into the scene's motions; `None` for what rests.
     pub motion: Option<usize>,
-    /// Relative to the observer, in his own axes, metres: the apparent position.
+    /// Apparent position relative to the observer, in the observer's axes, metres.
     pub apparent: DVec3,
-    /// ν_observed / ν_sent.
+    /// Doppler factor ν_observed / ν_emitted.
     pub doppler: f64,
 }
 
@@ -78,18 +79,18 @@ struct Triangle {
 struct Body {
     motion: Option<usize>,
     surfaces: Hierarchy,
-    /// Of what is animated.
+    /// Bounds of the body in motion, if it is animated.
     swept: Option<Swept>,
 }
 
-/// What has to be known of an animated body to follow rays through it.
+/// Bounds of an animated body in motion, for rays that are followed through it.
 struct Swept {
     animated: Arc<Animated>,
-    /// Around its triangles, in its own frame.
+    /// Ball around the body's triangles, in its own frame.
     ball: Ball,
-    /// Of the same in the world, at most.
+    /// Largest radius of that ball in the world, metres.
     world_radius: f64,
-    /// A ball of the world that it never leaves.
+    /// Ball of the world that the body never leaves.
     reach: Ball,
 }
 
@@ -98,28 +99,28 @@ struct Hierarchy {
     boxes: Bvh,
 }
 
-/// All that can be met.
+/// Bodies of a scene, which rays can meet.
 pub struct Bodies {
     bodies: Vec<Body>,
-    /// What keeps the sun from others.
+    /// Triangles that cast shadows of the sun and of lamps.
     casters: Hierarchy,
-    /// Whether light goes through glass: then it has no shadow, and its inner side is met too.
+    /// True if light goes through glass. Then glass has no shadow, and rays also meet its inner side.
     pub clear_glass: bool,
 }
 
-/// An observer as all bodies have him.
+/// An observer in the frames of all bodies.
 pub struct Sight {
     bodies: Vec<Seer>,
     world: Seer,
     observer: Observer,
-    /// Light on each of the scene's motions.
+    /// Light that falls on each of the scene's motions.
     pub falling: Vec<Falling>,
 }
 
-/// An observer as one body has him.
+/// An observer in the frame of one body.
 struct Seer {
     position: DVec3,
-    /// His time in the body's frame; for what is animated, the world's.
+    /// Time of the observer in the body's frame, metres of light travel; for animated bodies, in the world's.
     ct: f64,
     group_from_observer: DQuat,
     bend: Bend,
@@ -128,9 +129,9 @@ struct Seer {
 enum Bend {
     /// Light takes its time.
     Light(Aberration),
-    /// It takes none, and what is animated is as its keys have it at that moment, all of it moving like its middle.
+    /// Light takes no time. An animated body is in the pose of that moment, and all of it moves like its middle.
     Pose { observer: Aberration, object: Aberration, body_from_world: DMat3 },
-    /// It takes none: the world at one moment, seen by an observer whose light is shifted nevertheless.
+    /// Light takes no time. The observer sees the world at one moment, with the light shifted nevertheless.
     Moment { observer: Aberration, object: Aberration, object_from_world: Boost },
 }
 
@@ -138,12 +139,12 @@ enum Bend {
 struct Line {
     direction: DVec3,
     doppler: f64,
-    /// Apparent metres to the metre.
+    /// Apparent metres for each metre of the ray.
     apparent: f64,
 }
 
 impl Line {
-    /// Along a vector of the body's frame that is an apparent metre.
+    /// Line along a vector of the body's frame that stands for one apparent metre.
     fn stretched(vector: DVec3, doppler: f64) -> Self {
         let length = vector.length();
         Self { direction: vector / length, doppler, apparent: 1.0 / length }
@@ -170,20 +171,20 @@ impl Seer {
 }
 
 impl Sight {
-    /// The direction in the world of what is seen, and its Doppler factor.
+    /// World direction of what is seen in a direction, and its Doppler factor.
     pub fn world(&self, seen: DVec3) -> (DVec3, f64) {
         let line = self.world.line(seen);
         (line.direction, line.doppler)
     }
 
-    /// Where every ray begins: at the eye.
+    /// Distances at which the rays of all bodies begin: 0, at the eye.
     pub fn start(&self) -> Vec<f64> {
         vec![0.0; self.bodies.len()]
     }
 }
 
 impl Bodies {
-    /// Sorts a scene's triangles. Those with a vertex that is not finite are left out.
+    /// Sorts a scene's triangles. Triangles with a vertex that is not finite are left out.
     pub fn of(scene: &Scene) -> Self {
         let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
         let body = |motion: Option<usize>| {
@@ -202,12 +203,13 @@ impl Bodies {
         Self { bodies, casters, clear_glass: false }
     }
 
-    /// The observer of a shot.
+    /// Sight of the shot's observer.
     pub fn sight(&self, surfaces: &Surfaces, shot: &Shot) -> Sight {
         self.sight_of(surfaces, &shot.observer(), shot.effects.geometry)
     }
 
-    /// The same of any observer, with the light that falls on each of the scene's motions. `geometry`: whether light takes its time.
+    /// Sight of any observer, with the light that falls on each of the scene's motions. `geometry` is true if light
+    /// takes its time.
     pub fn sight_of(&self, surfaces: &Surfaces, observer: &Observer, geometry: bool) -> Sight {
         let seer = |motion| seer(&surfaces.scene, observer, geometry, motion);
         let bodies = self.bodies.iter().map(|body| seer(body.motion)).collect();
@@ -215,7 +217,8 @@ impl Bodies {
         Sight { bodies, world: seer(None), observer: *observer, falling }
     }
 
-    /// What is seen first in a direction, beyond the given distance in each body's frame, of what `is_there`.
+    /// First hit in a direction, beyond the given distance in each body's frame, among the hits for which `is_there`
+    /// is true.
     pub fn first(&self, sight: &Sight, seen: DVec3, beyond: &[f64], is_there: impl Fn(&Hit) -> bool) -> Option<Found> {
         let mut first: Option<Found> = None;
         for (index, ((body, seer), &after)) in self.bodies.iter().zip(&sight.bodies).zip(beyond).enumerate() {
@@ -223,7 +226,7 @@ impl Bodies {
             let found = match (&body.swept, &seer.bend) {
                 (Some(swept), Bend::Light(_)) => body.surfaces.first_on_curve(swept, sight, &line, after, &is_there),
                 _ => {
-                    // What is animated turns no rays.
+                    // Animated bodies turn no rays.
                     let clear_glass = self.clear_glass && body.swept.is_none();
                     let hit = body.surfaces.first(seer.position, line.direction, after, clear_glass, &is_there);
                     hit.map(|hit| (hit, line.doppler))
@@ -238,7 +241,7 @@ impl Bodies {
         first
     }
 
-    /// Beyond what was found: distances in each body's frame.
+    /// Distances just beyond a hit, in each body's frame.
     pub fn beyond(&self, sight: &Sight, seen: DVec3, found: &Found) -> Vec<f64> {
         let after = |(index, seer): (usize, &Seer)| {
             if index == found.body { found.hit.distance } else { found.apparent / seer.line(seen).apparent }
@@ -246,7 +249,7 @@ impl Bodies {
         sight.bodies.iter().enumerate().map(after).collect()
     }
 
-    /// What was found, for those who ask where it is.
+    /// Place in the scene of a hit.
     pub fn place(&self, seen: DVec3, found: &Found) -> Place {
         Place {
             position: found.hit.position,
@@ -256,16 +259,18 @@ impl Bodies {
         }
     }
 
-    /// Whether the sun's light reaches a point (relative to the scene's origin) of what rests in the world, with this normal.
+    /// True if the sun's light reaches a point with this normal that rests in the world. The point is relative to the
+    /// scene's origin.
     ///
-    /// The ray begins off the surface by what the other renderers leave between a surface and its own shadow.
+    /// The ray begins off the surface, at the distance that the other renderers leave between a surface and its own
+    /// shadow.
     pub fn sunlit(&self, position: DVec3, normal: DVec3, towards_sun: DVec3) -> bool {
         let from = position + f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
         self.is_free(from, towards_sun, f64::INFINITY)
     }
 
-    /// Whether nothing is between a point of what rests in the world and one of its lamps, `away` from it. `normal`: as for
-    /// [`Bodies::sunlit`]; zero where the point is of something that moves, in whose frame the normal is another.
+    /// True if nothing is between a point at rest in the world and one of the lamps, `away` from it. `normal` is as
+    /// for [`Bodies::sunlit`]; it is zero if the point moves, since its frame has another normal.
     pub fn lamplit(&self, position: DVec3, normal: DVec3, away: DVec3) -> bool {
         let offset = f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
         let distance = (away - offset).length();
@@ -310,7 +315,7 @@ fn seer(scene: &Scene, observer: &Observer, geometry: bool, motion: Option<usize
     Seer { position: seen_by.position - scene.origin, ct, group_from_observer, bend }
 }
 
-/// Of what is animated light is followed in the world; without light's delay it is in one pose.
+/// Observer for an animated body. Light is followed in the world; if light takes no time, the body is in one pose.
 fn seer_of_animated(observer: &Observer, geometry: bool, animated: &Animated) -> Seer {
     let ct = observer.event.ct;
     let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
@@ -336,14 +341,14 @@ impl Swept {
         let centre = if low.is_finite() { 0.5 * (low + high) } else { DVec3::ZERO };
         let radius = places().map(|place| place.distance(centre)).fold(0.0, f64::max);
         let ball = Ball { centre, radius };
-        // Only the size: moved to the body's own origin.
+        // Only the radius matters, so the ball is taken about the body's own origin.
         let world_radius = animated.stretch() * radius;
         Self { animated: Arc::clone(animated), ball, world_radius, reach: animated.reach(ball) }
     }
 }
 
 impl Hierarchy {
-    /// `margin`: by how much boxes are wide of what is in them, metres.
+    /// Sorts the triangles of the wanted meshes. `margin` is the width added to their boxes, metres.
     fn of(scene: &Scene, margin: f64, wanted: impl Fn(usize) -> bool) -> Self {
         let mut triangles = Vec::new();
         for (number, mesh) in scene.meshes.iter().enumerate().filter(|(number, _)| wanted(*number)) {
@@ -361,7 +366,7 @@ impl Hierarchy {
         Self { triangles, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
-    /// The nearest hit further than `after`. `clear_glass`: of glass the inner side too.
+    /// Nearest hit beyond `after`. If `clear_glass` is true, the inner side of glass counts too.
     fn first(
         &self,
         from: DVec3,
@@ -380,7 +385,8 @@ impl Hierarchy {
         meet(index)
     }
 
-    /// The nearest hit further than `after` of the curve that a ray is in an animated body's frame, and D from there. Its distance is the world's.
+    /// Nearest hit beyond `after` on the curve of a ray in an animated body's frame, and D from there. The distance
+    /// is that in the world.
     fn first_on_curve(
         &self,
         swept: &Swept,
@@ -421,10 +427,11 @@ impl Hierarchy {
 }
 
 impl Triangle {
-    /// Where a ray meets the triangle. Triangles that share an edge agree on which side of it the ray passes, to the last bit.
+    /// Hit of a ray with the triangle. Triangles that share an edge agree to the last bit on the side of it on which
+    /// the ray passes.
     ///
-    /// *Equation:* signed volumes of the direction with each edge seen from the ray's beginning, d·(b × c) and so on, are the shares of the
-    /// corners.
+    /// *Equation:* the signed volumes of the direction with each edge, seen from the beginning of the ray, d·(b × c)
+    /// and so on, are the shares of the corners.
     fn meet(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let (weights, away, front) = self.shares(from, direction)?;
         let distance = away.dot(direction);
@@ -440,7 +447,7 @@ impl Triangle {
         (distance > 0.0).then_some(hit)
     }
 
-    /// Where a piece of a curve meets the triangle: as the straight line does that touches it there.
+    /// Hit of a piece of a curve with the triangle, computed by the tangent at the point of contact.
     fn meet_curve(&self, curve: &Curve<'_>, chord: &Chord) -> Option<Hit> {
         let distance = curve.crosses(chord, self.points)?;
         let (position, rate) = curve.at(distance);
@@ -456,7 +463,8 @@ impl Triangle {
         (b - a).cross(c - a)
     }
 
-    /// The shares of the corners where a line passes, the way there from its beginning, and whether that comes from the front.
+    /// Shares of the corners where a line passes, the vector from its beginning to that point, and true if the line
+    /// comes from the front.
     fn shares(&self, from: DVec3, direction: DVec3) -> Option<([f64; 3], DVec3, bool)> {
         let [a, b, c] = self.points.map(|point| point - from);
         let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|area| area.dot(direction));

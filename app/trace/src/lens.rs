@@ -1,55 +1,58 @@
-//! The camera's lens and shutter: what makes a pixel's ray one of many.
+//! The camera's lens and shutter, which turn a pixel's ray into many.
 //!
-//! Every point of a lens is an eye of its own, at the observer's one moment, and every moment that the shutter is open has an eye further along the
-//! worldline. Either is an observer with the same celerity at another event, so nothing else in the tracer knows of them.
+//! Every point of a lens is an eye of its own at the observer's event, and every moment of the exposure has an eye
+//! further along the worldline. Each of them is an observer with the same celerity at another event, so nothing else
+//! in the tracer needs to know of them.
 //!
-//! Where in the lens and when a sample looks is a point of a low-discrepancy sequence in three dimensions, the same in every pixel but turned
-//! round by a hash of the pixel's place: noise instead of patterns, and the same picture on any number of threads.
+//! A sample's place in the lens and its moment come from a low-discrepancy sequence in three dimensions. The sequence
+//! is the same in every pixel but for a shift by a hash of the pixel's place. That gives noise instead of patterns,
+//! and the same picture for any number of threads.
 
 use view::Shot;
 use glam::{DVec2, DVec3};
 use physics::{Boost, FourVector, Observer};
 use std::f64::consts::TAU;
 
-/// A thin lens in front of the observer, at rest in his frame.
+/// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Diameter of its opening, metres.
+    /// Diameter of the aperture, metres.
     pub aperture_m: f64,
-    /// Distance of the plane that is sharp, metres along the axis of the picture, in the observer's frame: of apparent places.
+    /// Distance of the focal plane of apparent positions, metres along the axis of the picture, observer's frame.
     pub focus_m: f64,
 }
 
-/// Lens and shutter.
+/// Settings of lens and shutter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Optics {
-    /// `None`: a pinhole.
+    /// Lens; `None` stands for a pinhole.
     pub lens: Option<Lens>,
-    /// How long the shutter is open, metres of light travel by the observer's clock, half before and half after the picture's moment.
+    /// Time that the shutter is open, metres of light travel by the observer's clock, half before and half after the
+    /// picture's moment.
     pub exposure_m: f64,
 }
 
-/// Where in the lens and when a sample looks.
+/// Place in the lens and moment of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Draw {
-    /// In the unit disc.
+    /// Place in the unit disc.
     lens: DVec2,
-    /// −½…½ of the exposure.
+    /// Moment in units of the exposure, −½ to ½.
     moment: f64,
 }
 
 impl Optics {
-    /// Whether every sample is seen from the shot's own event.
+    /// True if every sample is seen from the shot's own event.
     pub fn is_pinhole(&self) -> bool {
         self.lens.is_none_or(|lens| lens.aperture_m == 0.0) && self.exposure_m == 0.0
     }
 
-    /// Who looks for a sample of a pixel, and which way.
+    /// Observer for a sample of a pixel, and the direction in which it looks.
     ///
-    /// *Frames:* `ahead` is the pixel's direction in eye axes, (x, y, −1); the result is in the observer's.
+    /// *Frames:* `ahead` is the pixel's direction in eye axes, (x, y, −1); the result is in the observer's axes.
     ///
-    /// *Equation:* a thin lens brings together the rays that cross at a point of its sharp plane: from the place o in the lens a pixel
-    /// looks along F (x, y, −1) − o, F the distance of that plane (W C.1.2).
+    /// *Equation:* a thin lens brings together the rays that cross at a point of its focal plane. From the place o in
+    /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2).
     pub fn look(&self, shot: &Shot, ahead: DVec3, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
         let draw = Draw::of(pixel, sample);
         let observer = shot.observer();
@@ -65,7 +68,7 @@ impl Optics {
             let world_from_observer = Boost::observer_from_world(observer.celerity).inverse();
             world_from_observer.apply(FourVector { t: tau, r: place })
         } else {
-            // Where light takes no time, the observer's lens is at one moment of the world.
+            // If light takes no time, the observer's lens is at one moment of the world.
             let celerity = observer.celerity;
             FourVector { t: tau * celerity.gamma(), r: celerity.vector() * tau + place }
         };
@@ -75,8 +78,11 @@ impl Optics {
 }
 
 impl Draw {
-    /// *Equation:* the additive recurrence x_n = n (1/g, 1/g², 1/g³) + x₀ mod 1 with g⁴ = g + 1 (Roberts' R₃), the third taken for the time;
-    /// its steps are not those of the places within a pixel, with which it would keep pace.
+    /// Draw for a sample of a pixel.
+    ///
+    /// *Equation:* the additive recurrence x_n = n (1/g, 1/g², 1/g³) + x₀ mod 1 with g⁴ = g + 1 (Roberts' R₃), the
+    /// third component for the time. Its steps differ from those of the places within a pixel; otherwise both would
+    /// keep pace.
     fn of(pixel: [u32; 2], sample: u32) -> Self {
         const G: f64 = 1.220_744_084_605_759_5;
         let steps = [1.0 / G, 1.0 / (G * G), 1.0 / (G * G * G)];
@@ -89,7 +95,7 @@ impl Draw {
     }
 }
 
-/// Mixes numbers well: a multiplication and a shift by the upper bits for each (after PCG).
+/// Hash of three numbers: a multiplication and a shift by the upper bits for each (after PCG).
 fn hash(numbers: [u32; 3]) -> u32 {
     numbers.into_iter().fold(0x9e37_79b9, |state: u32, number| {
         let state = (state ^ number).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -100,7 +106,8 @@ fn hash(numbers: [u32; 3]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    //! Samples fill the lens and the exposure evenly, whatever the pixel. A wrong program leaves holes, or draws pixels beside each other alike.
+    //! Samples must fill the lens and the exposure evenly, in every pixel. A wrong program leaves holes, or draws
+    //! neighbouring pixels alike.
 
     use super::*;
 
@@ -110,8 +117,9 @@ mod tests {
             let count = 256;
             let draws: Vec<_> = (0..count).map(|sample| Draw::of(pixel, sample)).collect();
             assert!(draws.iter().all(|draw| draw.lens.length() <= 1.0 && draw.moment.abs() <= 0.5));
-            // Each of eight rings and sectors of one area, and each eighth of the time, has an eighth of the samples to a quarter of that;
-            // independent random numbers would be further off in one part of eight.
+            // Each of eight rings and sectors of equal area, and each eighth of the time, has an eighth of the
+            // samples to within a quarter of that. Independent random numbers would be further off in one part of
+            // eight.
             let parts = |part: &dyn Fn(&Draw) -> f64| {
                 let mut counts = [0; 8];
                 draws.iter().for_each(|draw| counts[(part(draw) * 8.0).min(7.0) as usize] += 1);

@@ -1,7 +1,8 @@
-//! From the weights that a surface sends out to what the observer sees of them.
+//! Conversion of the weights that a surface emits to the light that the observer sees.
 //!
-//! The wavelength shift is linear in the weights: a matrix for each carrier and Doppler factor (B eq. 2.17), looked up in the same table
-//! that the shaders have, or integrated for every single ray. The searchlight effect multiplies by D⁴ (W eq. 4.13).
+//! The wavelength shift is linear in the weights: a matrix for each carrier and Doppler factor (B eq. 2.17). It is
+//! looked up in the same table that the shaders have, or integrated for every single ray. The searchlight effect
+//! multiplies by D⁴ (W eq. 4.13).
 
 use super::path::Seen;
 use view::Effects;
@@ -10,22 +11,23 @@ use scene::{Lamp, Scene};
 use glam::{DMat3, DVec3};
 use physics::colour::{Carrier, ShiftTable, Spectrum, luminance};
 
-/// Weights and their carrier, in cd/m² where the carrier's weights are.
+/// Weights, and the index of their carrier. They are in cd/m² if the carrier's weights are.
 pub type Weights = (DVec3, usize);
 
-/// What leaves a point.
+/// Light that leaves a point.
 #[derive(Clone, Debug, Default)]
 pub struct Sent {
-    /// Light that is returned; of an unlit surface or of the sky, all there is.
+    /// Reflected light; of an unlit surface or of the sky, the whole light.
     pub returned: Weights,
-    /// Light of lamps that is returned and has a carrier of its own.
+    /// Reflected light of lamps that has a carrier of its own.
     pub of_lamps: Vec<Weights>,
-    /// Light that the surface has of itself.
+    /// Light that the surface itself emits.
     pub emitted: Weights,
 }
 
 impl Sent {
-    /// The same when of the returned light only a share is, and all of it goes through a filter.
+    /// Light of a partly diffuse surface behind a filter: the reflected light times `share` and `filter`, the emitted
+    /// light times `filter`.
     pub fn dimmed(mut self, share: f64, filter: DVec3) -> Self {
         self.returned.0 *= filter * share;
         self.of_lamps.iter_mut().for_each(|(weights, _)| *weights *= filter * share);
@@ -38,15 +40,15 @@ impl Sent {
     }
 }
 
-/// The carriers that a lamp's light has.
+/// Carriers of a lamp's light.
 struct OfLamp {
-    /// From a white surface.
+    /// Carrier of the light reflected by a white surface.
     white: usize,
-    /// From each material, if the lamp has a spectrum of its own.
+    /// Carrier of the light reflected by each material, if the lamp has a spectrum of its own.
     materials: Option<Vec<usize>>,
 }
 
-/// The carriers of a scene.
+/// Carriers of a scene, and their shifts.
 pub struct Light {
     carriers: Vec<Carrier>,
     at_rest: Vec<DMat3>,
@@ -57,7 +59,7 @@ pub struct Light {
 }
 
 impl Light {
-    /// Works out the table, unless light is to be `exact`.
+    /// Computes the shift table, unless light is to be `exact`.
     pub fn new(spectra: &Spectra, scene: &Scene, exact: bool) -> Self {
         let mut carriers = spectra.carriers.clone();
         let mut number = |carrier: Carrier| {
@@ -79,12 +81,12 @@ impl Light {
         Self { carriers, at_rest, table, lamps, white: spectra.white_luminance }
     }
 
-    /// The carrier of a lamp's light from a material, if it is not the material's own.
+    /// Carrier of a lamp's light reflected by a material, if it is not the material's own carrier.
     pub fn carrier_of_lamp(&self, lamp: usize, material: usize) -> Option<usize> {
         self.lamps[lamp].materials.as_ref().map(|materials| materials[material])
     }
 
-    /// Light of a lamp after a shift, as the weights that look the same on its own carrier.
+    /// Weights on the lamp's own carrier that look the same as its light after a shift.
     pub fn shifted_lamp(&self, lamp: usize, weights: DVec3, doppler: f64) -> DVec3 {
         if doppler == 1.0 {
             return weights;
@@ -93,7 +95,7 @@ impl Light {
         self.at_rest[white].inverse() * (self.shift(white, doppler) * weights)
     }
 
-    /// What is sent out as it is observed.
+    /// Emitted light as the observer sees it.
     pub fn observed(&self, sent: &Sent, effects: Effects, doppler: f64) -> Seen {
         let (mut colour, mut at_rest) = (DVec3::ZERO, DVec3::ZERO);
         for (weights, carrier) in sent.all().filter(|(weights, _)| *weights != DVec3::ZERO) {

@@ -1,8 +1,8 @@
-//! The light along a ray, and on from what turns it.
+//! The light along a ray, through everything that turns it.
 //!
-//! The Doppler factors of a ray's legs multiply, and radiance goes with D⁴ of them all. A coloured mirror or glass takes its part of the weights
-//! of what it shows, channel by channel, as a coloured surface does of the light that falls on it. After its last turn a ray takes a smooth surface
-//! as if it were rough.
+//! The Doppler factors of a ray's legs multiply, and radiance scales with D⁴ of their product. A coloured mirror or
+//! glass filters the weights of what it shows, channel by channel, like a coloured surface the light that falls on
+//! it. After its last turn a ray treats a smooth surface as a rough one.
 
 use super::tracer::RayTracer;
 use super::finish::{Shares, fresnel, mirrored, refracted};
@@ -11,28 +11,28 @@ use view::Effects;
 use glam::DVec3;
 use std::ops::{Add, AddAssign, Mul};
 
-/// What is less than this share of a ray's light is not looked at.
+/// Smallest share of a ray's light that is followed.
 const HIDDEN: f64 = 1e-4;
 
-/// Light along a ray.
+/// Light along a ray, as observed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// Linear sRGB, cd/m².
+    /// Light in linear sRGB, cd/m².
     pub light: DVec3,
     /// Luminance without any shift, relative to white.
     pub at_rest: f64,
 }
 
-/// A ray from an observer, or from a surface that turns it.
+/// Part of a ray from an observer, or from a surface that turns it.
 pub struct Leg<'a> {
     sight: &'a Sight,
     seen: DVec3,
     start: Vec<f64>,
-    /// What of its light arrives at the ray's end.
+    /// Share of the leg's light that arrives at the end of the ray.
     rest: Rest,
 }
 
-/// What becomes of a leg's light, and of the ray beyond.
+/// Factors on a leg's light, and limits of the ray beyond it.
 #[derive(Clone, Copy)]
 struct Rest {
     doppler: f64,
@@ -42,7 +42,7 @@ struct Rest {
 }
 
 impl<'a> Leg<'a> {
-    /// The one that the observer sees.
+    /// First leg, from the observer.
     pub fn first(sight: &'a Sight, seen: DVec3, effects: Effects, bounces: u32) -> Self {
         let rest = Rest { doppler: 1.0, filter: DVec3::ONE, bounces, effects };
         Self { sight, seen, start: sight.start(), rest }
@@ -50,7 +50,7 @@ impl<'a> Leg<'a> {
 }
 
 impl RayTracer {
-    /// The light that comes along a leg.
+    /// Light that comes along a leg.
     pub(super) fn along(&self, mut leg: Leg<'_>) -> Seen {
         let mut light = DVec3::ZERO;
         let mut shines_through = 1.0;
@@ -58,7 +58,8 @@ impl RayTracer {
             let there = |hit: &Hit| self.surfaces.is_there(hit);
             let Some(found) = self.bodies.first(leg.sight, leg.seen, &leg.start, there) else { break };
             let (opacity, clear, seen) = self.surface(&leg, &found);
-            // As in the renderers' targets, the luminance at rest is that of what is not mixed with anything behind it.
+            // The luminance at rest is that of a surface without anything mixed from behind it, like in the
+            // renderers' targets.
             if opacity >= 1.0 && clear == DVec3::ZERO {
                 return Seen { light: light + shines_through * seen.light, at_rest: seen.at_rest };
             }
@@ -76,7 +77,7 @@ impl RayTracer {
         Seen { light: light + shines_through * seen.light, ..seen }
     }
 
-    /// Opacity of a surface, what it lets through straight on, and its light.
+    /// Opacity of a surface, filter of the light that it lets through straight on, and its own light.
     fn surface(&self, leg: &Leg<'_>, found: &Found) -> (f64, DVec3, Seen) {
         let scene = &self.surfaces.scene;
         let rest = Rest { doppler: leg.rest.doppler * found.doppler, ..leg.rest };
@@ -97,7 +98,7 @@ impl RayTracer {
         let sent = sent.dimmed(diffuse, rest.filter);
         let mut seen = self.light.observed(&sent, rest.effects, rest.doppler);
 
-        // Follow it.
+        // Follow the turned rays.
         let turned = |direction: DVec3| Turn { direction, ..turn };
         let further = |share: DVec3| Rest { filter: rest.filter * share, bounces: rest.bounces - 1, ..rest };
         seen += self.onward(turned(mirrored(turn.direction, normal, plane)), further(share_mirrored));
@@ -111,7 +112,7 @@ impl RayTracer {
         (opacity, DVec3::ZERO, seen)
     }
 
-    /// The light from where a surface has turned a ray.
+    /// Light from the direction into which a surface has turned a ray.
     fn onward(&self, turn: Turn, rest: Rest) -> Seen {
         if rest.filter.max_element() <= HIDDEN {
             return Seen::default();
@@ -120,8 +121,8 @@ impl RayTracer {
         self.along(Leg { sight: &sight, seen, start, rest })
     }
 
-    /// The light that comes through glass in which a ray is now. It is slower there by its index of refraction, in the glass's own frame, and
-    /// meets what rests in the glass alone.
+    /// Light that comes through glass, for a ray inside it. Light is slower there by the index of refraction, in the
+    /// glass's own frame. The ray meets only triangles of the same body.
     fn within(&self, mut turn: Turn, mut rest: Rest, index: f64) -> Seen {
         let mut sum = Seen::default();
         while rest.filter.max_element() > HIDDEN {
@@ -145,7 +146,7 @@ impl RayTracer {
                 let rest = Rest { filter: rest.filter * (1.0 - reflected), ..rest };
                 sum += self.onward(Turn { direction, ..turn }, rest);
             } else if rest.bounces == 0 {
-                // It may turn no more, and goes straight on.
+                // No turn is left, so the ray goes straight on.
                 return sum + self.onward(turn, rest);
             }
             if rest.bounces == 0 {
@@ -158,7 +159,7 @@ impl RayTracer {
     }
 }
 
-/// Unit normal of the triangle, on the side that is seen.
+/// Unit normal of the triangle, on the visible side.
 fn plane(hit: &Hit) -> DVec3 {
     let plane = hit.plane.normalize_or_zero();
     if hit.front { plane } else { -plane }

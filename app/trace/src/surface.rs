@@ -1,6 +1,8 @@
-//! The light that leaves a point towards the observer, in the frame in which the point rests: the f64 twin of `surface.wgsl` and `sky.wgsl`.
+//! The light that leaves a point towards the observer, in the frame in which the point rests: the f64 twin of
+//! `surface.wgsl` and `sky.wgsl`.
 //!
-//! Textures are taken at their full size, each look the mix of the four nearest texels; the mean over a pixel is left to its samples.
+//! Textures are sampled at their full size, as the mean of the four nearest texels weighted by distance. The mean
+//! over a pixel is left to the pixel's samples.
 
 use super::finish::Finish;
 use super::hits::{Bodies, Emission, Hit};
@@ -15,24 +17,24 @@ use physics::Observer;
 use physics::colour::luminance;
 use std::f64::consts::TAU;
 
-/// What a scene's surfaces and its sky send out.
+/// Light that a scene's surfaces and its sky emit.
 pub struct Surfaces {
-    /// As it was given.
+    /// Scene as it was given.
     pub scene: Scene,
     spectra: Spectra,
-    /// On what rests; and on each of what moves.
+    /// Light that falls on what rests, and on each motion.
     falling: (Falling, Vec<Falling>),
-    /// Linear values of the codes of sRGB.
+    /// Linear value of each sRGB code.
     linear: [f64; 256],
 }
 
 impl Surfaces {
-    /// Works out the light that falls on what rests and on what moves.
+    /// Computes the light that falls on what rests and on what moves.
     pub fn new(scene: Scene, spectra: Spectra) -> Self {
         let sky = &spectra.carriers[spectra.sky];
         let on_moving = |motion: &Motion| match motion {
             Motion::Uniform(uniform) => Falling::on_moving(&scene.light, uniform.celerity, sky),
-            // Worked out for every picture.
+            // This is computed again for every picture.
             Motion::Animated(_) => Falling::at_rest(&scene.light),
         };
         let falling = (Falling::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
@@ -40,7 +42,7 @@ impl Surfaces {
         Self { scene, spectra, falling, linear }
     }
 
-    /// Whether a mask lets the surface be there.
+    /// True if the material's mask leaves the surface there.
     pub fn is_there(&self, hit: &Hit) -> bool {
         match self.scene.materials[self.scene.meshes[hit.mesh].material].alpha {
             Alpha::Opaque | Alpha::Blend => true,
@@ -48,7 +50,7 @@ impl Surfaces {
         }
     }
 
-    /// The light that falls on each of what moves, as an observer sees it. `geometry`: whether light takes its time.
+    /// Light that falls on each motion, as an observer sees it. `geometry` is true if light takes its time.
     pub fn falling(&self, observer: &Observer, geometry: bool) -> Vec<Falling> {
         let sky = &self.spectra.carriers[self.spectra.sky];
         let falling = |(motion, falling): (&Motion, &Falling)| match motion {
@@ -58,7 +60,7 @@ impl Surfaces {
         self.scene.motions.iter().zip(&self.falling.1).map(falling).collect()
     }
 
-    /// Opacity, and the weights that a point sends out. `moving`: light on each of what moves.
+    /// Opacity of a point, and the weights that it emits. `moving` is the light that falls on each motion.
     pub fn light(
         &self,
         hit: &Hit,
@@ -74,7 +76,7 @@ impl Surfaces {
         if material.spectrum.is_some() {
             weights = DVec3::splat(luminance(weights));
         }
-        // A spectrum on an emissive material is all that it sends out.
+        // An emissive material with a spectrum emits nothing else.
         let source = material.unlit || (material.spectrum.is_some() && material.is_source());
         let mut of_lamps = Vec::new();
         if !source {
@@ -96,7 +98,7 @@ impl Surfaces {
         (opacity, Sent { returned, of_lamps, emitted: (emitted, WHITE) })
     }
 
-    /// What comes from where no surface is, from a direction of the world.
+    /// Light from a world direction in which there is no surface.
     pub fn sky(&self, direction: DVec3, background: Option<[f32; 3]>) -> Sent {
         // Backgrounds and panoramas are given relative to white.
         let white = self.spectra.white_luminance;
@@ -108,7 +110,7 @@ impl Surfaces {
         Sent { returned: sent, ..Sent::default() }
     }
 
-    /// How smooth a point is, and what it does to a ray that it turns; `None` if it is rough, or animated.
+    /// Finish of a point; `None` if it is rough or animated.
     pub fn finish(&self, hit: &Hit) -> Option<Finish> {
         let mesh = &self.scene.meshes[hit.mesh];
         if mesh.motion.is_some_and(|motion| self.scene.motions[motion].animated().is_some()) {
@@ -118,7 +120,7 @@ impl Surfaces {
         Finish::of(material, || self.base(hit).truncate())
     }
 
-    /// The interpolated normal of a point in its body's frame, turned to the side that is seen.
+    /// Interpolated normal of a point in its body's frame, on the visible side.
     pub fn normal(&self, hit: &Hit) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
@@ -126,7 +128,7 @@ impl Surfaces {
         if hit.front { normal } else { -normal }
     }
 
-    /// Base colour and opacity.
+    /// Base colour and opacity of a point.
     fn base(&self, hit: &Hit) -> DVec4 {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
@@ -135,7 +137,7 @@ impl Surfaces {
         Vec4::from_array(material.base_colour).as_dvec4() * colour * self.look_up(material.base_colour_texture, hit)
     }
 
-    /// Light on a point, by its interpolated normal, turned to the side that is seen.
+    /// Light that falls on a point, by its interpolated normal on the visible side.
     fn falling_on(&self, hit: &Hit, bodies: &Bodies, moving: &[Falling]) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let normal = self.normal(hit);
@@ -148,13 +150,13 @@ impl Surfaces {
         falling.on(normal, if lit { 1.0 } else { 0.0 })
     }
 
-    /// Light of the scene's lamps on a point: of each that reaches it, weights on that lamp's carrier.
+    /// Light of the lamps that reach a point: indices of lamps, and weights on each lamp's carrier.
     fn of_lamps(&self, hit: &Hit, emission: Emission, bodies: &Bodies, light: &Light) -> Vec<(usize, DVec3)> {
         let scene = &self.scene;
         if scene.lamps.is_empty() {
             return Vec::new();
         }
-        // The body's own axes, turned to the world's.
+        // Turn the normal from the body's own axes to the world's.
         let normal = bodies.axes(emission) * self.normal(hit);
         let moves = scene.meshes[hit.mesh].motion.is_some();
         let surface = bodies.in_world(scene, emission, hit.position);
@@ -198,7 +200,7 @@ impl Surfaces {
     }
 }
 
-/// The mix of the four texels whose middles are around a place.
+/// Bilinear mean of the four texels whose middles are around a place.
 fn mixed<T>(x: f64, y: f64, texel: impl Fn(f64, f64) -> T) -> T
 where
     T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
@@ -210,7 +212,7 @@ where
     row(top) * (1.0 - bottom_share) + row(top + 1.0) * bottom_share
 }
 
-/// Which texel of a row of `side` is at a whole-numbered place on or beyond it.
+/// Index of the texel in a row of `side` texels for an integer place inside or outside the row.
 fn wrapped(place: f64, side: u32, wrap: Wrap) -> usize {
     let side = f64::from(side);
     let inside = match wrap {
@@ -221,7 +223,7 @@ fn wrapped(place: f64, side: u32, wrap: Wrap) -> usize {
         }
         Wrap::Clamp => place,
     };
-    // A place that is no number is the first texel.
+    // A place that is not a number gives the first texel.
     inside.clamp(0.0, side - 1.0) as usize
 }
 
@@ -237,7 +239,7 @@ fn surrounding(panorama: &Panorama, direction: DVec3) -> DVec3 {
     })
 }
 
-/// A gradient from the horizon up, haze below, and the glow around the sun.
+/// Radiance of the sky: a gradient from the horizon up, haze below, and the glow around the sun.
 fn sky(light: &Lighting, direction: DVec3) -> DVec3 {
     let (horizon, zenith, ground) = (rgb(light.horizon), rgb(light.zenith), rgb(light.ground));
     let clear = horizon.lerp(zenith, smoothstep(0.0, 0.9, direction.y.max(0.0).sqrt()));

@@ -14,10 +14,10 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use crate::surface::Surfaces;
 
-/// Pixels along each side of what is traced in one go.
+/// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
 
-/// A scene, ready to be traced.
+/// A scene that is ready to be traced.
 pub struct RayTracer {
     surfaces: Surfaces,
     bodies: Bodies,
@@ -27,25 +27,25 @@ pub struct RayTracer {
     bounces: u32,
 }
 
-/// What was traced: rows from the top; black where nothing was.
+/// Result of tracing, rows from the top. Pixels that were not traced are black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Linear sRGB in cd/m².
+    /// Light of each pixel, linear sRGB in cd/m².
     pub light: Vec<DVec3>,
-    /// Luminance without any shift, relative to white.
+    /// Luminance of each pixel without any shift, relative to white.
     pub at_rest: Vec<f64>,
-    /// How the display is to take it.
+    /// Scale of the radiance, for the display.
     pub stored: Stored,
-    /// Tiles that are finished.
+    /// Number of tiles that are finished.
     pub done: usize,
-    /// Tiles of the whole picture.
+    /// Number of tiles of the whole picture.
     pub tiles: usize,
 }
 
 impl Traced {
-    /// The light as 32-bit floats; what those do not hold is their largest value.
+    /// Light as 32-bit floats. Values beyond the range of f32 become its largest value.
     pub fn image(&self) -> Rgb32FImage {
         let largest = f64::from(f32::MAX);
         Rgb32FImage::from_fn(self.size[0], self.size[1], |column, row| {
@@ -54,7 +54,7 @@ impl Traced {
         })
     }
 
-    /// The same as the renderers' targets hold it: relative to white, scaled, with the luminance at rest.
+    /// Light in the form of the renderers' targets: relative to white, scaled, with the luminance at rest as alpha.
     pub fn texels(&self) -> Vec<[f32; 4]> {
         let largest = f64::from(f32::MAX);
         let factor = self.stored.scale / self.stored.white;
@@ -65,8 +65,8 @@ impl Traced {
 }
 
 impl RayTracer {
-    /// Sorts the scene. `background`: linear radiance instead of its sky. `exact_light`: integrate the spectrum of every ray instead of
-    /// looking it up in the shift table.
+    /// Sorts the scene's triangles. `background` is a linear radiance that replaces the sky. If `exact_light` is
+    /// true, the spectrum of every ray is integrated instead of looked up in the shift table.
     ///
     /// # Errors
     /// [`SceneFault`] if the scene breaks a promise of its types.
@@ -79,13 +79,13 @@ impl RayTracer {
         Ok(Self { surfaces, bodies, light, background, optics: Optics::default(), bounces: 0 })
     }
 
-    /// The same through a lens, or with a shutter that is open for a while.
+    /// Tracer with this lens and shutter.
     #[must_use]
     pub fn with_optics(self, optics: Optics) -> Self {
         Self { optics, ..self }
     }
 
-    /// The same with mirrors and clear glass, which turn a ray up to so many times.
+    /// Tracer with mirrors and clear glass, which turn a ray up to `bounces` times.
     #[must_use]
     pub fn with_bounces(mut self, bounces: u32) -> Self {
         self.bounces = bounces;
@@ -93,7 +93,8 @@ impl RayTracer {
         self
     }
 
-    /// Traces a picture, on all cores, from its middle outwards; `finished` is told of every tile. Once `stop` is set, no further tile is begun.
+    /// Traces a picture on all cores, from its middle outwards. `finished` is called for every tile. Once `stop` is
+    /// set, no further tile is begun.
     ///
     /// The result does not depend on the number of threads.
     pub fn trace(
@@ -106,7 +107,7 @@ impl RayTracer {
     ) -> Traced {
         let tiles = tiles(size);
         let sight = self.bodies.sight(&self.surfaces, shot);
-        // Whoever is free takes the next tile, so that the order holds for any number of threads.
+        // The next free thread takes the next tile, so the order holds for any number of threads.
         let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
             .par_iter()
@@ -136,12 +137,12 @@ impl RayTracer {
         Traced { size, light, at_rest, stored, done, tiles: tiles.len() }
     }
 
-    /// Tiles of a picture.
+    /// Number of tiles of a picture.
     pub fn tile_count(size: [u32; 2]) -> u64 {
         u64::from(size[0].div_ceil(TILE)) * u64::from(size[1].div_ceil(TILE))
     }
 
-    /// Where in the scene is what each pixel's centre shows, row by row; `None` where it shows no surface.
+    /// Place in the scene that each pixel's centre shows, row by row; `None` for a pixel that shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
         let sight = self.bodies.sight(&self.surfaces, shot);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
@@ -153,7 +154,7 @@ impl RayTracer {
         pixels.par_iter().map(place).collect()
     }
 
-    /// The mean of a pixel's samples.
+    /// Mean of a pixel's samples.
     fn pixel(&self, shot: &Shot, sight: &Sight, size: [u32; 2], pixel: [u32; 2], samples: u32) -> Seen {
         let samples = samples.max(1);
         let mut sum = Seen::default();
@@ -173,7 +174,7 @@ impl RayTracer {
     }
 }
 
-/// Where a place of a pixel looks, in eye axes: (x, y, −1).
+/// Direction of a place in a pixel, in eye axes: (x, y, −1).
 fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
     shot.camera.ahead(size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
 }
@@ -184,7 +185,7 @@ struct Tile {
     beyond: [u32; 2],
 }
 
-/// The tiles of a picture, those nearest to its middle first.
+/// Tiles of a picture, those nearest to its middle first.
 fn tiles(size: [u32; 2]) -> Vec<Tile> {
     let starts = |side: u32| (0..side).step_by(TILE as usize);
     let tile = |x: u32, y: u32| Tile { first: [x, y], beyond: [(x + TILE).min(size[0]), (y + TILE).min(size[1])] };

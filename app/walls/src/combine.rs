@@ -1,4 +1,5 @@
-//! Both eyes' pictures on the same pixels: rows, columns or a chequered pattern by turns, or red–cyan anaglyphs.
+//! Combines the pictures of both eyes on the same pixels: alternating rows or columns, a chequered pattern, or
+//! red–cyan anaglyphs.
 
 use super::passes::{Pass, UNFILTERED, UNIFORM, contents};
 use crate::gpu::Gpu;
@@ -6,11 +7,11 @@ use crate::room::Combine;
 use bytemuck::bytes_of;
 use glam::Vec2;
 
-/// The pass that brings a left and a right picture together on a screen.
+/// Pass that combines a left and a right picture on a screen.
 pub struct Combiner(Pass);
 
 impl Combiner {
-    /// For a window that is combined in this way; `None` where each channel has its own pixels. The pictures must be linear.
+    /// Combiner for a window of this kind; `None` if each channel has its own pixels. The pictures must be linear.
     pub fn new(gpu: &Gpu, combine: Combine, swap_eyes: bool, screen: wgpu::TextureFormat) -> Option<Self> {
         let way = match combine {
             Combine::None => return None,
@@ -29,8 +30,9 @@ impl Combiner {
         Some(Self(Pass::new(gpu, &shaders::COMBINE, &overrides, &[UNFILTERED, UNFILTERED, UNIFORM], screen)))
     }
 
-    /// Writes both eyes' linear pictures to a part of the screen: x, y, width and height in pixels. `first_pixel`: where the screen's upper
-    /// left pixel is on its monitor. `over`: the rest of the screen stays as it is.
+    /// Writes both eyes' linear pictures to a part of the screen: x, y, width and height in pixels. `first_pixel` is
+    /// the place of the screen's upper left pixel on its monitor. If `over` is true, the rest of the screen stays
+    /// unchanged.
     #[expect(clippy::too_many_arguments, reason = "two pictures, and where they go")]
     pub fn show(
         &self,

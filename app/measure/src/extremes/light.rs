@@ -1,7 +1,8 @@
-//! Where light is seen and how its frequency is raised, at extreme speeds, angles and distances, against the textbook's formulas.
+//! Direction and Doppler factor of light at extreme speeds, angles and distances, against the textbook's formulas.
 //!
-//! The textbook form of aberration, x' = d + u (r + u·d/(1 + γ)), loses ε γ² astern; at 180 digits that is nothing. The reference starts from
-//! the very f64 numbers that the program is given, so that what it measures is the program's own rounding.
+//! The textbook form of aberration, x' = d + u (r + u·d/(1 + γ)), loses ε γ² astern; at 180 digits that loss does not
+//! matter. The reference starts from the same f64 numbers that the program is given, so that the difference is the
+//! program's own rounding.
 
 use glam::DVec3;
 use physics::{Aberration, Celerity, Event, Observer, Source, apparent};
@@ -19,17 +20,17 @@ const EMISSION: &str = "time of emission, share of the light's way and the clock
 /// |u| at γ = 1 + 1e-12 and at γ = 1e12, as powers of ten.
 const CELERITY_DECADES: std::ops::RangeInclusive<f64> = -5.849..=12.0;
 
-/// Within this angle of the line of motion, radians.
+/// Largest angle of close directions from the line of motion, radians.
 const CLOSE_RAD: f64 = 1e-12;
 
-/// Metres from the eye.
+/// Distances from the eye, metres, with their names.
 const DISTANCES: [(f64, &str); 4] =
     [(0.0, "at the eye"), (1e-9, "1e-9 m away"), (1.0, "1 m away"), (1e15, "1e15 m away")];
 
-/// A world origin this far away, metres.
+/// Distance of the eye from a far world origin, metres.
 const FAR_ORIGIN: f64 = 1e9;
 
-/// Where the light comes from in the world, by the observer's motion.
+/// Direction of the light's origin in the world, relative to the observer's motion.
 #[derive(Clone, Copy)]
 enum From {
     Ahead,
@@ -47,7 +48,7 @@ const DIRECTIONS: [(From, &str); 5] = [
     (From::Anywhere, "from anywhere"),
 ];
 
-/// Rows of so many cases each.
+/// Rows of errors; each covers this number of cases.
 pub fn rows(cases: u32) -> Vec<Row> {
     let mut random = ChaCha8Rng::seed_from_u64(31);
     let mut rows = speeds(&mut random, cases).rows();
@@ -98,7 +99,8 @@ fn aberration(random: &mut ChaCha8Rng, cases: u32, from: From, name: &str) -> Wo
     worst
 }
 
-/// Points `metres` from the eye, which is `origin` metres from the world's origin: as far as f64 can name a place there.
+/// Errors for points `metres` from the eye, which is `origin` metres from the world's origin, as exactly as f64 can
+/// give a place there.
 fn at_rest(random: &mut ChaCha8Rng, cases: u32, metres: f64, origin: f64, name: &str) -> Worst {
     let mut worst = Worst::new(format!("point at rest, {name}"));
     for case in 0..cases {
@@ -112,7 +114,7 @@ fn at_rest(random: &mut ChaCha8Rng, cases: u32, metres: f64, origin: f64, name: 
         let d = &RealVec::new(point) - &RealVec::new(eye);
         let r = d.length();
         let u = RealVec::new(celerity.vector());
-        // At the eye itself there is no direction; the frequency is raised by γ, the mean over all.
+        // At the eye itself there is no direction, and D is γ, the mean over all directions.
         let (image, doppler) =
             if r == real(0.0) { (RealVec::new(DVec3::ZERO), gamma(&u)) } else { boosted_light(&u, &d) };
         worst.meet([
@@ -125,7 +127,7 @@ fn at_rest(random: &mut ChaCha8Rng, cases: u32, metres: f64, origin: f64, name: 
     worst
 }
 
-/// Sources in motion at any speed, companions of the observer among them.
+/// Errors for sources in motion at any speed, companions of the observer among them.
 fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
     let mut worst = Worst::new("moving source, 1e-9 to 1e15 m away, companions included");
     for case in 0..cases {
@@ -160,7 +162,7 @@ fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
     worst
 }
 
-/// Textbook: the event (−|d|, d) boosted (W 4.1), and D = |x'| / |d|.
+/// Textbook form: the event (−|d|, d) boosted (W 4.1), and D = |x'| / |d|.
 fn boosted_light(u: &RealVec, d: &RealVec) -> (RealVec, Real) {
     let r = d.length();
     let along = u.dot(d);
@@ -169,7 +171,7 @@ fn boosted_light(u: &RealVec, d: &RealVec) -> (RealVec, Real) {
     (image, doppler)
 }
 
-/// Textbook: the retarded displacement of a source (B eq. 2.22), and the light's travel time.
+/// Textbook form of the retarded displacement of a source (B eq. 2.22), and the light's travel time, metres.
 fn retarded(d: &RealVec, u: &RealVec) -> (RealVec, Real) {
     let gamma = gamma(u);
     let beta = u * &(real(1.0) / &gamma);
@@ -179,7 +181,8 @@ fn retarded(d: &RealVec, u: &RealVec) -> (RealVec, Real) {
     (d - &(&beta * &age), age)
 }
 
-/// The first two cases lie at the ends of the range, the rest anywhere between, every decade as likely.
+/// Celerity of a case. The first two cases lie at the ends of the range; the others are random, with all decades
+/// equally likely.
 fn celerity(random: &mut ChaCha8Rng, case: u32) -> Celerity {
     let power = match case {
         0 => *CELERITY_DECADES.start(),
@@ -189,7 +192,7 @@ fn celerity(random: &mut ChaCha8Rng, case: u32) -> Celerity {
     Celerity::new(10.0_f64.powf(power) * unit(random)).expect("1e12 is within the limit")
 }
 
-/// A vector of length 1 to rounding.
+/// Displacement of length 1, up to rounding.
 fn displacement(random: &mut ChaCha8Rng, celerity: Celerity, from: From) -> DVec3 {
     let ahead = celerity.direction().unwrap_or(DVec3::X);
     let mut close = |axis: DVec3| {
@@ -205,7 +208,7 @@ fn displacement(random: &mut ChaCha8Rng, celerity: Celerity, from: From) -> DVec
     }
 }
 
-/// A direction, every one as likely.
+/// Random direction, all directions equally likely.
 pub fn unit(random: &mut ChaCha8Rng) -> DVec3 {
     let z = random.random_range(-1.0..=1.0_f64);
     let (sine, cosine) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();

@@ -1,8 +1,10 @@
-//! `rapidity measure --extremes`: how far the physics is off where formulas break down, as the table of ACCURACY.md.
+//! `rapidity measure --extremes`: errors of the physics where formulas tend to break down, as the table of
+//! ACCURACY.md.
 //!
-//! Speeds from γ = 1 + 1e-12 to 1e12, light from straight ahead, straight behind and next to it, points at the eye and 1e15 m away, steps of a
-//! microsecond and a billion steps. Each case is computed a second time at 180 digits from the same f64 numbers, by formulas that the program
-//! does not use ([`light`], [`motion`]); what differs is the program's rounding.
+//! The cases are speeds from γ = 1 + 1e-12 to 1e12, light from straight ahead, straight behind and next to it, points
+//! at the eye and 1e15 m away, steps of a microsecond, and a billion steps. Each case is computed a second time at
+//! 180 digits from the same f64 numbers, by formulas that the program does not use ([`light`], [`motion`]). The
+//! difference is the program's rounding.
 
 use std::io::Write;
 
@@ -20,35 +22,35 @@ pub mod worldline;
 use row::{LIMIT, Row};
 use worldline::{Lengths, Refused};
 
-/// How much is measured.
+/// Amount of measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// Cases of each row about light.
+    /// Number of cases of each row about light.
     pub light_cases: u32,
-    /// How far journeys go.
+    /// Lengths of the journeys.
     pub journeys: Lengths,
 }
 
 impl Extent {
-    /// All that the table promises: minutes.
+    /// Full measurement for the table: minutes.
     pub const FULL: Self = Self {
         light_cases: 300,
         journeys: Lengths { coasting: 1_000_000_000, turns: 1000, reversals: 1000, cases: 200, steps: 1_000_000 },
     };
-    /// The same rows with fewer cases and steps: seconds.
+    /// Quick measurement, the same rows with fewer cases and steps: seconds.
     pub const QUICK: Self = Self {
         light_cases: 60,
         journeys: Lengths { coasting: 1_000_000, turns: 10, reversals: 20, cases: 20, steps: 100_000 },
     };
 }
 
-/// Why the table is not what it should be.
+/// Reason for which the table is not complete, or not within the limit.
 #[derive(Debug, Error)]
 pub enum ExtremesError {
     /// A journey that the physics refused.
     #[error("a journey could not be measured: {0}")]
     Journey(#[from] Refused),
-    /// No thread to coast in.
+    /// A thread for coasting that could not be started.
     #[error("no thread could be started: {0}")]
     Thread(#[source] std::io::Error),
     /// Errors beyond the limit.
@@ -57,9 +59,9 @@ pub enum ExtremesError {
         error = worst.error, what = worst.what, quantity = worst.quantity
     )]
     Exceeded {
-        /// How many.
+        /// Number of such errors.
         count: usize,
-        /// The largest of them.
+        /// Row of the largest error.
         worst: Box<Row>,
     },
 }
@@ -78,13 +80,13 @@ pub fn run() -> Result<(), Error> {
     Ok(check(&rows)?)
 }
 
-/// All rows, in the order of the table.
+/// Rows of the table, in its order.
 ///
 /// # Errors
 ///
-/// A journey is refused.
+/// [`ExtremesError`] if a journey is refused or no thread starts.
 pub fn rows(extent: Extent) -> Result<Vec<Row>, ExtremesError> {
-    // Coasting takes as long as everything else together.
+    // Coasting takes as long as the rest of the rows together.
     std::thread::scope(|scope| {
         let coasting = std::thread::Builder::new()
             .name("coasting".into())
@@ -97,11 +99,11 @@ pub fn rows(extent: Extent) -> Result<Vec<Row>, ExtremesError> {
     })
 }
 
-/// Finds no fault with rows that all hold.
+/// Checks that all rows are within the limit.
 ///
 /// # Errors
 ///
-/// [`ExtremesError::Exceeded`].
+/// [`ExtremesError::Exceeded`] if an error is beyond the limit.
 pub fn check(rows: &[Row]) -> Result<(), ExtremesError> {
     let exceeding = rows.iter().filter(|row| !row.holds());
     let count = exceeding.clone().count();
@@ -111,7 +113,7 @@ pub fn check(rows: &[Row]) -> Result<(), ExtremesError> {
     }
 }
 
-/// The table with its head, as Markdown.
+/// Table with its heading, as Markdown.
 pub fn document(rows: &[Row]) -> String {
     let worst = rows.iter().map(|row| row.error).fold(0.0, f64::max);
     let mut text = format!(
@@ -127,7 +129,7 @@ pub fn document(rows: &[Row]) -> String {
     );
     let mut last = "";
     for Row { what, cases, quantity, error } in rows {
-        // A group is named once.
+        // The name of a group is written once.
         let (name, number) =
             if what == last { (String::new(), String::new()) } else { (what.clone(), cases.to_string()) };
         let error = if *error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") };

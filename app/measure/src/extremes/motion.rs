@@ -1,15 +1,15 @@
-//! The motion under constant thrust and turn rate in closed form: one matrix exponential, at 180 digits.
+//! Motion under constant thrust and turn rate in closed form: one matrix exponential, at 180 digits.
 //!
-//! The tetrad, a Lorentz matrix from the pilot's frame to the world's, obeys dΛ/dτ = Λ G with a constant G of the proper acceleration and the
-//! turn rate, and the place dX/dτ = Λ e₀. Both are one linear equation for five-by-five matrices. Quaternions, celerities and Wigner
-//! rotations, by which the program steps, do not occur.
+//! The tetrad, a Lorentz matrix from the pilot's frame to the world's, obeys dΛ/dτ = Λ G, with a constant G of the
+//! proper acceleration and the turn rate. The place obeys dX/dτ = Λ e₀. Together they are one linear equation for
+//! five-by-five matrices. The quaternions, celerities and Wigner rotations of the program's own steps do not occur.
 
 use glam::{DQuat, DVec3};
 use physics::worldline::{State, Thrust};
 
 use super::real::{Real, RealVec, gamma, real, to_f64};
 
-/// A matrix on (t, x, y, z, 1): the tetrad with the event it stands at.
+/// Matrix on (t, x, y, z, 1): a tetrad with its event.
 #[derive(Clone, Debug)]
 pub struct Motion([[Real; 5]; 5]);
 
@@ -22,7 +22,7 @@ impl Motion {
         Self::from_fn(|row, column| real(if row == column { 1.0 } else { 0.0 }))
     }
 
-    /// The tetrad and event of a state, its quaternion at length 1.
+    /// Tetrad and event of a state, with its quaternion normalised.
     pub fn at(state: &State) -> Self {
         let u = RealVec::new(state.celerity.vector());
         let gamma = gamma(&u);
@@ -40,7 +40,8 @@ impl Motion {
         motion
     }
 
-    /// exp(τ G), in the frame in which it starts: a Taylor series of a part of τ so short that 100 terms are too many, squared.
+    /// Motion exp(τ G), in the frame in which it starts. A Taylor series covers a part of τ so short that 100 terms
+    /// are more than enough; the result is then squared.
     pub fn under(thrust: &Thrust, tau: &Real) -> Self {
         const TERMS: u32 = 100;
         const SHORT: f64 = 0.25;
@@ -76,35 +77,36 @@ impl Motion {
         sum
     }
 
-    /// This motion, and then another that is given in the frame that this one ends in.
+    /// This motion followed by another, which is given in the frame in which this one ends.
     pub fn then(&self, next: &Self) -> Self {
         Self::from_fn(|row, column| {
             (0..5).fold(real(0.0), |sum, inner| sum + &self.0[row][inner] * &next.0[inner][column])
         })
     }
 
-    /// u.
+    /// Celerity u.
     pub fn celerity(&self) -> RealVec {
         RealVec([1, 2, 3].map(|axis| self.0[axis][0].clone()))
     }
 
-    /// ct.
+    /// Time ct, metres of light travel.
     pub fn ct(&self) -> &Real {
         &self.0[0][4]
     }
 
-    /// Place.
+    /// Place in the world.
     pub fn position(&self) -> RealVec {
         RealVec([1, 2, 3].map(|axis| self.0[axis][4].clone()))
     }
 
-    /// The angle, radians, between this motion's orientation and a computed one.
+    /// Angle between this motion's orientation and a computed one, radians.
     pub fn turn_from(&self, computed: DQuat) -> f64 {
         let u = self.celerity();
         let rest = &u * &real(-1.0);
         let exact = boost(&rest, &gamma(&u)).then(self);
         let computed = rotation(computed);
-        // The rotation left over is exactᵀ computed; twice the sine of its angle is the length of its antisymmetric part.
+        // The remaining rotation is exactᵀ computed; twice the sine of its angle is the length of its antisymmetric
+        // part.
         let left = |row: usize, column: usize| {
             (0..3).fold(real(0.0), |sum, inner| sum + &exact.0[inner + 1][row + 1] * &computed[inner][column])
         };
@@ -128,13 +130,13 @@ fn boost(u: &RealVec, gamma: &Real) -> Motion {
     })
 }
 
-/// The rotation matrix of a quaternion of any length.
+/// Rotation matrix of a quaternion of any length.
 fn rotation(quaternion: DQuat) -> [[Real; 3]; 3] {
     let vector = RealVec::new(quaternion.xyz());
     let scalar = real(quaternion.w);
     let squared = &scalar * &scalar + vector.dot(&vector);
     let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-        // v + 2 (w q × v + q × (q × v)) / |quaternion|².
+        // Rotation of a vector: v + 2 (w q × v + q × (q × v)) / |quaternion|².
         let axis = RealVec::new(axis);
         let across = vector.cross(&axis);
         let sum = &(&across * &scalar) + &vector.cross(&across);

@@ -10,17 +10,17 @@ pub type Real = FBig;
 
 const BITS: usize = 600;
 
-/// The number that an f64 is, exactly.
+/// Exact value of an f64.
 pub fn real(value: f64) -> Real {
     Real::try_from(value).expect("only finite numbers are compared").with_precision(BITS).value()
 }
 
-/// Rounded.
+/// Value rounded to f64.
 pub fn to_f64(value: &Real) -> f64 {
     value.to_f64().value()
 }
 
-/// |computed − exact| as a share of the exact, or |computed| where that is zero.
+/// Relative error |computed − exact| / |exact|, or |computed| if the exact value is zero.
 pub fn relative(computed: f64, exact: &Real) -> f64 {
     let difference = real(computed) - exact;
     if *exact == real(0.0) { to_f64(&difference).abs() } else { to_f64(&(difference / exact)).abs() }
@@ -31,7 +31,7 @@ pub fn relative(computed: f64, exact: &Real) -> f64 {
 pub struct RealVec(pub [Real; 3]);
 
 impl RealVec {
-    /// The vector that three f64 are, exactly.
+    /// Exact vector of three f64.
     pub fn new(vector: DVec3) -> Self {
         Self(vector.to_array().map(real))
     }
@@ -40,19 +40,19 @@ impl RealVec {
         Self([0, 1, 2].map(|i| f(&self.0[i], &other.0[i])))
     }
 
-    /// The scalar product.
+    /// Scalar product of two vectors.
     pub fn dot(&self, other: &Self) -> Real {
         let [x, y, z] = self.map2(other, |a, b| a * b).0;
         x + y + z
     }
 
-    /// The vector product.
+    /// Vector product of two vectors.
     pub fn cross(&self, other: &Self) -> Self {
         let ([a, b, c], [d, e, f]) = (&self.0, &other.0);
         Self([b * f - c * e, c * d - a * f, a * e - b * d])
     }
 
-    /// The length.
+    /// Length of the vector.
     pub fn length(&self) -> Real {
         self.dot(self).sqrt()
     }
@@ -84,14 +84,14 @@ pub fn gamma(u: &RealVec) -> Real {
     (real(1.0) + u.dot(u)).sqrt()
 }
 
-/// The angle between a computed and the exact vector, by its sine; 0 if both are zero.
+/// Angle between a computed and the exact vector, by its sine, radians; 0 if both are zero.
 pub fn angle(computed: DVec3, exact: &RealVec) -> f64 {
     let computed = RealVec::new(computed);
     let lengths = computed.length() * exact.length();
     if lengths == real(0.0) {
         return to_f64(&(&computed - exact).length());
     }
-    // The sine alone would take a direction for its opposite.
+    // The sine alone cannot tell a direction from its opposite.
     if computed.dot(exact) < real(0.0) {
         return std::f64::consts::PI;
     }

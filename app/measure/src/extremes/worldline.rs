@@ -1,7 +1,8 @@
 //! Journeys of extreme speed, step and length, against one matrix exponential.
 //!
-//! A step is a time on the vehicle's clock in a world whose light travels `LIGHT_M_PER_S` in a second: slow enough for ordinary thrust to be
-//! relativistic. Where not said otherwise the integrator is the exact one, so that what is measured is rounding and not the order of a method.
+//! A step is a time on the vehicle's clock in a world whose light travels `LIGHT_M_PER_S` in a second: slow enough
+//! for ordinary thrust to be relativistic. Unless a row says otherwise, the integrator is the exact one, so that the
+//! errors are those of rounding and not of a method's order.
 
 use std::f64::consts::TAU;
 
@@ -17,11 +18,11 @@ use super::motion::Motion;
 use super::real::{Real, RealVec, gamma, real, relative, to_f64};
 use super::row::{Row, Worst};
 
-/// Metres a second.
+/// Speed of light, metres a second.
 const LIGHT_M_PER_S: f64 = 10.0;
 /// Ordinary thrust, m/s².
 const THRUST_M_PER_S2: f64 = 9.81;
-/// The clock of the simulation, steps a second.
+/// Rate of the simulation, steps a second.
 const STEPS_PER_S: f64 = 240.0;
 
 const RAPIDITY: &str = "rapidity";
@@ -32,25 +33,25 @@ const OWN_CLOCK: &str = "its own clock, share";
 const ORIENTATION: &str = "orientation, rad";
 const MASS_SHELL: &str = "u², share";
 
-/// How far each journey goes.
+/// Lengths of the journeys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lengths {
-    /// Steps of coasting.
+    /// Number of steps of coasting.
     pub coasting: u64,
-    /// Turns of the circle.
+    /// Number of turns of the circle.
     pub turns: u32,
-    /// Reversals of the thrust.
+    /// Number of reversals of the thrust.
     pub reversals: u32,
-    /// Starts of every kind.
+    /// Number of random starts of each kind.
     pub cases: u32,
-    /// Steps of one size.
+    /// Largest number of steps of one size.
     pub steps: u64,
 }
 
-/// Why a journey did not begin or end.
+/// Reason for which a journey did not begin or end.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum Refused {
-    /// A step was not taken.
+    /// A step that was refused.
     #[error(transparent)]
     Step(#[from] WorldlineError),
     /// A start too fast.
@@ -58,7 +59,7 @@ pub enum Refused {
     Speed(#[from] CelerityError),
 }
 
-/// Thrust in 1/m.
+/// Thrust in units of 1/m.
 fn thrust_per_m() -> f64 {
     THRUST_M_PER_S2 / (LIGHT_M_PER_S * LIGHT_M_PER_S)
 }
@@ -67,7 +68,7 @@ fn thrust_per_m() -> f64 {
 ///
 /// # Errors
 ///
-/// A step is refused.
+/// [`Refused`] if a step or a start is refused.
 pub fn rows(lengths: Lengths) -> Result<Vec<Row>, Refused> {
     let mut rows = Vec::new();
     rows.extend(resting(lengths.steps)?);
@@ -80,7 +81,7 @@ pub fn rows(lengths: Lengths) -> Result<Vec<Row>, Refused> {
     Ok(rows)
 }
 
-/// The errors of a journey that ends in `exact`.
+/// Errors of a journey that ought to end in `exact`.
 fn errors(start: &State, end: &State, exact: &Motion) -> [(&'static str, f64); 5] {
     let (u, exact_u) = (end.celerity, exact.celerity());
     let exact_gamma = gamma(&exact_u);
@@ -97,7 +98,7 @@ fn errors(start: &State, end: &State, exact: &Motion) -> [(&'static str, f64); 5
     ]
 }
 
-/// So many equal steps.
+/// State after `count` equal steps.
 fn steps(
     integrator: &dyn Integrator,
     start: &State,
@@ -108,7 +109,7 @@ fn steps(
     (0..count).try_fold(*start, |state, _| integrator.step(&state, step, thrust))
 }
 
-/// Nothing moves but the clocks.
+/// Errors at rest, where nothing changes but the clocks.
 fn resting(count: u64) -> Result<Vec<Row>, Refused> {
     let mut worst = Worst::new(format!("resting, {} steps", sized(count)));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
@@ -128,11 +129,11 @@ fn resting(count: u64) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// Coasting by the default integrator, every step taken.
+/// Errors of coasting by the default integrator, with every step taken.
 ///
 /// # Errors
 ///
-/// A step is refused.
+/// [`Refused`] if a step or a start is refused.
 pub fn coasting(count: u64) -> Result<Vec<Row>, Refused> {
     let mut worst =
         Worst::new(format!("coasting at γ = 1000, {} steps of 1/240 s, all taken, fourth order", sized(count)));
@@ -157,7 +158,7 @@ pub fn coasting(count: u64) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// Ten seconds of thrust and turn in steps of one size, or `most` of them.
+/// Errors of ten seconds of thrust and turn in steps of one size, but at most `most` steps.
 fn steps_of(step_s: f64, most: u64) -> Result<Vec<Row>, Refused> {
     const JOURNEY_S: f64 = 10.0;
     let count = ((JOURNEY_S / step_s).round() as u64).min(most);
@@ -175,7 +176,7 @@ fn steps_of(step_s: f64, most: u64) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// One step of any size from any speed.
+/// Errors of one step of any size from any speed.
 fn any_speed(cases: u32) -> Result<Vec<Row>, Refused> {
     let mut random = ChaCha8Rng::seed_from_u64(32);
     let mut worst = Worst::new("one step of 1e-6 to 10 s from γ of 1 + 1e-12 to 1e12, any thrust and turn");
@@ -193,7 +194,7 @@ fn any_speed(cases: u32) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// Thrust forth and back, a second each way.
+/// Errors of a thrust that is reversed every second.
 fn reversals(count: u32) -> Result<Vec<Row>, Refused> {
     const LEG_STEPS: u64 = 240;
     let mut worst = Worst::new(format!("{} reversals of a thrust of 30 m/s², a second each", sized(u64::from(count))));
@@ -214,7 +215,8 @@ fn reversals(count: u32) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// A circle, the nose on the motion: the thrust across it, and the turn that follows it, constant in the pilot's axes.
+/// Errors of a circle with the nose along the motion: the thrust across it, and the turn that follows it, constant in
+/// the pilot's axes.
 fn circle(turns: u32) -> Result<Vec<Row>, Refused> {
     const GAMMA: f64 = 1e3;
     const STEP_S: f64 = 10.0;
@@ -232,7 +234,7 @@ fn circle(turns: u32) -> Result<Vec<Row>, Refused> {
     Ok(worst.rows())
 }
 
-/// A count, with a power of ten where there are many zeros.
+/// Count as text, with a power of ten if there are many zeros.
 fn sized(count: u64) -> String {
     if count >= 100_000 && count.is_multiple_of(10_000) { format!("{:e}", count as f64) } else { count.to_string() }
 }

@@ -1,15 +1,16 @@
-//! Law: pictures that are alike have no distance; the distance of black and white follows from the paper's equations by hand; and on patterns that
-//! exercise every part, distances are those of the authors' own program. A wrong program shows: a filter that is not normalised moves flat
-//! pictures apart, a lost Hunt's effect or exponent moves the numbers by percents.
+//! Three laws. Equal pictures have no distance. The distance of black and white follows by hand from the paper's
+//! equations. On patterns that exercise every part, distances agree with those of the authors' program. In a wrong
+//! program, a filter that is not normalised moves flat pictures apart, and a missing Hunt's effect or exponent
+//! changes the numbers by percents.
 
 use super::*;
 
 const SIZE: [u32; 2] = [32, 24];
 
-/// What the authors' program rounds to, and its own digits of the sRGB matrix.
+/// Tolerance for the rounding of the authors' program, and for its own digits of the sRGB matrix.
 const TOLERANCE: f64 = 3e-4;
 
-/// Roundings of sums in another order, of which features take the root.
+/// Tolerance for sums rounded in another order, of which features take the root.
 const MIRRORED: f64 = 1e-7;
 
 fn picture(colour: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
@@ -41,8 +42,9 @@ fn what_is_alike_has_no_distance() {
 
 #[test]
 fn black_and_white_are_as_far_apart_as_the_equations_say() {
-    // HyAB is 100, 100^0.7 = 25.12; green and blue are the corners of CIELAB (87.73, −86.18, 83.18) and (32.30, 79.19, −107.86) of which Hunt's effect
-    // leaves a* b* times 0.8773 and 0.3230: HyAB 55.43 + √(101.19² + 107.81²) = 203.29, ^0.7 = 41.28.
+    // HyAB is 100, 100^0.7 = 25.12. Green and blue are the corners (87.73, −86.18, 83.18) and (32.30, 79.19, −107.86)
+    // of CIELAB. Hunt's effect multiplies their a* b* by 0.8773 and 0.3230: HyAB 55.43 + √(101.19² + 107.81²) =
+    // 203.29, ^0.7 = 41.28.
     let (difference, largest) = (100_f64.powf(0.7), 203.29_f64.powf(0.7));
     let by_hand = 0.95 + (difference - 0.4 * largest) / (0.6 * largest) * 0.05;
     let [black, white] = [0.0, 1.0].map(|value| picture(|_, _| DVec3::splat(value)));
@@ -58,7 +60,7 @@ fn it_does_not_matter_which_picture_is_first_nor_which_side_is_left() {
     let (one, other) = (edge_at(16.0), edge_at(17.0));
     let there = apart(&one, &other, PIXELS_PER_DEGREE);
     assert_eq!(there, apart(&other, &one, PIXELS_PER_DEGREE));
-    // Mirrored, the edges are at 15 and 16, white on the left; turned into its negative nothing of the features changes.
+    // In the mirror image the edges are at 15 and 16, white on the left. The negative of that has the same features.
     let mirrored = |rgb: &[DVec3]| -> Vec<DVec3> {
         rgb.chunks(SIZE[0] as usize).flat_map(|row| row.iter().rev().copied()).collect()
     };
@@ -70,7 +72,8 @@ fn it_does_not_matter_which_picture_is_first_nor_which_side_is_left() {
     }
 }
 
-/// Numbers of the authors' program, flip-evaluator 1.7 (`evaluate`, "LDR", linear sRGB in): mean, and the pixels (16, 12), (15, 12), (20, 5) as x, y.
+/// Numbers of the authors' program, flip-evaluator 1.7 (`evaluate`, "LDR", linear sRGB in): mean, and the pixels (16,
+/// 12), (15, 12), (20, 5) as x, y.
 #[test]
 fn distances_are_those_of_the_authors_program() {
     let spot = picture(|x, y| if (x, y) == (16.0, 12.0) { DVec3::new(0.9, 0.1, 0.1) } else { DVec3::splat(0.2) });

@@ -1,28 +1,29 @@
-//! What the eye is adapted to, and how it adapts.
+//! Adaptation of the eye: the state of an eye, and the passes that adapt it to what it sees.
 //!
-//! All of it stays on the device: a compute pass counts a grid of pixels into histograms, a second one draws the consequences, and the display reads
-//! them in the same frame. Nothing is read back, so no frame waits for another. Sums are of integers, hence the same in every run.
+//! The state stays on the device. A compute pass counts a grid of pixels into histograms, a second one computes the
+//! exposure and the curve from them, and the display reads both in the same frame. Nothing is read back, so no frame
+//! waits for another. Sums are of integers, hence the same in every run.
 //!
-//! What is metered is the *gain*, luminance as seen over the luminance that the same surface has unshifted, not the luminance itself: a dark scene
-//! stays dark and a bright one bright, and only what Doppler shift and searchlight effect have added is taken back. Where they add nothing,
-//! nothing is metered, and exposure is exactly 1.
+//! The metered quantity is the *gain*: the luminance as seen, over the luminance of the same surface without any
+//! shift. A dark scene thus stays dark and a bright one bright; only the brightness added by Doppler shift and
+//! searchlight effect is taken back. If they add nothing, nothing is metered, and exposure is exactly 1.
 
 use super::development::{Development, Exposure, Tone};
 use super::passes::{UNFILTERED, UNIFORM, WRITE, contents, group, layout, module, pipeline_layout};
 use crate::gpu::Gpu;
 use bytemuck::bytes_of;
 
-/// Seconds of the observer's own time in which the eye adapts by 1 − 1/e of the way.
+/// Time constant of the adaptation, seconds of proper time: in this time the eye adapts by 1 − 1/e of the way.
 pub const TIME_CONSTANT_S: f64 = 0.5;
 
 /// What an eye sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
-    /// One sample a pixel.
+    /// Radiance, one sample a pixel.
     pub radiance: &'a wgpu::TextureView,
-    /// How it holds radiance.
+    /// Scale of that radiance.
     pub stored: Stored,
-    /// The observer's own time since the last frame, seconds. `None`, as for a still, adapts at once.
+    /// Proper time of the observer since the last frame, seconds. `None`, as for a still, adapts at once.
     pub elapsed_s: Option<f64>,
 }
 
@@ -34,7 +35,7 @@ pub struct Adaptation {
     metered: Metered,
 }
 
-/// Which histograms were taken of the last frame.
+/// Histograms that were taken of the last frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Metered {
     gains: bool,
@@ -42,7 +43,7 @@ struct Metered {
 }
 
 impl Adaptation {
-    /// An eye that has seen nothing yet, and will be adapted at once to the first that it sees.
+    /// State of an eye that has seen nothing yet. It adapts at once to the first picture.
     pub fn new(gpu: &Gpu) -> Self {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let buffer = |label, bytes: usize| {
@@ -92,7 +93,7 @@ impl Meter {
         Self { survey: pipeline("survey"), expose: pipeline("expose"), equalise: pipeline("equalise"), layout }
     }
 
-    /// Adapts an eye to all that it sees at once; exposure is that of the first.
+    /// Adapts an eye to several pictures seen at once. The exposure is meant for the scale of the first one.
     pub fn adapt(
         &self,
         gpu: &Gpu,
@@ -107,7 +108,7 @@ impl Meter {
         let now = Metered { gains: stored.shifted, luminances: development.tone == Tone::Histogram };
         adaptation.metered = now;
 
-        // An exposure that is known without looking.
+        // This exposure is known without metering.
         let stops = development.exposure.stops();
         let exposure = factor(f64::from(stops).exp2() / stored.scale);
         if !now.gains {
@@ -125,7 +126,7 @@ impl Meter {
             return;
         }
 
-        // Light that has only just been shifted finds the eye rested: nothing to adapt from.
+        // If the light is shifted only since this frame, the eye has no earlier state to adapt from.
         let fresh = (now.gains && !before.gains) || (now.luminances && !before.luminances);
         let side = (pictures.len() as f64).sqrt();
         let [columns, rows] = shaders::METER_GRID.map(|pixels| ((f64::from(pixels) / side) as u32).max(1));
@@ -153,7 +154,7 @@ impl Meter {
         });
         let groups: Vec<_> = groups.collect();
 
-        // Look, then conclude. The curve stands on the exposure.
+        // First count, then compute. The curve depends on the exposure.
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&self.survey);
         let [across, down] = [columns, rows].map(|side| side.div_ceil(shaders::METER_WORKGROUP));
@@ -171,13 +172,13 @@ impl Meter {
     }
 }
 
-/// A factor that f32 holds, and its inverse too.
+/// A factor limited so that f32 holds both it and its inverse.
 fn factor(factor: f64) -> f32 {
     let largest = f64::from(shaders::LARGEST_LOG2).exp2();
     factor.clamp(1.0 / largest, largest) as f32
 }
 
-/// How much of the way the eye goes in a time: 1 − e^(−t/τ).
+/// Share of the way that the eye adapts in a time: 1 − e^(−t/τ).
 fn share(elapsed_s: f64) -> f32 {
     -(-elapsed_s.max(0.0) / TIME_CONSTANT_S).exp_m1() as f32
 }

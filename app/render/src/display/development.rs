@@ -1,46 +1,48 @@
-//! What the user decides between radiance and screen: exposure, tone curve, gamut.
+//! Settings between radiance and screen: exposure, tone curve, gamut.
 
 use clap::ValueEnum;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Stops from white that an exposure may be set to, either way: a factor of 10¹⁸.
+/// Largest exposure, in stops from white, either way: a factor of 10¹⁸.
 pub const MOST_STOPS: f32 = 60.0;
 
-/// How radiance is developed.
+/// Settings with which radiance is developed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Development {
-    /// How bright.
+    /// Brightness of the picture.
     pub exposure: Exposure,
-    /// What becomes of what is brighter than white.
+    /// Curve for luminances, also those brighter than white.
     pub tone: Tone,
-    /// What becomes of colours that the screen does not have.
+    /// Treatment of colours outside the screen's gamut.
     pub gamut: Gamut,
 }
 
-/// How bright the picture is.
+/// Brightness of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// As bright as the same surfaces are at rest, on the average over the picture, and so many stops brighter.
+    /// Automatic: on average over the picture as bright as the same surfaces at rest, and brighter by this number of
+    /// stops.
     Auto(f32),
-    /// So many stops brighter than with the world's own white shown as white; a stop is a factor of two.
+    /// Fixed: brighter by this number of stops than with the world's own white shown as white. A stop is a factor of
+    /// two.
     Stops(f32),
 }
 
 impl Exposure {
-    /// What is white at rest is shown as white.
+    /// Fixed exposure that shows as white what is white at rest.
     pub const WHITE: Self = Self::Stops(0.0);
-    /// As bright as at rest.
+    /// Automatic exposure, as bright as at rest.
     pub const AUTO: Self = Self::Auto(0.0);
 
-    /// Stops from what it starts from: white, or what is automatic.
+    /// Stops from the starting point, which is white or the automatic exposure.
     pub fn stops(self) -> f32 {
         let (Self::Auto(stops) | Self::Stops(stops)) = self;
         stops
     }
 
-    /// Brighter by `stops`, from where it is; automatic if it was.
+    /// Exposure that is brighter by `stops`. An automatic exposure stays automatic.
     pub fn changed(self, stops: f32) -> Self {
         let changed = (self.stops() + stops).clamp(-MOST_STOPS, MOST_STOPS);
         match self {
@@ -67,7 +69,7 @@ impl Display for Exposure {
     }
 }
 
-/// A text that names no exposure.
+/// Error for a text that names no exposure.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected auto, white, or a number of stops from -{MOST_STOPS} to {MOST_STOPS}, as in -1.5 or auto+1")]
 pub struct ExposureError;
@@ -90,11 +92,13 @@ impl FromStr for Exposure {
     }
 }
 
-/// The curve from exposed luminance to the screen's, white being 1 in both. Colours are scaled as a whole, so that their hue stays.
+/// Curve from exposed luminance to the screen's, white being 1 in both. Colours are scaled as a whole, so that their
+/// hue stays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 #[repr(u32)]
 pub enum Tone {
-    /// L (1 + L/w²) / (1 + L): the brightest gain, w, is white; linear while nothing is brighter than at rest (Reinhard et al. 2002, eq. 4)
+    /// L (1 + L/w²) / (1 + L): the brightest gain, w, is white; linear while nothing is brighter than at rest
+    /// (Reinhard et al. 2002, eq. 4)
     #[default]
     Reinhard = shaders::TONE_REINHARD,
     /// L: what is brighter than white is white
@@ -107,7 +111,7 @@ pub enum Tone {
     Histogram = shaders::TONE_HISTOGRAM,
 }
 
-/// Where colours go that the screen does not have (W 3.2.5).
+/// Treatment of colours that the screen cannot show (W 3.2.5).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 #[repr(u32)]
 pub enum Gamut {
@@ -120,20 +124,21 @@ pub enum Gamut {
     Clamp = shaders::GAMUT_CLAMP,
 }
 
-/// The choice after this one; after the last, the first.
+/// Next choice in order; the first one follows the last.
 pub fn next<T: ValueEnum + PartialEq>(choice: T) -> T {
     let following = T::value_variants().iter().skip_while(|value| **value != choice).nth(1);
     following.or(T::value_variants().first()).cloned().unwrap_or(choice)
 }
 
-/// The name that one of several choices has on the command line.
+/// Name of a choice on the command line.
 pub fn name(choice: &impl ValueEnum) -> String {
     choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 #[cfg(test)]
 mod tests {
-    //! An exposure is what its text says, and its text says what it is. A sign that is lost would darken instead of brighten.
+    //! The text of an exposure must parse back to the same exposure. A program that lost the sign would darken
+    //! instead of brighten.
 
     use super::*;
 

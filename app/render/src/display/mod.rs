@@ -1,12 +1,15 @@
 //! From radiance to pixels: the mean of several samples, exposure, tone, gamut, and the screen's curve.
 //!
-//! 1. **Exposure** multiplies. Automatic exposure ([`adaptation`]) takes back what Doppler shift and searchlight effect have added to the picture as a
-//!    whole, with a time constant; a fixed one is counted in stops from the world's own white.
-//! 2. **Tone** bends luminance, so that what is brighter than white keeps its differences; a colour is scaled as a whole.
-//! 3. **Gamut** brings colours onto the screen that it has no light for (W 3.2.5).
-//! 4. sRGB, by IEC 61966-2-1.
+//! 1. **Exposure** multiplies. Automatic exposure ([`adaptation`]) takes back, with a time constant, the brightness
+//!    that Doppler shift and searchlight effect have added to the picture as a whole. A fixed exposure is counted in
+//!    stops from the world's own white.
+//! 2. **Tone** bends luminance, so that differences between luminances above white stay visible. A colour is scaled
+//!    as a whole.
+//! 3. **Gamut** changes colours that the screen cannot show into colours that it can (W 3.2.5).
+//! 4. The screen's curve is that of sRGB, by IEC 61966-2-1.
 //!
-//! Colours that the screen has pass unchanged through the last three at rest: an unlit colour comes out as its nearest byte.
+//! At rest, colours inside the screen's gamut pass unchanged through the last three steps but for the encoding: an
+//! unlit colour comes out as its nearest byte.
 
 pub mod adaptation;
 mod combine;
@@ -27,20 +30,20 @@ pub use passes::{Pass, clear};
 use passes::{READ, UNFILTERED, UNIFORM, contents};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// What holds developed pictures that are not encoded yet.
+/// Format of developed pictures that are not encoded yet.
 pub const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Passes that read one radiance texture and write one target.
 pub struct Display {
     accumulate: Pass,
-    /// One for each way of developing that was asked for, with gains or without.
+    /// One pass for each look that was asked for.
     show: Vec<(Look, Pass)>,
     meter: Meter,
     sum_format: wgpu::TextureFormat,
     screen_format: wgpu::TextureFormat,
 }
 
-/// Sums of samples, each with the number of samples as its weight's inverse.
+/// Mean of samples: each sample is added with the weight 1/count.
 pub struct Accumulator {
     sums: [wgpu::TextureView; 2],
     current: usize,
@@ -48,7 +51,7 @@ pub struct Accumulator {
 }
 
 impl Display {
-    /// Passes that sum in `radiance` format and show in `screen` format (an sRGB format encodes by itself).
+    /// Passes that sum in `radiance` format and show in `screen` format. An sRGB format encodes by itself.
     pub fn new(gpu: &Gpu, radiance: wgpu::TextureFormat, screen: wgpu::TextureFormat) -> Self {
         Self {
             accumulate: Pass::new(gpu, &shaders::ACCUMULATE, &[], &[UNFILTERED, UNFILTERED, UNIFORM], radiance),
@@ -59,14 +62,14 @@ impl Display {
         }
     }
 
-    /// Room for the sum of several samples.
+    /// Textures for the sum of several samples.
     pub fn accumulator(&self, gpu: &Gpu, size: [u32; 2]) -> Accumulator {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let sum = || texture(gpu, "sum", size, self.sum_format, 1, usage);
         Accumulator { sums: [sum(), sum()], current: 0, filled: false }
     }
 
-    /// Adds one sample, out of `count`.
+    /// Adds one of `count` samples.
     pub fn add(
         &self,
         gpu: &Gpu,
@@ -75,7 +78,7 @@ impl Display {
         sample: &wgpu::TextureView,
         count: u32,
     ) {
-        // The very first sum is over zeros: loads outside a 1 × 1 texture must not be relied on, so clear instead.
+        // Clear before the first sample. Loads outside a 1 × 1 texture must not be relied on to give zeros.
         if !sum.filled {
             clear(encoder, &sum.sums[sum.current]);
             sum.filled = true;
@@ -96,7 +99,7 @@ impl Display {
         );
     }
 
-    /// Adapts an eye to what it sees; [`Display::show`] shows things as that eye sees them.
+    /// Adapts an eye to a picture. [`Display::show`] then shows radiance as that eye sees it.
     pub fn adapt(
         &self,
         gpu: &Gpu,
@@ -108,7 +111,7 @@ impl Display {
         self.adapt_to_all(gpu, encoder, adaptation, std::slice::from_ref(seen), development);
     }
 
-    /// Adapts an eye to several pictures that surround it; its exposure is meant for the first one's scale.
+    /// Adapts an eye to several pictures that surround it. The exposure is meant for the scale of the first one.
     pub fn adapt_to_all(
         &self,
         gpu: &Gpu,
@@ -120,7 +123,7 @@ impl Display {
         self.meter.adapt(gpu, encoder, adaptation, seen, development);
     }
 
-    /// Writes `radiance` to the screen, as an eye sees it that is adapted to it.
+    /// Writes `radiance` to the screen, as an eye in the state `adaptation` sees it.
     pub fn show(
         &mut self,
         gpu: &Gpu,
@@ -162,7 +165,7 @@ impl Display {
         pass.draw_part(gpu, encoder, screen, &resources, part.viewport, part.over);
     }
 
-    /// The pass for a way of developing, compiled when it is first asked for.
+    /// Pass for a development and a part of the screen, compiled when it is first asked for.
     fn shown_by(&mut self, gpu: &Gpu, development: &Development, part: &Part<'_>) -> &Pass {
         let Development { tone, gamut, .. } = *development;
         let look = Look { tone, gamut, gains: part.gains.is_some(), gamma: part.gamma };
@@ -184,22 +187,22 @@ impl Display {
     }
 }
 
-/// Where on a screen a picture goes, and what is done to it there.
+/// Place of a picture on a screen, and the corrections that apply there.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
-    /// x, y, width and height in pixels from the screen's upper left corner.
+    /// Rectangle of the picture: x, y, width and height in pixels from the screen's upper left corner.
     pub viewport: [u32; 4],
-    /// The rest of the screen stays as it is, instead of becoming black.
+    /// True if the rest of the screen stays unchanged. Otherwise it becomes black.
     pub over: bool,
-    /// What radiance is multiplied by besides the eye's exposure.
+    /// Factor on radiance besides the eye's exposure.
     pub exposure: f32,
-    /// A factor for each pixel, of what the screen shows in linear light.
+    /// Factor for each pixel, on the screen's linear light.
     pub gains: Option<&'a wgpu::TextureView>,
-    /// The screen's light is its signal to this power; `None`: as sRGB has it.
+    /// Exponent of the screen: its light is its signal to this power. `None` stands for the sRGB curve.
     pub gamma: Option<f64>,
 }
 
-/// What a pass is made for.
+/// Settings for which a pass is compiled.
 #[derive(Clone, Copy, PartialEq)]
 struct Look {
     tone: Tone,
@@ -209,7 +212,7 @@ struct Look {
 }
 
 impl Accumulator {
-    /// The sum of all samples added so far.
+    /// Texture with the sum of the samples added so far.
     pub fn result(&self) -> &wgpu::TextureView {
         &self.sums[self.current]
     }
@@ -225,24 +228,26 @@ impl Accumulator {
     }
 }
 
-/// Whether what is written to a screen must be encoded: it does not do so by itself, and is no float that holds linear light.
+/// True if the values written to a screen must be encoded: the format does not encode by itself, and is no float
+/// format for linear light.
 fn encodes(screen: wgpu::TextureFormat) -> bool {
     !screen.is_srgb() && screen != LINEAR_FORMAT
 }
 
-/// The pass that brings flat pictures together on a surface that is not flat; see `resample.wgsl`. `smooth`: texels are mixed.
+/// Pass that resamples flat pictures onto a surface that is not flat; see `resample.wgsl`. If `smooth` is true,
+/// texels are interpolated.
 pub fn resample(gpu: &Gpu, format: wgpu::TextureFormat, smooth: bool) -> Pass {
     let overrides = [("SMOOTH", f64::from(u8::from(smooth)))];
     Pass::new(gpu, &shaders::RESAMPLE, &overrides, &[UNFILTERED, UNIFORM, UNFILTERED], format)
 }
 
-/// The pass that writes linear light to a screen.
+/// Pass that writes linear light to a screen.
 pub fn encoded(gpu: &Gpu, screen: wgpu::TextureFormat) -> Pass {
     let overrides = [("ENCODE", f64::from(u8::from(encodes(screen))))];
     Pass::new(gpu, &shaders::ENCODED, &overrides, &[UNFILTERED], screen)
 }
 
-/// Factors of pixels, where the device reads them: red multiplies, and green is what is then added.
+/// Texture of factors for a channel's pixels: light is multiplied by red, then green is added.
 pub fn gains(gpu: &Gpu, gains: &Gains) -> wgpu::TextureView {
     let lift = |pixel: usize| gains.lifts.as_ref().map_or(0.0, |lifts| lifts[pixel]);
     let texels: Vec<[f32; 2]> =

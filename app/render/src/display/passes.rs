@@ -1,26 +1,26 @@
-//! What every pass is made of: bindings that are numbered as they come, a module, one full-screen triangle.
+//! Building blocks of the passes: bindings numbered in order, a shader module, one full-screen triangle.
 
 use crate::gpu::Gpu;
 use wgpu::util::DeviceExt;
 
-/// A texture that is read texel by texel.
+/// Binding of a texture that is read texel by texel.
 pub const UNFILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Float { filterable: false },
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
-/// Uniforms.
+/// Binding of a uniform buffer.
 pub const UNIFORM: wgpu::BindingType = buffer(wgpu::BufferBindingType::Uniform);
-/// A buffer that is read.
+/// Binding of a storage buffer that is read.
 pub const READ: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: true });
-/// A buffer that is read and written.
+/// Binding of a storage buffer that is read and written.
 pub const WRITE: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: false });
 
 const fn buffer(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
     wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
 }
 
-/// A module that fills a whole target.
+/// A shader module with the pipeline that fills a whole target.
 pub struct Pass {
     name: &'static str,
     layout: wgpu::BindGroupLayout,
@@ -28,7 +28,7 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Compiles `shader`, whose bindings are numbered as they come, with these values of its overrides.
+    /// Compiles `shader` with these override values. `bindings` are numbered in order.
     pub fn new(
         gpu: &Gpu,
         shader: &shaders::Module,
@@ -67,7 +67,7 @@ impl Pass {
         Self { name: shader.name, layout, pipeline }
     }
 
-    /// Fills `target` from what is bound.
+    /// Fills `target` from the bound resources.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -79,7 +79,8 @@ impl Pass {
         self.draw_part(gpu, encoder, target, resources, [0, 0, size.width, size.height], false);
     }
 
-    /// Fills a part of `target`: x, y, width and height in pixels. `over`: what is elsewhere, and where nothing is written, stays.
+    /// Fills a part of `target`: x, y, width and height in pixels. If `over` is true, pixels that are not written
+    /// keep their values.
     pub fn draw_part(
         &self,
         gpu: &Gpu,
@@ -125,7 +126,7 @@ fn begin<'encoder>(
     })
 }
 
-/// Compiles a module.
+/// Compiles a shader module.
 pub fn module(gpu: &Gpu, shader: &shaders::Module) -> wgpu::ShaderModule {
     gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(shader.name),
@@ -133,7 +134,7 @@ pub fn module(gpu: &Gpu, shader: &shaders::Module) -> wgpu::ShaderModule {
     })
 }
 
-/// How a group is bound.
+/// Layout of a bind group whose bindings are numbered in order.
 pub fn layout(
     gpu: &Gpu,
     name: &str,
@@ -147,7 +148,7 @@ pub fn layout(
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(name), entries: &entries })
 }
 
-/// For pipelines with one group.
+/// Pipeline layout with one bind group.
 pub fn pipeline_layout(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
     gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("display"),
@@ -156,7 +157,7 @@ pub fn pipeline_layout(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::Pipel
     })
 }
 
-/// Binds a group.
+/// Bind group whose resources are numbered in order.
 pub fn group(
     gpu: &Gpu,
     name: &str,
@@ -170,7 +171,7 @@ pub fn group(
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(name), layout, entries: &entries })
 }
 
-/// A buffer for one frame.
+/// Buffer with these contents, for one frame.
 pub fn contents(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
 }

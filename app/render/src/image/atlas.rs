@@ -1,38 +1,39 @@
-//! Where the map's panes are drawn: one texture, a layer for each carrier of the scene's light, and one depth.
+//! Textures into which the map's panes are drawn: one layer for each carrier of the scene's light, and one depth
+//! texture.
 
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, Format, texture};
 
-/// Room beyond what is needed now, in parts of it: a little more speed should not ask for another texture.
+/// Spare room: 1/SPARE of each side is added, so that a little more speed needs no new texture.
 const SPARE: u32 = 8;
-/// What that makes of an area, and the gaps between panes.
+/// Factor on the area for the spare room and the gaps between panes.
 pub const WITH_SPARE: f64 = 1.3;
 
-/// The textures of a map.
+/// Textures of a map.
 pub struct Atlas {
     size: [u32; 2],
     layers: Vec<wgpu::TextureView>,
-    /// For looking up.
+    /// View of all layers, for looking up.
     pub all_layers: wgpu::TextureView,
-    /// Reversed, of all layers alike.
+    /// Reversed depth, the same for all layers.
     pub depth: wgpu::TextureView,
-    /// Whether it is looked up.
+    /// True if the depth is looked up, and so must be kept.
     keeps_depth: bool,
 }
 
-/// Of an atlas for pictures of `picture` format: as exact, one sample a texel.
+/// Format of an atlas for pictures of `picture` format: the same precision, one sample a texel.
 pub fn format(picture: Format) -> Format {
     Format { samples: 1, ..picture }
 }
 
-/// Bytes that a texel takes, with its depth.
+/// Bytes of a texel in all layers, with its depth.
 pub fn texel_bytes(format: Format, layers: u32) -> u64 {
     let bytes = |format: wgpu::TextureFormat| u64::from(format.block_copy_size(None).unwrap_or(4));
     bytes(format.colour) * u64::from(layers) + bytes(DEPTH_FORMAT)
 }
 
 impl Atlas {
-    /// Makes textures of at least `size` texels. `keeps_depth`: whether the depth is to be looked up as well.
+    /// Makes textures of at least `size` texels. `keeps_depth` is true if the depth is looked up as well.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: Format, layers: u32, keeps_depth: bool) -> Self {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let size = size.map(|side| (side + side / SPARE).next_multiple_of(64).min(limit));
@@ -69,12 +70,12 @@ impl Atlas {
         }
     }
 
-    /// Texels of a layer.
+    /// Number of texels of a layer.
     pub fn texels(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
-    /// Whether there is room for `size`, and not far too much, and these layers.
+    /// True if the textures have room for `size`, are not far too large, and have this number of layers.
     pub fn holds(&self, size: [u32; 2], layers: u32) -> bool {
         self.layers.len() == layers as usize
             && (0..2).all(|axis| size[axis] <= self.size[axis] && self.size[axis] <= 2 * size[axis].max(64))
@@ -86,7 +87,7 @@ impl Atlas {
         encoder: &'encoder mut wgpu::CommandEncoder,
         layer: u32,
     ) -> wgpu::RenderPass<'encoder> {
-        // The same surfaces are drawn into each layer: the last one's depth is that of all.
+        // Each layer is drawn from the same surfaces, so the depth of the last one is that of all.
         let last = layer as usize + 1 == self.layers.len();
         let store = if self.keeps_depth && last { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

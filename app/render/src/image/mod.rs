@@ -1,13 +1,15 @@
 //! `image`: the world around the eye drawn plainly, then bent, shifted and brightened pixel by pixel (B chapter 5).
 //!
-//! Light that reaches the eye now left what is at rest in the world on straight lines, so an ordinary picture of all directions, drawn in the world
-//! frame from where the eye is, holds all that the observer sees. First that map is drawn: linear weights on the scene's spectra, into
-//! an atlas of `panes`, as fine as the picture needs it and only where the picture sees it. Then each pixel's direction is taken to the world by
-//! the inverse boost, its weights looked up, and their light shifted. Straight edges bend without being cut. The texels do
-//! not grow with the speed, but the panes do, slowly.
+//! Light that reaches the eye now came from what is at rest in the world on straight lines. So an ordinary picture of
+//! all directions, drawn in the world frame from the place of the eye, holds everything that the observer sees. That
+//! map is drawn first: linear weights on the scene's spectra, in an atlas of `panes`, which are only drawn where the
+//! picture sees them, and as fine as the picture needs. Then the inverse boost takes each pixel's direction to the
+//! world, its weights are looked up, and their light is shifted. Straight edges bend without being cut. The number of
+//! texels does not grow with the speed; the number of panes does, slowly.
 //!
-//! What moves is not in the map, since light left it at other times than light that arrives from behind it along the same line. It is drawn over the bent map as
-//! polygons ([`Movers`]), and the map's depth, bent as well, says what hides what. Glass at rest has no depth: what moves behind it is drawn over it.
+//! Moving bodies are not in the map, since light left them at other times than the light from behind them along the
+//! same line. They are drawn over the bent map as polygons ([`Movers`]); the map's depth, bent as well, decides what
+//! hides what. Glass at rest has no depth: bodies that move behind it are drawn over it.
 
 mod atlas;
 mod movers;
@@ -28,47 +30,47 @@ use sight::Sight;
 use std::time::Instant;
 use wgpu::util::DeviceExt;
 
-/// How finely the map is drawn, and how it is looked up.
+/// Resolution of the map, and the way in which it is looked up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapQuality {
     /// Texels for each pixel of the picture, along each axis.
     pub texels_per_pixel: f64,
-    /// Whether texels are mixed. If not, the nearest one is taken: no colour comes up that the scene has not.
+    /// True if texels are interpolated. If not, the nearest one is taken, so that only colours of the scene appear.
     pub smooth: bool,
 }
 
-/// What a map cost.
+/// Cost of a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MapStats {
-    /// Views of the world drawn.
+    /// Number of panes drawn.
     pub panes: usize,
-    /// Texels drawn, for each carrier.
+    /// Number of texels drawn for each carrier.
     pub texels: u64,
-    /// Bytes that the map takes on the device.
+    /// Memory of the map on the device, bytes.
     pub bytes: u64,
-    /// Texels for each pixel that there was room for.
+    /// Texels for each pixel along each axis that there was room for.
     pub texels_per_pixel: f64,
-    /// Milliseconds to plan it.
+    /// Time to plan the map, milliseconds.
     pub plan_ms: f64,
 }
 
-/// Texels of a pane's entry in the table of panes.
+/// Length of a pane's entry in the table of panes, texels.
 const PANE_TEXELS: u32 = (size_of::<shaders::Pane>() / 16) as u32;
-/// Texels that drawing a pane is worth beside its own.
+/// Fixed cost of drawing a pane besides its own texels, in texels.
 const PANE_COST: f64 = 20e3;
-/// The same where the CPU draws, and a change of pipeline costs more.
+/// Fixed cost of drawing a pane where the CPU draws and a change of pipeline costs more, in texels.
 const PANE_COST_SOFTWARE: f64 = 60e3;
-/// What a map may take, with its depth and room to spare.
+/// Most memory of a map, with its depth and spare room, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// The map of a scene around an eye, and what looks it up.
+/// The map of a scene around an eye, and the pipelines that look it up.
 pub struct ImageRenderer {
     module: wgpu::ShaderModule,
     group_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     format: Format,
     quality: MapQuality,
-    /// Whether pictures get their depth.
+    /// True if pictures get their depth.
     with_depth: bool,
     atlas: Option<Atlas>,
     group: Option<wgpu::BindGroup>,
@@ -77,7 +79,7 @@ pub struct ImageRenderer {
 }
 
 impl ImageRenderer {
-    /// For pictures in targets of `format`. `with_depth`: whether anything is drawn over them.
+    /// Renderer for pictures in targets of `format`. `with_depth` is true if anything is drawn over the pictures.
     pub fn new(gpu: &Gpu, format: Format, quality: MapQuality, with_depth: bool) -> Self {
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(shaders::WARP.name),
@@ -120,7 +122,7 @@ impl ImageRenderer {
         }
     }
 
-    /// What the newest map cost.
+    /// Cost of the newest map.
     pub fn stats(&self) -> MapStats {
         self.stats
     }
@@ -136,7 +138,8 @@ impl ImageRenderer {
         let texel_bytes = atlas::texel_bytes(format, layers);
         let sight = Sight::new(&shot.camera, size, shot.celerity());
         let room = MOST_BYTES as f64 / (texel_bytes as f64 * atlas::WITH_SPARE);
-        // A smooth map costs the same at any speed: it has so many texels for each pixel of the picture, wherever they are needed.
+        // A smooth map costs the same at any speed: its number of texels for each pixel of the picture is fixed,
+        // wherever they are needed.
         let budget = self.quality.texels_per_pixel.powi(2) * f64::from(size[0]) * f64::from(size[1]);
         let most_texels = if self.quality.smooth { budget.min(room) } else { room };
         let plan = self.plan(gpu, &sight, most_texels);
@@ -148,7 +151,7 @@ impl ImageRenderer {
             plan_ms: started.elapsed().as_secs_f64() * 1e3,
         };
 
-        // One view for each pane and carrier.
+        // Make one view for each pane and carrier.
         let from_eye = world.origin - shot.eye.position();
         let views: Vec<_> =
             plan.placed.iter().map(|pane| pane.view(&sight.cube_from_world, from_eye, NEAR_M)).collect();
@@ -162,7 +165,7 @@ impl ImageRenderer {
         let atlas = match self.atlas.take() {
             Some(atlas) if atlas.holds(plan.size, layers) => atlas,
             old => {
-                // Let go of the old one first: two may not fit.
+                // Drop the old one first: there may be no room for two.
                 drop((old, self.group.take()));
                 Atlas::new(gpu, plan.size, format, layers, self.with_depth)
             }
@@ -185,7 +188,8 @@ impl ImageRenderer {
         self.atlas = Some(atlas);
     }
 
-    /// As fine as is wanted, or as there is room for. The frame before tells about how fine that is.
+    /// Plans a map as fine as wanted, or as fine as there is room for. The frame before tells approximately how fine
+    /// that is.
     fn plan(&self, gpu: &Gpu, sight: &Sight, most_texels: f64) -> Plan {
         let MapQuality { texels_per_pixel: wanted, smooth } = self.quality;
         let fineness = |texels_per_pixel: f64| Fineness {

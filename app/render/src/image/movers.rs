@@ -1,4 +1,4 @@
-//! What moves, drawn over a bent map: a scene of its own, cut for every picture as finely as the map is drawn.
+//! Moving bodies, drawn over a bent map: a scene of their own, cut for every picture as finely as the map is drawn.
 
 use super::MapQuality;
 use crate::gpu::Gpu;
@@ -10,7 +10,7 @@ use crate::world::{Draws, Mode, Part, World};
 use scene::cut::Sight;
 use scene::{Mesh, Scene};
 
-/// Texels by which anything may be drawn from its place: as many as the map is off.
+/// Tolerance of places, texels of the map: as much as the map's own error.
 const TOLERANCE_TEXELS: f64 = 0.5;
 
 /// The moving part of a scene.
@@ -20,34 +20,35 @@ pub struct Movers {
 }
 
 impl Movers {
-    /// Of a scene, to be drawn over a map of this quality; `None` if nothing moves in it.
+    /// Moving part of a scene, to be drawn over a map of this quality; `None` if nothing moves in the scene.
     pub fn of(gpu: &Gpu, scene: &Scene, quality: MapQuality) -> Option<Self> {
         let moving = moving_part(scene)?;
-        // Pictures that are kept take single texels, and wait for their cut; windows mix texels, and do not.
+        // Pictures that are kept use single texels, and wait for their cut. Windows interpolate texels, and do not
+        // wait.
         let pace = if quality.smooth { Pace::Ride } else { Pace::Still };
         let tolerance = Tolerance { pixels: TOLERANCE_TEXELS / quality.texels_per_pixel, pace };
         Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance) })
     }
 
-    /// Cuts it for all pictures of one eye, in the light that falls on it then.
+    /// Cuts the moving part for all pictures of one eye, and computes the light that falls on it then.
     pub fn cut(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
         self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
         self.adaptive.cut(gpu, &mut self.world, shots);
     }
 
-    /// Some edges of the newest cut.
+    /// Sample of the edges of the newest cut.
     pub fn edges(&self) -> Option<&Edges> {
         self.adaptive.edges()
     }
 
-    /// Gets ready to draw: the view of what rests, then that of each motion.
+    /// Prepares the drawing. `views` are the view of the resting scene, then that of each motion.
     pub fn prepare(&mut self, gpu: &Gpu, views: &[shaders::View], mode: Mode, format: Format) {
         self.world.prepare(gpu, mode, false, format);
         self.world.write_views(gpu, views);
     }
 
-    /// Draws it where it is not hidden. `sights`: how each motion is seen.
+    /// Draws the moving part where nothing hides it. `sights` says how each motion is seen.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -66,7 +67,8 @@ impl Movers {
     }
 }
 
-/// What moves, with the materials and textures that it has, under the same light; `None` if nothing does.
+/// Moving part of a scene, with the materials and textures that it uses, under the same light; `None` if nothing
+/// moves.
 fn moving_part(scene: &Scene) -> Option<Scene> {
     let mut meshes: Vec<Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_some()).cloned().collect();
     if meshes.is_empty() {
@@ -94,14 +96,14 @@ fn moving_part(scene: &Scene) -> Option<Scene> {
     })
 }
 
-/// Which of many are used, in the order in which they came up.
+/// Indices that are used out of many, in the order of first use.
 #[derive(Default)]
 struct Used {
     kept: Vec<usize>,
 }
 
 impl Used {
-    /// The new number of what had this one.
+    /// New index of what had this old index.
     fn number(&mut self, index: usize) -> usize {
         self.kept.iter().position(|&kept| kept == index).unwrap_or_else(|| {
             self.kept.push(index);

@@ -1,43 +1,43 @@
-//! Which parts of the world around the eye are drawn, and how finely.
+//! Plan of the map: the parts of the world around the eye that are drawn, and the resolution of each.
 //!
-//! Each face of a cube around the eye is cut in four, and the parts in four again, where that saves texels: what the picture does not see is
-//! left out, and what aberration enlarges (by 1/D, astern up to 2γ) gets as many texels as the picture has pixels for it. What is
-//! left are windows of very different size on the faces: panes.
+//! Each face of a cube around the eye is cut in four, and the parts in four again, if that saves texels. Parts that
+//! the picture does not see are left out. Parts that aberration enlarges (by 1/D, astern up to 2γ) get as many texels
+//! as the picture has pixels for them. The result is windows of very different size on the faces, called panes.
 
 use super::sight::{Extent, FACES, Part, Sight};
 use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shaders::{Map, Pane, View};
 
-/// Parts smaller than this many texels are not cut.
+/// Side up to which parts are not cut, texels.
 const SMALLEST_SIDE: f64 = 24.0;
-/// Larger panes are cut in any case.
+/// Side above which panes are cut in any case, texels.
 const LARGEST_SIDE: f64 = 2048.0;
-/// How many times more a part may be enlarged in one place than in the mean, where the mean counts.
+/// Largest ratio of the greatest enlargement of a part to its mean, if the mean counts.
 const UNEVEN: f64 = 1.5;
-/// The same for a part that is not worth cutting.
+/// Largest ratio of the greatest enlargement to the mean for a part that is not worth cutting.
 const EVEN: f64 = 1.1;
-/// Cuts of a part within a part: at 2⁻⁴⁸ of a face f64 ends.
+/// Greatest depth of cuts within cuts: 2⁻⁴⁸ of a face is near the limit of f64.
 const DEEPEST: u32 = 48;
-/// Texels drawn around each pane, so that every texel in it has neighbours.
+/// Width of the border drawn around each pane, texels, so that every texel in it has neighbours.
 const MARGIN: u32 = 1;
 
-/// How finely a map is drawn.
+/// Resolution and cost settings of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
     /// Texels for each pixel of the picture, along each axis.
     pub texels_per_pixel: f64,
-    /// Whether every pixel has so many, or only the mean.
+    /// True if every pixel gets that many texels, false if only the mean does.
     pub exact: bool,
-    /// Texels that a pane's own draws are worth: culling, state, the vertices of what crosses its edges.
+    /// Fixed cost of a pane, in texels: culling, changes of state, the vertices of triangles that cross its edges.
     pub pane_cost: f64,
 }
 
-/// What became of a part.
+/// Result of cutting a part, with its own parts.
 struct Tree {
-    /// In texels.
+    /// Cost of drawing the part, in texels.
     cost: f64,
-    /// What of it is seen, at most.
+    /// Window that holds everything of the part that may be seen.
     window: Window,
     kind: Kind,
 }
@@ -52,13 +52,14 @@ enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Window {
     face: usize,
-    /// Tangents of its left lower corner.
+    /// Tangents of the lower left corner.
     low: DVec2,
-    /// Tangents of its right upper corner.
+    /// Tangents of the upper right corner.
     high: DVec2,
 }
 
-/// Cells of a quarter of a cube's face, or of one of its cells, row by row from the face's middle: −1 − the number of a pane, or the number of a layer.
+/// Cells of a quarter of a cube's face, or of a cell of such a quarter, row by row from the middle of the face. Each
+/// value is −1 − the number of a pane, or the number of a layer.
 pub type Layer = [[i32; CELLS]; CELLS];
 
 const CELLS: usize = shaders::MAP_CELLS as usize;
@@ -68,37 +69,38 @@ const NO_PANE: Layer = [[-1; CELLS]; CELLS];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
     window: Window,
-    /// Texels across and down, without the margin.
+    /// Size without the border, texels across and down.
     size: [u32; 2],
-    /// Texel of its upper left corner in the atlas, margin included.
+    /// Texel of the upper left corner in the atlas, border included.
     pub place: [u32; 2],
 }
 
-/// Everything that is drawn for one picture, and how its pixels find it.
+/// Panes that are drawn for one picture, and the tables by which its pixels find them.
 pub struct Plan {
-    /// What is drawn, and where.
+    /// Windows that are drawn, and their places in the atlas.
     pub placed: Vec<Placed>,
-    /// For the shader; as long as `placed`.
+    /// Table of panes for the shader; as long as `placed`.
     pub panes: Vec<Pane>,
-    /// For the shader: which pane is where, a layer for each quarter of a face and for each cell that is cut further.
+    /// Table of cells for the shader, which pane is where: a layer for each quarter of a face and for each cell that
+    /// is cut further.
     pub cells: Vec<Layer>,
-    /// For the shader.
+    /// Uniform for the shader.
     pub map: Map,
-    /// Texels of the atlas.
+    /// Size of the atlas, texels.
     pub size: [u32; 2],
-    /// Texels per pixel along each axis that were possible.
+    /// Texels for each pixel along each axis that were possible.
     pub texels_per_pixel: f64,
 }
 
 impl Plan {
-    /// Texels that are drawn.
+    /// Number of texels drawn.
     pub fn texels(&self) -> f64 {
         self.placed.iter().map(Placed::texels).sum()
     }
 }
 
 impl Sight {
-    /// Finds the cheapest panes of a part.
+    /// Finds the cheapest panes for a part.
     fn cut(&self, part: Part, fineness: Fineness, depth: u32) -> Tree {
         let window = part.window();
         if !self.sees(&part) {
@@ -111,7 +113,7 @@ impl Sight {
             let cost = size.element_product() + fineness.pane_cost;
             Tree { cost, window, kind: Kind::Pane([size.x as u32, size.y as u32]) }
         };
-        // Nothing to gain: it is small, or all of it is seen, and alike.
+        // Do not cut if nothing can be gained: the part is small, or all of it is seen and evenly enlarged.
         if depth >= DEEPEST {
             return pane(DVec2::ONE, window);
         }
@@ -136,7 +138,8 @@ impl Sight {
         Tree { cost, window, kind: Kind::Cut(Box::new(parts)) }
     }
 
-    /// Plans the map for a picture: `texels_per_pixel` along each axis, or as many as fit into `most_texels` and `largest_side`.
+    /// Plans the map for a picture, with the wanted texels for each pixel, or as many as fit into `most_texels` and
+    /// `largest_side`.
     pub fn plan(&self, fineness: Fineness, most_texels: f64, largest_side: u32) -> Plan {
         let mut wanted = fineness;
         loop {
@@ -192,12 +195,12 @@ impl Extent {
 }
 
 impl Placed {
-    /// Texels across and down with the margin.
+    /// Size with the border, texels across and down.
     pub fn drawn(&self) -> [u32; 2] {
         self.size.map(|side| side + 2 * MARGIN)
     }
 
-    /// All its texels with the margin.
+    /// Number of texels, border included.
     pub fn texels(&self) -> f64 {
         self.drawn().map(f64::from).iter().product()
     }
@@ -214,9 +217,9 @@ impl Placed {
         }
     }
 
-    /// The view that draws it, and the planes through the eye that bound what it sees: inward unit normals, world axes.
+    /// View that draws the pane, and the planes through the eye that bound the view: inward unit normals, world axes.
     ///
-    /// Positions are relative to a point that lies `from_eye` metres from the eye (world axes).
+    /// Positions are relative to a point `from_eye` metres from the eye (world axes).
     pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (View, [DVec3; 5]) {
         let world_from_cube = cube_from_world.transpose();
         let [right, up, forward] = FACES[self.window.face].map(|axis| world_from_cube * axis);
@@ -246,18 +249,19 @@ impl Placed {
     }
 }
 
-/// Gives panes their numbers, and writes down where each is found.
+/// Numbers the panes, and fills the tables in which they are found.
 struct Planner {
     placed: Vec<Placed>,
     cells: Vec<Layer>,
 }
 
 impl Planner {
-    /// Fills the four quarters of a face with what becomes of it.
+    /// Fills the four quarters of a face from the result of its cuts.
     fn fill_face(&mut self, face: usize, root: Tree) {
         let layer = |quarter: usize| 4 * face + quarter;
         match root.kind {
-            // Below is before above, and left before right; quarters are counted from the right above.
+            // Parts are in the order lower left, lower right, upper left, upper right; quarters are counted from the
+            // upper right.
             Kind::Cut(parts) => {
                 let nearby = -(self.placed.len() as i32) - 1;
                 for (quarter, part) in [3, 2, 1, 0].into_iter().zip(*parts) {
@@ -271,9 +275,11 @@ impl Planner {
         }
     }
 
-    /// Fills a square of cells with what becomes of it. `nearby`: what is shown where nothing is drawn.
+    /// Fills a square of cells from the result of the cuts there. `nearby` is the pane to show where nothing is
+    /// drawn.
     ///
-    /// Nobody looks there but for rounding, which may send a pixel at an edge next door: it takes the nearest texel of a neighbour.
+    /// Such cells are looked up only if rounding sends a pixel across an edge. The pixel then takes the nearest texel
+    /// of a neighbour.
     fn fill(&mut self, square: Square, tree: Tree, nearby: i32) {
         let Square { layer, quarter, corner: [x, y], side } = square;
         let parts = match tree.kind {
@@ -284,7 +290,7 @@ impl Planner {
                 return;
             }
         };
-        // A single cell has no room for four: a layer of its own has.
+        // A single cell has no room for four parts, so they get a layer of their own.
         let (layer, [x, y], half) = if side == 1 {
             self.cells.push(NO_PANE);
             let below = self.cells.len() - 1;
@@ -295,14 +301,14 @@ impl Planner {
         };
         let nearby = -(self.placed.len() as i32) - 1;
         for (part, tree) in (*parts).into_iter().enumerate() {
-            // In quarters left of the middle, or below it, cells count the other way.
+            // In quarters left of the middle, or below it, cells count in the opposite direction.
             let [right, above] = [0, 1].map(|axis| (part >> axis & 1) ^ (quarter >> axis & 1));
             let corner = [x + half * right, y + half * above];
             self.fill(Square { layer, quarter, corner, side: half }, tree, nearby);
         }
     }
 
-    /// The number of what is no cut.
+    /// Adds a pane, and returns the value for its cells; `nearby` for a part that is not seen.
     fn pane(&mut self, kind: Kind, window: Window, nearby: i32) -> i32 {
         let Kind::Pane(size) = kind else { return nearby };
         self.placed.push(Placed { window, size, place: [0; 2] });
@@ -314,14 +320,14 @@ impl Planner {
 #[derive(Clone, Copy)]
 struct Square {
     layer: usize,
-    /// Of the face: 1 is left of the middle, 2 below it, 3 both.
+    /// Quarter of the face: bit 0 is set left of the middle, bit 1 below it.
     quarter: usize,
-    /// The cell nearest to the face's middle, of a layer of cells.
+    /// Cell nearest to the middle of the face, in its layer.
     corner: [usize; 2],
     side: usize,
 }
 
-/// Places panes in rows, the highest first. Returns the size of the whole.
+/// Places the panes in rows, the highest first. Returns the size of the whole.
 fn pack(placed: &mut [Placed], texels: f64, largest_side: u32) -> [u32; 2] {
     let widest = placed.iter().map(|pane| pane.drawn()[0]).max().unwrap_or(1);
     let width = ((texels.sqrt() * 1.05) as u32).next_multiple_of(64).clamp(widest, largest_side.max(widest));
@@ -343,8 +349,9 @@ fn pack(placed: &mut [Placed], texels: f64, largest_side: u32) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    //! Every pixel must find its direction in a pane, at any speed, and there as many texels as were promised: a plan that leaves a direction
-    //! out shows a stretched neighbour there, one that is too coarse shows blocks, one that is too fine costs more the faster one goes.
+    //! Every pixel must find its direction in a pane, at any speed, with as many texels as promised. A plan that
+    //! leaves a direction out shows a stretched neighbour there. One that is too coarse shows blocks. One that is too
+    //! fine costs more with speed.
 
     use super::*;
     use view::Camera;
@@ -354,7 +361,7 @@ mod tests {
     const MANY: f64 = 1e9;
     const EXACT: Fineness = Fineness { texels_per_pixel: 2.0, exact: true, pane_cost: 2e3 };
 
-    /// A pixel's place on the cube, as `warp.wgsl` finds it: face and tangents.
+    /// Place of a pixel on the cube, face and tangents, by the method of `warp.wgsl`.
     fn on_cube(sight: &Sight, aberration: &Aberration, observed: DVec3) -> (usize, DVec2) {
         let (world, _) = aberration.world_from_observer(observed);
         let direction = sight.cube_from_world * world;
@@ -364,7 +371,7 @@ mod tests {
         (face, DVec2::new(right.dot(direction), up.dot(direction)) / forward.dot(direction))
     }
 
-    /// The pane that a place on the cube is looked up in, if it holds it.
+    /// Pane in which a place on the cube is looked up, if the pane contains it.
     fn find(plan: &Plan, face: usize, at: DVec2) -> Option<&Placed> {
         let side = CELLS as f64;
         let mut within = at.abs() * side;
@@ -413,7 +420,7 @@ mod tests {
                     let pane = pane.expect("no pane holds a pixel");
                     let (next_face, next) = on_cube(&sight, &aberration, neighbour);
                     if next_face == face {
-                        // Texels from a pixel to the next.
+                        // Number of texels from a pixel to the next.
                         let scale = DVec2::from_array(pane.size.map(f64::from)) / (pane.window.high - pane.window.low);
                         all += 1;
                         few += i32::from(((next - at) * scale).length() < 0.8 * EXACT.texels_per_pixel);
@@ -450,7 +457,7 @@ mod tests {
 
     #[test]
     fn a_picture_of_a_few_pixels_takes_a_few_panes() {
-        // Parts that are in sight but between the points of every grid would be cut without end.
+        // A careless plan would cut parts without end that are in sight but lie between the points of every grid.
         for size in [[1, 1], [640, 1], [1, 4096], [1000, 3]] {
             for gamma in [1.0, 1.7, 70.0] {
                 let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");

@@ -1,31 +1,31 @@
-//! What a picture sees of the world, direction by direction.
+//! Sight of a picture: the directions of the world that it sees, and their size in it.
 //!
-//! Directions are those of a cube around the eye, turned so that +z is along the motion: a boost then changes z alone, and x and y keep every
-//! digit beside the stern. A part of a face is judged by a cap around it. Aberration maps circles to circles (Penrose 1959), so the cap
-//! that the observer sees is known exactly from two points on the meridian through the motion; it is conservative, so that no
-//! pixel looks for a pane in vain.
+//! Directions are those of a cube around the eye, turned so that +z is along the motion. A boost then changes z
+//! alone, and x and y keep every digit near dead astern. A part of a face is judged by a cap around it. Aberration
+//! maps circles to circles (Penrose 1959), so the cap that the observer sees is known exactly from two points on the
+//! meridian through the motion. The cap is conservative, so that every pixel finds its pane.
 
 use view::Camera;
 use glam::{DMat3, DVec2, DVec3};
 use physics::Celerity;
 
-/// How many times more a part may be enlarged in one place than in the mean for its grid to be believed.
+/// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;
 
-/// What is seen: a flat picture, by an observer in motion.
+/// Sight of a flat picture by an observer in motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight {
-    /// From the axes of world and observer to the cube's.
+    /// Rotation from the axes of world and observer to those of the cube.
     pub cube_from_world: DMat3,
     /// Right, up and forward of the picture, cube's axes.
     picture: [DVec3; 3],
     /// Inward unit normals of the picture's edges, cube's axes.
     edges: [DVec3; 4],
-    /// Pixels from the picture's middle to its right and upper edge.
+    /// Pixels from the middle of the picture to its right and upper edge.
     half_size: DVec2,
-    /// Tangents of the picture's middle.
+    /// Tangents of the middle of the picture.
     middle: DVec2,
-    /// Pixels per tangent of the picture.
+    /// Pixels of the picture for each unit of tangent.
     focal_length: DVec2,
     kappa: f64,
 }
@@ -35,24 +35,24 @@ pub struct Sight {
 pub struct Part {
     /// Index into [`FACES`].
     pub face: usize,
-    /// Tangents of its middle.
+    /// Tangents of the middle of the part.
     pub middle: DVec2,
-    /// Tangents from its middle to its edge.
+    /// Tangents from the middle of the part to its edge.
     pub half: f64,
 }
 
-/// How large a part is in the picture, across and down.
+/// Size of a part in the picture, across and down.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
-    /// Pixels, if it were everywhere as large as where it is largest.
+    /// Size by the greatest enlargement anywhere in the part, pixels.
     pub most: DVec2,
-    /// Pixels, by the root mean square.
+    /// Size by the root mean square of the enlargement, pixels.
     pub mean: DVec2,
-    /// All of it is in the picture.
+    /// True if the whole part is in the picture.
     pub inside: bool,
 }
 
-/// Right, up and forward of a cube's face for one who looks at it from within, cube's axes; `warp.wgsl` orders them alike.
+/// Right, up and forward of each of the cube's faces, seen from within, cube's axes. `warp.wgsl` uses the same order.
 pub const FACES: [[DVec3; 3]; 6] = [
     [DVec3::Y, DVec3::X, DVec3::Z],
     [DVec3::X, DVec3::Y, DVec3::NEG_Z],
@@ -62,26 +62,26 @@ pub const FACES: [[DVec3; 3]; 6] = [
     [DVec3::Z, DVec3::X, DVec3::NEG_Y],
 ];
 
-/// A circle of directions and all within it, in the observer's frame.
+/// A circle of directions with its inside, in the observer's frame.
 #[derive(Clone, Copy, Debug)]
 struct Cap {
     middle: DVec3,
-    /// Up to π.
+    /// Angle from the middle to the circle, radians, at most π.
     radius_rad: f64,
 }
 
 impl Sight {
-    /// What `camera` sees, of `size` pixels, in motion with `celerity`.
+    /// Sight of `camera` with `size` pixels, moving with `celerity`.
     pub fn new(camera: &Camera, size: [u32; 2], celerity: Celerity) -> Self {
         let axis = |eye: DVec3| camera.observer_from_eye * eye;
         let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));
         let [width, height] = size.map(f64::from);
-        // Samples lie anywhere in a pixel, so the picture is taken to be one pixel wider all round.
+        // Samples lie anywhere in a pixel, so the picture is taken one pixel wider all round.
         let tangents = camera.tangents(size);
         let focal_length = tangents.focal_length(size);
         let (low, high) = (tangents.low - 1.0 / focal_length, tangents.high + 1.0 / focal_length);
 
-        // The cube: z along the motion; x towards the middle of the picture, if that is another direction.
+        // The cube has z along the motion, and x towards the middle of the picture, if that is another direction.
         let motion = celerity.vector().normalize_or(forward);
         let side = [forward, right, up].into_iter().map(|axis| axis - axis.dot(motion) * motion);
         let side = side.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
@@ -100,20 +100,21 @@ impl Sight {
         }
     }
 
-    /// Whether any of a part may be in the picture.
+    /// True if any of a part may be in the picture.
     pub fn sees(&self, part: &Part) -> bool {
         let cap = self.cap(part);
         let reach = cap.radius_rad.min(std::f64::consts::FRAC_PI_2).sin();
         self.edges.iter().all(|edge| edge.dot(cap.middle) >= -reach)
     }
 
-    /// The cap that the observer sees around a part of the cube.
+    /// Cap around a part of the cube, in the observer's frame.
     fn cap(&self, part: &Part) -> Cap {
         let middle = part.direction(DVec2::ZERO);
         let corners = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
         let radius = corners.into_iter().map(|corner| angle(middle, part.direction(corner))).fold(0.0, f64::max);
 
-        // Along the meridian from the motion through the middle, angles shrink as tan(θ'/2) = tan(θ/2) / κ; both ends of the cap do.
+        // Along the meridian from the motion through the middle, angles shrink as tan(θ'/2) = tan(θ/2) / κ, so both
+        // ends of the cap are known.
         let from_motion = f64::atan2(middle.truncate().length(), middle.z);
         let seen = |world: f64| 2.0 * f64::atan2((0.5 * world).sin(), self.kappa * (0.5 * world).cos());
         let (near, far) = (seen(from_motion - radius), seen(from_motion + radius));
@@ -122,9 +123,9 @@ impl Sight {
         Cap { middle: (meridian * sine).extend(cosine), radius_rad: 0.5 * (far - near) }
     }
 
-    /// Where a direction of the world is in the picture, pixels from its middle; `None` if behind the eye.
+    /// Place of a world direction in the picture, pixels from the middle; `None` if it is behind the eye.
     pub fn pixel(&self, world: DVec3) -> Option<DVec2> {
-        // The boost scales the two light-cone coordinates, which nothing cancels in.
+        // The boost scales the two light-cone coordinates. Their computation has no cancellation.
         let across = world.truncate().length_squared();
         let length = (across + world.z * world.z).sqrt();
         let big = length + world.z.abs();
@@ -135,14 +136,14 @@ impl Sight {
         (forward > 0.0).then(|| (DVec2::new(right, up) / forward - self.middle) * self.focal_length)
     }
 
-    /// How large a part is in the picture. `None` if a grid on it cannot tell.
+    /// Size of a part in the picture. `None` if a grid on the part cannot tell it.
     pub fn extent(&self, part: &Part) -> Option<Extent> {
         const STEPS: usize = 4;
         let at = |column: usize, row: usize| {
             let place = DVec2::new(column as f64, row as f64) * (2.0 / STEPS as f64) - 1.0;
             self.pixel(part.direction(place))
         };
-        // At least as far as a part can be seen that is only just in sight.
+        // Margin of at least the distance at which a part that is barely in sight can be seen.
         let near = 1.25 * self.half_size + 2.0;
         let shown = |pixel: DVec2| pixel.abs().cmple(near).all();
         let (mut most, mut squares, mut counts) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
@@ -166,7 +167,7 @@ impl Sight {
             }
         }
         let mean = DVec2::new((squares.x / counts.x).sqrt(), (squares.y / counts.y).sqrt());
-        // A grid that is bent too much, or reaches behind the eye, says little about what is between its points.
+        // A grid that is bent too much, or reaches behind the eye, says little about the space between its points.
         let told = counts.min_element() > 0.0 && !behind && most.cmple(BENT * mean).all();
         let steps = STEPS as f64;
         told.then_some(Extent { most: steps * most, mean: steps * mean, inside })
@@ -174,14 +175,14 @@ impl Sight {
 }
 
 impl Part {
-    /// Towards a place in it, −1 to 1 from left to right and from below to above; not normalised.
+    /// Vector towards a place in the part; x from −1 left to 1 right, y from −1 below to 1 above. Not normalised.
     pub fn direction(&self, place: DVec2) -> DVec3 {
         let [right, up, forward] = FACES[self.face];
         let tangent = self.middle + self.half * place;
         forward + tangent.x * right + tangent.y * up
     }
 
-    /// Left below, right below, left above, right above.
+    /// Quarters in the order lower left, lower right, upper left, upper right.
     pub fn quarters(self) -> [Self; 4] {
         let half = 0.5 * self.half;
         let quarter = |x: f64, y: f64| Self { middle: self.middle + half * DVec2::new(x, y), half, ..self };

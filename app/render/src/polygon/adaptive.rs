@@ -1,10 +1,12 @@
-//! The scene cut for the very picture: no place of it is drawn further from its own than a part of a pixel.
+//! A scene cut for each single picture: no place of it is drawn farther from its exact place than a part of a pixel.
 //!
-//! A still waits for its cut. A ride does not: a thread of its own cuts for the newest picture that there is, and the cut is shown, whole,
-//! as soon as it is ready, while every frame bends the vertices of the cut that it has. Such a cut is a little late, so it is a little
-//! finer than was promised, wider than the picture, and edges on the verge stay as they were, so that nothing flickers.
+//! A still waits for its cut. A ride does not: a separate thread cuts for the newest picture. Its cut is shown as a
+//! whole as soon as it is ready; until then every frame bends the vertices of the cut before. Such a cut is a little
+//! late. So it is a little finer than promised and wider than the picture, and edges close to the limit stay as they
+//! were, so that nothing flickers.
 //!
-//! A cut's vertices are few, and kept in f64: they are transformed here, not by the kernel, and hold at every speed.
+//! A cut has few vertices, kept in f64. They are transformed here, not by the kernel, and are accurate at every
+//! speed.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,54 +21,56 @@ use crate::world::{Prepared, World, stream_count, stream_stride};
 use scene::Scene;
 use scene::cut::{Cut, Fineness, Sight, Viewpoint};
 
-/// The most triangles of a still.
+/// Largest number of triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;
 
-/// The most triangles while riding.
+/// Largest number of triangles while riding.
 const RIDE_TRIANGLES: usize = 1_000_000;
 
-/// In a ride edges are cut at this share of the tolerance, since the picture is a little further on when the cut is shown.
+/// Share of the tolerance at which edges are cut in a ride, since the picture has changed a little when the cut is
+/// shown.
 const RIDE_SHARE: f64 = 0.7;
 
-/// By what angle the rider may turn until the next cut, radians.
+/// Angle by which the rider may turn until the next cut, radians.
 const RIDE_TURN_RAD: f64 = 0.15;
 
-/// After each cut its thread rests so many times as long as that took, and leaves the processor to those who draw.
+/// Pause of the cutting thread after each cut, in durations of that cut. It leaves the processor to the threads that
+/// draw.
 const REST: u32 = 2;
 
-/// Vertices that a thread transforms at a time.
+/// Number of vertices that a thread transforms at a time.
 const CHUNK: usize = 4096;
 
-/// How finely, and when, a scene is cut.
+/// Accuracy and timing of a scene's cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// How far from its place anything may be drawn, pixels.
+    /// Largest distance of anything drawn from its exact place, pixels.
     pub pixels: f64,
-    /// Who waits for whom.
+    /// Timing: a picture waits for its cut, or takes the newest one.
     pub pace: Pace,
 }
 
-/// Whether a picture waits for its cut.
+/// Timing of a picture and its cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// It does.
+    /// The picture waits for its cut.
     Still,
-    /// It is drawn with the newest cut that there is.
+    /// The picture is drawn with the newest cut there is.
     Ride,
 }
 
-/// What a cut is, and how good.
+/// Size and accuracy of a cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CutStats {
-    /// The tolerance that was kept, pixels; more than was asked for if that would have made too many triangles.
+    /// Tolerance that was kept, pixels; larger than requested if that would have made too many triangles.
     pub tolerance_px: f64,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: usize,
-    /// How long it took.
+    /// Time that the cut took.
     pub duration: Duration,
 }
 
-/// A scene, and its newest cut.
+/// A scene with its newest cut.
 pub struct Adaptive {
     scene: Arc<Scene>,
     tolerance: Tolerance,
@@ -74,17 +78,18 @@ pub struct Adaptive {
     cutter: Option<Cutter>,
 }
 
-/// The cut that is drawn.
+/// Cut that is drawn.
 struct Shown {
     cut: Arc<Cut>,
     stats: CutStats,
-    /// Some of its edges.
+    /// Sample of the edges of the cut.
     edges: Edges,
-    /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart; of what is animated also log2 D.
+    /// Apparent positions: x, y and z streams, [`stream_stride`] bytes apart; if anything is animated, also a stream
+    /// of log2 D.
     streams: wgpu::Buffer,
 }
 
-/// A cut, ready to be uploaded.
+/// A cut that is ready to be uploaded.
 struct Made {
     cut: Arc<Cut>,
     prepared: Prepared,
@@ -92,7 +97,7 @@ struct Made {
 }
 
 impl Adaptive {
-    /// Of `scene`, whose surfaces must be those that the world shows.
+    /// Adaptive cuts of `scene`, whose surfaces must be those that the world shows.
     pub fn new(scene: &Scene, tolerance: Tolerance) -> Self {
         let scene = Arc::new(Scene {
             origin: scene.origin,
@@ -105,7 +110,7 @@ impl Adaptive {
         Self { scene, tolerance, shown: None, cutter }
     }
 
-    /// Makes, or takes, the cut for all pictures of one eye, and bends its vertices.
+    /// Makes or takes the cut for all pictures of one eye, and bends its vertices.
     pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
         let Some((first, _)) = shots.first() else { return };
         let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
@@ -131,7 +136,7 @@ impl Adaptive {
         }
     }
 
-    /// Waits for the cut that is being made, if one is; the next picture takes it.
+    /// Waits for the cut that is under way, if any. The next picture takes it.
     pub fn settle(&self) {
         if let Some(cutter) = &self.cutter {
             while cutter.busy && cutter.made.is_empty() {
@@ -140,23 +145,23 @@ impl Adaptive {
         }
     }
 
-    /// The apparent positions of the newest cut.
+    /// Apparent positions of the newest cut.
     pub fn streams(&self) -> Option<&wgpu::Buffer> {
         self.shown.as_ref().map(|shown| &shown.streams)
     }
 
-    /// Some edges of the newest cut.
+    /// Sample of the edges of the newest cut.
     pub fn edges(&self) -> Option<&Edges> {
         self.shown.as_ref().map(|shown| &shown.edges)
     }
 
-    /// What the newest cut is.
+    /// Size and accuracy of the newest cut.
     pub fn stats(&self) -> Option<CutStats> {
         self.shown.as_ref().map(|shown| shown.stats)
     }
 }
 
-/// Cuts for one picture.
+/// Cuts a scene for one viewpoint.
 fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Option<&Cut>) -> Made {
     let started = Instant::now();
     let fineness = match tolerance.pace {
@@ -172,7 +177,8 @@ fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Opti
     Made { cut: Arc::new(cut), prepared, stats }
 }
 
-/// Where the vertices of a cut appear: x, y and z streams, and one of log2 D if anything is animated. What appears nowhere is put at the eye.
+/// Apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated. Vertices
+/// without an apparent position are put at the eye.
 fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
     let stride = stream_stride(cut.vertex_count()) as usize / 4;
     let mut streams = vec![0.0_f32; stream_count(&scene.motions) as usize * stride];
@@ -208,14 +214,14 @@ fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
     streams
 }
 
-/// The thread that cuts while others draw.
+/// Thread that cuts while others draw, with its channels.
 struct Cutter {
     wanted: Sender<(Viewpoint, Arc<Cut>)>,
     made: Receiver<Made>,
     busy: bool,
-    /// Whose cut was asked for last.
+    /// Viewpoint of the cut requested last.
     asked: Option<Viewpoint>,
-    /// When the next one may be.
+    /// Earliest time of the next request.
     due: Instant,
 }
 
@@ -236,7 +242,7 @@ impl Cutter {
         Self { wanted, made, busy: false, asked: None, due: Instant::now() }
     }
 
-    /// The newest cut, if there is a new one; asks for the next one.
+    /// Returns the newest cut, if there is a new one, and requests the next one.
     fn follow(&mut self, viewpoint: &Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
         let made = self.made.try_recv().ok();
         if let Some(made) = &made {

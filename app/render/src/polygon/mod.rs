@@ -1,9 +1,9 @@
 //! `polygon`: the photo-surface of every vertex (W 5.1), drawn with ordinary rasterisation.
 //!
-//! Exact at the vertices; between them edges are straight where they should bend, which is what refinement is for.
-//! The transform runs beside the render thread (`photo_surface`); it does not depend on where the eye looks, so
-//! one [`PhotoSurface::submit`] serves any number of draws. Hidden surfaces by depth are
-//! right as they stand: along one line of sight the nearer apparent position is the later emission (W 5.1.1).
+//! Exact at the vertices. Between them edges are straight although they should bend, which is why scenes are refined.
+//! The transform runs beside the render thread (`photo_surface`). It does not depend on the direction in which the
+//! eye looks, so one [`PhotoSurface::submit`] serves any number of draws. Depth hides the right surfaces without
+//! further work: along one line of sight the nearer apparent position is the later emission (W 5.1.1).
 
 //!
 //! A scene is either refined to one edge length before it comes here, or cut for every picture by [`Adaptive`].

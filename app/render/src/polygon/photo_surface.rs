@@ -1,17 +1,17 @@
-//! The transform beside the render thread: worldwide vertices in, apparent positions out, straight into memory the
-//! GPU copies from.
+//! The transform beside the render thread: worldwide vertices in, apparent positions out, written directly into
+//! memory from which the GPU copies.
 //!
-//! Three staging buffers circulate (W 6.4.1's flux buffers): one being filled by the `photo-surface` thread and its
-//! rayon workers, one being copied from and drawn, one on its way back. A buffer travels
-//!
+//! Three staging buffers circulate (W 6.4.1's flux buffers): one is filled by the `photo-surface` thread and its
+//! rayon workers, one is copied from and drawn, one is on its way back. A buffer's way is
 //! ```text
 //! free ─► submit: job ─► thread: kernel writes the mapped memory ─► receive ─► copy, draw ─► mapped again ─► free
 //! ```
 //!
-//! and a whole photo-surface is handed over or nothing. [`PhotoSurface::submit`] for frame n + 1 before
-//! [`PhotoSurface::receive`]'s frame n is drawn makes the two overlap.
+//! A photo-surface is handed over as a whole. Call [`PhotoSurface::submit`] for frame n + 1 before the draw of frame
+//! n from [`PhotoSurface::receive`], and the two overlap.
 //!
-//! What is animated is no matter of the kernel: its vertices are solved for one by one, and written into the same streams and one of log2 D.
+//! The kernel does not handle animated bodies. The program solves for each of their vertices, and writes the result
+//! into the same streams and one of log2 D.
 
 use crate::gpu::{Gpu, GpuError};
 use crate::world::{stream_count, stream_stride};
@@ -26,7 +26,7 @@ use std::mem::MaybeUninit;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Buffers in circulation.
+/// Number of staging buffers in circulation.
 const STAGING_BUFFERS: usize = 3;
 
 /// The transform's thread, its buffers, and the vertex buffer that draws read.
@@ -36,38 +36,39 @@ pub struct PhotoSurface {
     free: Receiver<wgpu::Buffer>,
     freed: Sender<wgpu::Buffer>,
     pending: usize,
-    /// The apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart; a fourth, of log2 D, where anything is animated.
+    /// Apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart; if anything is animated, a
+    /// fourth of log2 D.
     pub streams: wgpu::Buffer,
 }
 
 struct Job {
     staging: wgpu::Buffer,
-    /// As what rests has it, then as each motion has it.
+    /// Eyes in the frame of the resting scene, then in the frame of each motion.
     eyes: Vec<Eye>,
     observer: Observer,
 }
 
-/// Vertices that have the eye in common.
+/// Successive vertices with the same eye.
 enum Run {
-    /// They rest in a frame.
+    /// Vertices that rest in a frame.
     Still {
-        /// Which of a job's eyes.
+        /// Index into a job's eyes.
         eye: usize,
         vertices: Vertices,
     },
-    /// Keys move them; in their own frame.
+    /// Vertices that keys move, with their places in the body's own frame.
     Animated { animated: Arc<Animated>, places: Vec<DVec3> },
 }
 
-/// Animated vertices that a thread solves at a time.
+/// Number of animated vertices that a thread solves for at a time.
 const CHUNK: usize = 256;
 
-/// A photo-surface ready to draw.
+/// A photo-surface that is ready to draw.
 pub struct Transformed {
     staging: wgpu::Buffer,
-    /// What the kernel met.
+    /// Counts of vertices and of results that are not finite.
     pub stats: Stats,
-    /// How long it took.
+    /// Time that the transform took.
     pub duration: Duration,
 }
 
@@ -78,7 +79,7 @@ impl PhotoSurface {
     /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, PhotoSurfaceError> {
         let stride = stream_stride(scene.vertex_count());
-        // Meshes that follow each other and move alike go together: all of them, where nothing moves.
+        // Successive meshes with the same motion form one run. If nothing moves, there is a single run.
         let runs = scene.meshes.chunk_by(|a, b| a.motion == b.motion).map(|meshes| {
             let positions = meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
             let motion = meshes[0].motion;
@@ -121,8 +122,8 @@ impl PhotoSurface {
         Ok(Self { jobs, finished, free, freed, pending: 0, streams })
     }
 
-    /// Begins the transform for an observer: his eye as what rests has it, then as each of the scene's motions has it. Waits if all buffers
-    /// are under way.
+    /// Begins the transform for an observer. `eyes` are the eye in the frame of the resting scene, then in the frame
+    /// of each of the scene's motions. Waits if all buffers are under way.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -143,7 +144,7 @@ impl PhotoSurface {
         Ok(())
     }
 
-    /// Photo-surfaces submitted and not yet received.
+    /// Number of photo-surfaces submitted and not yet received.
     pub fn pending(&self) -> usize {
         self.pending
     }
@@ -151,7 +152,7 @@ impl PhotoSurface {
     /// Waits for the oldest photo-surface under way.
     ///
     /// # Errors
-    /// [`GpuError::Lost`] if there is none, or its thread has ended.
+    /// [`GpuError::Lost`] if none is under way, or if its thread has ended.
     pub fn receive(&mut self) -> Result<Transformed, GpuError> {
         if self.pending == 0 {
             return Err(GpuError::Lost("no photo-surface was asked for".to_owned()));
@@ -163,13 +164,14 @@ impl PhotoSurface {
     /// Waits for the oldest photo-surface under way, and frees its buffer, which is still mapped.
     ///
     /// # Errors
-    /// As [`PhotoSurface::receive`].
+    /// Those of [`PhotoSurface::receive`].
     pub fn discard(&mut self) -> Result<(), GpuError> {
         let transformed = self.receive()?;
         self.freed.send(transformed.staging).map_err(|_| GpuError::Lost("the buffers' channel is closed".to_owned()))
     }
 
-    /// Puts a photo-surface where draws find it, and sends its buffer back round once the GPU is done with it.
+    /// Copies a photo-surface to the buffer that draws read, and returns its staging buffer once the GPU is done with
+    /// it.
     pub fn upload(&self, encoder: &mut wgpu::CommandEncoder, transformed: Transformed) {
         let staging = transformed.staging;
         staging.unmap();
@@ -205,7 +207,7 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
         };
         let streams = [&mut x, &mut y, &mut z]
             .map(|stream| stream.split_off_mut(..count).expect("streams have room for all vertices"));
-        // Without anything animated there is no such stream.
+        // If nothing is animated, there is no stream of log2 D.
         let log2_doppler = log2_doppler.split_off_mut(..count).unwrap_or_default();
         let (eye, vertices) = match run {
             Run::Still { eye, vertices } => (eye, vertices),
@@ -226,7 +228,8 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
     Transformed { staging: job.staging, stats, duration: started.elapsed() }
 }
 
-/// Writes where the vertices of an animated body appear, and log2 D; those that appear nowhere at the eye. How many those are.
+/// Writes the apparent positions of an animated body's vertices, and log2 D. Vertices without an apparent position
+/// are put at the eye. Returns their number.
 fn solve(
     course: &Course,
     places: &[DVec3],

@@ -1,8 +1,9 @@
-//! The photo-surface bent by the GPU's vertex stage, in the light-cone form.
+//! The photo-surface computed by the GPU's vertex stage, in the light-cone form.
 //!
-//! The scene's vertices lie on the device and stay there; a frame needs to write no more than where the eye is. But the part across the motion
-//! loses its digits in f32 near dead astern, and shaders may not rely on more: so chunks of vertices that reach into the rear cone are bent by the
-//! kernel on the CPU, in f64 where it matters, and handed over. The streams hold those; for all others they hold [`shaders::NOT_BENT`].
+//! The scene's vertices stay on the device, and a frame needs to write only the place of the eye. But the component
+//! across the motion loses its digits in f32 near dead astern, and shaders may not rely on more than f32. So chunks
+//! of vertices that reach into the rear cone are bent by the kernel on the CPU, in f64 where it matters, and
+//! uploaded. The streams hold those vertices; for all others they hold [`shaders::NOT_BENT`].
 
 use crate::gpu::Gpu;
 use crate::world::stream_stride;
@@ -10,28 +11,28 @@ use scene::Scene;
 use glam::{DVec3, Vec4};
 use physics::photo_surface::{CHUNK, Eye, Kernel, PhotoSurfaceError, Surface, Vertices};
 
-/// A scene's vertices in chunks, and the streams that tell the vertex stage which of them are bent already.
+/// A scene's vertices in chunks, and the streams that mark for the vertex stage the vertices that are already bent.
 pub struct VertexStage {
     chunks: Vec<Chunk>,
     origin: DVec3,
-    /// Apparent positions of what the CPU has bent: x, y and z streams, [`stream_stride`] bytes apart.
+    /// Apparent positions of the vertices bent on the CPU: x, y and z streams, [`stream_stride`] bytes apart.
     pub streams: wgpu::Buffer,
     stride: u64,
 }
 
-/// Neighbouring vertices that move alike.
+/// Neighbouring vertices with the same motion.
 struct Chunk {
-    /// Which of the eyes: of what rests, then of each motion.
+    /// Index into the eyes: 0 for what rests, then one for each motion.
     eye: usize,
-    /// Of all the scene's vertices.
+    /// Index of the first vertex among all vertices of the scene.
     first: usize,
     vertices: Vertices,
-    /// Whether the streams hold apparent positions of it.
+    /// True if the streams hold apparent positions of the chunk.
     bent: bool,
 }
 
 impl VertexStage {
-    /// For the vertices of `scene`.
+    /// Vertex stage for the vertices of `scene`.
     ///
     /// # Errors
     /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
@@ -41,7 +42,7 @@ impl VertexStage {
         for mesh in &scene.meshes {
             for positions in mesh.positions.chunks(CHUNK) {
                 let vertices = Vertices::from_offsets(scene.origin, positions.iter().copied())?;
-                // At first none is bent, which has to be written.
+                // Every chunk starts as bent, so that the first frame writes that it is not.
                 chunks.push(Chunk { eye: mesh.motion.map_or(0, |motion| 1 + motion), first, vertices, bent: true });
                 first += positions.len();
             }
@@ -56,7 +57,8 @@ impl VertexStage {
         Ok(Self { chunks, origin: scene.origin, streams, stride })
     }
 
-    /// Bends on the CPU what the vertex stage cannot, for an eye as what rests has it, then as each of the scene's motions has it.
+    /// Bends on the CPU the chunks that the vertex stage cannot bend. `eyes` are the eye in the frame of the resting
+    /// scene, then in the frame of each of the scene's motions.
     pub fn bend(&mut self, gpu: &Gpu, eyes: &[Eye]) {
         let write = |first: usize, streams: [&[f32]; 3]| {
             for (axis, stream) in (0..).zip(streams) {
@@ -84,12 +86,12 @@ impl VertexStage {
         }
     }
 
-    /// Chunks that the CPU bends for the newest eye, and all.
+    /// Number of chunks that the CPU bends for the newest eye, and number of all chunks.
     pub fn chunks_astern(&self) -> (usize, usize) {
         (self.chunks.iter().filter(|chunk| chunk.bent).count(), self.chunks.len())
     }
 
-    /// A view of what rests or moves, for the vertex stage: where its eye is.
+    /// View for the vertex stage: `view` with the place of this eye.
     #[must_use]
     pub fn view(&self, view: shaders::View, eye: &Eye) -> shaders::View {
         let offset = eye.position() - self.origin;

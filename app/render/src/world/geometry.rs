@@ -1,4 +1,4 @@
-//! The scene on the GPU: static attributes, indices, and the list of draws.
+//! Geometry of the scene on the GPU: static attributes, indices, and the list of draws.
 
 use crate::gpu::Gpu;
 use scene::cut::Cut;
@@ -9,35 +9,35 @@ use glam::{DVec3, Vec3};
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
-/// Triangles of a [`Group`]: enough that a draw of its own costs little beside them.
+/// Number of triangles of a [`Group`]: enough that a draw of its own costs little in comparison.
 const GROUP_TRIANGLES: usize = 512;
 
-/// What a vertex carries besides its apparent position.
+/// Attributes of a vertex besides its apparent position.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Attributes {
-    /// Metres, relative to the scene's origin.
+    /// Position in metres relative to the scene's origin.
     pub world: [f32; 3],
-    /// Unit vector, world axes.
+    /// Normal, unit vector, world axes.
     pub normal: [f32; 3],
     /// Texture coordinates.
     pub uv: [f32; 2],
-    /// Linear colour and opacity.
+    /// Linear colour and opacity of the vertex.
     pub colour: [f32; 4],
 }
 
-/// Consecutive triangles drawn alike.
+/// Successive triangles with the same material and motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// Index into the scene's materials.
     pub material: usize,
-    /// Index into the scene's motions; `None`: it rests in the world.
+    /// Index into the scene's motions; `None` for what rests in the world.
     pub motion: Option<usize>,
     /// Range of the index buffer.
     pub indices: Range<u32>,
-    /// World position to sort blended surfaces by; of what moves, in its own frame.
+    /// World position by which blended surfaces are sorted, metres; for a moving body, in its own frame.
     pub centre: DVec3,
-    /// The same triangles in groups that lie close together, for views that see little of the world.
+    /// Groups of the same triangles that lie close together, for views that see little of the world.
     pub groups: Vec<Group>,
 }
 
@@ -46,23 +46,24 @@ pub struct Draw {
 pub struct Group {
     /// Range of the index buffer.
     pub indices: Range<u32>,
-    /// World position.
+    /// Middle of the ball, world position, metres.
     pub centre: DVec3,
-    /// Metres.
+    /// Radius of the ball, metres.
     pub radius: f64,
 }
 
-/// Buffers that never change while a scene is shown.
+/// Buffers of a scene that do not change while it is shown.
 pub struct Geometry {
     /// [`Attributes`] of every vertex.
     pub attributes: wgpu::Buffer,
-    /// Three u32 per triangle.
+    /// Indices, three u32 for each triangle.
     pub indices: wgpu::Buffer,
-    /// Drawn in any order, before the sky: one draw per material and motion.
+    /// Opaque draws, in any order before the sky: one for each material and motion.
     pub opaque: Vec<Draw>,
-    /// Drawn from far to near, after the sky: one draw per mesh.
+    /// Blended draws, from far to near after the sky: one for each mesh.
     pub blended: Vec<Draw>,
-    /// World positions relative to the scene's origin, x, y and z streams one after the other: the plain draw's vertices.
+    /// Positions relative to the scene's origin in x, y and z streams one after the other, metres: the vertices of a
+    /// plain draw.
     pub plain: wgpu::Buffer,
     /// Bytes from one stream to the next.
     pub stream_stride: u64,
@@ -73,12 +74,12 @@ pub fn stream_stride(count: usize) -> u64 {
     (count as u64 * 4).next_multiple_of(256).max(256)
 }
 
-/// How many streams say where vertices appear: x, y and z, and log2 D if anything is animated.
+/// Number of streams of apparent positions: x, y and z, and log2 D if anything is animated.
 pub fn stream_count(motions: &[Motion]) -> u64 {
     if motions.iter().any(|motion| motion.animated().is_some()) { 4 } else { 3 }
 }
 
-/// What a `Geometry` is made of, in memory.
+/// Contents of a `Geometry` in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Prepared {
     attributes: Vec<Attributes>,
@@ -88,7 +89,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Everything of the scene that does not depend on the observer.
+    /// Contents for a scene, except for what depends on the observer.
     pub fn of(scene: &Scene) -> Self {
         let mut attributes = Vec::with_capacity(scene.vertex_count());
         for mesh in &scene.meshes {
@@ -103,7 +104,7 @@ impl Prepared {
         Self { attributes, indices, opaque, blended }
     }
 
-    /// The same of a scene that was cut. It is drawn as a whole: there are no groups.
+    /// Contents for a scene that was cut. It is drawn as a whole, so there are no groups.
     pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
         let mut prepared = Self { attributes: Vec::with_capacity(cut.vertex_count()), ..Self::default() };
         let mut bases = Vec::with_capacity(cut.meshes.len());
@@ -119,7 +120,7 @@ impl Prepared {
         for mesh in order(scene) {
             let (base, source) = (bases[mesh], &cut.meshes[mesh]);
             let start = prepared.indices.len() as u32;
-            // As for the whole scene: what is nowhere would be drawn at the eye.
+            // A corner without a finite place would be drawn at the eye, as in a scene that is not cut.
             let drawable = |corners: &&[u32]| corners.iter().all(|&i| source.vertices[i as usize].place.is_finite());
             let triangles = source.indices.chunks_exact(3).filter(drawable);
             prepared.indices.extend(triangles.flatten().map(|index| base + index));
@@ -137,12 +138,12 @@ impl Prepared {
 }
 
 impl Geometry {
-    /// Uploads everything of the scene that does not depend on the observer.
+    /// Uploads the contents for a scene, except for what depends on the observer.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
         Self::upload(gpu, Prepared::of(scene))
     }
 
-    /// Uploads what was prepared.
+    /// Uploads prepared contents.
     pub fn upload(gpu: &Gpu, prepared: Prepared) -> Self {
         let Prepared { attributes, indices, opaque, blended } = prepared;
         let stream_stride = stream_stride(attributes.len());
@@ -168,19 +169,19 @@ impl Geometry {
     }
 }
 
-/// Whether a mesh is drawn blended.
+/// True if a mesh is drawn blended.
 fn blends(scene: &Scene, mesh: usize) -> bool {
     scene.materials[scene.meshes[mesh].material].alpha == Alpha::Blend
 }
 
-/// The meshes in the order in which they are drawn: opaque ones first, by material and by motion.
+/// Order in which the meshes are drawn: opaque ones first, by material and by motion.
 fn order(scene: &Scene) -> Vec<usize> {
     let mut order: Vec<usize> = (0..scene.meshes.len()).collect();
     order.sort_by_key(|&mesh| (blends(scene, mesh), scene.meshes[mesh].material, scene.meshes[mesh].motion));
     order
 }
 
-/// Adds a draw, to the one before it if that is opaque, of the same material and of the same motion.
+/// Adds a draw. It is joined to the draw before it if that is opaque and has the same material and motion.
 fn push_draw(opaque: &mut Vec<Draw>, blended: &mut Vec<Draw>, draw: Draw, blends: bool) {
     match opaque.last_mut() {
         _ if blends => blended.push(draw),
@@ -191,7 +192,7 @@ fn push_draw(opaque: &mut Vec<Draw>, blended: &mut Vec<Draw>, draw: Draw, blends
     }
 }
 
-/// Concatenates the meshes' indices: opaque ones grouped by material, blended ones kept apart.
+/// Joins the meshes' indices: opaque ones grouped by material, blended ones kept apart.
 fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
     let mut base = 0;
     let bases: Vec<u32> = scene
@@ -207,7 +208,7 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
     for mesh in order(scene) {
         let start = indices.len() as u32;
         let source = &scene.meshes[mesh];
-        // A corner that is nowhere would be drawn at the eye: leave its triangles out.
+        // A corner without a finite place would be drawn at the eye, so its triangles are left out.
         let drawable = |corners: &&[u32]| corners.iter().all(|&i| source.positions[i as usize].is_finite());
         let triangles = source.indices.chunks_exact(3).filter(drawable);
         indices.extend(triangles.flatten().map(|index| index + bases[mesh]));
@@ -231,7 +232,7 @@ fn draws(scene: &Scene) -> (Vec<u32>, Vec<Draw>, Vec<Draw>) {
     (indices, opaque, blended)
 }
 
-/// Sorts triangles so that neighbours in space are neighbours in the list: by the Morton code of their centres.
+/// Sorts triangles by the Morton code of their centres, so that neighbours in space are neighbours in the list.
 fn gather(indices: &mut [u32], positions: &[Vec3]) {
     let mut triangles: Vec<[u32; 3]> =
         indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
@@ -252,12 +253,12 @@ fn gather(indices: &mut [u32], positions: &[Vec3]) {
     }
 }
 
-/// Ten bits, two zeros between each and the next.
+/// Ten bits spread with two zeros between each and the next.
 fn spread(bits: u32) -> u32 {
     (0..10).fold(0, |sum, bit| sum | (bits >> bit & 1) << (3 * bit))
 }
 
-/// Cuts a list of triangles into groups. `first` is the list's place in the index buffer.
+/// Splits a list of triangles into groups. `first` is the place of the list in the index buffer.
 fn groups(indices: &[u32], first: u32, positions: &[Vec3], origin: DVec3) -> Vec<Group> {
     let group = |(number, corners): (usize, &[u32])| {
         let corner = |&index: &u32| positions[index as usize].as_dvec3();

@@ -1,4 +1,4 @@
-//! Materials on the GPU: a uniform and two textures each.
+//! Materials on the GPU: a uniform and two textures for each.
 
 use super::spectra::{Spectra, WHITE};
 use crate::gpu::Gpu;
@@ -9,17 +9,17 @@ use glam::Vec4;
 use rayon::prelude::*;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// Samples along the longer side of a stretched footprint.
+/// Number of samples along the longer side of a stretched footprint.
 const ANISOTROPY: u16 = 8;
-/// The same where the CPU draws. Mesa's software sampler walks a footprint's whole bounding box: beside the eye, where a
-/// triangle is stretched without bound, it may not come back.
+/// Number of samples where the CPU draws. Mesa's software sampler walks the whole bounding box of a footprint. Near
+/// the eye, where a triangle is stretched without bound, it may never finish.
 const ANISOTROPY_SOFTWARE: u16 = 1;
 
-/// One bind group per material, in the scene's order.
+/// Bind groups of the materials, in the scene's order.
 pub struct Materials {
-    /// As the pipelines take them.
+    /// Layout of the bind groups, for the pipelines.
     pub layout: wgpu::BindGroupLayout,
-    /// Index = material.
+    /// Bind groups by index of the material.
     pub bind_groups: Vec<wgpu::BindGroup>,
 }
 
@@ -146,7 +146,7 @@ fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {
         mag_filter: filter,
         min_filter: filter,
         mipmap_filter: if texture.nearest { wgpu::MipmapFilterMode::Nearest } else { wgpu::MipmapFilterMode::Linear },
-        // The driver demands linear filters throughout for more than one.
+        // The driver demands linear filters throughout for an anisotropy above one.
         anisotropy_clamp: if texture.nearest { 1 } else { anisotropy },
         ..Default::default()
     })

@@ -1,7 +1,7 @@
 //! A scene on the GPU: its surfaces, its light, its spectra, and how they are drawn for an eye.
 //!
-//! Shared by the renderers. Which positions are drawn, and for whom, is theirs to say: [`World::draw`] draws views of the photo-surface
-//! as well as of the plain world, as the light that an observer sees or as weights for a map.
+//! The renderers share it. Each renderer decides which positions are drawn, and for which eye: [`World::draw`] draws
+//! views of the photo-surface or of the plain world, as the light that an observer sees or as weights for a map.
 
 mod geometry;
 mod materials;
@@ -30,31 +30,31 @@ use std::ops::Range;
 use std::sync::Arc;
 use sun::{Light, with_falling};
 
-/// Views that one submission may draw at first; more are made room for when they are needed.
+/// Number of views that one submission may draw at first. The buffer grows if more are needed.
 const VIEWS: u64 = 64;
 
-/// One scene, ready to be drawn.
+/// A scene that is ready to be drawn.
 pub struct World {
     geometry: Geometry,
     materials: Materials,
     pipelines: Pipelines,
-    /// What weights mean.
+    /// Carriers of the scene, to which the weights belong.
     pub spectra: Spectra,
-    /// World position, in metres, that plain positions are relative to.
+    /// World position of the scene's origin, metres. Plain positions are relative to it.
     pub origin: DVec3,
-    /// Of what rests, then of each motion; so are the groups of views.
+    /// Light that falls on what rests, then on each motion. The groups of views have the same order.
     lightings: Vec<wgpu::Buffer>,
-    /// What of the light every picture needs: it falls on what is animated in another way each time.
+    /// Light of the scene that every picture needs: it falls on animated bodies differently each time.
     light: Lighting,
     lit_at_rest: shaders::Lighting,
-    /// Which of the motions are.
+    /// Animated body of each motion, if it is animated.
     animated: Vec<Option<Arc<Animated>>>,
     bindings: Bindings,
     views: wgpu::Buffer,
     view_groups: Vec<wgpu::BindGroup>,
 }
 
-/// What of group 0 stays.
+/// Resources of group 0 that stay the same.
 struct Bindings {
     shadow_map: wgpu::TextureView,
     shadow_sampler: wgpu::Sampler,
@@ -62,41 +62,43 @@ struct Bindings {
     panorama: (wgpu::TextureView, wgpu::Sampler),
 }
 
-/// What a draw shows.
+/// Settings of a draw.
 pub struct Draws<'a> {
-    /// x, y and z streams, and one of log2 D if anything is animated, [`stream_stride`] bytes apart; `None`: the world's own positions, relative to its origin.
+    /// Positions to draw: x, y and z streams, and one of log2 D if anything is animated, [`stream_stride`] bytes
+    /// apart. `None` stands for the world's own positions, relative to its origin.
     pub streams: Option<&'a wgpu::Buffer>,
-    /// Whether the vertex stage bends what the streams do not hold.
+    /// True if the vertex stage bends the vertices that the streams do not hold.
     pub bends: bool,
-    /// Light or weights.
+    /// Kind of values drawn: light, weights or places.
     pub mode: Mode,
-    /// Of the target.
+    /// Format of the target.
     pub format: Format,
-    /// World position of the eye, to draw blended surfaces from far to near.
+    /// World position of the eye, metres; blended surfaces are drawn from far to near from it.
     pub eye: DVec3,
-    /// How each of the scene's motions is seen, by the views that follow each part's own; empty: what moves is not drawn.
+    /// Sight of each of the scene's motions, in the order of the views after each part's own view. If it is empty,
+    /// moving bodies are not drawn.
     pub moving: &'a [Sight],
-    /// Whether the sky is drawn where no opaque surface is, and not what is there already.
+    /// True if the sky is drawn where there is no opaque surface. Otherwise the target keeps its values there.
     pub sky: bool,
 }
 
-/// A part of a target, with a view of its own.
+/// A part of a target, with its own view.
 pub struct Part {
-    /// Which of the views written.
+    /// Index of the view among those written.
     pub view: u32,
-    /// x, y, width and height in the target; `None`: all of it.
+    /// Rectangle in the target: x, y, width and height in pixels. `None` stands for the whole target.
     pub place: Option<[u32; 4]>,
-    /// What bounds the view: planes through the eye, as inward unit normals (world axes). Without them nothing is left out.
+    /// Planes through the eye that bound the view, as inward unit normals (world axes). `None` leaves nothing out.
     pub planes: Option<[DVec3; 5]>,
 }
 
 impl Part {
-    /// All of a target, by the view written first.
+    /// Whole target, with the view written first.
     pub const WHOLE: Self = Self { view: 0, place: None, planes: None };
 }
 
 impl World {
-    /// Uploads `scene`. `background`: linear radiance instead of the scene's sky.
+    /// Uploads `scene`. `background` is a linear radiance that replaces the scene's sky.
     pub fn new(gpu: &Gpu, scene: &Scene, background: Option<[f32; 3]>) -> Self {
         let spectra = Spectra::of(scene);
         let geometry = Geometry::new(gpu, scene);
@@ -129,18 +131,19 @@ impl World {
         }
     }
 
-    /// Triangles that a draw of everything takes.
+    /// Number of triangles of a draw of the whole scene.
     pub fn triangle_count(&self) -> u64 {
         let draws = self.geometry.opaque.iter().chain(&self.geometry.blended);
         draws.map(|draw| draw.indices.len() as u64 / 3).sum()
     }
 
-    /// Replaces the triangles by the same surfaces, cut otherwise.
+    /// Replaces the triangles by another cut of the same surfaces.
     pub fn replace(&mut self, gpu: &Gpu, prepared: Prepared) {
         self.geometry = Geometry::upload(gpu, prepared);
     }
 
-    /// Writes the light that falls on what is animated, for the pictures of the next submissions. `delayed`: light takes its time.
+    /// Writes the light that falls on animated bodies, for the pictures of the next submissions. `delayed` is true if
+    /// light takes its time.
     pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, delayed: bool) {
         let sky = &self.spectra.carriers[self.spectra.sky];
         // No shadow falls on what moves.
@@ -153,17 +156,17 @@ impl World {
         }
     }
 
-    /// Layout of the group that holds view, light and spectra.
+    /// Layout of the bind group that holds view, light and spectra.
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
         &self.pipelines.view_layout
     }
 
-    /// Compiles what a mode needs. A draw in a mode that was not prepared shows nothing.
+    /// Compiles the pipelines of a mode. A draw in a mode that was not prepared shows nothing.
     pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, bends: bool, format: Format) {
         self.pipelines.prepare(gpu, &self.materials, mode, bends, format);
     }
 
-    /// Writes what the views of the next submission show, numbered as they come. One submission sees one writing.
+    /// Writes the views of the next submission, numbered in order. A submission sees only one writing.
     pub fn write_views(&mut self, gpu: &Gpu, written: &[shaders::View]) {
         let stride = view_stride(gpu);
         if written.len() as u64 * stride > self.views.size() {
@@ -177,7 +180,8 @@ impl World {
         gpu.queue.write_buffer(&self.views, 0, &bytes);
     }
 
-    /// Binds group 0 for one of the views written, of what rests or moves as said: a motion's view comes so many after that of what rests.
+    /// Binds group 0 for the view with index `view` of the resting scene (`None`), or for view `view` + 1 + i of
+    /// motion i.
     pub fn bind_view(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, view: u32, motion: Option<usize>) {
         let further = motion.map_or(0, |motion| 1 + motion);
         let offset = (view + further as u32) * view_stride(gpu) as u32;
@@ -189,7 +193,8 @@ impl World {
         let Some(pipelines) = self.pipelines.get(draws.mode, draws.bends, draws.format) else { return };
         let drawn = |draw: &&Draw| draw.motion.is_none_or(|motion| motion < draws.moving.len());
         let mut blended: Vec<&Draw> = self.geometry.blended.iter().filter(drawn).collect();
-        // What moves is as far as it appears; what rests beside it goes by its place, as everything does in a scene at rest.
+        // Moving bodies are sorted by their apparent distance; resting ones by their own place, like everything in a
+        // scene at rest.
         let distance = |draw: &Draw| match draw.motion.map(|motion| &draws.moving[motion]) {
             Some(sight) => sight.apparent(draw.centre - self.origin).length(),
             None => draw.centre.distance(draws.eye),
@@ -208,7 +213,7 @@ impl World {
             pass.set_vertex_buffer(4, streams.slice(3 * self.geometry.stream_stride..));
         }
 
-        // Material by material, all parts each: going on to another part is cheap, another material is not.
+        // Draw each material for all parts in turn: a change of part is cheap, a change of material is not.
         let draw_all = |pass: &mut wgpu::RenderPass<'_>, draw: &Draw| {
             let mut bound = false;
             for part in parts {
@@ -246,7 +251,7 @@ impl World {
     }
 }
 
-/// The groups of a draw that may be seen in a part, those that follow each other as one.
+/// Ranges of a draw's groups that may be seen in a part. Successive groups form one range.
 fn ranges(draw: &Draw, part: &Part, eye: DVec3) -> Vec<Range<u32>> {
     let Some(planes) = &part.planes else { return vec![draw.indices.clone()] };
     let may_be_seen = |group: &&Group| {
@@ -314,7 +319,7 @@ impl Bindings {
     }
 }
 
-/// A bind group of bindings 0, 1, 2….
+/// Bind group with bindings 0, 1, 2….
 pub fn bind_group<'a>(
     gpu: &Gpu,
     label: &str,

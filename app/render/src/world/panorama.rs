@@ -1,4 +1,4 @@
-//! The picture of everything around, on the GPU.
+//! Upload of the panorama, the picture of all directions around the scene.
 
 use crate::gpu::Gpu;
 use scene::Panorama;
@@ -6,7 +6,7 @@ use half::f16;
 use rayon::prelude::*;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// A panorama with all its mip levels, or one black texel where a scene has none.
+/// Texture of a panorama with all its mip levels; one black texel if the scene has none.
 pub fn upload(gpu: &Gpu, panorama: Option<&Panorama>) -> (wgpu::TextureView, wgpu::Sampler) {
     let none = Panorama { width: 1, height: 1, rgb: vec![[0.0; 3]] };
     let levels = levels(panorama.unwrap_or(&none));
@@ -26,7 +26,7 @@ pub fn upload(gpu: &Gpu, panorama: Option<&Panorama>) -> (wgpu::TextureView, wgp
         .device
         .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
         .create_view(&wgpu::TextureViewDescriptor::default());
-    // Longitude goes round; beyond a pole there is the pole.
+    // Longitude wraps round; latitude is clamped at the poles.
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("panorama"),
         address_mode_u: wgpu::AddressMode::Repeat,
@@ -44,7 +44,7 @@ fn texel(rgb: &[f32; 3]) -> [f16; 4] {
     [red, green, blue, f16::ONE]
 }
 
-/// The picture, and each level's halves down to one texel: means of the texels that a smaller one covers.
+/// Mip levels of a picture down to one texel. Each texel is the mean of those that it covers.
 fn levels(panorama: &Panorama) -> Vec<Panorama> {
     let mut levels = vec![panorama.clone()];
     while let Some(last) = levels.last().filter(|last| last.width.max(last.height) > 1) {
@@ -56,7 +56,7 @@ fn levels(panorama: &Panorama) -> Vec<Panorama> {
 
 fn halved(picture: &Panorama) -> Panorama {
     let [width, height] = [picture.width, picture.height].map(|side| (side / 2).max(1));
-    // A side of odd length: a smaller texel covers the part of it that is its share.
+    // If a side has odd length, a smaller texel covers its own share of it.
     let covered = |index: u32, small: u32, large: u32| {
         let (from, to) = (u64::from(index) * u64::from(large), u64::from(index + 1) * u64::from(large));
         (from / u64::from(small)) as usize..to.div_ceil(u64::from(small)) as usize

@@ -1,7 +1,7 @@
-//! The fixed part of each draw: which shader, which vertex streams, which depth test, and which effects it shows.
+//! The fixed part of each draw: shader, vertex streams, depth test, and effects.
 //!
-//! What a material cannot show and what an effect that is off would show is left out of the shaders, which costs nothing; so there is
-//! a set of pipelines for each [`Mode`], compiled when it is first asked for.
+//! Features that a material does not have, and effects that are off, are left out of the shaders, so that they cost
+//! nothing. So there is a set of pipelines for each [`Mode`], compiled when it is first asked for.
 
 use super::geometry::Attributes;
 use super::materials::Materials;
@@ -12,15 +12,15 @@ use crate::target::{DEPTH_FORMAT, Format};
 use scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
 
-/// What is drawn of the world.
+/// Kind of values drawn of the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// The light that an observer sees, with these effects.
+    /// Light that an observer sees, with these effects.
     Light(Effects),
-    /// The weights of one carrier after another, for the image renderer's map.
+    /// Weights of one carrier after another, for the image renderer's map.
     Weights,
-    /// No light: where in the scene each pixel's surface is, metres relative to the scene's origin, and 1 for what rests, 2 + i for what has
-    /// motion i; zeros where there is none.
+    /// Places instead of light: the place in the scene of each pixel's surface, metres relative to the scene's
+    /// origin, and 1 for what rests or 2 + i for motion i; zeros if there is no surface.
     Places,
 }
 
@@ -29,15 +29,16 @@ pub struct ModePipelines {
     mode: Mode,
     bends: bool,
     format: Format,
-    /// One for each material, in the scene's order; those that look alike share one.
+    /// Pipelines of the materials, in the scene's order. Materials that look alike share one.
     pub surface: Vec<wgpu::RenderPipeline>,
-    /// The same for vertices that bring their own Doppler factors, where such are drawn and it matters.
+    /// Pipelines of the materials for vertices with their own Doppler factors. `None` if there are no such vertices
+    /// or the factors do not matter.
     pub animated: Option<Vec<wgpu::RenderPipeline>>,
-    /// Behind everything.
+    /// Pipeline of the sky, which is behind everything.
     pub sky: wgpu::RenderPipeline,
 }
 
-/// What pipelines are made from, and those made so far.
+/// Sources of the pipelines, and the pipelines made so far.
 pub struct Pipelines {
     surface_module: wgpu::ShaderModule,
     sky_module: wgpu::ShaderModule,
@@ -46,19 +47,20 @@ pub struct Pipelines {
     panorama: bool,
     background: bool,
     shadows: bool,
-    /// Whether anything is animated.
+    /// True if anything is animated.
     animates: bool,
     made: Vec<ModePipelines>,
-    /// The sun's depth map.
+    /// Pipeline of the sun's depth map.
     pub shadow: wgpu::RenderPipeline,
-    /// Group 0 of all but `shadow`.
+    /// Layout of group 0 for all pipelines but `shadow`.
     pub view_layout: wgpu::BindGroupLayout,
-    /// Group 0 of `shadow`: no map yet to look up.
+    /// Layout of group 0 for `shadow`, which has no map to look up yet.
     pub light_layout: wgpu::BindGroupLayout,
 }
 
 impl Pipelines {
-    /// Loads the shaders for what the scene's materials need. `background`: one radiance is shown instead of the sky.
+    /// Loads the shaders for the scene's materials. If `background` is true, one radiance is shown instead of the
+    /// sky.
     pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra, background: bool) -> Self {
         let light_layout = light_layout(gpu);
         let module = |module: shaders::Module| {
@@ -99,7 +101,7 @@ impl Pipelines {
         }
     }
 
-    /// Compiles what a mode needs, if it was never needed before. `bends`: whether the vertex stage bends.
+    /// Compiles the pipelines of a mode if that has not been done before. `bends` is true if the vertex stage bends.
     pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, bends: bool, format: Format) {
         if self.get(mode, bends, format).is_some() {
             return;
@@ -128,7 +130,8 @@ impl Pipelines {
         self.made.push(ModePipelines { mode, bends, format, surface, animated, sky });
     }
 
-    /// A pipeline for each material. `animated`: for vertices that bring their own Doppler factors; `bends`: for those that the stage bends.
+    /// Pipelines of the materials. `animated` is true for vertices with their own Doppler factors, `bends` for
+    /// vertices that the vertex stage bends.
     fn surfaces(
         &self,
         gpu: &Gpu,
@@ -172,7 +175,7 @@ impl Pipelines {
         surface
     }
 
-    /// The pipelines of a mode that was prepared.
+    /// Pipelines of a mode that was prepared.
     pub fn get(&self, mode: Mode, bends: bool, format: Format) -> Option<&ModePipelines> {
         self.made.iter().find(|made| (made.mode, made.bends, made.format) == (mode, bends, format))
     }
@@ -180,14 +183,14 @@ impl Pipelines {
 
 type Constant = (&'static str, f64);
 
-/// Of the vertex shader and of the fragment shader.
+/// Entry points of the vertex shader and of the fragment shader.
 type EntryPoints = [&'static str; 2];
 
 const USUAL: EntryPoints = ["vertex", "fragment"];
 const ANIMATED: EntryPoints = ["vertex_animated", "fragment_animated"];
 
 impl Mode {
-    /// The shaders' overrides. `identity`: weights are linear sRGB at D = 1.
+    /// Override values of the shaders. `identity` is true if weights are linear sRGB at D = 1.
     fn constants(self, identity: bool, format: Format) -> Vec<Constant> {
         let effects = match self {
             Self::Light(effects) => effects,
@@ -198,7 +201,7 @@ impl Mode {
     }
 }
 
-/// The overrides of `shift.wgsl`, for targets of `format`.
+/// Override values of `shift.wgsl`, for targets of `format`.
 pub fn effect_constants(effects: Effects, identity: bool, format: Format) -> [Constant; 5] {
     [
         ("GEOMETRY", flag(effects.geometry)),
@@ -213,11 +216,12 @@ fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
 }
 
-/// Over what is there by opacity. The light that an observer sees has its luminance at rest where opacity would be: it stays.
+/// Blending over the target by opacity. In the light that an observer sees, alpha is the luminance at rest instead of
+/// opacity, and keeps its value.
 fn blending(mode: Mode) -> wgpu::BlendState {
     match mode {
         Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
-        // Places do not mix.
+        // Places must not be blended.
         Mode::Places => wgpu::BlendState::REPLACE,
         Mode::Light(_) => wgpu::BlendState {
             alpha: wgpu::BlendComponent {
@@ -230,7 +234,7 @@ fn blending(mode: Mode) -> wgpu::BlendState {
     }
 }
 
-/// What differs between the pipelines.
+/// Settings in which the pipelines differ.
 struct Description<'a> {
     label: &'a str,
     module: &'a wgpu::ShaderModule,
@@ -240,15 +244,15 @@ struct Description<'a> {
     cull: bool,
     depth_write: bool,
     depth_compare: wgpu::CompareFunction,
-    /// None: depth alone is drawn. How it mixes with what is there.
+    /// Format of the target, and its blending. `None` if only depth is drawn.
     target: Option<(Format, Option<wgpu::BlendState>)>,
-    /// The vertex shader's overrides.
+    /// Override values of the vertex shader.
     vertex_constants: &'a [Constant],
-    /// The fragment shader's overrides.
+    /// Override values of the fragment shader.
     constants: &'a [Constant],
 }
 
-/// What of a material decides its pipeline: what it cannot show is left out of its shader.
+/// Properties of a material that decide its pipeline. Its shader leaves out what they do not need.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Look {
     blended: bool,
@@ -264,7 +268,7 @@ struct Look {
 impl Look {
     fn of(material: &Material, carrier: usize) -> Self {
         let spectral = material.spectrum.is_some();
-        // A spectrum on an emissive material is all that it sends out.
+        // An emissive material with a spectrum emits nothing else.
         let source = material.unlit || (spectral && material.is_source());
         let emissive = !source && material.emissive != [0.0; 3];
         let split = emissive && carrier != WHITE;
@@ -280,7 +284,7 @@ impl Look {
         }
     }
 
-    /// The shader's overrides.
+    /// Override values of the shader.
     fn constants(self, shadowed: bool) -> [Constant; 7] {
         [
             ("LIT", flag(self.lit)),
@@ -360,7 +364,7 @@ const fn attribute(shader_location: u32, offset: usize, format: wgpu::VertexForm
     wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
-/// Three streams, the attributes, and a stream of log2 D for what brings it.
+/// Vertex buffers: three streams of positions, the attributes, and a stream of log2 D for the vertices that have it.
 fn surface_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 5] {
     let stream = |attributes| {
         Some(wgpu::VertexBufferLayout { array_stride: 4, step_mode: wgpu::VertexStepMode::Vertex, attributes })
@@ -381,7 +385,8 @@ fn with_attributes(attributes: &'static [wgpu::VertexAttribute]) -> wgpu::Vertex
     }
 }
 
-/// What `shared.wgsl`, `shift.wgsl`, `surface.wgsl` and `sky.wgsl` bind as group 0. The view is one of several, by offset.
+/// Layout of group 0 in `shared.wgsl`, `shift.wgsl`, `surface.wgsl` and `sky.wgsl`. The view is one of several,
+/// chosen by its offset.
 fn view_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let float = |filterable| wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable },
@@ -416,7 +421,7 @@ fn uniform(has_dynamic_offset: bool) -> wgpu::BindingType {
     wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset, min_binding_size: None }
 }
 
-/// Bindings 0, 1, 2…, for vertex and fragment shaders.
+/// Layout with bindings 0, 1, 2…, for vertex and fragment shaders.
 pub fn layout(gpu: &Gpu, label: &str, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
     let entry = |(binding, &ty): (usize, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
         binding: binding as u32,

@@ -1,9 +1,10 @@
-//! The sun's depth map: which surfaces it reaches.
+//! The sun's depth map, which tells the surfaces that the sun reaches.
 //!
-//! Sun and scene are at rest relative to each other, so in the world frame the pattern of light and shadow does not
-//! change, and one map drawn when the scene is loaded serves every observer at every speed (W 5.1.3).
+//! Sun and scene are at rest relative to each other. So the pattern of light and shadow in the world frame does not
+//! change, and one map, drawn when the scene is loaded, serves every observer at every speed (W 5.1.3).
 //!
-//! What moves has its own light, as its own frame has it, and is left out of the map: it neither casts shadows nor is in any.
+//! Moving bodies have their own light, by their own frame. They are left out of the map: they neither cast shadows
+//! nor receive any.
 
 use super::geometry::{Draw, Geometry};
 use super::pipelines::Pipelines;
@@ -18,25 +19,25 @@ use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, Vec4};
 use wgpu::util::DeviceExt;
 
-/// Texels along each side.
+/// Side of the map, texels.
 const MAP_SIZE: u32 = 4096;
 
-/// What the shaders need to know of light.
+/// Light of a scene, for the shaders.
 pub struct Light {
-    /// On what rests.
+    /// Light that falls on what rests.
     pub at_rest: shaders::Lighting,
-    /// A uniform [`shaders::Lighting`] for what rests, then one for each of the scene's motions.
+    /// Uniforms [`shaders::Lighting`]: one for what rests, then one for each of the scene's motions.
     pub uniforms: Vec<wgpu::Buffer>,
-    /// Reversed depth as the sun sees it.
+    /// Reversed depth, seen from the sun.
     pub map: wgpu::TextureView,
-    /// Compares and filters.
+    /// Sampler that compares and filters.
     pub sampler: wgpu::Sampler,
 }
 
 impl Light {
     /// Uploads the light of `scene` and, if the sun casts shadows, draws its map.
     ///
-    /// `background` replaces the sky by one linear radiance.
+    /// `background` is a linear radiance that replaces the sky.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
@@ -49,7 +50,7 @@ impl Light {
             Motion::Uniform(uniform) => {
                 Falling::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
             }
-            // Written for every picture.
+            // This is written for every picture.
             Motion::Animated(_) => Falling::at_rest(&scene.light),
         });
         let at_rest = lighting(scene, &Falling::at_rest(&scene.light), true, spectra, background);
@@ -78,7 +79,7 @@ impl Light {
     }
 
     fn draw_map(&self, gpu: &Gpu, scene: &Scene, geometry: &Geometry, pipelines: &Pipelines) {
-        // The layout wants a view as well; the shadow shader does not read it.
+        // The layout needs a view as well; the shadow shader does not read it.
         let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("unused view"),
             size: size_of::<shaders::View>() as u64,
@@ -119,7 +120,8 @@ impl Light {
     }
 }
 
-/// The light of a scene as the shaders take it, where it falls as said. `shadowed`: whether what lies between counts.
+/// Light of a scene for the shaders, falling as `falling` says. `shadowed` is true if surfaces between it and the sun
+/// cast shadows.
 fn lighting(
     scene: &Scene,
     falling: &Falling,
@@ -145,7 +147,7 @@ fn lighting(
     with_falling(&of_scene, falling)
 }
 
-/// The same with other light that falls.
+/// Lighting with other light that falls.
 pub fn with_falling(lighting: &shaders::Lighting, falling: &Falling) -> shaders::Lighting {
     let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
     shaders::Lighting {
@@ -158,8 +160,8 @@ pub fn with_falling(lighting: &shaders::Lighting, falling: &Falling) -> shaders:
     }
 }
 
-/// From the scene's coordinates to texture coordinates (y down) and reversed depth, all that is lit inside; and the range of
-/// that depth in metres.
+/// Matrix from the scene's coordinates to texture coordinates (y down) and reversed depth, such that all lit surfaces
+/// are inside; and the range of that depth in metres.
 fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
     let towards_sun = scene.light.sun_direction.as_dvec3().normalize_or(DVec3::Y);
     let side = if towards_sun.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z }.cross(towards_sun).normalize();
@@ -173,7 +175,7 @@ fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
         (low, high) = (low.min(place), high.max(place));
     }
     if !low.is_finite() {
-        // Nothing is lit, so nothing looks anything up.
+        // Nothing is lit, so nothing is looked up.
         return (DMat4::IDENTITY, 1.0);
     }
     let extent = (high - low).max(DVec3::splat(1e-3));

@@ -1,8 +1,9 @@
-//! Where a sight line goes on from a surface that it meets.
+//! Continuation of a sight line from a surface that it meets.
 //!
-//! Mirrors and glass obey their laws in the frame in which they rest. So a ray that is turned is what an observer sees who rests on the surface
-//! at the event at which the light left it; that event and the surface's celerity make him an observer like any other, and the light he sees
-//! comes with one more Doppler factor. In his own body's frame he is put where the ray met the surface, to the last bit.
+//! Mirrors and glass obey their laws in the frame in which they rest. So a turned ray is what an observer sees who
+//! rests on the surface at the event at which the light left it. That event and the surface's celerity define this
+//! observer, and the light it sees comes with one more Doppler factor. In the frame of its own body, the observer is
+//! placed exactly where the ray met the surface, to the last bit.
 
 use super::{Bend, Bodies, Found, Hit, Seer, Sight};
 use crate::surface::Surfaces;
@@ -11,34 +12,35 @@ use scene::motion::{Motion, Uniform};
 use glam::{DMat3, DQuat, DVec3};
 use physics::{Aberration, Beta, Boost, Celerity, Event, Observer};
 
-/// How far from a surface a ray begins that it has turned, relative to its coordinates: beyond what rounding makes of a place on it.
+/// Distance from a surface at which a turned ray begins, relative to its coordinates. It is beyond the rounding error
+/// of a place on the surface.
 const SKIN: f64 = 1e-10;
 
-/// When light leaves, and by the clock of which body.
+/// Time at which light leaves a body, by that body's clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Index into the bodies.
     pub body: usize,
-    /// In the body's frame, metres of light travel; of what is animated, in the world's.
+    /// Time in the body's frame, metres of light travel; for animated bodies, in the world's.
     pub ct: f64,
 }
 
-/// A surface that a ray meets, in its own frame.
+/// Turn of a ray at a surface, in the surface's own frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
-    /// When.
+    /// Time at which the light left.
     pub emission: Emission,
-    /// Where, metres relative to the scene's origin.
+    /// Place of the turn, metres relative to the scene's origin.
     pub position: DVec3,
-    /// From the observer on: against the light's way.
+    /// Direction of the ray away from the observer, against the light's way.
     pub direction: DVec3,
 }
 
 impl Bodies {
-    /// When light left that is seen in a direction.
+    /// Emission of the light that is seen as `found`.
     ///
-    /// *Equation:* by the body's own clock it is as late as its way is long. Where light takes no time it is when the world's clock shows the observer's
-    /// time: t' = t/γ − β·x'.
+    /// *Equation:* by the body's own clock it is earlier by the length of the way. If light takes no time, it is when
+    /// the world's clock shows the observer's time: t' = t/γ − β·x'.
     pub fn emission(&self, scene: &Scene, sight: &Sight, found: &Found) -> Emission {
         let seer = &sight.bodies[found.body];
         let ct = match (&seer.bend, self.uniform(scene, found.body)) {
@@ -52,7 +54,7 @@ impl Bodies {
         Emission { body: found.body, ct }
     }
 
-    /// An event of a body in the world, and how the body moves there.
+    /// Event of a body in the world, with the body's celerity there.
     pub fn in_world(&self, scene: &Scene, emission: Emission, position: DVec3) -> Observer {
         if let Some(swept) = &self.bodies[emission.body].swept {
             let pose = swept.animated.at(emission.ct);
@@ -69,19 +71,19 @@ impl Bodies {
         }
     }
 
-    /// How the axes of a body are turned against the world's.
+    /// Rotation of a body's axes against the world's.
     pub fn axes(&self, emission: Emission) -> DMat3 {
         let swept = self.bodies[emission.body].swept.as_ref();
         swept.map_or(DMat3::IDENTITY, |swept| swept.animated.at(emission.ct).axes())
     }
 
-    /// A ray at the surface that it meets. Of what is animated none is turned.
+    /// Turn of a ray at the surface that it meets. Animated bodies turn no rays.
     pub fn turn(&self, scene: &Scene, sight: &Sight, seen: DVec3, found: &Found) -> Turn {
         let direction = sight.bodies[found.body].line(seen).direction;
         Turn { emission: self.emission(scene, sight, found), position: found.hit.position, direction }
     }
 
-    /// What is seen from a surface, in the direction that `turn` has now; and where each body's ray begins.
+    /// Sight from a surface, the direction of `turn` in it, and the distance at which each body's ray begins.
     pub fn onward(&self, surfaces: &Surfaces, turn: &Turn, geometry: bool) -> (Sight, DVec3, Vec<f64>) {
         let body = turn.emission.body;
         let observer = self.in_world(&surfaces.scene, turn.emission, turn.position);
@@ -97,7 +99,7 @@ impl Bodies {
                 bend: Bend::Light(Aberration::new(Celerity::ZERO)),
             };
         } else {
-            // At one moment of the world the body is shorter along its motion.
+            // At one moment of the world the body is contracted along its motion.
             let along = observer.celerity.vector().normalize_or_zero();
             let shorter = 1.0 - 1.0 / observer.celerity.gamma();
             seen = (seen - along * (along.dot(seen) * shorter)).normalize();
@@ -105,7 +107,7 @@ impl Bodies {
         (sight, seen, start)
     }
 
-    /// What a ray within a body meets of it, in the body's frame.
+    /// Hit of a ray inside a body with that body, in its own frame.
     pub fn within(&self, turn: &Turn, is_there: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let surfaces = &self.bodies[turn.emission.body].surfaces;
         surfaces.first(turn.position, turn.direction, skin(turn.position), true, is_there)
