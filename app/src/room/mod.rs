@@ -6,7 +6,8 @@
 //! essence it is a map
 //!
 //! ```text
-//! pixel ─ warp ─► place in the picture ─ lens, ray ─► point on the surface ─ minus the eye ─► direction that the eye sees
+//! pixel ─ warp ─► place in the picture ─ lens, ray ─► point on the surface
+//!       ─ minus the eye ─► direction that the eye sees
 //! ```
 //!
 //! (B eq. 4.1–4.3). Only the last step depends on the eye, so [`Channel::point`] can be tabulated once. A flat screen
