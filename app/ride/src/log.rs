@@ -1,7 +1,7 @@
-//! What is remembered of a ride, so that it can be recorded at any moment from its beginning.
+//! Log of a ride, so that it can be recorded at any moment from its beginning.
 //!
-//! A recording that starts in the middle could not be replayed: what came before decides what comes after. So every
-//! entry is kept in memory until somebody wants a file, and goes straight to the file from then on.
+//! A recording that starts in the middle could not be replayed, because later states depend on earlier input. Every
+//! entry is therefore kept in memory until a file is wanted, and is written to the file as well from then on.
 
 use crate::error::Error;
 use crate::simulation::Frame;
@@ -9,32 +9,33 @@ use input::Sample;
 use input::recording::{ControlsRecord, Entry, Header, Recorder};
 use std::path::Path;
 
-/// Entries kept in memory: about three quarters of an hour at sixty frames a second.
+/// Largest number of entries kept in memory: about three quarters of an hour at sixty frames per second.
 const MOST_ENTRIES: usize = 500_000;
 
-/// The ride so far: in memory as long as it is short enough, and in a file if one is wanted.
+/// Log of the ride so far: in memory as long as it is short enough, and in a file if one is wanted.
 pub struct Log {
     header: Header,
-    /// All entries; none once there were too many.
+    /// Entries since the beginning; `None` once there were too many.
     kept: Option<Vec<Entry>>,
     file: Option<Recorder>,
 }
 
 impl Log {
-    /// Begins with the ride.
+    /// Creates the log at the beginning of the ride.
     pub fn new(header: Header) -> Self {
         Self { header, kept: Some(Vec::new()), file: None }
     }
 
-    /// Whether a file is being written.
+    /// True if a file is being written.
     pub fn is_recording(&self) -> bool {
         self.file.is_some()
     }
 
-    /// Takes what one frame was made from, and what came of it.
+    /// Adds the samples of one frame and the frame's result.
     ///
     /// # Errors
-    /// The file cannot be written any further; recording has stopped, and what was written is kept.
+    /// [`Error`] if the file cannot be written any further. Recording has stopped then, and the part already written
+    /// is kept.
     pub fn frame(&mut self, samples: &[Sample], frame: &Frame) -> Result<(), Error> {
         let (number, at) = (frame.record.frame, frame.record.at);
         if let Some(entries) = &mut self.kept {
@@ -58,10 +59,10 @@ impl Log {
         })
     }
 
-    /// Writes the ride so far into a new file, and all that follows.
+    /// Writes the ride so far into a new file, and from now on everything that follows.
     ///
     /// # Errors
-    /// The file cannot be written, or the ride has become too long to be remembered.
+    /// [`Error`] if the file cannot be written, or the ride has become too long to be kept in memory.
     pub fn record(&mut self, path: &Path) -> Result<(), Error> {
         if self.file.is_some() {
             return Ok(());
@@ -76,7 +77,7 @@ impl Log {
     /// Completes the file, if one is being written.
     ///
     /// # Errors
-    /// The rest cannot be written.
+    /// [`Error`] if the rest cannot be written.
     pub fn finish(&mut self) -> Result<(), Error> {
         self.file.take().map_or(Ok(()), |recorder| Ok(recorder.finish()?))
     }

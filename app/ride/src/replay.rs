@@ -1,4 +1,4 @@
-//! Replay: a recorded ride once more, from its raw bytes, and the proof that it is the same to the bit.
+//! Replay: a recorded ride simulated again from its raw bytes, and the proof that it is the same to the bit.
 
 use std::sync::Arc;
 
@@ -9,9 +9,10 @@ use thiserror::Error;
 use super::{Frame, Setup, SetupError, Simulation};
 use crate::vehicle::Surroundings;
 
-/// A recorded ride that is being simulated again, frame by frame.
+/// Recorded ride that is simulated again, frame by frame.
 ///
-/// A recording holds, for each frame in this order, the samples handed to [`Simulation::frame`], the controls, and the [`Frame::record`].
+/// A recording holds for each frame, in this order: the samples handed to [`Simulation::frame`], the controls, and
+/// the [`Frame::record`].
 pub struct Replay<Entries = Recording> {
     simulation: Simulation,
     entries: Entries,
@@ -19,10 +20,10 @@ pub struct Replay<Entries = Recording> {
 }
 
 impl Replay<Recording> {
-    /// Begins the recorded ride again, in the scene that the header names.
+    /// Begins a replay of the recorded ride, in the scene that the header names.
     ///
     /// # Errors
-    /// The header does not hold a ride of this program.
+    /// [`SetupError`] if the header does not hold a ride of this program.
     pub fn new(recording: Recording, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
         let setup = Setup::from_header(recording.header())?;
         Self::of(recording, setup, surroundings)
@@ -30,23 +31,23 @@ impl Replay<Recording> {
 }
 
 impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
-    /// The same for entries from elsewhere.
+    /// Begins a replay with entries from another source.
     ///
     /// # Errors
-    /// The setup cannot be used.
+    /// [`SetupError`] if the setup cannot be used.
     pub fn of(entries: Entries, setup: Setup, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
         Ok(Self { simulation: Simulation::new(setup, surroundings)?, entries, frames: 0 })
     }
 
-    /// The ride so far.
+    /// Simulation of the ride so far.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }
 
-    /// The next frame, none after the last.
+    /// Next frame; `None` after the last.
     ///
     /// # Errors
-    /// The recording is damaged here; all before may be used.
+    /// [`ReplayError`] if the recording is damaged here. All frames before may be used.
     pub fn next_frame(&mut self) -> Result<Option<Replayed>, ReplayError> {
         let mut samples: Vec<Sample> = Vec::new();
         let mut controls = None;
@@ -68,10 +69,10 @@ impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
         Ok(None)
     }
 
-    /// Simulates all that is left, and says how many frames there were, all of them the same as recorded.
+    /// Simulates all remaining frames. Returns the number of frames, all of them equal to the recorded ones.
     ///
     /// # Errors
-    /// The first difference, or the place where the recording is damaged.
+    /// [`ReplayError`]: the first difference, or the place where the recording is damaged.
     pub fn verify(mut self) -> Result<u64, ReplayError> {
         while let Some(Replayed { frame, difference }) = self.next_frame()? {
             if let Some(difference) = difference {
@@ -82,12 +83,12 @@ impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
     }
 }
 
-/// A frame that was simulated again.
+/// Frame that was simulated again.
 #[derive(Clone, Debug)]
 pub struct Replayed {
-    /// What the simulation shows.
+    /// Simulated frame.
     pub frame: Frame,
-    /// Where that is not what was recorded.
+    /// First difference from the recorded frame, if any.
     pub difference: Option<Difference>,
 }
 
@@ -99,10 +100,10 @@ fn controls_difference(recorded: &Controls, replayed: &Controls) -> Option<Diffe
     })
 }
 
-/// Why a replay is not the ride that was recorded.
+/// Reason why a replay is not the ride that was recorded.
 #[derive(Debug, Error)]
 pub enum ReplayError {
-    /// A number differs.
+    /// A number that differs from the recorded one.
     #[error(
         "the replay differs from the recording in frame {frame}: {} was {}, is {}; was it recorded with this version, and is the scene the same?",
         difference.field, difference.recorded, difference.replayed
@@ -110,15 +111,15 @@ pub enum ReplayError {
     Differs {
         /// Number of the first frame that differs.
         frame: u64,
-        /// Its first field that differs.
+        /// First field of the frame that differs.
         difference: Difference,
     },
-    /// The recording cannot be read further.
+    /// A recording that cannot be read further.
     #[error("after {frames} frames: {cause}")]
     Recording {
-        /// Frames that were simulated before.
+        /// Number of frames simulated before.
         frames: u64,
-        /// What is wrong.
+        /// Error of the recording.
         cause: Box<RecordingError>,
     },
 }

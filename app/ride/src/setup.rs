@@ -1,4 +1,5 @@
-//! What decides a ride besides its samples and frame times, and how it is kept in a recording's header.
+//! Setup of a ride: everything that decides it besides samples and frame times, and how it is kept in a recording's
+//! header.
 
 use std::collections::BTreeMap;
 
@@ -13,35 +14,36 @@ use thiserror::Error;
 use super::ticks::TICKS_PER_SECOND;
 use crate::vehicle::{SettingsError, VehicleSettings, World, WorldError};
 
-/// All that a [`Simulation`](super::Simulation) starts from, save for the place itself.
+/// Initial data of a [`Simulation`](super::Simulation), except for the scene itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// Speed of light.
+    /// World with its speed of light.
     pub world: World,
-    /// Bicycle, drive or fly.
+    /// Kind of vehicle: bicycle, drive or fly.
     pub kind: VehicleKind,
-    /// Where it begins, world axes.
+    /// Start of the ride, world axes.
     pub start: Start,
-    /// How the vehicles respond.
+    /// Settings of the vehicles.
     pub vehicle: VehicleSettings,
-    /// How the devices are read.
+    /// Settings of the devices.
     pub desk: DeskConfig,
 }
 
-/// Where a ride begins, at world time 0.
+/// Start of a ride, at world time 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Start {
-    /// The reference point, world metres: on the ground for a bicycle and a car, the eye for one who flies.
+    /// Reference point, world axes, metres: on the ground for a bicycle and a car, the eye in flight.
     pub position: [f64; 3],
-    /// Celerity in the world.
+    /// Celerity, world axes.
     pub celerity: [f64; 3],
     /// Quaternion (x, y, z, w) from the pilot's axes (right, up, backward) to the world's.
     pub orientation: [f64; 4],
 }
 
 impl Start {
-    /// At rest at `position`, the nose along `look` (any length, not zero) and the roof as far up as that allows.
+    /// Start at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
+    /// allows.
     pub fn at_rest(position: DVec3, look: DVec3) -> Self {
         let nose = look.normalize_or(DVec3::NEG_Z);
         let sideways = if nose.y.abs() > 0.999 { DVec3::NEG_Z } else { DVec3::Y };
@@ -50,12 +52,12 @@ impl Start {
         Self { position: position.to_array(), celerity: [0.0; 3], orientation: orientation.to_array() }
     }
 
-    /// The state there.
+    /// State of the vehicle at the start.
     ///
     /// # Errors
-    /// A number is not finite, the celerity is too large, or the orientation is not a rotation.
+    /// [`SetupError`] if a number is not finite, the celerity is too large, or the orientation is not a rotation.
     pub fn state(&self) -> Result<State, SetupError> {
-        /// A quaternion further than this from length 1 is none that was written as one.
+        /// Largest deviation from length 1 of a quaternion that was written as a rotation.
         const LENGTH_TOLERANCE: f64 = 1e-6;
         let position = DVec3::from_array(self.position);
         if !position.is_finite() {
@@ -77,7 +79,7 @@ const VEHICLE: &str = "vehicle";
 const START: &str = "start";
 
 impl Setup {
-    /// The header of a recording of this ride. What the scene needs to be found again is the caller's to add.
+    /// Header of a recording of this ride. The caller has to add what is needed to find the scene again.
     pub fn header(&self, build: &str, scene: &str) -> Header {
         let json = |value: serde_json::Result<String>| value.expect("plain numbers and names are always JSON");
         Header {
@@ -95,10 +97,11 @@ impl Setup {
         }
     }
 
-    /// The setup that a recording was made with.
+    /// Setup with which a recording was made.
     ///
     /// # Errors
-    /// Something is missing, cannot be read or cannot be used, or the ride was integrated in other steps than this program takes.
+    /// [`SetupError`] if something is missing, cannot be read or cannot be used, or if the ride was integrated in
+    /// other steps than this program takes.
     pub fn from_header(header: &Header) -> Result<Self, SetupError> {
         let vehicle: VehicleSettings = setting(header, VEHICLE)?;
         let step_s = 1.0 / f64::from(TICKS_PER_SECOND);
@@ -120,63 +123,63 @@ fn setting<T: for<'a> Deserialize<'a>>(header: &Header, key: &'static str) -> Re
     serde_json::from_str(text).map_err(|cause| SetupError::Unreadable { key, cause: cause.to_string() })
 }
 
-/// Why a ride cannot begin.
+/// Reason why a ride cannot begin.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SetupError {
-    /// A device setting.
+    /// A device setting that cannot be used.
     #[error(transparent)]
     Desk(#[from] input::ConfigError),
-    /// A vehicle setting.
+    /// A vehicle setting that cannot be used.
     #[error(transparent)]
     Vehicle(#[from] SettingsError),
-    /// The speed of light.
+    /// A speed of light out of range.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// The celerity at the start.
+    /// A celerity at the start that cannot be used.
     #[error("start: {0}")]
     Celerity(#[from] CelerityError),
-    /// A place that is none.
+    /// A start at a place that is not finite.
     #[error("the ride starts at {position}: expected three finite numbers")]
     Position {
-        /// What was given.
+        /// Position that was given.
         position: DVec3,
     },
-    /// An orientation that is none.
+    /// An orientation that is not a rotation.
     #[error("the ride starts with the orientation {orientation:?}: expected a quaternion of length 1")]
     Orientation {
-        /// What was given.
+        /// Quaternion that was given.
         orientation: [f64; 4],
     },
-    /// The header lacks something.
+    /// A setting that is missing in the header.
     #[error("the recording's header has no setting \"{key}\": it was not made by a ride of this program")]
     Missing {
-        /// The key.
+        /// Key of the setting.
         key: &'static str,
     },
-    /// The header holds something else.
+    /// A setting of the header that cannot be read.
     #[error("the recording's setting \"{key}\" cannot be read: {cause}")]
     Unreadable {
-        /// The key.
+        /// Key of the setting.
         key: &'static str,
-        /// What is wrong.
+        /// Reason, as the reader words it.
         cause: String,
     },
-    /// Other steps.
+    /// Steps that this program does not take.
     #[error(
         "the recording was integrated by {integrator} in steps of {step_s} s, which this program cannot repeat; \
          replay it with the program that recorded it"
     )]
     Steps {
-        /// Name of its integrator.
+        /// Name of the recording's integrator.
         integrator: String,
-        /// Its step, seconds.
+        /// Step of the recording, seconds.
         step_s: f64,
     },
 }
 
 #[cfg(test)]
 mod tests {
-    //! A setup that does not survive its header replays another ride.
+    //! Law under test: a setup survives its header. If it did not, another ride would be replayed.
     use super::*;
 
     fn setup() -> Setup {

@@ -2,14 +2,16 @@
 //!
 //! # How it works
 //!
-//! A [`Simulation`] owns the desk and the vehicle. Every frame hands it the samples that came since the last one and asks where the observer is now. It
-//! goes through the ticks that have become due, 240 a second of real time: feeds the desk all samples up to the tick, does what was pressed, and moves the
-//! vehicle by a step of own time, which is real time × time scale (B 5.6.1: proper time is the user's time). What is shown is a copy of the vehicle, moved
-//! on by the rest of a tick, so that a film is as smooth as its frame times.
+//! A [`Simulation`] owns the desk and the vehicle. Every frame hands it the samples that have come since the frame
+//! before, and asks for the present observer. It works through the ticks that have become due, 240 per second of real
+//! time. In each it feeds the desk all samples up to the tick, performs the actions that were pressed, and moves the
+//! vehicle by a step of own time, which is real time × time scale (B 5.6.1: proper time is the user's time). A frame
+//! shows a copy of the vehicle, moved on by the rest of a tick, so a film is as smooth as its frame times.
 //!
-//! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the same bits, which is what a
-//! [`Replay`] proves. The ticks do not depend on how time is cut into frames either, as long as every sample is there by the tick that it precedes, and no frame
-//! takes more than a quarter of a second; then the world waits ([`Frame::dropped_ticks`]).
+//! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
+//! same bits, and a [`Replay`] proves it. The ticks do not depend on the frame times either, as long as every sample
+//! is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a longer frame
+//! the world waits ([`Frame::dropped_ticks`]).
 
 mod replay;
 mod setup;
@@ -31,7 +33,7 @@ pub use tour::Tour;
 use crate::vehicle::{Eye, Notice, Surroundings, Vehicle, World};
 use ticks::Ticks;
 
-/// Own time runs no faster than this many times real time.
+/// Largest ratio of own time to real time.
 pub const FASTEST_TIME_SCALE: f64 = 16.0;
 
 /// A ride in progress.
@@ -39,45 +41,46 @@ pub struct Simulation {
     setup: Setup,
     surroundings: Arc<dyn Surroundings>,
     desk: Desk,
-    /// Samples not yet due, by time.
+    /// Samples that are not yet due, ordered by time.
     waiting: VecDeque<Sample>,
     ticks: Ticks,
-    /// The vehicle as the ride began.
+    /// Vehicle at the beginning of the ride.
     first: Vehicle,
     vehicle: Vehicle,
-    /// Of the last tick.
+    /// Controls of the last tick.
     controls: Controls,
     paused: bool,
     time_scale: f64,
     frames: u64,
 }
 
-/// What a frame shows, and what is recorded of it.
+/// One frame: what it shows, and what is recorded of it.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// The numbers that a replay has to reproduce to the bit.
+    /// Numbers that a replay has to reproduce to the bit.
     pub record: FrameRecord,
-    /// Controls of the last tick, with all actions since the last frame. Those that concern the ride itself have been done.
+    /// Controls of the last tick, with all actions since the last frame. Actions that concern the ride itself have
+    /// been performed.
     pub controls: Controls,
-    /// Who looks.
+    /// Eye that sees the frame.
     pub eye: Eye,
-    /// The vehicle as it is shown.
+    /// Vehicle as it is shown.
     pub vehicle: Vehicle,
-    /// Whether the clock stands.
+    /// True if the ride is paused.
     pub paused: bool,
-    /// Own time per real time.
+    /// Ratio of own time to real time.
     pub time_scale: f64,
-    /// What to tell the rider, each once.
+    /// Notices for the rider, each once.
     pub notices: Vec<Notice>,
-    /// Ticks that were not simulated, because the frame came late.
+    /// Number of ticks that were not simulated, because the frame came late.
     pub dropped_ticks: u64,
 }
 
 impl Simulation {
-    /// A ride that has not begun.
+    /// Creates a ride that has not begun.
     ///
     /// # Errors
-    /// A setting or the start cannot be used.
+    /// [`SetupError`] if a setting or the start cannot be used.
     pub fn new(setup: Setup, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
         let desk = Desk::new(setup.desk.clone())?;
         let mut vehicle = Vehicle::new(setup.world, setup.kind, setup.start.state()?, setup.vehicle)?;
@@ -97,22 +100,23 @@ impl Simulation {
         })
     }
 
-    /// What the ride began with.
+    /// Setup with which the ride began.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// The desk, for what could not be understood.
+    /// Desk, for reports on input that could not be understood.
     pub fn desk(&self) -> &Desk {
         &self.desk
     }
 
-    /// The vehicle at the last tick.
+    /// Vehicle at the last tick.
     pub fn vehicle(&self) -> &Vehicle {
         &self.vehicle
     }
 
-    /// Simulates up to the real time `at`; `samples` are all that have come since the frame before. Those that are dated later than `at` wait.
+    /// Simulates up to the real time `at`. `samples` are all samples since the frame before; those dated later than
+    /// `at` wait.
     pub fn frame(&mut self, at: Nanos, samples: &[Sample]) -> Frame {
         samples.iter().for_each(|sample| self.wait(sample));
         let (ticks, dropped_ticks) = self.ticks.due(at);
@@ -148,7 +152,7 @@ impl Simulation {
         self.waiting.insert(place, sample.clone());
     }
 
-    /// One tick; says how many steps the vehicle made.
+    /// Simulates one tick. Returns the number of steps that the vehicle made.
     fn tick(&mut self, at: Nanos, notices: &mut Vec<Notice>) -> u64 {
         while let Some(sample) = self.waiting.pop_front_if(|sample| sample.at <= at) {
             self.desk.feed(&sample);
@@ -175,7 +179,7 @@ impl Simulation {
         self.time_scale / f64::from(TICKS_PER_SECOND)
     }
 
-    /// Does what concerns the ride; the rest is for the program.
+    /// Performs an action that concerns the ride; other actions are left to the program.
     fn act(&mut self, action: Action, notices: &mut Vec<Notice>) {
         match action {
             Action::TogglePause => self.paused = !self.paused,
@@ -191,7 +195,7 @@ impl Simulation {
         }
     }
 
-    /// Puts the vehicle, of whatever kind it is by now, back to the start.
+    /// Puts the vehicle back to the start. Its kind and the speed of light stay as they are.
     fn restart(&mut self) {
         let (world, kind) = (self.vehicle.world(), self.vehicle.kind());
         self.vehicle = self.first.clone();
@@ -206,7 +210,7 @@ fn tell(notices: &mut Vec<Notice>, notice: Notice) {
     }
 }
 
-/// The numbers of a frame.
+/// Recorded numbers of a frame.
 fn record(frame: u64, at: Nanos, steps: u64, vehicle: &Vehicle) -> FrameRecord {
     let Eye { observer, orientation } = vehicle.eye();
     let celerity = observer.celerity;

@@ -1,24 +1,25 @@
-//! The fixed step: which ticks of the ride's clock are due.
+//! Fixed steps: the ticks of the ride's clock that are due.
 //!
-//! Tick n is due at n/240 s. Counting them in integers, from the ride's start, leaves nothing to drift and nothing that depends on how time was cut
-//! into frames, save for what a stall drops.
+//! Tick n is due at n/240 s. Ticks are counted in integers from the ride's start, so nothing drifts, and nothing
+//! depends on how time was cut into frames, except for the ticks that a stall drops.
 
 use input::{Nanos, SECOND};
 
-/// Steps per second of real time.
+/// Number of ticks per second of real time.
 pub const TICKS_PER_SECOND: u32 = 240;
 
-/// A frame that comes later than this many ticks after the one before has stalled: the world waits for it.
+/// Largest number of ticks per frame. A frame that comes later has stalled, and the world waits for it.
 const MOST_TICKS: u64 = TICKS_PER_SECOND as u64 / 4;
 
-/// The ticks that have passed.
+/// Number of ticks that have passed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ticks {
     passed: u64,
 }
 
 impl Ticks {
-    /// The times of the ticks that have become due at `at`, no more than a quarter of a second's; and how many older ones were dropped.
+    /// Times of the ticks that have become due at `at`, at most a quarter of a second's; and the number of older ones
+    /// that were dropped.
     pub(super) fn due(&mut self, at: Nanos) -> (impl Iterator<Item = Nanos> + use<>, u64) {
         let due = passed(at).max(self.passed);
         let dropped = (due - self.passed).saturating_sub(MOST_TICKS);
@@ -27,20 +28,20 @@ impl Ticks {
         ((first..=due).map(time), dropped)
     }
 
-    /// The share of a tick that has gone by at `at` since the last one, from 0 to below 1.
+    /// Share of a tick that has passed at `at` since the last one, from 0 to below 1.
     pub(super) fn fraction(&self, at: Nanos) -> f64 {
         let since = at.saturating_sub(time(self.passed)) as f64 * 1e-9 * f64::from(TICKS_PER_SECOND);
         since.min(1.0 - f64::EPSILON)
     }
 }
 
-/// How many ticks are due at `at`.
+/// Number of ticks that are due at `at`.
 fn passed(at: Nanos) -> u64 {
     let ticks = u128::from(at) * u128::from(TICKS_PER_SECOND) / u128::from(SECOND);
     u64::try_from(ticks).unwrap_or(u64::MAX)
 }
 
-/// When a tick is due: the first nanosecond not before it.
+/// Time at which a tick is due: the first nanosecond not before it.
 fn time(tick: u64) -> Nanos {
     let at = (u128::from(tick) * u128::from(SECOND)).div_ceil(u128::from(TICKS_PER_SECOND));
     Nanos::try_from(at).unwrap_or(Nanos::MAX)
@@ -48,7 +49,8 @@ fn time(tick: u64) -> Nanos {
 
 #[cfg(test)]
 mod tests {
-    //! However a second is cut into frames, it has 240 ticks at the same times; a clock that adds up rounded intervals has 239 or 241 in the end.
+    //! Law under test: however a second is cut into frames, it has 240 ticks at the same times. A clock that adds up
+    //! rounded intervals ends with 239 or 241.
     use super::*;
 
     fn times(frames: &[Nanos]) -> Vec<Nanos> {

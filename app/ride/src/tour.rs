@@ -1,9 +1,11 @@
-//! The built-in tour: a rider who follows a closed way round a scene, for films and demonstrations without anybody on the saddle.
+//! Built-in tour: a simulated rider who follows a closed way round a scene, for films and demonstrations without a
+//! person on the bicycle.
 //!
-//! He is no short cut. He sits on an instrumented bicycle and says what its sensors would say, in lines of the `B1` protocol
-//! ([`input::bicycle`]); they pass through the real decoder and may be recorded. He looks at the vehicle as a rider would: he steers
-//! towards a point of the way a little ahead (pure pursuit: δ = atan(2 L sin α / l), α the bearing of that point at the distance l), slows down
-//! before bends, and pulls the brake where coasting is not enough. His answers depend on the vehicle and the time alone, so a tour repeats to the bit.
+//! The rider takes no short cut through the program. The rider sits on an instrumented bicycle and produces what its
+//! sensors would send, as lines of the `B1` protocol ([`input::bicycle`]); these pass through the real decoder and
+//! may be recorded. The rider steers towards a point of the way a little ahead (pure pursuit: δ = atan(2 L sin α /
+//! l), α the bearing of that point at the distance l), slows down before bends, and pulls the brake where coasting is
+//! not enough. The answers depend on the vehicle and the time alone, so a tour repeats to the bit.
 
 use glam::{DQuat, DVec3};
 use input::line::sealed;
@@ -12,50 +14,51 @@ use input::{BicycleConfig, Nanos, SECOND, Sample, Source};
 use super::way::Way;
 use crate::vehicle::Vehicle;
 
-/// Lines a second.
+/// Number of sensor lines per second.
 const LINES_PER_SECOND: u64 = 100;
-/// How fast the pedalled wheel gains and loses speed, m/s².
+/// Rates at which the pedalled wheel gains (pedal) and loses (ease) speed, m/s².
 const PEDAL_M_S2: f64 = 1.0;
 const EASE_M_S2: f64 = 1.5;
-/// In bends he turns no faster than this, radians per second of his own time.
+/// Fastest turn in bends, radians per second of own time.
 const BEND_RAD_S: f64 = 0.9;
-/// He begins to slow down early enough for this deceleration, m/s²: a little more than the bicycle's own.
+/// Deceleration assumed when slowing down before a bend, m/s²: a little more than the bicycle's own.
 const FORESIGHT_M_S2: f64 = 0.6;
-/// How far ahead he looks for bends, metres, and at what spacing.
+/// Distance ahead within which bends are looked for, and spacing of the places examined, metres.
 const OUTLOOK_M: f64 = 24.0;
 const OUTLOOK_SPACING_M: f64 = 1.5;
-/// He aims at a point that he reaches after this time, seconds, but at least this far ahead, metres.
+/// Time after which the point aimed at is reached, seconds, and its smallest distance ahead, metres.
 const AIM_S: f64 = 0.4;
 const AIM_M: f64 = 1.8;
-/// How strongly he pulls the brake for every m/s that he is too fast, and how far: it remains in its first stage.
+/// Pull of the brake lever per m/s of excess speed, and its largest pull, which stays within the first stage.
 const LEVER_PER_M_S: f64 = 0.3;
 const FARTHEST_LEVER: f64 = 0.45;
-/// Way for one turn of the crank, metres.
+/// Way per turn of the crank, metres.
 const DEVELOPMENT_M: f64 = 5.5;
-/// No handlebar is turned further than this, radians.
+/// Largest angle of the handlebar, radians.
 const FARTHEST_STEER_RAD: f64 = 0.8;
 
-/// A rider who follows a way.
+/// Simulated rider who follows a way.
 #[derive(Clone, Debug)]
 pub struct Tour {
     way: Way,
     bicycle: BicycleConfig,
-    /// Lines said so far.
+    /// Number of lines produced so far.
     lines: u64,
-    /// Speed of the pedalled wheel.
+    /// Speed of the pedalled wheel, m/s.
     wheel_m_s: f64,
     wheel: Magnet,
     crank: Magnet,
-    /// Where along the way he is.
+    /// Present length along the way, metres.
     along_m: f64,
 }
 
 impl Tour {
-    /// His top speed, m/s: 25 km/h, a celerity of 5/6 in the old town.
+    /// Top speed of the rider, m/s: 25 km/h, a celerity of 5/6 in the old town.
     pub const CRUISE_M_S: f64 = 25.0 / 3.6;
 
-    /// A rider for a closed way, a polyline on the ground, on a bicycle whose sensors are calibrated as [`BicycleConfig::default`] says. None if the way has
-    /// fewer than three different corners, or one that is not finite.
+    /// Creates a rider for a closed way, a polyline on the ground, on a bicycle whose sensors are calibrated as
+    /// [`BicycleConfig::default`] says. `None` if the way has fewer than three different corners, or one that is not
+    /// finite.
     pub fn new(circuit: &[DVec3]) -> Option<Self> {
         let bicycle = BicycleConfig::default();
         Some(Self {
@@ -69,7 +72,8 @@ impl Tour {
         })
     }
 
-    /// What the sensors say up to the time `until`, after what they have said before. `vehicle` is where the rider finds himself.
+    /// Samples of the sensors up to the time `until`, following those returned before. `vehicle` is the rider's
+    /// vehicle at present.
     pub fn samples(&mut self, vehicle: &Vehicle, until: Nanos) -> Vec<Sample> {
         let mut samples = Vec::new();
         if self.lines == 0 {
@@ -88,21 +92,21 @@ impl Tour {
         samples
     }
 
-    /// Handlebar angle, brake lever and wanted speed.
+    /// Handlebar angle (radians), brake lever (0 to 1) and wanted speed (m/s).
     fn decide(&mut self, vehicle: &Vehicle) -> (f64, f64, f64) {
         let state = vehicle.state();
         let speed = vehicle.world().metres_per_own_second(state.celerity.magnitude());
         self.along_m = self.way.nearest(state.position, self.along_m);
 
-        // Steer towards a point ahead.
+        // The rider steers towards a point ahead.
         let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
         let aim = self.way.point(self.along_m + AIM_M.max(AIM_S * speed));
         let (ahead, left) = in_plane(state.orientation, aim - state.position);
         let steer_rad = (2.0 * wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE)).atan();
-        // What lies behind is turned to as sharply as can be.
+        // A point behind is turned to as sharply as possible.
         let steer_rad = if ahead > 0.0 { steer_rad } else { FARTHEST_STEER_RAD.copysign(left) };
 
-        // Slow down in time for the bends ahead.
+        // The rider slows down in time for the bends ahead.
         let looks = (0..).map(|n| f64::from(n) * OUTLOOK_SPACING_M).take_while(|&distance| distance < OUTLOOK_M);
         let wanted_m_s = looks.fold(Self::CRUISE_M_S, |slowest, distance| {
             let bend_m_s = BEND_RAD_S / self.way.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
@@ -126,7 +130,7 @@ impl Tour {
         let BicycleConfig { steer_straight, steer_rad_per_unit, brake_released, brake_full, .. } = self.bicycle;
         let steer = steer_straight + steer_rad / steer_rad_per_unit;
         let brake = brake_released + brake * (brake_full - brake_released);
-        // The box's numbers wrap at 32 bits.
+        // The numbers of the bicycle's box wrap at 32 bits.
         let (sequence, now_us) = (sequence as u32, (at / 1000) as u32);
         let (wheel, crank) = (&self.wheel, &self.crank);
         sealed(&format!(
@@ -136,31 +140,31 @@ impl Tour {
     }
 }
 
-/// How far ahead and how far to the left a displacement leads, on the level.
+/// Distances ahead and to the left of a displacement, on the level, metres.
 fn in_plane(orientation: DQuat, displacement: DVec3) -> (f64, f64) {
     let nose = orientation * DVec3::NEG_Z;
     let ahead = DVec3 { y: 0.0, ..nose }.normalize_or(DVec3::NEG_Z);
     (displacement.dot(ahead), displacement.dot(DVec3::Y.cross(ahead)))
 }
 
-/// A magnet on a wheel, and the sensor that counts it.
+/// Magnet on a wheel, and the sensor that counts its passes.
 #[derive(Clone, Debug)]
 struct Magnet {
     /// Way between two pulses, metres.
     spacing_m: f64,
-    /// Way since the last pulse.
+    /// Way since the last pulse, metres.
     since_m: f64,
     pulses: u32,
     last_us: u32,
 }
 
 impl Magnet {
-    /// A wheel that stands just before the magnet, so that it is soon known to turn.
+    /// Creates a wheel that stands just before the magnet, so that its first pulse comes soon.
     fn new(spacing_m: f64) -> Self {
         Self { spacing_m, since_m: 0.95 * spacing_m, pulses: 0, last_us: 0 }
     }
 
-    /// Rolls `way_m` steadily in the `span_s` seconds before `end_us`.
+    /// Rolls `way_m` metres at a steady speed in the `span_s` seconds before `end_us`.
     fn roll(&mut self, way_m: f64, span_s: f64, end_us: u64) {
         self.since_m += way_m;
         while self.since_m >= self.spacing_m {

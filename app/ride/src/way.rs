@@ -1,21 +1,21 @@
-//! A closed way on the ground: where one is along it, what lies ahead, how it bends. Heights are left aside.
+//! Closed way on the ground: the nearest length along it, the points ahead, and its curvature. Heights are ignored.
 
 use glam::DVec3;
 
-/// A closed polyline, measured along its length.
+/// Closed polyline, measured along its length.
 #[derive(Clone, Debug)]
 pub(super) struct Way {
-    /// Corners, level; the first once more at the end.
+    /// Corners, level; the first one is repeated at the end.
     points: Vec<DVec3>,
     /// Length of the way up to each corner, metres.
     along: Vec<f64>,
 }
 
-/// Who is farther than this from where he was supposed to be is looked for on the whole way, metres.
+/// Distance from the expected place beyond which the whole way is searched, metres.
 const LOST_M: f64 = 8.0;
 
 impl Way {
-    /// Closes the polyline. None unless it has three different, finite corners.
+    /// Closes the polyline. `None` if it has fewer than three different corners, or one that is not finite.
     pub(super) fn new(corners: &[DVec3]) -> Option<Self> {
         let mut points: Vec<DVec3> = corners.iter().map(|corner| DVec3 { y: 0.0, ..*corner }).collect();
         points.extend(points.first().copied());
@@ -37,7 +37,7 @@ impl Way {
         self.along[self.along.len() - 1]
     }
 
-    /// The point at this length, counted on over any number of rounds; level.
+    /// Point at this length, level. The length may count any number of rounds.
     pub(super) fn point(&self, along_m: f64) -> DVec3 {
         let along_m = along_m.rem_euclid(self.length());
         let next = self.along.partition_point(|&corner| corner <= along_m).clamp(1, self.points.len() - 1);
@@ -45,7 +45,8 @@ impl Way {
         self.points[next - 1].lerp(self.points[next], (along_m - from) / (to - from))
     }
 
-    /// The length at which the way is nearest to `position`, close to `before_m` if it is there at all; not a number for one who has not been on it.
+    /// Length at which the way is nearest to `position`, metres. The search prefers lengths close to `before_m`; that
+    /// is NaN if no earlier length is known.
     pub(super) fn nearest(&self, position: DVec3, before_m: f64) -> f64 {
         let position = DVec3 { y: 0.0, ..position };
         let near = self.nearest_where(position, |along_m| {
@@ -58,7 +59,7 @@ impl Way {
         }
     }
 
-    /// Length and distance of the nearest point among those that are admitted.
+    /// Length and distance of the nearest point among the admitted lengths.
     fn nearest_where(&self, position: DVec3, admitted: impl Fn(f64) -> bool) -> Option<(f64, f64)> {
         let segments = self.points.windows(2).zip(&self.along);
         let feet = segments.map(|(pair, along_m)| {
@@ -69,11 +70,12 @@ impl Way {
         feet.filter(|(along_m, _)| admitted(*along_m)).min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// How much the way bends at this length, radians per metre: the circle through this point and those `spacing_m` before and behind.
+    /// Curvature of the way at this length, radians per metre: of the circle through this point and the points
+    /// `spacing_m` before and after it.
     pub(super) fn curvature(&self, along_m: f64, spacing_m: f64) -> f64 {
         let [a, b, c] = [-spacing_m, 0.0, spacing_m].map(|shift| self.point(along_m + shift));
         let sides = a.distance(b) * b.distance(c) * c.distance(a);
-        // Twice the sine of the angle at b over the side opposite to it.
+        // Twice the sine of the angle at b, divided by the opposite side.
         if sides > 0.0 { 2.0 * (b - a).cross(c - b).length() / sides } else { 1.0 / spacing_m }
     }
 }
@@ -122,7 +124,7 @@ mod tests {
             let along_m = way.nearest(DVec3::new(0.0, 5.0, 0.0), expected - 1.0);
             assert!((along_m - expected).abs() < 1e-9, "{along_m} instead of {expected}");
         }
-        // One who is lost is found.
+        // A position far from the expected one is still found.
         assert!((way.nearest(DVec3::new(21.0, 0.0, 0.0), 0.0) - 3.0 * first).abs() < 1e-9);
         assert!((way.nearest(DVec3::new(-10.0, 0.0, -10.0), f64::NAN)).abs() < 1e-9);
     }

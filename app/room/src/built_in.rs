@@ -1,12 +1,12 @@
-//! The displays that come with the program: `app/displays/*.toml`, which are also the examples of the documentation.
+//! Built-in displays: `app/displays/*.toml`, which are also the examples of the documentation.
 
 use super::{Display, file};
 use std::path::Path;
 
-/// Their names.
+/// Names of the built-in displays.
 pub const NAMES: [&str; 6] = ["window", "stereo-wall", "cave4", "cave6", "curved", "dome6"];
 
-/// Their files.
+/// Texts of the built-in displays' files, in the order of [`NAMES`].
 const TEXTS: [&str; 6] = [
     include_str!("../../displays/window.toml"),
     include_str!("../../displays/stereo-wall.toml"),
@@ -16,12 +16,12 @@ const TEXTS: [&str; 6] = [
     include_str!("../../displays/dome6.toml"),
 ];
 
-/// A built-in display's file, by one of [`NAMES`].
+/// Text of a built-in display's file, by one of [`NAMES`].
 pub fn text(name: &str) -> Option<&'static str> {
     NAMES.iter().position(|known| *known == name).map(|index| TEXTS[index])
 }
 
-/// A built-in display, by one of [`NAMES`].
+/// Built-in display, by one of [`NAMES`].
 pub fn display(name: &str) -> Option<Display> {
     let mut display = file::parse(text(name)?, name, Path::new("")).ok()?;
     display.name = name.to_owned();

@@ -1,4 +1,4 @@
-//! What can be wrong with a display: each says where, what, and what to do.
+//! Errors in displays. Each message says where the error is, what it is, and what to do.
 
 use super::frustum::EyeBehind;
 use super::surface::NotRectangle;
@@ -6,14 +6,14 @@ use std::fmt;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Where in a display's file.
+/// Place in a display's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct At {
-    /// The file, as it was named.
+    /// Name of the file, as the user gave it.
     pub file: String,
-    /// Line, from 1, where it is known.
+    /// Line number from 1, if it is known.
     pub line: Option<usize>,
-    /// What it is about, such as `screen "front", key size`.
+    /// Table and key, such as `screen "front", key size`.
     pub key: String,
 }
 
@@ -27,89 +27,89 @@ impl fmt::Display for At {
     }
 }
 
-/// A display that cannot be used.
+/// Reason why a display cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DisplayError {
-    /// Neither built in nor a file.
+    /// A name that is neither a built-in display nor a file.
     #[error("there is no display {name:?}; name a file, or one of {}", super::built_in::NAMES.join(", "))]
     NoSuch {
-        /// As asked for.
+        /// Name, as the user gave it.
         name: String,
     },
     /// A file that cannot be read.
     #[error("{}: {reason}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// As the system says it.
+        /// Reason, as the operating system words it.
         reason: String,
     },
-    /// Not TOML, an unknown key, or a value of the wrong type.
+    /// A text that is not TOML, an unknown key, or a value of the wrong type.
     #[error("{at}: {reason}")]
     Syntax {
-        /// Where.
+        /// Place of the error.
         at: Box<At>,
-        /// As the parser says it.
+        /// Reason, as the parser words it.
         reason: String,
     },
-    /// A value that cannot be.
+    /// A value out of its range.
     #[error("{at}: {reason}")]
     Value {
-        /// Where.
+        /// Place of the value.
         at: Box<At>,
-        /// What is wrong, and what to do.
+        /// Reason, and what to do.
         reason: String,
     },
-    /// Corners that make no rectangle.
+    /// Corners that do not form a rectangle.
     #[error("{at}: {reason}")]
     NotRectangle {
-        /// Which screen.
+        /// Place of the screen.
         at: Box<At>,
-        /// In what way.
+        /// Deviation from a rectangle.
         reason: NotRectangle,
     },
-    /// A name that stands for nothing.
+    /// A name that refers to nothing.
     #[error("{at}: there is no {kind} {name:?}{}; there is {}", suggestion(name, known), listed(known))]
     Unknown {
-        /// Where.
+        /// Place of the name.
         at: Box<At>,
-        /// `screen`, `window`, `projector`.
+        /// Kind of thing that was looked up: `screen`, `window`, `projector`, `eye`, `lens` or `combine`.
         kind: &'static str,
-        /// As written.
+        /// Name, as written in the file.
         name: String,
-        /// All.
+        /// Known names of this kind.
         known: Vec<String>,
     },
-    /// Two of one kind with the same name.
+    /// Two things of one kind with the same name.
     #[error("{at}: another {kind} is already called {name:?}; give each a name of its own")]
     Duplicate {
-        /// Where the second is.
+        /// Place of the second one.
         at: Box<At>,
-        /// `screen`, `window`, `projector`, `channel`.
+        /// Kind of thing: `screen`, `window`, `projector` or `channel`.
         kind: &'static str,
-        /// The name.
+        /// Name used twice.
         name: String,
     },
-    /// A name that cannot be one.
+    /// A name that is not allowed.
     #[error("{at}: {name:?} cannot be a name: {reason}")]
     NotAName {
-        /// Where.
+        /// Place of the name.
         at: Box<At>,
-        /// As written.
+        /// Name, as written in the file.
         name: String,
-        /// Why not.
+        /// Reason why it is not allowed.
         reason: &'static str,
     },
-    /// A viewport that sticks out of its window.
+    /// A viewport that is not inside its window.
     #[error("{at}: the viewport [{}, {}, {}, {}] is not inside window {window:?} of {} × {} pixels", viewport[0], viewport[1], viewport[2], viewport[3], size[0], size[1])]
     ViewportOutside {
-        /// Which channel.
+        /// Place of the viewport.
         at: Box<At>,
-        /// As written.
+        /// Viewport as written: x, y, width and height, pixels.
         viewport: [u32; 4],
-        /// The window's name.
+        /// Name of the window.
         window: String,
-        /// Its size.
+        /// Width and height of the window, pixels.
         size: [u32; 2],
     },
     /// Two viewports on the same pixels.
@@ -117,29 +117,29 @@ pub enum DisplayError {
         "{at}: the viewport overlaps that of channel {other:?}; only a left and a right channel may share pixels: the same viewport, in a window with combine"
     )]
     Overlap {
-        /// The second channel.
+        /// Place of the second channel's viewport.
         at: Box<At>,
-        /// The first channel's name.
+        /// Name of the first channel.
         other: String,
     },
-    /// A viewer who sees a screen from behind.
+    /// An eye that is behind a screen.
     #[error("{at}: screen {screen:?}, {eye} eye: {reason}")]
     Behind {
-        /// Which channel.
+        /// Place of the channel.
         at: Box<At>,
-        /// The screen's name.
+        /// Name of the screen.
         screen: String,
-        /// Which eye.
+        /// Name of the eye.
         eye: &'static str,
-        /// By how much.
+        /// Place of the eye and its distance behind the screen.
         reason: EyeBehind,
     },
-    /// A file beside the display's, or an imported one, that is not what it should be.
+    /// A file named by the display's file, or an imported file, with wrong contents.
     #[error("{}: {reason}", path.display())]
     Import {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it, and what to do.
+        /// Reason, and what to do.
         reason: String,
     },
 }
@@ -152,7 +152,7 @@ fn listed(known: &[String]) -> String {
     if known.is_empty() { "none".into() } else { known.join(", ") }
 }
 
-/// The known name that was probably meant: the one with the fewest edits, if those are at most a third of its letters.
+/// Known name that was probably meant: the one with the fewest edits, if these are at most a third of its letters.
 pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()
@@ -162,7 +162,7 @@ pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein's distance.
+/// Levenshtein distance between two words.
 fn edits(from: &str, to: &str) -> usize {
     let to: Vec<char> = to.chars().collect();
     let mut row: Vec<usize> = (0..=to.len()).collect();

@@ -1,37 +1,38 @@
-//! The short way for flat screens: an off-axis frustum whose picture plane is the screen itself.
+//! Off-axis frusta for flat screens: the picture plane is the screen itself, and no map is needed.
 
 use super::Flat;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 
-/// An eye behind its screen, or on it.
+/// Eye behind a screen, or in its plane.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the eye at {eye_m} m is {:.3} m behind the screen's plane; turn the screen round or move the head before it", -distance_m)]
 pub struct EyeBehind {
-    /// Room axes, metres.
+    /// Place of the eye, room axes, metres.
     pub eye_m: DVec3,
-    /// Metres before the screen: zero or less.
+    /// Distance before the screen, metres: zero or less.
     pub distance_m: f64,
 }
 
-/// What an eye sees through a flat screen as through a pane of glass.
+/// View of an eye through a flat screen, as through a pane of glass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
-    /// From the eye's axes (x along the screen's rows, y along its columns, −z straight at it) to the room's.
+    /// Rotation from the eye's axes (x along the screen's rows, y along its columns, −z straight towards it) to the
+    /// room's.
     pub room_from_eye: DMat3,
-    /// Tangent of the angle from −z to the screen's left edge, to the right positive.
+    /// Tangent of the angle from −z to the screen's left edge, positive to the right.
     pub left: f64,
-    /// To its right edge.
+    /// Tangent of the angle to the screen's right edge, positive to the right.
     pub right: f64,
-    /// To its lower edge, up positive.
+    /// Tangent of the angle to the screen's lower edge, positive upwards.
     pub bottom: f64,
-    /// To its upper edge.
+    /// Tangent of the angle to the screen's upper edge, positive upwards.
     pub top: f64,
 }
 
 impl Frustum {
-    /// Direction in which the eye sees a place of the picture (0 to 1, x right, y down from the upper left); room axes, of length
-    /// such that its part along the screen's normal is 1.
+    /// Direction in which the eye sees a place of the picture (0 to 1, x right, y down from the upper left); room
+    /// axes. Its length is such that its component along the screen's normal is 1.
     pub fn ray(&self, place: DVec2) -> DVec3 {
         let x = self.left + place.x * (self.right - self.left);
         let y = self.top + place.y * (self.bottom - self.top);
@@ -39,10 +40,10 @@ impl Frustum {
     }
 }
 
-/// The frustum of an eye before a flat screen.
+/// Frustum of an eye in front of a flat screen.
 ///
-/// *Equation.* Kooima, Generalized Perspective Projection (2008); B eq. A.7–A.10, whose vanishing points are at infinity for a rectangle
-/// and whose shear s is then 0.
+/// *Equation.* Kooima, Generalized Perspective Projection (2008); B eq. A.7–A.10, whose vanishing points are at
+/// infinity for a rectangle and whose shear s is then 0.
 ///
 /// # Errors
 /// [`EyeBehind`].

@@ -1,15 +1,15 @@
-//! How bright each pixel may be: what makes several projectors' light one even picture (B 4.2, 5.1.6).
+//! Brightness factors of pixels, which turn several projectors' light into one even picture (B 4.2, 5.1.6).
 //!
-//! Projector p delivers to a point X the luminance `L_p` (B eq. 4.5), at full white. It is given the share `w_p` of the light there, `Σ w = 1`,
-//! and its pixel the factor `w_p · T / L_p` with one target T for the whole screen: the sum of factor times delivered luminance
-//! is then T everywhere. T is as large as it can be without a factor above 1.
+//! Projector p delivers the luminance `L_p` (B eq. 4.5) to a point X at full white. It gets the share `w_p` of the
+//! light there, `Σ w = 1`, and its pixel gets the factor `w_p · T / L_p`, with one target T for the whole screen. The
+//! sum of factor times delivered luminance is then T everywhere. T is as large as possible without a factor above 1.
 
 use super::projector::Projector;
 use super::{Channel, Display, Eye, Screen};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// The target is looked for at this many places along and across each picture.
+/// Number of places along and across each picture at which the target is computed.
 const PROBES: u32 = 65;
 
 /// Factors of a channel's pixels, in linear light.
@@ -17,24 +17,26 @@ const PROBES: u32 = 65;
 pub struct Gains {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// What light is multiplied by, 0 to 1, row by row from the upper left: brightness correction × blending × the channel's own map.
-    /// Of pixels that light nothing it says nothing: it is not their black.
+    /// Multipliers of the light, 0 to 1, row by row from the upper left: brightness correction × blending × the
+    /// channel's own map. The factor of a pixel that lights nothing has no meaning; in particular it does not make
+    /// the pixel black.
     pub factors: Vec<f32>,
-    /// What is then added, so that dark parts look alike where projectors' black levels add up; `None`: nothing.
+    /// Light added afterwards, so that dark parts look alike where projectors' black levels add up; `None` if nothing
+    /// is added.
     pub lifts: Option<Vec<f32>>,
 }
 
-/// A measured map of a channel's pixels: linear light, 0 to 1, as large as it likes.
+/// Measured map of a channel's pixels: linear light, 0 to 1, of any size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// Width and height.
+    /// Width and height, samples.
     pub size: [u32; 2],
-    /// Row by row from the upper left.
+    /// Samples row by row from the upper left.
     pub values: Vec<f32>,
 }
 
 impl Map {
-    /// The value at a place of the viewport, bilinear between the centres of its pixels.
+    /// Value at a place of the viewport (0 to 1, y down), bilinear between the centres of the map's samples.
     pub fn at(&self, place: DVec2) -> f32 {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
         let scaled = (place * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
@@ -47,19 +49,20 @@ impl Map {
     }
 }
 
-/// How a screen sends back light.
+/// Reflection of light by a screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reflection {
-    /// Share of the light that goes into a lobe round the mirror's direction; the rest is ideally diffuse. 0 for a matt screen.
+    /// Share of the light that goes into a lobe around the mirror direction; the rest is ideally diffuse. 0 for a
+    /// matt screen.
     pub gloss: f64,
-    /// How narrow the lobe is: it falls as the cosine to this power.
+    /// Exponent of the cosine in the lobe: the larger it is, the narrower the lobe.
     pub exponent: f64,
 }
 
 impl Reflection {
-    /// B(θ_P, θ_B) of B eq. 4.5, per steradian: what share of the light that falls on a point the viewer gets.
+    /// Share of the light falling on a point that reaches the viewer, per steradian: B(θ_P, θ_B) of B eq. 4.5.
     ///
-    /// *Equation.* Lambert's 1/π and a normalised Phong lobe, (n + 1)/2π · cosⁿ of the angle to the mirror's direction.
+    /// *Equation.* Lambert's 1/π and a normalised Phong lobe, (n + 1)/2π · cosⁿ of the angle to the mirror direction.
     pub fn toward(&self, to_projector: DVec3, to_viewer: DVec3, normal: DVec3) -> f64 {
         use std::f64::consts::{FRAC_1_PI, TAU};
         if self.gloss == 0.0 {
@@ -72,7 +75,7 @@ impl Reflection {
     }
 }
 
-/// Projectors whose pictures are one: those of one eye on one screen.
+/// Projectors whose pictures form one: the channels of one eye on one screen.
 struct Group<'a> {
     screen: &'a Screen,
     viewer_m: DVec3,
@@ -90,14 +93,14 @@ impl<'a> Group<'a> {
         Self { screen: &display.screens[screen], viewer_m: display.viewer.head_m, members }
     }
 
-    /// Luminance toward the viewer of a projector's white.
+    /// Luminance of a projector's white towards the viewer.
     fn delivered(&self, projector: &Projector, place: DVec2, point: DVec3, normal: DVec3) -> Option<f64> {
         let to_projector = projector.position_m - point;
         let reflected = self.screen.reflection.toward(to_projector, self.viewer_m - point, normal);
         Some(projector.illuminance(place, point, normal)? * reflected).filter(|light| light.is_finite() && *light > 0.0)
     }
 
-    /// The share of one channel in the light at a point that it shows at `viewport`.
+    /// Share of one channel in the light at a point that the channel shows at the place `viewport`.
     fn weight(&self, channel: &Channel, projector: &Projector, viewport: DVec2, point: DVec3) -> f64 {
         if !projector.blend {
             return 1.0;
@@ -113,7 +116,7 @@ impl<'a> Group<'a> {
         if sum > 0.0 { own / sum } else { 1.0 / count }
     }
 
-    /// The brightest luminance that all members together can bring to every place they reach.
+    /// Largest luminance that the members together can give to every place they reach.
     fn target(&self) -> f64 {
         let places: Vec<DVec2> = (0..PROBES * PROBES)
             .map(|probe| DVec2::new(f64::from(probe % PROBES), f64::from(probe / PROBES)) / f64::from(PROBES - 1))
@@ -131,7 +134,7 @@ impl<'a> Group<'a> {
     }
 }
 
-/// The factors of a channel; `None`: all are 1.
+/// Factors of a channel's pixels; `None` if all are 1.
 pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Option<Gains> {
     let projector = channel.projector(display);
     let group = Group::of(display, channel.screen, channel.eye);
@@ -150,7 +153,7 @@ pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Opt
         Some((weight * target / group.delivered(projector, picture, point, normal)?).min(1.0))
     };
 
-    // Each pixel on its own; NaN: it lights nothing.
+    // Each pixel is computed on its own. NaN marks a pixel that lights nothing.
     let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
     let place = |index: usize| {
         let (x, y) = (index % size[0] as usize, index / size[0] as usize);
@@ -168,8 +171,8 @@ pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Opt
     Some(Gains { size, factors, lifts })
 }
 
-/// The factor of a pixel; of one that lights nothing, the mean of those beside it that do: between pixel centres, the last that is lit is then not
-/// mixed with black.
+/// Factor of a pixel. For a pixel that lights nothing, it is the mean of its lit neighbours, so that interpolation
+/// between pixel centres does not mix the last lit pixel with black.
 fn continued(lit: &[f32], [width, height]: [u32; 2], index: usize) -> f32 {
     if !lit[index].is_nan() {
         return lit[index];

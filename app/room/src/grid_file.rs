@@ -1,13 +1,14 @@
 //! CSV grids: values at even places of the unit square.
 
-/// The most samples that are read.
+/// Largest number of samples that is read.
 const MAX_SAMPLES: usize = 2_000_000;
 
-/// Columns, rows, and values row by row, lowest second place first.
+/// Columns, rows, and values row by row, starting with the lowest second coordinate.
 pub(super) type Samples<const N: usize> = (u32, u32, Vec<[f64; N]>);
 
-/// Reads lines of two places and N values, in any order, that make a complete even grid from 0 to 1 both ways; a first line of words is its
-/// head, and what follows a # is passed over. What is wrong is said in words that follow the file's name.
+/// Reads lines with the two coordinates of a place and N values, in any order. They must make a complete even grid
+/// from 0 to 1 both ways. A first line of words is a heading, and text after a # is ignored. Error texts are worded
+/// to follow the file's name.
 pub(super) fn read<const N: usize>(text: &str, head: &str) -> Result<Samples<N>, String> {
     let mut samples: Vec<([f64; 2], [f64; N])> = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -39,7 +40,7 @@ pub(super) fn read<const N: usize>(text: &str, head: &str) -> Result<Samples<N>,
         return Err(NO_GRID.into());
     }
 
-    // Digits that were cut off do not matter; a place somewhere else does.
+    // Rounded coordinates are accepted; places off the grid are not.
     let even = |index: usize, count: usize| index as f64 / (count - 1) as f64;
     let off = |index: usize| {
         let [x, y] = samples[index].0;

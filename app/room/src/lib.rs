@@ -1,20 +1,24 @@
-//! The room around the viewer: which surfaces show which part of the world, for which eye, in which window.
+//! Room around the viewer: which surface shows which part of the world, for which eye, in which window.
 //!
-//! A [`Display`] is plain data, made from a TOML file ([`mod@file`]), from a built-in one ([`built_in`]), or imported (MPCDI, ParaView's `.pvx`: [`Display::load`]).
-//! It lists *screens* (surfaces in the room), *windows* (pixels of a monitor), *projectors* and *channels*. A channel shows one screen to
-//! one eye in a rectangle of a window. It is at heart a map
+//! A [`Display`] is plain data. It comes from a TOML file ([`mod@file`]), is built in ([`built_in`]), or is imported
+//! (MPCDI, ParaView's `.pvx`: [`Display::load`]). It lists *screens* (surfaces in the room), *windows* (pixels of a
+//! monitor), *projectors* and *channels*. A channel shows one screen to one eye in a rectangle of a window. In
+//! essence it is a map
 //!
 //! ```text
-//! pixel ─ warp ─► place in the picture ─ lens, ray ─► point on the surface ─ minus the eye ─► direction that the eye sees
+//! pixel ─ warp ─► place in the picture ─ lens, ray ─► point on the surface
+//!       ─ minus the eye ─► direction that the eye sees
 //! ```
 //!
-//! (B eq. 4.1–4.3). Only the last step depends on the eye, so [`Channel::point`] can be tabled once. A flat screen whose pixels lie on it
-//! in even rows needs no table: [`Channel::flat`] says so, and [`frustum()`] gives its off-axis frustum for any eye.
+//! (B eq. 4.1–4.3). Only the last step depends on the eye, so [`Channel::point`] can be tabulated once. A flat screen
+//! on which the pixels lie in even rows needs no table: [`Channel::flat`] returns its rectangle, and [`frustum()`]
+//! gives the off-axis frustum for any eye.
 //!
-//! *Frame.* The room's axes are those of the vehicle: metres, x right, y up, −z ahead. Angles in files are degrees: yaw turns about +y
-//! (to the left), pitch about +x (up), roll about +z (counter-clockwise as seen by who looks along −z), applied in this order
-//! to axes that turn along. Places in a picture run from 0 to 1, x to the right and y *down* from its upper left; places on a surface (uv)
-//! run from 0 to 1, u to the right and v *up* from its lower left, both as seen by the viewer.
+//! *Frame.* The room's axes are those of the vehicle: metres, x right, y up, −z ahead. Angles in files are degrees:
+//! yaw turns about +y (to the left), pitch about +x (up), roll about +z (counter-clockwise when looking along −z).
+//! They are applied in this order, each about the axes turned by the ones before. Places in a picture run from 0 to
+//! 1, x to the right and y *down* from the upper left. Places on a surface (uv) run from 0 to 1, u to the right and v
+//! *up* from the lower left, both as seen by the viewer.
 
 pub mod built_in;
 mod channel;
@@ -48,40 +52,41 @@ pub use window::{Combine, Monitor, WindowPlace};
 use glam::{DMat3, DVec3};
 use std::path::Path;
 
-/// All that a room shows, and how.
+/// Complete description of a display: viewer, screens, projectors, windows and channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
-    /// What to call it in titles and messages: the built-in's name, or the file's without its ending.
+    /// Name for titles and messages: the file's `name`, or the name of the built-in display or of the file without
+    /// its ending.
     pub name: String,
-    /// Who looks.
+    /// Viewer in front of the screens.
     pub viewer: Viewer,
     /// Surfaces in the room.
     pub screens: Vec<Screen>,
-    /// What throws light on them, where that matters.
+    /// Projectors that light the screens, where the display describes them.
     pub projectors: Vec<Projector>,
-    /// Windows on monitors.
+    /// Windows that the display opens on monitors.
     pub windows: Vec<WindowPlace>,
-    /// What each shows: indices in it are good, viewports lie in their windows.
+    /// Views of the screens. Their indices are valid, and their viewports lie inside their windows.
     pub channels: Vec<Channel>,
-    /// The file's `[tracker]` table as it stands there: how the head is tracked is not this module's business.
+    /// Table `[tracker]` of the file, unchanged; this module does not interpret it.
     pub tracker: Option<toml::Value>,
-    /// What the file asks for and is not done, or what its user should know; one sentence each.
+    /// Requests of the file that are not fulfilled and other notes for the user, one sentence each.
     pub notices: Vec<String>,
 }
 
-/// A surface with a name.
+/// Surface with a name and a reflection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screen {
-    /// Unique among the screens.
+    /// Name, unique among the screens.
     pub name: String,
-    /// Where it is.
+    /// Shape and place of the screen.
     pub surface: Surface,
-    /// How it sends back projectors' light.
+    /// Reflection of the projectors' light by the screen.
     pub reflection: Reflection,
 }
 
 impl Display {
-    /// Reads a display file: `.toml`, or one of another program: `.pvx`, `.mpcdi`, `.mpcdi.xml`.
+    /// Reads a display file: `.toml`, or a file of another program: `.pvx`, `.mpcdi`, `.mpcdi.xml`.
     ///
     /// # Errors
     /// [`DisplayError`] with file, line, key and reason.
@@ -89,7 +94,8 @@ impl Display {
         if import::is_imported(path) { import::load(path) } else { file::load(path) }
     }
 
-    /// The channel that has the same pixels for the other eye, in a window that [combines](WindowPlace::combine) eyes.
+    /// Index of the channel that has the same pixels for the other eye, in a window that
+    /// [combines](WindowPlace::combine) eyes.
     pub fn partner(&self, channel: usize) -> Option<usize> {
         let own = &self.channels[channel];
         let shares = |other: &Channel| {
@@ -99,15 +105,15 @@ impl Display {
         self.channels.iter().position(shares).filter(|_| combines)
     }
 
-    /// A display that comes with the program, by one of [`built_in::NAMES`].
+    /// Built-in display, by one of [`built_in::NAMES`].
     pub fn built_in(name: &str) -> Option<Self> {
         built_in::display(name)
     }
 
-    /// The built-in display of that name, or else the file at that path.
+    /// Built-in display called `name`, or else the display in the file at that path.
     ///
     /// # Errors
-    /// [`DisplayError`]; [`DisplayError::NoSuch`] names the built-in ones, where there is no such file either.
+    /// [`DisplayError`]. [`DisplayError::NoSuch`] lists the built-in displays if there is no such file either.
     pub fn named_or_file(name: &str) -> Result<Self, DisplayError> {
         if let Some(display) = Self::built_in(name) {
             return Ok(display);
@@ -120,19 +126,19 @@ impl Display {
     }
 }
 
-/// Whether a file is a display, by its ending.
+/// True for a display file, judged by its ending.
 pub fn is_display(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) || import::is_imported(path)
 }
 
 impl std::fmt::Display for Display {
-    /// What `rapidity check` says of it.
+    /// Writes the report of `rapidity check`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         report::write(self, f)
     }
 }
 
-/// The rotation that takes −z, x, y to what is ahead, right and above after a turn by yaw, pitch and roll (degrees; see the [module](self)).
+/// Rotation of the axes x (right), y (above) and −z (ahead) by yaw, pitch and roll (degrees; see the [module](self)).
 pub fn room_from_turned(yaw_deg: f64, pitch_deg: f64, roll_deg: f64) -> DMat3 {
     // Whole quarter turns are exact, so that the walls of a cube close without a gap.
     let turn = |angle_deg: f64| {

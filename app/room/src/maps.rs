@@ -6,26 +6,26 @@ use super::warp::Measured;
 use glam::DVec2;
 use thiserror::Error;
 
-/// A map that cannot be used.
+/// Reason why a map cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MapError {
-    /// No portable float map.
+    /// A file that is no portable float map.
     #[error("{0}")]
     Pfm(String),
-    /// One sample is no grid.
+    /// A warp with a single row or column.
     #[error("a warp needs at least 2 × 2 samples, and it has {width} × {height}")]
     TooSmall {
-        /// Columns.
+        /// Number of columns.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
     },
-    /// No picture.
+    /// A file that is no readable picture.
     #[error("it is no picture that can be read: {0}")]
     Picture(String),
 }
 
-/// A portable float map with at least two samples each way.
+/// Portable float map with at least two samples each way.
 pub(super) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
     let map = pfm::read(bytes).map_err(MapError::Pfm)?;
     if map.width < 2 || map.height < 2 {
@@ -34,14 +34,15 @@ pub(super) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
     Ok(map)
 }
 
-/// Which place of the picture (red: x to the right, green: y down, 0 to 1) each place of the viewport shows.
+/// Warp whose samples are places of the picture (red: x to the right, green: y down, 0 to 1), one for each place of
+/// the viewport.
 pub(super) fn warp(bytes: &[u8]) -> Result<Measured, MapError> {
     let map = grid(bytes)?;
     let places = map.samples.iter().map(|&[x, y, _]| DVec2::new(f64::from(x), f64::from(y))).collect();
     Ok(Measured::new(map.width, map.height, places))
 }
 
-/// A picture's luminance as linear light: its values, 0 to 1, to the power of `gamma`.
+/// Luminance of a picture as linear light: the picture's values, 0 to 1, to the power of `gamma`.
 pub(super) fn gain(bytes: &[u8], gamma: f64) -> Result<Map, MapError> {
     let picture = image::load_from_memory(bytes).map_err(|error| MapError::Picture(error.to_string()))?.into_rgb32f();
     let values = picture.pixels().map(|pixel| {

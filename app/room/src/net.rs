@@ -1,13 +1,14 @@
-//! Piecewise linear maps of the plane: which triangle a place lies in, and where within it.
+//! Piecewise linear maps of the plane: the triangle in which a place lies, and the place's weights within it.
 //!
-//! Grids and meshes are linear within each triangle, forwards and backwards, so that what one way does the other undoes to rounding.
+//! Grids and meshes are linear within each triangle in both directions, so the inverse map undoes the map up to
+//! rounding.
 
 use glam::{DVec2, DVec3};
 
-/// Barycentric coordinates may be this much below 0 by rounding.
+/// Largest amount by which rounding may take a barycentric coordinate below 0.
 const EDGE: f64 = 1e-9;
 
-/// A place within a triangle: its corners, and their weights, which sum to 1.
+/// Place within a triangle: the indices of the corners, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Within {
     pub corners: [u32; 3],
@@ -15,7 +16,7 @@ pub(super) struct Within {
 }
 
 impl Within {
-    /// What the corners' values come to here. A corner without weight does not count, even if its value is unknown.
+    /// Weighted mean of the corners' values. A corner with weight 0 does not count, even if its value is unknown.
     pub fn mix<T>(&self, values: &[T]) -> T
     where
         T: Copy + Default + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
@@ -25,18 +26,18 @@ impl Within {
     }
 }
 
-/// An even grid over the unit square, first sample in its first corner, row by row; each cell is cut from its first corner
-/// to the opposite one.
+/// Even grid over the unit square, row by row, with the first sample at (0, 0). Each cell is cut from its first
+/// corner to the opposite one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Grid {
-    /// Samples along a row.
+    /// Number of samples along a row.
     pub columns: u32,
-    /// Rows.
+    /// Number of rows.
     pub rows: u32,
 }
 
 impl Grid {
-    /// The triangle at a place; `None` outside 0 to 1.
+    /// Triangle at a place, and the weights there; `None` outside 0 to 1.
     pub fn find(self, place: DVec2) -> Option<Within> {
         let inside = place.cmpge(DVec2::splat(-EDGE)).all() && place.cmple(DVec2::splat(1.0 + EDGE)).all();
         if !inside {
@@ -55,19 +56,19 @@ impl Grid {
         })
     }
 
-    /// The place of a sample.
+    /// Place of a sample in the unit square.
     pub fn place(self, sample: u32) -> DVec2 {
         DVec2::new(f64::from(sample % self.columns), f64::from(sample / self.columns))
             / DVec2::new(f64::from(self.columns - 1), f64::from(self.rows - 1))
     }
 
-    /// The place within a triangle of samples.
+    /// Place with the given weights within a triangle of samples.
     pub fn place_within(self, within: &Within) -> DVec2 {
         let [a, b, c] = within.corners.map(|sample| self.place(sample));
         a * within.weights.x + b * within.weights.y + c * within.weights.z
     }
 
-    /// All triangles, with the corners in the same order as [`find`](Self::find)'s.
+    /// Triangles of all cells, with the corners in the same order as in [`find`](Self::find).
     pub fn triangles(self) -> Vec<[u32; 3]> {
         let cells = (0..self.rows - 1).flat_map(|row| (0..self.columns - 1).map(move |column| (row, column)));
         cells
@@ -80,22 +81,22 @@ impl Grid {
     }
 }
 
-/// Triangles in the plane, sorted into buckets so that the one at a place is found at once.
+/// Triangles in the plane, sorted into buckets so that the triangle at a place is found quickly.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Net {
     corners: Vec<DVec2>,
     triangles: Vec<[u32; 3]>,
     lowest: DVec2,
-    /// Buckets per unit.
+    /// Number of buckets per unit of length, along each axis.
     scale: DVec2,
     side: usize,
-    /// Where each bucket's triangles begin in `sorted`; one more than there are buckets.
+    /// Index in `sorted` at which each bucket's triangles begin; one entry more than there are buckets.
     starts: Vec<u32>,
     sorted: Vec<u32>,
 }
 
 impl Net {
-    /// Sorts them. Triangles with a corner that is not finite, or without area, are left out.
+    /// Sorts triangles into buckets. A triangle without area, or with a corner that is not finite, is left out.
     pub fn new(corners: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
         let good = |triangle: &&[u32; 3]| {
             let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
@@ -111,7 +112,7 @@ impl Net {
         let mut net =
             Self { corners, triangles, lowest, scale, side, starts: vec![0; side * side + 1], sorted: Vec::new() };
 
-        // Count, add up, fill.
+        // Counting sort: count, add up, fill.
         for index in 0..net.triangles.len() {
             for bucket in net.buckets(index) {
                 net.starts[bucket + 1] += 1;
@@ -131,7 +132,7 @@ impl Net {
         net
     }
 
-    /// The triangle at a place, the first in the given order where several lie over each other.
+    /// Triangle at a place, and the weights there. If several triangles overlap, it is the first in the given order.
     pub fn find(&self, place: DVec2) -> Option<Within> {
         let scaled = (place - self.lowest) * self.scale;
         let [column, row] = self.bucket(scaled)?;
@@ -153,7 +154,7 @@ impl Net {
         inside.then(|| scaled.to_array().map(|part| (part.max(0.0) as usize).min(self.side - 1)))
     }
 
-    /// The buckets that a triangle's bounding box touches.
+    /// Indices of the buckets that a triangle's bounding box touches.
     fn buckets(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
         let corners = self.triangles[index].map(|corner| (self.corners[corner as usize] - self.lowest) * self.scale);
         let slack = DVec2::splat(2.0 * EDGE * self.side as f64);

@@ -1,7 +1,7 @@
 //! Portable float maps: three floats for each sample.
 //!
-//! The file's rows run from below to above, as the format says and as the programs that write MPCDI warps do; what is returned runs from
-//! above to below. A reader that turned it once more would show everything upside down.
+//! The file's rows run from bottom to top, as the format says and as the programs that write MPCDI warps do. The
+//! returned rows run from top to bottom. A reader that turned them once more would show everything upside down.
 
 /// Width, height, and samples row by row from the upper left.
 pub(super) struct Pfm {
@@ -10,10 +10,10 @@ pub(super) struct Pfm {
     pub samples: Vec<[f32; 3]>,
 }
 
-/// The most samples that are read.
+/// Largest number of samples that is read.
 const MAX_SAMPLES: u64 = 16_000_000;
 
-/// Reads a file's bytes. What is wrong is said in words that follow the file's name.
+/// Reads a file's bytes. Error texts are worded to follow the file's name.
 pub(super) fn read(bytes: &[u8]) -> Result<Pfm, String> {
     // Header: three words and one white space each, then floats.
     let mut rest = bytes;

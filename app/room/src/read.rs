@@ -1,11 +1,11 @@
-//! Files as a whole. Nothing but regular files is opened: a display that names a pipe would never come to an end.
+//! Reading of whole files. Only regular files are opened, because reading a pipe named in a display would never end.
 
 use std::path::Path;
 
-/// The largest file that is read, bytes.
+/// Largest file that is read, bytes.
 const MAX_FILE: u64 = 1 << 30;
 
-/// A file's bytes. What is wrong is said in words that follow its name.
+/// Bytes of a file. Error texts are worded to follow the file's name.
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     let cannot = |error: std::io::Error| format!("cannot be read: {error}");
     let metadata = std::fs::metadata(path).map_err(cannot)?;
@@ -18,7 +18,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(cannot)
 }
 
-/// A file's text.
+/// Text of a file. Error texts are worded to follow the file's name.
 pub(super) fn text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes(path)?).map_err(|_| "cannot be read: it is not UTF-8 text".into())
 }

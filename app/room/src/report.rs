@@ -1,13 +1,13 @@
-//! What a display comes to, in words: for `rapidity check`.
+//! Description of a display in words, for `rapidity check`.
 
 use super::{Channel, Combine, Display, Monitor, Screen, Surface};
 use glam::{DMat3, DVec2, DVec3};
 use std::fmt::{Formatter, Result};
 
-/// Screens and viewports are looked at in this many places each way.
+/// Number of places, each way, at which screens and viewports are examined.
 const PROBES: u32 = 33;
 
-/// Screens, projectors, windows, channels, notices.
+/// Writes the viewer, screens, projectors, windows, channels and notices.
 pub(super) fn write(display: &Display, f: &mut Formatter<'_>) -> Result {
     let viewer = &display.viewer;
     let head = viewer.head_m;
@@ -93,9 +93,9 @@ fn covered(display: &Display, screen: usize) -> f64 {
     points.iter().filter(shown).count() as f64 / points.len().max(1) as f64
 }
 
-/// What the channel's eye sees of its pixels.
+/// View of a channel's pixels from its eye.
 struct Seen {
-    /// Pixels per degree, coarsest first: the side of a square with a pixel's solid angle.
+    /// Pixels per degree, coarsest first. One pixel counts as a square with the pixel's solid angle.
     densities: Vec<f64>,
     /// Share of the viewport that lights the screen.
     lit: f64,

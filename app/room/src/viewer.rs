@@ -1,26 +1,27 @@
-//! Who looks at the screens: where the head is if nothing tracks it, and how far apart the eyes are.
+//! Viewer of the screens: the place of an untracked head, and the distance between the eyes.
 
 use glam::{DMat3, DVec3};
 
-/// Distance between the pupils of a grown person, metres: the mean of large surveys is 63 to 64 mm.
+/// Distance between the pupils of an adult, metres. The mean of large surveys is 63 to 64 mm.
 pub const EYE_SEPARATION_M: f64 = 0.064;
 
-/// Where an untracked head is unless the file says so: at the height of someone who stands in the room's middle.
+/// Place of an untracked head unless the file gives one, room axes, metres: the height of a person standing in the
+/// room's middle.
 pub const HEAD_M: DVec3 = DVec3::new(0.0, 1.6, 0.0);
 
-/// Which eye a channel is for.
+/// Eye for which a channel is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Eye {
-    /// The left one.
+    /// The left eye.
     Left,
-    /// The right one.
+    /// The right eye.
     Right,
-    /// The point midway between them: everything that is not stereo.
+    /// The point midway between the eyes, for everything that is not stereo.
     Centre,
 }
 
 impl Eye {
-    /// −1, +1 and 0: how many half separations it is to the right of the head's middle.
+    /// Place of the eye to the right of the head's middle, in half eye separations: −1, +1 or 0.
     pub fn side(self) -> f64 {
         match self {
             Self::Left => -1.0,
@@ -29,7 +30,7 @@ impl Eye {
         }
     }
 
-    /// As display files spell it.
+    /// Name of the eye in display files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -42,11 +43,11 @@ impl Eye {
 /// The viewer of a display.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewer {
-    /// Metres between the eyes in the room: this is what frusta and pixel maps are made for.
+    /// Distance between the eyes in the room, metres. Frusta and pixel maps are made for it.
     pub eye_separation_m: f64,
-    /// How many times further apart the eyes are in the world than in the room. 1 is true to scale.
+    /// Distance between the eyes in the world, divided by that in the room. 1 is true to scale.
     pub eye_scale: f64,
-    /// The point midway between the eyes of a head that nothing tracks, room axes, metres; it faces −z.
+    /// Point midway between the eyes of an untracked head, room axes, metres; the head faces −z.
     pub head_m: DVec3,
 }
 
@@ -57,16 +58,17 @@ impl Default for Viewer {
 }
 
 impl Viewer {
-    /// An eye's place in the room, metres.
+    /// Place of an eye in the room, room axes, metres.
     ///
     /// # Arguments
-    /// * `head_m` — the point midway between the eyes, room axes.
+    /// * `head_m` — point midway between the eyes, room axes, metres.
     /// * `room_from_head` — rotation from the head's axes (x right, y up, −z ahead).
     pub fn eye_m(&self, eye: Eye, head_m: DVec3, room_from_head: DMat3) -> DVec3 {
         head_m + room_from_head.x_axis * (0.5 * eye.side() * self.eye_separation_m)
     }
 
-    /// How far an eye is from the head's middle in the world, head axes, metres: the eye separation times [`eye_scale`](Self::eye_scale).
+    /// Offset of an eye from the head's middle in the world, head axes, metres: the eye separation times
+    /// [`eye_scale`](Self::eye_scale), half of it to each side.
     pub fn world_offset_m(&self, eye: Eye) -> DVec3 {
         DVec3::X * (0.5 * eye.side() * self.eye_separation_m * self.eye_scale)
     }

@@ -1,24 +1,24 @@
-//! From a channel's viewport to its picture, where the two are not the same: nudged corners, and measured grids.
+//! Maps from a channel's viewport to its picture, where the two differ: nudged corners and measured grids.
 
 use super::net::{Grid, Net};
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 
-/// Corners that no picture can have.
+/// Corners that do not form a convex quadrilateral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the corners make no convex quadrilateral in the order upper left, upper right, lower right, lower left")]
 pub struct NotConvex;
 
-/// Which place of the picture a place of the viewport shows; both 0 to 1, x right, y down.
+/// Map from places of the viewport to places of the picture; both 0 to 1, x right, y down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warp {
-    /// The picture is drawn into a quadrilateral, as a keystone correction does it.
+    /// A picture drawn into a quadrilateral, as a keystone correction does.
     Corners(Corners),
-    /// Measured at an even grid.
+    /// A map measured at an even grid.
     Grid(Measured),
 }
 
-/// A projective map that takes the picture's corners to given places.
+/// Projective map that takes the picture's corners to given places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corners {
     /// Places in the viewport of the picture's upper left, upper right, lower right and lower left corners.
@@ -28,7 +28,8 @@ pub struct Corners {
 }
 
 impl Corners {
-    /// From the places in the viewport of the picture's upper left, upper right, lower right and lower left corners.
+    /// Creates a map from the places in the viewport of the picture's upper left, upper right, lower right and lower
+    /// left corners.
     ///
     /// *Equation.* Heckbert, Fundamentals of Texture Mapping and Image Warping (1989), 2.2.3.
     ///
@@ -37,7 +38,7 @@ impl Corners {
     pub fn new(places: [DVec2; 4]) -> Result<Self, NotConvex> {
         let convex = (0..4).all(|i| {
             let [a, b, c] = [places[i], places[(i + 1) % 4], places[(i + 2) % 4]];
-            // y is down: clockwise on the screen is positive here.
+            // y points down, so clockwise on the screen is positive here.
             (b - a).perp_dot(c - b) > 1e-9
         });
         if !convex {
@@ -53,7 +54,7 @@ impl Corners {
     }
 }
 
-/// A measured map: piecewise linear over an even grid, first sample in the viewport's upper left corner.
+/// Measured map: piecewise linear over an even grid, the first sample in the viewport's upper left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     grid: Grid,
@@ -62,7 +63,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// From `columns` × `rows` places in the picture, at least two each, rows from above; what is not finite is unknown.
+    /// Creates a map from `columns` × `rows` places in the picture, at least two each way, the top row first. A place
+    /// that is not finite is unknown.
     pub fn new(columns: u32, rows: u32, places: Vec<DVec2>) -> Self {
         let grid = Grid { columns, rows };
         let back = Net::new(places.clone(), &grid.triangles());
@@ -71,7 +73,7 @@ impl Measured {
 }
 
 impl Warp {
-    /// The picture's place at a place of the viewport; `None` where nothing of the picture is.
+    /// Place of the picture at a place of the viewport; `None` if the picture does not reach there.
     pub fn picture(&self, viewport: DVec2) -> Option<DVec2> {
         let place = match self {
             Self::Corners(corners) => project(corners.picture_from_viewport, viewport)?,
@@ -80,7 +82,7 @@ impl Warp {
         super::projector::inside(place).then_some(place)
     }
 
-    /// The place of the viewport that shows a place of the picture, if one does.
+    /// Place of the viewport that shows a place of the picture, if there is one.
     pub fn viewport(&self, picture: DVec2) -> Option<DVec2> {
         let place = match self {
             Self::Corners(corners) => project(corners.viewport_from_picture, picture)?,

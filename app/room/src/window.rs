@@ -1,28 +1,29 @@
-//! Windows: which pixels of which monitor a display owns, and how two eyes share them.
+//! Windows: the pixels of a monitor that a display uses, and how two eyes share them.
 //!
-//! Two windows, side by side and top–bottom need nothing but channels with viewports of their own. What is left is when both eyes' pictures
-//! lie on the same pixels, and that is a property of the window ([`Combine`]): its left and right channels share one viewport.
+//! Two windows, side by side and top–bottom stereo need only channels with viewports of their own. If both eyes'
+//! pictures lie on the same pixels, that is a property of the window ([`Combine`]): its left and right channels share
+//! one viewport.
 
-/// Which monitor.
+/// Monitor on which a window opens.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Monitor {
-    /// By the system's name, such as `DP-1`.
+    /// A monitor by the system's name, such as `DP-1`.
     Name(String),
-    /// By its number in the system's order, from 0.
+    /// A monitor by its number in the system's order, from 0.
     Index(usize),
 }
 
-/// How the pictures of a left and a right channel with the same viewport become one.
+/// Method of combining the pictures of a left and a right channel with the same viewport.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Combine {
-    /// They do not: viewports must not overlap.
+    /// Separate pictures: viewports must not overlap.
     #[default]
     None,
-    /// Even rows of the monitor's pixels are the left eye's, odd ones the right eye's.
+    /// Even rows of the monitor's pixels for the left eye, odd rows for the right eye.
     Rows,
-    /// Even columns of the monitor's pixels are the left eye's, odd ones the right eye's.
+    /// Even columns of the monitor's pixels for the left eye, odd columns for the right eye.
     Columns,
-    /// Pixels whose row plus column is even are the left eye's.
+    /// Pixels whose row plus column is even for the left eye, the others for the right eye.
     Checker,
     /// Red–cyan by the least-squares matrices of E. Dubois (ICASSP 2001).
     AnaglyphDubois,
@@ -33,7 +34,7 @@ pub enum Combine {
 }
 
 impl Combine {
-    /// All, in the order of the documentation.
+    /// Methods in the order of the documentation.
     pub const ALL: [Self; 7] = [
         Self::None,
         Self::Rows,
@@ -44,7 +45,7 @@ impl Combine {
         Self::AnaglyphHalfColour,
     ];
 
-    /// As display files spell it.
+    /// Name of the method in display files.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -57,7 +58,7 @@ impl Combine {
         }
     }
 
-    /// Whether colours separate the eyes: they then no longer show the Doppler shift (B 5.2).
+    /// True if colours separate the eyes. Such pictures cannot show the Doppler shift (B 5.2).
     pub fn is_anaglyph(self) -> bool {
         matches!(self, Self::AnaglyphDubois | Self::AnaglyphGrey | Self::AnaglyphHalfColour)
     }
@@ -66,18 +67,19 @@ impl Combine {
 /// A window on a monitor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindowPlace {
-    /// Unique among the windows.
+    /// Name, unique among the windows.
     pub name: String,
-    /// `None`: where the system puts it.
+    /// Monitor on which the window opens; `None` leaves it to the system.
     pub monitor: Option<Monitor>,
-    /// Pixels of its upper left from the monitor's (without a monitor: the desktop's), right and down. `None`: where the system puts it.
+    /// Offset of the window's upper left from the monitor's (without a monitor: from the desktop's), pixels right and
+    /// down. `None` leaves it to the system.
     pub position: Option<[i32; 2]>,
-    /// Pixels inside, width and height.
+    /// Width and height of the contents, pixels.
     pub size: [u32; 2],
-    /// Without a frame, over all of the monitor.
+    /// True for a window without a frame that fills the monitor.
     pub fullscreen: bool,
-    /// How left and right channels share pixels.
+    /// Method by which left and right channels share pixels.
     pub combine: Combine,
-    /// Left and right changed over in `combine`: for glasses or monitors that have them the other way round.
+    /// True if left and right are exchanged in `combine`, for glasses or monitors that have them the other way round.
     pub swap_eyes: bool,
 }

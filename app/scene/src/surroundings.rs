@@ -1,11 +1,11 @@
-//! What a vehicle on the ground has to know of the place it moves in: the ground below, the nearest wall.
+//! Surroundings of a vehicle on the ground: the ground below and the nearest wall.
 
 use glam::DVec3;
 
 /// Ground below a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// World height, metres.
+    /// Height of the ground in the world, metres.
     pub height: f64,
     /// Unit normal, upward, world axes.
     pub normal: DVec3,
@@ -14,24 +14,26 @@ pub struct Ground {
 /// A wall near a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// From the point to the nearest place of the wall, metres, not negative.
+    /// Distance from the point to the nearest place of the wall, metres, not negative.
     pub distance: f64,
-    /// Unit vector from that place to the point, world axes, level. On which side of the wall the point lies is all it says.
+    /// Unit vector from that place to the point, world axes, level. It tells only on which side of the wall the point
+    /// lies.
     pub normal: DVec3,
 }
 
-/// A place at rest in the world. Vehicles ask it several times a step, so answers should take microseconds; the same question must
-/// always get the same answer, to the bit, or a ride does not replay.
+/// Place at rest in the world. A vehicle asks it several times per step, so an answer should take microseconds. The
+/// same question must always get the same answer, to the bit, or a ride cannot be replayed.
 pub trait Surroundings: Send + Sync {
-    /// The highest ground that is below `position` or no more than a kerb above it, none where there is nothing to stand on.
+    /// Highest ground that is below `position`, or above it by at most a kerb; `None` where there is nothing to stand
+    /// on.
     fn height_below(&self, position: DVec3) -> Option<Ground>;
 
-    /// The wall nearest to a vehicle whose reference point on the ground is `position`, none within `reach` metres. The distance must be
-    /// that to the nearest wall of all: a way shorter than it is known to be free.
+    /// Wall nearest to a vehicle whose reference point on the ground is `position`; `None` if there is none within
+    /// `reach` metres. The distance must be that of the nearest of all walls: any shorter way is known to be free.
     fn nearest_wall(&self, position: DVec3, reach: f64) -> Option<Wall>;
 }
 
-/// Nothing but space.
+/// Empty space: no ground and no wall.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpenSpace;
 
@@ -45,7 +47,7 @@ impl Surroundings for OpenSpace {
     }
 }
 
-/// An endless plain at the height 0, without a wall.
+/// Endless plain at height 0, without walls.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpenPlane;
 

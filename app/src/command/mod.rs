@@ -1,9 +1,9 @@
-//! The command line: what can be asked of the program, checked once and typed for good.
+//! The command line: the program's commands and options, checked once and typed.
 //!
 //! Each subcommand is one plain struct of options. An option's text is turned into its type while it is parsed
-//! (`values`), by a parser whose refusal says what was expected, so that the rest of the program reads metres,
-//! celerities and paths and checks nothing again. Rules between options stand beside the options: clap knows
-//! the simple ones (`conflicts_with`, `requires`), a struct's `check` the others.
+//! (`values`), by a parser whose error says what was expected. The rest of the program then reads metres, celerities
+//! and paths and checks nothing again. Rules between options stand beside the options: simple rules are given to clap
+//! (`conflicts_with`, `requires`), others are in a struct's `check`.
 //!
 //! ```
 //! use rapidity::command::{Command, parse_from};
@@ -47,80 +47,86 @@ struct Cli {
     command: Command,
 }
 
-/// What the program is asked to do.
+/// Subcommand with its options.
 #[derive(Clone, Debug, PartialEq, Subcommand)]
 pub enum Command {
     /// Ride a bicycle, or fly, through the scene in a window.
     ///
-    /// Where none of --renderer, --tolerance, --edge, --transform and --map-scale is given, rides are drawn as rapidity.toml in the user's configuration directory says
-    /// (~/.config/rapidity on Linux, or rapidity in XDG_CONFIG_HOME), if there is one: `rapidity measure --budget` and `--tolerance` write it.
+    /// If none of --renderer, --tolerance, --edge, --transform and --map-scale is given, their values come from
+    /// rapidity.toml in the user's configuration directory (~/.config/rapidity on Linux, or rapidity in
+    /// XDG_CONFIG_HOME), if that file exists. `rapidity measure --budget` and `rapidity measure --tolerance` write
+    /// it.
     Ride(Box<RideOptions>),
     /// Draw a still or a film, without a window.
     Render(Box<RenderOptions>),
-    /// Measure what each speed-up costs in error, on a scene and on this machine.
+    /// Measure the error that each speed-up costs, on a scene and on this machine.
     ///
-    /// Draws stills from places along a way, by each renderer at several settings of its dial (--edge, --transform, --tolerance, --map-scale), and prints
-    /// for each how long they take, in all and by stage, what is held on the graphics device, by how many minutes of arc things are off their places (the
-    /// median, and what 99 of 100 pixels and all of them keep to), and how far colours are from traced rays. Further tables are of samples, the shift
-    /// table, integrators and precision. The old town takes about three minutes on two cores; Ctrl-C ends it with what is measured until then.
+    /// Draws stills from places along a way, by each renderer at several settings of its dial (--edge, --transform,
+    /// --tolerance, --map-scale). For each, it prints the time, in all and by stage; the memory on the graphics
+    /// device; the errors of position in minutes of arc (the median, the value that 99 of 100 pixels keep to, and the
+    /// largest); and the difference of colours from traced rays. More tables follow: samples, the shift table,
+    /// integrators and precision. The old town takes about three minutes on two cores. Ctrl-C ends the measurement
+    /// and keeps the results so far.
     ///
-    /// With --budget or --tolerance, frames of a ride are measured instead, and the best setting is written to rapidity.toml in the user's configuration
-    /// directory (~/.config/rapidity on Linux, or rapidity in XDG_CONFIG_HOME), by which `rapidity ride` draws from then on.
+    /// With --budget or --tolerance, frames of a ride are measured instead, and the best setting is written to
+    /// rapidity.toml in the user's configuration directory (~/.config/rapidity on Linux, or rapidity in
+    /// XDG_CONFIG_HOME). `rapidity ride` uses it from then on.
     Measure(Box<MeasureOptions>),
     /// Write the built-in old town to a glTF file.
     Town(TownOptions),
     /// Answer questions about relativity: JSON Lines from standard input to standard output.
     ///
-    /// A question names itself by "ask" and gives its keys; lengths and times are in metres, c = 1, velocities are a "celerity" (gamma v/c) or
-    /// a "beta" (v/c), of three numbers each. Questions: aberration {direction}, boost {event}, compose {vehicle, head}, apparent {observer,
-    /// source}, eyes {observer, separation, right}, worldline {start, legs, step}, perceived {eyes, source, time}, and
-    /// colour {spectrum: {planck: kelvin} or {sampled: [[nm, W/sr/m³], …]} or {rgb: [r, g, b]}, D: ν observed over ν emitted},
-    /// answered by xyz in cd/m² and linear sRGB.
+    /// A question is named by "ask" and has its own keys. Lengths and times are in metres, c = 1. A velocity is a
+    /// "celerity" (gamma v/c) or a "beta" (v/c), of three numbers each. Questions: aberration {direction}, boost
+    /// {event}, compose {vehicle, head}, apparent {observer, source}, eyes {observer, separation, right}, worldline
+    /// {start, legs, step}, perceived {eyes, source, time}, and colour {spectrum: {planck: kelvin} or {sampled: [[nm,
+    /// W/sr/m³], …]} or {rgb: [r, g, b]}, D: ν observed over ν emitted}, answered by xyz in cd/m² and linear sRGB.
     Probe,
     /// List the input devices that are plugged in, with live values.
     Devices(DevicesOptions),
-    /// Say whether scenes and recordings are good, and what is wrong with them.
+    /// Check scenes, displays and recordings, and say what is wrong with them.
     Check(CheckOptions),
 }
 
-/// `rapidity town`.
+/// Options of `rapidity town`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct TownOptions {
-    /// The file to write (.glb).
+    /// File to write (.glb).
     #[arg(long, value_name = "FILE.glb", value_parser = values::glb())]
     pub out: PathBuf,
 }
 
-/// `rapidity devices`.
+/// Options of `rapidity devices`.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct DevicesOptions {
-    /// The serial port of the instrumented bicycle, to be listed with the others.
+    /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
-    /// The tracker of the head, likewise: vrpn://HOST/DEVICE or dtrack://:5000.
+    /// Tracker of the head, which is listed with the other devices: vrpn://HOST/DEVICE or dtrack://:5000.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
-    /// How long to watch, in seconds [default: until Ctrl-C].
+    /// Time for which devices are watched, seconds [default: until Ctrl-C].
     #[arg(long, value_name = "N", value_parser = values::positive)]
     pub seconds: Option<f64>,
 }
 
-/// `rapidity check`.
+/// Options of `rapidity check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckOptions {
-    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .hdr, .exr) and recordings (.mcap).
+    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .hdr, .exr), displays (.toml, .pvx, .mpcdi, .mpcdi.xml) and
+    /// recordings (.mcap).
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
 }
 
-/// Why there is no command to run.
+/// Reason why there is no command to run.
 #[derive(Debug, Error)]
 pub enum Stop {
-    /// Help or the version was asked for; the text to show.
+    /// Help or version that was asked for, with its text.
     #[error("{}", .0.render())]
     Help(clap::Error),
-    /// The command line is wrong; a sentence that says where.
+    /// Mistake in the command line, with a sentence that says where it is.
     #[error("{0}")]
     Usage(String),
 }
@@ -129,7 +135,7 @@ impl Stop {
     /// Exit status of a wrong command line.
     const USAGE: u8 = 2;
 
-    /// Tells the user, and says with which status to exit: 0 for help that was asked for, 2 for a mistake.
+    /// Prints the message. Returns the exit status: 0 for help that was asked for, 2 for a mistake.
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Help(text) => match text.print() {
@@ -144,10 +150,10 @@ impl Stop {
     }
 }
 
-/// Reads this process's command line.
+/// Reads the command line of this process.
 ///
 /// # Errors
-/// The exit status, once help has been shown or the mistake told.
+/// Exit status, after help or the mistake has been printed.
 pub fn parse() -> Result<Command, ExitCode> {
     parse_from(std::env::args_os()).map_err(|stop| stop.report())
 }
@@ -155,7 +161,8 @@ pub fn parse() -> Result<Command, ExitCode> {
 /// Reads a command line, the program's name first.
 ///
 /// # Errors
-/// [`Stop::Help`] if only help was asked for, [`Stop::Usage`] if an option is unknown, out of range, or against another.
+/// [`Stop::Help`] if only help was asked for. [`Stop::Usage`] if an option is unknown, out of range, or contradicts
+/// another.
 pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Stop> {
     let matches = Cli::command().try_get_matches_from(arguments).map_err(stop)?;
     let Cli { mut command } = Cli::from_arg_matches(&matches).map_err(stop)?;
@@ -172,7 +179,7 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
     Ok(command)
 }
 
-/// Tells help from mistakes, and turns clap's paragraphs about a mistake into one sentence.
+/// Separates help from mistakes, and turns clap's paragraphs about a mistake into one sentence.
 fn stop(error: clap::Error) -> Stop {
     use clap::error::ErrorKind;
     match error.kind() {

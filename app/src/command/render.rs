@@ -9,52 +9,53 @@ use physics::Celerity;
 use super::values::{self, Output};
 use super::{PictureOptions, RayOptions, Renderer, RoomOptions, WorldOptions};
 
-/// Pictures a second of a film for which `--fps` says nothing.
+/// Pictures per second of a film without `--fps`.
 const FRAMES_PER_SECOND: f64 = 30.0;
-/// Below this sine of the angle between them, `--up` does not say how a view along `--look` is turned.
+/// Sine of the angle between `--look` and `--up` below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// What to draw, from where, and into which file.
+/// Options of `rapidity render`.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RenderOptions {
-    /// The file to write: .png for a picture, .exr for its light, .mp4 for a film; with --display, a folder.
+    /// File to write: .png for a picture, .exr for its light, .mp4 for a film; with --display, a folder.
     ///
     /// Light is linear sRGB in cd/m², before exposure, tone and gamut, as 32-bit floats.
     #[arg(long, value_name = "FILE", value_parser = values::output())]
     pub out: Output,
-    /// The world.
+    /// Options of the world.
     #[command(flatten)]
     pub world: WorldOptions,
-    /// The observer.
+    /// Options of the observer.
     #[command(flatten)]
     pub viewpoint: Viewpoint,
-    /// See it with the eyes of a recorded rider.
+    /// Draw the view of a recorded rider.
     ///
-    /// World, vehicle and observer come from the recording; --scene is needed only if its scene's file has moved.
+    /// World, vehicle and observer come from the recording. --scene is needed only if the file of its scene has
+    /// moved.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Observer")]
     #[arg(conflicts_with_all = ["speed_of_light", "position", "look", "up", "celerity", "beta"])]
     pub replay: Option<PathBuf>,
-    /// Length of a film in seconds of the observer's own time [default: 10, or the whole recording].
+    /// Length of a film, seconds of the observer's own time [default: 10, or the whole recording].
     ///
-    /// For a picture of a recording: the moment to draw [default: its end].
+    /// For a picture of a recording, the moment to draw [default: its end].
     #[arg(long, value_name = "N", value_parser = values::positive, help_heading = "Film")]
     pub seconds: Option<f64>,
-    /// Pictures a second of a film [default: 30].
+    /// Pictures per second of a film [default: 30].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 1000.0), help_heading = "Film")]
     fps: Option<f64>,
-    /// The room that it is drawn for.
+    /// Options of the room for which the picture is drawn.
     #[command(flatten)]
     pub room: RoomOptions,
-    /// How the picture is drawn.
+    /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
-    /// What rays do.
+    /// Options of the rays.
     #[command(flatten)]
     pub rays: RayOptions,
 }
 
-/// Where the observer is, how he moves, and where he looks.
+/// Options of the observer: place, motion and direction of view.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "Observer")]
 pub struct Viewpoint {
@@ -64,33 +65,33 @@ pub struct Viewpoint {
     /// Direction of view in the observer's frame, normalised [default: the scene's start].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::direction)]
     pub look: Option<DVec3>,
-    /// The direction that is up in the picture, normalised.
+    /// Direction that is up in the picture, normalised.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0,1,0")]
     #[arg(value_parser = values::direction)]
     pub up: DVec3,
     /// Velocity of the observer as celerity, gamma times v/c, world axes [default: at rest].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::celerity)]
     celerity: Option<Celerity>,
-    /// The same as v/c, shorter than 1.
+    /// Velocity of the observer as v/c, shorter than 1, world axes.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::beta)]
     #[arg(conflicts_with = "celerity")]
     beta: Option<Celerity>,
 }
 
 impl Viewpoint {
-    /// Velocity of the observer in the world.
+    /// Velocity of the observer, world axes.
     pub fn celerity(&self) -> Celerity {
         self.celerity.or(self.beta).unwrap_or_default()
     }
 }
 
 impl RenderOptions {
-    /// Pictures a second of the film.
+    /// Pictures per second of the film.
     pub fn frames_per_second(&self) -> f64 {
         self.fps.unwrap_or(FRAMES_PER_SECOND)
     }
 
-    /// Checks what the options say together.
+    /// Checks rules between the options.
     pub(super) fn check(&self) -> Result<(), String> {
         match (&self.out, &self.room.display) {
             (Output::Folder(_), None) => return Err(format!("--out: the file's name must end in {}", values::ENDINGS)),

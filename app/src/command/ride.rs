@@ -8,87 +8,89 @@ use super::{PictureOptions, Renderer, WorldOptions, values};
 use crate::vehicle::{IntegratorKind, Nose};
 use input::TrackerUrl;
 
-/// What drives the observer.
+/// Kind of vehicle that carries the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum VehicleName {
-    /// Pedals, handlebar and brake.
+    /// Bicycle with pedals, handlebar and brake.
     #[default]
     Bicycle,
-    /// Thrust along the ground.
+    /// Vehicle with thrust along the ground.
     Drive,
-    /// Thrust in three directions, and roll.
+    /// Vehicle with thrust in three directions, and roll.
     Fly,
 }
 
-/// How transforming and drawing share the time of a frame.
+/// Division of a frame's time between transforming and drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Latency {
-    /// One after the other: the picture is as fresh as can be.
+    /// Transform and draw one after the other, for the freshest picture.
     Low,
-    /// The next frame is transformed while this one is drawn: more frames a second.
+    /// Transform the next frame while this one is drawn, for more frames per second.
     #[default]
     Overlap,
 }
 
-/// What to ride through, in what, and for how long.
+/// Options of `rapidity ride`.
 ///
-/// Where none of --renderer, --tolerance, --edge, --transform and --map-scale is given, they are those that rapidity.toml in the user's configuration directory
-/// names (on Linux ~/.config/rapidity, or rapidity in XDG_CONFIG_HOME), if there is one; `rapidity measure --budget` and `--tolerance` write it.
+/// If none of --renderer, --tolerance, --edge, --transform and --map-scale is given, their values come from
+/// rapidity.toml in the user's configuration directory (~/.config/rapidity on Linux, or rapidity in XDG_CONFIG_HOME),
+/// if that file exists. `rapidity measure --budget` and `rapidity measure --tolerance` write it.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RideOptions {
-    /// The world.
+    /// Options of the world.
     #[command(flatten)]
     pub world: WorldOptions,
-    /// The vehicle.
+    /// Options of the vehicle.
     #[command(flatten)]
     pub vehicle: VehicleOptions,
-    /// The devices.
+    /// Options of the devices.
     #[command(flatten)]
     pub devices: DeviceOptions,
-    /// Write all that happens to this file, from which the ride can be replayed.
+    /// File to which the whole ride is recorded, so that it can be replayed.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     pub record: Option<PathBuf>,
-    /// Ride a recorded ride again.
+    /// Show a recorded ride again.
     ///
-    /// World, vehicle and devices come from the recording; --scene is needed only if its scene's file has moved.
+    /// World, vehicle and devices come from the recording. --scene is needed only if the file of its scene has moved.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
     #[arg(conflicts_with_all = ["bicycle", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
-    /// Only compare: compute the recorded ride again, show nothing, and fail at the first frame that is not the
-    /// same to the bit.
+    /// Compare only: compute the recorded ride again, show nothing, and fail at the first frame that is not equal to
+    /// the bit.
     #[arg(long, conflicts_with_all = ["out", "realtime", "seconds"], help_heading = "Recording")]
     pub verify: bool,
-    /// End after this many seconds [default: when the window is closed, or the recording ends].
+    /// Time after which the ride ends, seconds [default: when the window is closed, or the recording ends].
     #[arg(long, value_name = "N", value_parser = values::positive, help_heading = "Session")]
     pub seconds: Option<f64>,
     /// Film the ride into this file instead of opening a window.
     #[arg(long, value_name = "FILE.mp4", value_parser = values::film(), help_heading = "Session")]
     pub out: Option<PathBuf>,
-    /// Without a window, keep to the clock, as live devices need it, instead of being as fast as possible.
+    /// Keep to the clock when there is no window, as live devices need it, instead of running as fast as possible.
     #[arg(long, help_heading = "Session")]
     pub realtime: bool,
-    /// How transforming and drawing share the time of a frame.
+    /// Division of a frame's time between transforming and drawing.
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
-    /// Show it on the surfaces of a room, in as many windows as that names: window, stereo-wall, cave4, cave6, curved, dome6, or a display
-    /// file (.toml, .mpcdi, .pvx). F4 shows test grids, and moves the corners of the pictures.
+    /// Room in whose windows the ride is shown: window, stereo-wall, cave4, cave6, curved, dome6, or a display file
+    /// (.toml, .mpcdi, .pvx). F4 shows test grids and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
-    /// Show that room itself in one window instead, with what its screens show: drag turns it, the wheel comes closer.
+    /// Show the room itself in one window, with the pictures on its screens. Dragging turns the view, the wheel moves
+    /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
-    /// How the picture is drawn.
+    /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
-    /// Whether the command line says anything of the renderer or its dials.
+    /// True if the command line has an option for the renderer or one of its dials.
     #[arg(skip)]
     pub drawing_is_given: bool,
 }
 
 impl RideOptions {
-    /// Checks what the options say together.
+    /// Checks rules between the options.
     pub(super) fn check(&self) -> Result<(), String> {
         if self.verify && self.replay.is_none() {
             return Err("--verify compares a recorded ride: name the recording with --replay".to_owned());
@@ -102,35 +104,35 @@ impl RideOptions {
     }
 }
 
-/// What is ridden, and on which clock.
+/// Options of the vehicle and its clock.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "Vehicle")]
 pub struct VehicleOptions {
-    /// What drives the observer.
+    /// Vehicle that carries the observer.
     #[arg(long, value_enum, default_value = "bicycle")]
     pub vehicle: VehicleName,
-    /// How the worldline is integrated.
+    /// Method of integrating the worldline.
     #[arg(long, value_enum, default_value = "rk4")]
     pub integrator: IntegratorKind,
-    /// How the axes of a flying vehicle are carried along.
+    /// Transport of the axes of a driven or flown vehicle.
     #[arg(long, value_enum, default_value = "facing")]
     pub transport: Nose,
-    /// Seconds of the rider's own time for each second of real time.
+    /// Seconds of the rider's own time per second of real time.
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::positive)]
     pub time_scale: f64,
 }
 
-/// Which devices are read, besides keyboard and gamepads.
+/// Options of the devices besides keyboard and gamepads.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 #[command(next_help_heading = "Devices")]
 pub struct DeviceOptions {
-    /// The serial port of the instrumented bicycle, such as /dev/ttyUSB0.
+    /// Serial port of the instrumented bicycle, such as /dev/ttyUSB0.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
-    /// Read a SpaceMouse, by itself or through spacenavd.
+    /// Read a SpaceMouse, directly or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
-    /// What tracks the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse.
+    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
 }

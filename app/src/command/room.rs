@@ -1,4 +1,4 @@
-//! Options for who is in a room with screens, and which room.
+//! Options of a room with screens, and of the head in it.
 
 use crate::room::{Viewer, room_from_turned};
 use crate::walls::Head;
@@ -8,32 +8,34 @@ use physics::Celerity;
 
 use super::values;
 
-/// Which surfaces the picture is for, and the head before them.
+/// Options of the room and of the head in front of its screens.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Room")]
 pub struct RoomOptions {
-    /// Draw for the surfaces of a room: window, stereo-wall, cave4, cave6, curved, dome6, or a display file (.toml, .mpcdi, .pvx).
+    /// Room for whose surfaces the pictures are drawn: window, stereo-wall, cave4, cave6, curved, dome6, or a display
+    /// file (.toml, .mpcdi, .pvx).
     ///
-    /// The room rests in the vehicle, its reference point at --position, its −z along --look. Each channel's picture becomes a file in the
-    /// folder that --out names; --size and --fov say nothing then.
+    /// The room rests in the vehicle, its reference point at --position, its −z along --look. Each channel's picture
+    /// becomes a file in the folder that --out names. --size and --fov do not apply to these pictures.
     #[arg(long, value_name = "DISPLAY")]
     pub display: Option<String>,
-    /// Write a picture of the room itself, too, as room.png of --size: its screens with what they show, and the head.
+    /// Write also a picture of the room itself, room.png of --size: its screens with their pictures, and the head.
     #[arg(long, requires = "display")]
     pub preview: bool,
-    /// From where, room axes, metres [default: outside, behind the head, so that all is in sight].
+    /// Place from which the room is seen, room axes, metres [default: outside, behind the head, with everything in
+    /// sight].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "preview")]
     pub preview_from: Option<DVec3>,
     /// Place of the head in the room, metres: right, up, backward [default: the display's].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "display")]
     head: Option<DVec3>,
-    /// Degrees by which the head is turned to the left.
+    /// Angle by which the head is turned to its left, degrees.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::within(-360.0, 360.0), requires = "display")]
     head_yaw: Option<f64>,
-    /// Degrees by which it is then raised.
+    /// Angle by which the head is then raised, degrees.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::within(-360.0, 360.0), requires = "display")]
     head_pitch: Option<f64>,
-    /// Degrees by which it is then inclined to its left.
+    /// Angle by which the head is then inclined to its left, degrees.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::within(-360.0, 360.0), requires = "display")]
     head_roll: Option<f64>,
     /// Velocity of the head in the room as celerity, gamma times v/c: right, up, backward [default: at rest].
@@ -42,7 +44,7 @@ pub struct RoomOptions {
 }
 
 impl RoomOptions {
-    /// The head that the options describe before a display.
+    /// Head that the options describe, in front of a display with this viewer.
     pub fn head(&self, viewer: &Viewer) -> Head {
         let turn = |degrees: Option<f64>| degrees.unwrap_or(0.0);
         Head {

@@ -1,6 +1,6 @@
-//! Law: what is typed reaches the program as the value it names, or is refused with a sentence that says which
-//! option, what it was, and what was expected. A wrong program would take a negative coordinate for an option,
-//! let |beta| = 1 through, or swallow one of two options that contradict each other.
+//! Law under test: a typed option reaches the program as the value it names, or is refused with a sentence that says
+//! which option it was, what was typed, and what was expected. A wrong program would take a negative coordinate for
+//! an option, let |beta| = 1 through, or ignore one of two options that contradict each other.
 
 use crate::renderers::Effects;
 use crate::renderers::display::{Development, Exposure, Gamut, Tone};
@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::*;
 
-/// Parses a line of words; an underscore is a space within one.
+/// Parses a line of words; an underscore stands for a space within a word.
 fn parse(line: &str) -> Result<Command, Stop> {
     parse_from(format!("rapidity {line}").split_whitespace().map(|word| word.replace('_', " ")).collect::<Vec<_>>())
 }
@@ -28,7 +28,7 @@ fn ride(options: &str) -> RideOptions {
     }
 }
 
-/// The sentence with which a line is refused.
+/// Sentence with which a line is refused.
 fn refusal(line: &str) -> String {
     match parse(line) {
         Err(Stop::Usage(sentence)) => sentence,
@@ -113,7 +113,7 @@ fn a_velocity_is_the_same_by_celerity_and_by_beta() {
 
 #[test]
 fn speeds_come_in_every_unit() {
-    /// The conversion factors are rounded once, their product with the number once more.
+    /// Bound on rounding: the conversion factors are rounded once, their product with the number once more.
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     for (text, expected) in [
         ("36_km/h", 10.0),

@@ -1,7 +1,7 @@
-//! From the text of one option to its value: vectors, velocities, sizes, speeds, files by their extension.
+//! Parsers of one option's text: vectors, velocities, sizes, speeds, files by their extension.
 //!
-//! A parser refuses what the rest of the program could not use, and says what it expected; clap puts the option's
-//! name and the text before it.
+//! A parser refuses any value that the rest of the program could not use, and says what it expected. clap puts the
+//! option's name and the text in front.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -11,89 +11,89 @@ use glam::DVec3;
 use physics::{Beta, Celerity, CelerityError};
 use thiserror::Error;
 
-/// Why an option's text has no value.
+/// Reason why an option's text has no value.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ValueError {
-    /// Not a vector.
+    /// A text that is no vector.
     #[error("expected three finite numbers with commas between them, as in -3,1.6,0")]
     Vector,
     /// A direction of length zero.
     #[error("expected a direction, which must not be 0,0,0")]
     Direction,
-    /// Not a velocity.
+    /// A text that is no velocity.
     #[error(transparent)]
     Velocity(#[from] CelerityError),
-    /// Not a colour.
+    /// A text that is no colour.
     #[error("expected three numbers from 0 to 1 with commas between them: linear red, green, blue, as in 0.2,0.3,0.5")]
     Colour,
-    /// Not the size of a picture.
+    /// A text that is no size of a picture.
     #[error("expected WIDTHxHEIGHT in pixels, each from 1 to {MAXIMAL_SIZE}, as in 1280x720")]
     Size,
-    /// Not a speed.
+    /// A text that is no speed.
     #[error("expected a positive number and a unit (m/s, km/h, mph, km/s or c), as in \"30 km/h\"")]
     Speed,
-    /// Not a time.
+    /// A text that is no time with a unit.
     #[error("expected a time above 0 and its unit, ms or s, as in 16.7ms")]
     Time,
-    /// Not a length in the picture.
+    /// A text that is no length in pixels.
     #[error("expected a number of pixels above 0, as in 1px")]
     Pixels,
-    /// Not a usable number.
+    /// A text that is no finite number above zero.
     #[error("expected a finite number above 0")]
     Positive,
-    /// Below zero, or no number.
+    /// A number below zero, or a text that is no finite number.
     #[error("expected a finite number, 0 or above")]
     NotNegative,
-    /// Not a time.
+    /// A text that is no time in seconds.
     #[error("expected seconds, 0 or more, as in 0.02 or 1/50")]
     ShareOfTime,
-    /// Outside its range.
+    /// A number outside its range.
     #[error("expected a number from {least} to {most}")]
     Range {
-        /// The smallest that will do.
+        /// Smallest value allowed.
         least: f64,
-        /// The largest that will do.
+        /// Largest value allowed.
         most: f64,
     },
-    /// A file of a kind that is not written, or not read.
+    /// A file name whose extension is not supported here.
     #[error("the file's name must end in {allowed}")]
     Extension {
-        /// The endings that will do.
+        /// Extensions that are allowed.
         allowed: &'static str,
     },
-    /// No renderer's name.
+    /// A text that names no renderer.
     #[error("expected auto, polygon, image or raytrace")]
     Renderer,
-    /// No vehicle's name.
+    /// A text that names no vehicle.
     #[error("expected bicycle, drive or fly")]
     Vehicle,
 }
 
-/// The largest picture, in pixels along a side: what a graphics device's texture holds.
+/// Largest side of a picture, pixels: that of a graphics device's texture.
 const MAXIMAL_SIZE: u32 = 16_384;
 
-/// What `--out` takes.
+/// File endings that `--out` takes, for messages.
 pub(super) const ENDINGS: &str = ".png (a picture), .exr (a picture as light) or .mp4 (a film)";
 
-/// Metres per second of the units that a speed may be given in.
+/// Units in which a speed may be given, with their values in m/s.
 const SPEED_UNITS: [(&str, f64); 5] =
     [("km/h", 1.0 / 3.6), ("km/s", 1000.0), ("m/s", 1.0), ("mph", 0.447_04), ("c", 299_792_458.0)];
 
-/// What is drawn, by the ending of the file's name.
+/// Output file, its kind chosen by the ending of its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Output {
-    /// One PNG.
+    /// A PNG picture.
     Picture(PathBuf),
-    /// One picture as light, OpenEXR.
+    /// A picture of light as OpenEXR.
     Light(PathBuf),
-    /// An MP4 film.
+    /// A film as MP4.
     Film(PathBuf),
-    /// A picture for every channel of a display.
+    /// A folder with a picture for every channel of a display.
     Folder(PathBuf),
 }
 
 impl Output {
-    /// The file.
+    /// Path of the file or folder.
     pub fn path(&self) -> &Path {
         match self {
             Self::Picture(path) | Self::Light(path) | Self::Film(path) | Self::Folder(path) => path,
@@ -118,32 +118,32 @@ impl TryFrom<PathBuf> for Output {
     }
 }
 
-/// A picture, light, or a film.
+/// Parser of an output: a picture, light, a film or a folder.
 pub(super) fn output() -> impl TypedValueParser<Value = Output> {
     PathBufValueParser::new().try_map(Output::try_from)
 }
 
-/// A film.
+/// Parser of a film's file name.
 pub(super) fn film() -> impl TypedValueParser<Value = PathBuf> {
     file(&["mp4"], ".mp4")
 }
 
-/// A recording.
+/// Parser of a recording's file name.
 pub(super) fn recording() -> impl TypedValueParser<Value = PathBuf> {
     file(&["mcap"], ".mcap")
 }
 
-/// A scene to write.
+/// Parser of a file name for a scene to write.
 pub(super) fn glb() -> impl TypedValueParser<Value = PathBuf> {
     file(&["glb"], ".glb")
 }
 
-/// A plot to write.
+/// Parser of a file name for a plot to write.
 pub(super) fn plot() -> impl TypedValueParser<Value = PathBuf> {
     file(&["svg", "png"], ".svg or .png")
 }
 
-/// A table to write.
+/// Parser of a file name for a table to write.
 pub(super) fn table() -> impl TypedValueParser<Value = PathBuf> {
     file(&["csv"], ".csv")
 }
@@ -154,35 +154,35 @@ fn file(extensions: &'static [&'static str], allowed: &'static str) -> impl Type
     })
 }
 
-/// Whether a path ends in one of these (lower-case) extensions, however it is capitalised.
+/// True if a path ends in one of these (lower-case) extensions, in upper or lower case.
 pub(super) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
     let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
     extension.is_some_and(|extension| extensions.iter().any(|allowed| extension == *allowed))
 }
 
-/// Three finite numbers.
+/// Vector of three finite numbers.
 pub(super) fn vector(text: &str) -> Result<DVec3, ValueError> {
     numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)
 }
 
-/// A unit vector, from one of any length but zero.
+/// Unit vector along a vector of any length but zero.
 pub(super) fn direction(text: &str) -> Result<DVec3, ValueError> {
     let vector = vector(text)?;
-    // Scale first: a square may overflow or vanish.
+    // The vector is scaled first, because its square may overflow or vanish.
     (vector / vector.abs().max_element()).try_normalize().ok_or(ValueError::Direction)
 }
 
-/// A velocity given as γβ.
+/// Velocity given as γβ.
 pub(super) fn celerity(text: &str) -> Result<Celerity, ValueError> {
     Ok(Celerity::new(vector(text)?)?)
 }
 
-/// A velocity given as v/c.
+/// Velocity given as v/c.
 pub(super) fn beta(text: &str) -> Result<Celerity, ValueError> {
     Ok(Beta::new(vector(text)?)?.celerity())
 }
 
-/// Linear red, green and blue.
+/// Colour as linear red, green and blue, each 0 to 1.
 pub(super) fn colour(text: &str) -> Result<[f32; 3], ValueError> {
     let colour = numbers(text).ok_or(ValueError::Colour)?;
     if colour.iter().all(|channel| (0.0..=1.0).contains(channel)) {
@@ -192,7 +192,7 @@ pub(super) fn colour(text: &str) -> Result<[f32; 3], ValueError> {
     }
 }
 
-/// Width and height in pixels.
+/// Width and height, pixels.
 pub(super) fn size(text: &str) -> Result<[u32; 2], ValueError> {
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or(ValueError::Size)?;
     let side = |text: &str| match text.trim().parse() {
@@ -202,7 +202,7 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], ValueError> {
     Ok([side(width)?, side(height)?])
 }
 
-/// A speed in m/s, from a number and its unit.
+/// Speed in m/s, from a number and its unit.
 pub(super) fn speed(text: &str) -> Result<f64, ValueError> {
     let text = text.trim();
     let (number, factor) = SPEED_UNITS
@@ -213,7 +213,7 @@ pub(super) fn speed(text: &str) -> Result<f64, ValueError> {
     if speed.is_finite() && speed > 0.0 { Ok(speed) } else { Err(ValueError::Speed) }
 }
 
-/// A time in milliseconds, from a number and its unit.
+/// Time in milliseconds, from a number and its unit.
 pub(super) fn milliseconds(text: &str) -> Result<f64, ValueError> {
     let text = text.trim();
     let (number, factor) = match text.strip_suffix("ms") {
@@ -223,30 +223,30 @@ pub(super) fn milliseconds(text: &str) -> Result<f64, ValueError> {
     positive(number).map(|number| number * factor).ok().filter(|ms| ms.is_finite()).ok_or(ValueError::Time)
 }
 
-/// A length in pixels, with its unit.
+/// Length in pixels, from a number and its unit.
 pub(super) fn pixels(text: &str) -> Result<f64, ValueError> {
     let number = text.trim().strip_suffix("px").ok_or(ValueError::Pixels)?;
     positive(number).map_err(|_| ValueError::Pixels)
 }
 
-/// A finite number above zero.
+/// Finite number above zero.
 pub(super) fn positive(text: &str) -> Result<f64, ValueError> {
     number(text).filter(|number| *number > 0.0).ok_or(ValueError::Positive)
 }
 
-/// A finite number, zero or above.
+/// Finite number, zero or above.
 pub(super) fn not_negative(text: &str) -> Result<f64, ValueError> {
     number(text).filter(|number| *number >= 0.0).ok_or(ValueError::NotNegative)
 }
 
-/// Seconds, as photographers write them too: 1/50.
+/// Time in seconds, also as a fraction such as 1/50.
 pub(super) fn share_of_time(text: &str) -> Result<f64, ValueError> {
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
     let quotient = number(above).zip(number(below)).map(|(above, below)| above / below);
     quotient.filter(|seconds| seconds.is_finite() && *seconds >= 0.0).ok_or(ValueError::ShareOfTime)
 }
 
-/// A number from `least` to `most`.
+/// Parser of a number from `least` to `most`.
 pub(super) fn within(
     least: f64,
     most: f64,

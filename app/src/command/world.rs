@@ -1,4 +1,4 @@
-//! Options that say which world is looked at.
+//! Options of the world: its scene and its speed of light.
 
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -11,28 +11,28 @@ use super::values;
 use crate::renderers::choice::Bending;
 use crate::renderers::polygon::{Pace, Tolerance};
 
-/// Pixels by which a still may be wrong.
+/// Largest error of position in a still, pixels.
 const STILL_PX: f64 = 0.5;
 
-/// Pixels by which a window may be wrong.
+/// Largest error of position in a window, pixels.
 const RIDE_PX: f64 = 1.5;
 
-/// Which scene is shown.
+/// Scene that is shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SceneChoice {
     /// The built-in old town.
     #[default]
     Town,
-    /// The built-in hall of three temperatures, for seeing what becomes of spectra.
+    /// The built-in hall of three temperatures, which shows the effect on spectra.
     Spectra,
-    /// The built-in lattice of boxes, for seeing and measuring the geometry by itself.
+    /// The built-in lattice of boxes, for seeing and measuring the geometry alone.
     Lattice,
-    /// A glTF 2.0 file, or a picture of everything around.
+    /// A glTF 2.0 file, or a panorama.
     File(PathBuf),
 }
 
 impl SceneChoice {
-    /// The choice by its name on the command line and in recordings.
+    /// Choice by its name on the command line and in recordings.
     pub fn from_name(name: &str) -> Self {
         match name {
             "town" => Self::Town,
@@ -42,7 +42,7 @@ impl SceneChoice {
         }
     }
 
-    /// The name by which it is found again.
+    /// Name by which the scene is found again.
     pub fn name(&self) -> String {
         match self {
             Self::Town => "town".to_owned(),
@@ -53,43 +53,46 @@ impl SceneChoice {
     }
 }
 
-/// A scene and its speed of light.
+/// Options of the scene and its speed of light.
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
-    /// `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg, .hdr, .exr).
+    /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
+    /// .hdr, .exr).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
     pub scene: SceneChoice,
-    /// How fast light is, as a number and a unit: m/s (kept in these), km/h, mph, km/s or c (299792458 m/s).
+    /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,
-    /// Longest edge of a triangle in metres for the polygon renderer, cut once [default: cut for every picture, see --tolerance].
+    /// Longest edge of a triangle in the polygon renderer, metres, cut once [default: cut for every picture, see
+    /// --tolerance].
     ///
-    /// Around a scene that names a circuit, edges further than 4 m from it may be longer in proportion.
+    /// In a scene that names a circuit, edges farther than 4 m from it may be longer in proportion.
     #[arg(long, value_name = "METRES", value_parser = values::positive, conflicts_with = "tolerance")]
     pub edge: Option<f64>,
-    /// How far from its place the polygon renderer may draw anything, in pixels: edges are cut for every picture until they bend as well as
-    /// that [default: 0.5, in a window 1.5].
+    /// Largest error of position in the polygon renderer, pixels: edges are cut for every picture until they bend as
+    /// accurately as this [default: 0.5, in a window 1.5].
     #[arg(long, value_name = "PIXELS", value_parser = values::within(0.01, 100.0))]
     pub tolerance: Option<f64>,
-    /// Who bends vertices that are cut once: cpu, beside the drawing, or gpu, in its vertex stage, but for those astern; needs --edge.
+    /// Processor that bends vertices cut once: cpu, in parallel with drawing, or gpu, in its vertex stage except for
+    /// those astern; needs --edge.
     #[arg(long, value_enum, default_value = "cpu", requires_if("gpu", "edge"))]
     pub transform: Transform,
 }
 
-/// Who works out where vertices appear.
+/// Processor that computes the apparent positions of vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transform {
-    /// All cores, beside the drawing.
+    /// Every processor core, in parallel with drawing.
     #[default]
     Cpu,
-    /// The GPU's vertex stage; what lies astern is left to the CPU.
+    /// The GPU's vertex stage; vertices astern are left to the CPU.
     Gpu,
 }
 
 impl WorldOptions {
-    /// How the polygon renderer's straight edges are made to bend, in a picture that waits for it or in a window.
+    /// Method of bending the polygon renderer's edges, for a still or for a window.
     pub fn bending(&self, pace: Pace) -> Bending {
         let usual = match pace {
             Pace::Still => STILL_PX,

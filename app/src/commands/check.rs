@@ -1,4 +1,4 @@
-//! `rapidity check`: is this scene, display or recording good, and what is wrong with it?
+//! `rapidity check`: checks scenes, displays and recordings, and reports what is wrong with them.
 
 use crate::command::CheckOptions;
 use crate::error::Error;
@@ -8,10 +8,10 @@ use input::recording::{Entry, Recording, RecordingError};
 use std::io::Write;
 use std::path::Path;
 
-/// Carries out `rapidity check`: a paragraph for each file.
+/// Runs `rapidity check`: prints a paragraph for each file.
 ///
 /// # Errors
-/// [`Error::Checked`] if a file is not good, after all have been looked at.
+/// [`Error::Checked`] if a file is not good. All files are checked first.
 pub fn check(options: &CheckOptions) -> Result<(), Error> {
     let mut bad = 0;
     for path in &options.files {
@@ -36,7 +36,7 @@ fn report(path: &Path) -> Result<String, Error> {
     }
 }
 
-/// Writes a line to standard output; a reader that has gone away is no panic.
+/// Writes a line to standard output. A closed output is an error, not a panic.
 ///
 /// # Errors
 /// [`Error::Output`].
@@ -44,7 +44,7 @@ pub fn say(line: &str) -> Result<(), Error> {
     writeln!(std::io::stdout(), "{line}").map_err(Error::Output)
 }
 
-/// What is in a recording, if it is whole.
+/// Report on a recording that is complete.
 fn recording(path: &Path) -> Result<String, RecordingError> {
     let recording = Recording::open(path)?;
     let header = recording.header().clone();

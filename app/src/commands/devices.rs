@@ -1,4 +1,4 @@
-//! `rapidity devices`: what is plugged in, and what it says just now.
+//! `rapidity devices`: lists the devices that are plugged in, and their present values.
 
 use crate::command::DevicesOptions;
 use crate::error::Error;
@@ -12,17 +12,17 @@ use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// Between two looks at the devices.
+/// Time between two readings of the devices.
 const INTERVAL: Duration = Duration::from_millis(200);
-/// Bytes of a device's last sample that are shown.
+/// Number of bytes shown of a device's last sample.
 const SHOWN_BYTES: usize = 16;
-/// Seconds for which devices are watched where nobody sits at a terminal.
+/// Time for which devices are watched if the output is not a terminal, seconds.
 const UNATTENDED_SECONDS: f64 = 2.0;
 
-/// Carries out `rapidity devices`: on a terminal the listing stays in place and follows the devices until Ctrl-C.
+/// Runs `rapidity devices`. On a terminal the listing stays in place and follows the devices until Ctrl-C.
 ///
 /// # Errors
-/// A thread that cannot be started, or an output that is closed.
+/// [`Error`] of a thread that cannot be started, or of a closed output.
 pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     let mut out = std::io::stdout();
     let terminal = out.is_terminal();
@@ -47,7 +47,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
             let controls = desk.controls(now);
             let text = listing(&live.status(), &desk, &controls);
             if shown > 0 {
-                // Back over the last listing.
+                // The cursor moves back to the beginning of the last listing.
                 write!(out, "\x1b[{shown}A\x1b[J")?;
             }
             write!(out, "{text}")?;
@@ -113,7 +113,7 @@ fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
     text
 }
 
-/// The head, and why there is none.
+/// Line about the head: its pose, and reasons why it is not tracked.
 fn head_line(head: &Head, state: &HeadState, desk: &Desk) -> String {
     let tracked = match state.tracked {
         Tracking::Never => "not seen yet",

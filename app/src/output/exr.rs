@@ -1,7 +1,7 @@
-//! Light into OpenEXR files: 32-bit floats, linear sRGB, cd/m².
+//! OpenEXR files of light: 32-bit floats, linear sRGB, cd/m².
 //!
-//! The file says so itself: its chromaticities are those of ITU-R BT.709, which sRGB shares, and its white luminance is 1, so that red = green = blue = 1 is
-//! 1 cd/m². Compression is lossless: values come back to the bit.
+//! The file states this itself: its chromaticities are those of ITU-R BT.709, which sRGB shares, and its white
+//! luminance is 1, so red = green = blue = 1 means 1 cd/m². Compression is lossless: values are read back to the bit.
 
 use crate::error::Error;
 use exr::meta::attribute::Chromaticities;
@@ -9,14 +9,14 @@ use exr::prelude::{Encoding, Image, SpecificChannels, Vec2, WritableImage};
 use image::Rgb32FImage;
 use std::path::Path;
 
-/// ITU-R BT.709: red, green, blue and the D65 white, as x and y.
+/// Chromaticities x and y of red, green, blue and the D65 white of ITU-R BT.709.
 const CHROMATICITIES: Chromaticities =
     Chromaticities { red: Vec2(0.64, 0.33), green: Vec2(0.3, 0.6), blue: Vec2(0.15, 0.06), white: Vec2(0.3127, 0.329) };
 
-/// Writes `light`.
+/// Writes `light` to the file `path`.
 ///
 /// # Errors
-/// [`Error::Write`] with the path and the reason; nothing is left behind then.
+/// [`Error::Write`] with the path and the reason; no partial file is left then.
 pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), Error> {
     let size = (light.width() as usize, light.height() as usize);
     let pixel = |place: Vec2<usize>| {

@@ -1,7 +1,8 @@
-//! Pictures one after another into a film, through a pipe into ffmpeg; without ffmpeg, into numbered PNGs.
+//! Films: pictures are written one after another through a pipe into ffmpeg, or without ffmpeg into numbered PNG
+//! files.
 //!
-//! A thread of its own writes, so that encoding a frame and drawing the next overlap; a short channel between
-//! them bounds the memory.
+//! A separate thread writes, so that encoding a frame and drawing the next overlap. A short channel between the
+//! threads bounds the memory.
 
 use crossbeam_channel::{Sender, bounded};
 use image::RgbaImage;
@@ -11,50 +12,50 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
 use thiserror::Error;
 
-/// Frames that may wait for the encoder.
+/// Number of frames that may wait for the encoder.
 const WAITING_FRAMES: usize = 3;
 
-/// Why a film could not be written.
+/// Reason why a film could not be written.
 #[derive(Debug, Error)]
 pub enum FilmError {
-    /// A file or folder would not be written.
+    /// A file or folder that could not be written.
     #[error("{path}: could not be written: {reason}; choose another place")]
     Write {
-        /// What was to be written.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// As the system says it.
+        /// Reason, as the operating system words it.
         reason: String,
     },
-    /// The encoder ran and gave up.
+    /// An encoder that stopped with an error.
     #[error("ffmpeg could not write {path}: {reason}")]
     Encoder {
-        /// The film.
+        /// Path of the film.
         path: PathBuf,
-        /// ffmpeg's last line.
+        /// Last line of ffmpeg's messages.
         reason: String,
     },
 }
 
-/// What became of the pictures.
+/// Result of writing a film.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Written {
-    /// One film.
+    /// A film file.
     Film(PathBuf),
-    /// ffmpeg is not installed: a folder of numbered PNGs.
+    /// A folder of numbered PNG files, because ffmpeg is not installed.
     Pictures(PathBuf),
 }
 
-/// A film being written.
+/// Film that is being written.
 pub struct Film {
     frames: Sender<RgbaImage>,
     writer: JoinHandle<Result<Written, FilmError>>,
 }
 
 impl Film {
-    /// Begins a film of `size` pixels at `frames_per_second`.
+    /// Creates a film of `size` pixels at `frames_per_second`.
     ///
     /// # Errors
-    /// [`FilmError::Write`] if neither ffmpeg nor the folder for pictures can be had.
+    /// [`FilmError::Write`] if neither ffmpeg can be started nor a folder for pictures created.
     pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
         let mut sink = Sink::open(path, size, frames_per_second)?;
         let (frames, queue) = bounded::<RgbaImage>(WAITING_FRAMES);
@@ -70,22 +71,22 @@ impl Film {
         Ok(Self { frames, writer })
     }
 
-    /// Adds a frame. Returns false once the encoder has stopped; [`Film::finish`] says why.
+    /// Adds a frame. Returns false once the encoder has stopped; [`Film::finish`] then gives the reason.
     pub fn add(&self, frame: RgbaImage) -> bool {
         self.frames.send(frame).is_ok()
     }
 
-    /// Waits for the last frame to be written.
+    /// Waits until the last frame is written.
     ///
     /// # Errors
-    /// What the encoder or the disk said.
+    /// [`FilmError`] of the encoder or the disk.
     pub fn finish(self) -> Result<Written, FilmError> {
         drop(self.frames);
         self.writer.join().expect("the film thread returns its errors")
     }
 }
 
-/// Where frames go.
+/// Destination of the frames.
 enum Sink {
     Encoder { child: Child, input: ChildStdin, path: PathBuf },
     Pictures { folder: PathBuf, count: usize },
@@ -96,14 +97,15 @@ impl Sink {
         let failed =
             |path: &Path, error: std::io::Error| FilmError::Write { path: path.to_owned(), reason: error.to_string() };
         let mut encoder = Command::new("ffmpeg");
-        // Ctrl-C on the terminal is for us: the encoder goes on to the end of what it is given.
+        // The encoder gets its own process group, so that Ctrl-C on the terminal does not end it before it has
+        // written all frames.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut encoder, 0);
         let encoder = encoder
             .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
             .args(["-video_size", &format!("{}x{}", size[0], size[1])])
             .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])
-            // The usual players want 4:2:0, which wants even sides.
+            // Common players need 4:2:0 colour, which needs even sides.
             .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast"])
             .args(["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"])
             .arg(path)
@@ -155,7 +157,7 @@ impl Sink {
     }
 }
 
-/// What the encoder said last, waiting for it to end.
+/// Last line of the encoder's messages. Waits for the encoder to end.
 fn last_words(child: &mut Child) -> Option<String> {
     let mut words = String::new();
     child.stderr.take()?.read_to_string(&mut words).ok()?;

@@ -1,9 +1,9 @@
-//! Bars on long waits: drawn on a terminal's standard error, silent elsewhere.
+//! Progress bars for long waits: drawn on the standard error of a terminal, silent elsewhere.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
-/// A spinner with a sentence, for work whose length is not known.
+/// Spinner with a sentence, for work of unknown length.
 pub fn spinner(what: impl Into<String>) -> ProgressBar {
     let bar = ProgressBar::new_spinner().with_message(what.into());
     bar.set_style(style("{spinner} {msg} {elapsed}"));
@@ -11,7 +11,7 @@ pub fn spinner(what: impl Into<String>) -> ProgressBar {
     bar
 }
 
-/// A bar that counts to `length`.
+/// Progress bar that counts to `length`.
 pub fn bar(what: impl Into<String>, length: u64) -> ProgressBar {
     let bar = ProgressBar::new(length).with_message(what.into());
     bar.set_style(style("{msg} {wide_bar} {pos}/{len} {eta}"));

@@ -1,7 +1,7 @@
-//! A ride without its picture: where samples come from, the simulation they drive, the log they leave.
+//! Live ride without its picture: the source of samples, the simulation that they drive, and the log.
 //!
-//! Frames come from live devices and the window's keys, as the clock goes; or from a recording, shown at the pace at
-//! which it was ridden. Either way the caller asks once a frame and gets the observer.
+//! Frames come from live devices and the window's keys as the clock runs, or from a recording at the pace at which it
+//! was ridden. In both cases the caller asks once per frame and gets the observer.
 
 use crate::error::Error;
 use crate::log::Log;
@@ -12,10 +12,10 @@ use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
 use physics::photo_surface::Eye;
 use std::path::{Path, PathBuf};
 
-/// How long a notice stays in sight.
+/// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
 
-/// A ride in progress.
+/// Ride in progress.
 pub struct Live {
     clock: Clock,
     rider: Rider,
@@ -24,22 +24,22 @@ pub struct Live {
     told: Vec<(Nanos, String)>,
 }
 
-/// Who rides.
+/// Source of the ride's frames.
 enum Rider {
-    /// Somebody at the devices.
+    /// Live devices, with a simulation and a log.
     Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<Log> },
-    /// Somebody who was here before.
+    /// Recorded ride that is replayed.
     Recorded { replay: Box<Replay>, next: Option<Box<Frame>>, shown: Option<Box<Frame>>, differed: bool },
 }
 
 impl Live {
-    /// A rider at `devices`, whose clock must be `clock`; the ride ends after `seconds`, if given.
+    /// Creates a live ride from `devices`, whose clock must be `clock`. The ride ends after `seconds`, if given.
     pub fn present(simulation: Simulation, devices: Devices, clock: Clock, log: Log, seconds: Option<f64>) -> Self {
         let rider = Rider::Present { simulation: Box::new(simulation), devices: Box::new(devices), log: Box::new(log) };
         Self::new(rider, clock, seconds)
     }
 
-    /// A recorded rider, from now on.
+    /// Creates a replay of a recorded ride that starts now. The ride ends after `seconds`, if given.
     pub fn recorded(replay: Replay, seconds: Option<f64>) -> Self {
         let replay = Box::new(replay);
         Self::new(Rider::Recorded { replay, next: None, shown: None, differed: false }, Clock::start(), seconds)
@@ -50,27 +50,27 @@ impl Live {
         Self { clock, rider, end, said: Vec::new(), told: Vec::new() }
     }
 
-    /// The ride's time.
+    /// Present time of the ride.
     pub fn now(&self) -> Nanos {
         self.clock.now()
     }
 
-    /// Takes what the window or the panel says, stamped with the time it is said at.
+    /// Adds a sample of the window or the panel, stamped with the present time.
     pub fn say(&mut self, sample: impl FnOnce(Nanos) -> Sample) {
         self.said.push(sample(self.clock.now()));
     }
 
-    /// Tells the rider something.
+    /// Shows a sentence to the rider.
     pub fn tell(&mut self, sentence: impl Into<String>) {
         let sentence = sentence.into();
         self.told.retain(|(_, told)| *told != sentence);
         self.told.push((self.clock.now() + NOTICE_TIME, sentence));
     }
 
-    /// The ride now, or `None` at its end.
+    /// Present frame of the ride; `None` at its end.
     ///
     /// # Errors
-    /// A recording that differs or is damaged.
+    /// [`Error`] of a recording that is damaged before its first frame.
     pub fn frame(&mut self) -> Result<Option<Frame>, Error> {
         let now = self.clock.now();
         self.told.retain(|(until, _)| *until > now);
@@ -91,7 +91,7 @@ impl Live {
             }
             Rider::Recorded { replay, next, shown, differed } => {
                 let said = std::mem::take(&mut self.said);
-                // Frames that were ridden since the last look are gone through, and the last of them is shown.
+                // The frames that were ridden since the last call are simulated, and the last of them is shown.
                 let ended = loop {
                     let frame = match next.take() {
                         Some(frame) => *frame,
@@ -123,7 +123,7 @@ impl Live {
                         break false;
                     }
                 };
-                // What the rider pressed then is not done again; what the onlooker presses now is.
+                // Actions of the recorded rider are not performed again. Actions that the onlooker asks for now are.
                 let mut frame = if ended && next.is_none() { None } else { shown.as_deref().cloned() };
                 if let Some(frame) = &mut frame {
                     frame.controls.actions = onlooker(&said);
@@ -139,12 +139,12 @@ impl Live {
         Ok(frame)
     }
 
-    /// Sentences for the rider, newest last.
+    /// Sentences for the rider, the newest last.
     pub fn told(&self) -> Vec<String> {
         self.told.iter().map(|(_, sentence)| sentence.clone()).collect()
     }
 
-    /// A sentence for each device.
+    /// Sentences on the state of the devices, one each.
     pub fn devices(&self) -> Vec<String> {
         match &self.rider {
             Rider::Recorded { .. } => vec!["a recorded ride".to_owned()],
@@ -162,15 +162,15 @@ impl Live {
         }
     }
 
-    /// Whether a recording is being written.
+    /// True if a recording is being written.
     pub fn is_recording(&self) -> bool {
         matches!(&self.rider, Rider::Present { log, .. } if log.is_recording())
     }
 
-    /// Records from the ride's beginning into `path`.
+    /// Records the ride from its beginning into `path`.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// [`Error`] if the file cannot be written.
     pub fn record(&mut self, path: &Path) -> Result<(), Error> {
         match &mut self.rider {
             Rider::Present { log, .. } => log.record(path),
@@ -198,7 +198,7 @@ impl Live {
     /// Completes the recording.
     ///
     /// # Errors
-    /// The rest cannot be written.
+    /// [`Error`] if the rest cannot be written.
     pub fn finish(&mut self) -> Result<(), Error> {
         match &mut self.rider {
             Rider::Present { log, .. } => log.finish(),
@@ -207,7 +207,7 @@ impl Live {
     }
 }
 
-/// The actions that an onlooker of a recorded ride may want: they concern the window alone.
+/// Actions of a recorded ride's onlooker that concern the window alone.
 fn onlooker(said: &[Sample]) -> Vec<Action> {
     let mut desk = Desk::new(DeskConfig::default()).expect("the default settings are sound");
     said.iter().for_each(|sample| desk.feed(sample));
@@ -215,17 +215,17 @@ fn onlooker(said: &[Sample]) -> Vec<Action> {
     actions.into_iter().filter(|action| matches!(action, Action::ToggleHelp | Action::Photo)).collect()
 }
 
-/// What the observer of a frame sees from where.
+/// Place, motion and direction of view of a frame's observer.
 ///
 /// # Errors
-/// A place that is not finite, which a simulation never yields.
+/// [`Error`] for a place that is not finite, which a simulation never yields.
 pub fn gaze(frame: &Frame) -> Result<Gaze, Error> {
     let observer = frame.eye.observer;
     let eye = Eye::new(observer.event.position, observer.celerity.vector())?;
     Ok(Gaze { eye, ct: observer.event.ct, observer_from_eye: frame.eye.orientation })
 }
 
-/// The first of `stem-001.extension`, `stem-002.extension`, … that is not there yet.
+/// First of `stem-001.extension`, `stem-002.extension`, … that does not exist yet.
 pub fn unused(stem: &str, extension: &str) -> PathBuf {
     (1_u32..)
         .map(|number| PathBuf::from(format!("{stem}-{number:03}.{extension}")))

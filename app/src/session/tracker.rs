@@ -1,4 +1,4 @@
-//! How the head before a display is tracked: the display's `[tracker]` table, or what the command line names instead.
+//! Tracker of the head: from the display's `[tracker]` table, or from the command line instead.
 
 use super::Head;
 use crate::room::Display;
@@ -9,31 +9,31 @@ use physics::Celerity;
 use serde::Deserialize;
 use thiserror::Error;
 
-/// Why a head cannot be tracked.
+/// Reason why a head cannot be tracked.
 #[derive(Debug, Error)]
 pub enum TrackerError {
-    /// A table that says something else.
+    /// A `[tracker]` table that cannot be understood.
     #[error("display {display}, [tracker]: {reason}")]
     Table {
-        /// Whose.
+        /// Name of the display.
         display: String,
-        /// As the reader of the table says it.
+        /// Reason, as the reader of the table words it.
         reason: String,
     },
-    /// A setting that cannot be used.
+    /// A setting with a value that is not allowed.
     #[error("display {display}: {source}")]
     Setting {
-        /// Whose.
+        /// Name of the display.
         display: String,
-        /// Which, and why.
+        /// Setting, and the reason.
         source: ConfigError,
     },
 }
 
-/// The tracker of a display; `url` is asked instead of the one that the display names.
+/// Tracker settings of a display. `url` replaces the tracker that the display names.
 ///
 /// # Errors
-/// [`TrackerError`], by the display's name and key.
+/// [`TrackerError`], with the display's name and the key.
 pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option<HeadConfig>, TrackerError> {
     let name = || display.name.clone();
     let home = display.viewer.head_m.to_array();
@@ -59,9 +59,9 @@ pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option
     Ok(config.filter(|config| config.mode != TrackingMode::None))
 }
 
-/// A head as a tracker sees it, where light goes at `speed_of_light` m/s.
+/// Head as a tracker reports it, in a world whose speed of light is `speed_of_light` m/s.
 ///
-/// A velocity that is none takes the head to rest.
+/// A velocity that is not finite counts as zero.
 pub fn head(state: &HeadState, speed_of_light: f64) -> Head {
     Head {
         place_m: state.position_m,
@@ -70,14 +70,15 @@ pub fn head(state: &HeadState, speed_of_light: f64) -> Head {
     }
 }
 
-/// A report of several lines as one.
+/// Report of several lines as a single line.
 fn one_line(report: &str) -> String {
     report.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
 mod tests {
-    //! A display's tracker must be the one that is asked; a table that cannot be used must be told of by display and key.
+    //! Law under test: a display's own tracker is the one that is used, and a table that cannot be used is reported
+    //! with display and key.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;

@@ -1,4 +1,4 @@
-//! Moving corners in the windows of a room: the keyboard's keys, the file, and what is said of it in the first window.
+//! Moving of corners in the windows of a room: the keys, the file, and the messages in the first window.
 
 use super::{Open, Scenery};
 use crate::room::{Display, file};
@@ -9,23 +9,23 @@ use winit::keyboard::KeyCode;
 
 /// Corners that are being moved.
 pub struct Calibrating {
-    /// Where they are, as long as the ride lasts.
+    /// Places of the corners, kept as long as the ride lasts.
     calibration: Calibration,
-    /// Grids are shown, and keys move corners.
+    /// True while grids are shown and keys move corners.
     pub active: bool,
-    /// What the display was named: a file, or one that comes with the program.
+    /// Name of the display on the command line: a file or a built-in display.
     name: Option<String>,
-    /// What came of the last key, where that has to be said.
+    /// Message about the last key, if there is one.
     said: String,
 }
 
 impl Calibrating {
-    /// Of a display that was named so, if it was.
+    /// Creates the calibration of a display. `name` is the display's name on the command line, if one was given.
     fn new(name: Option<String>, display: &Display) -> Self {
         Self { calibration: Calibration::new(display), active: false, name, said: String::new() }
     }
 
-    /// Does what a key does; returns the channels whose grids change by it.
+    /// Performs a key's action. Returns the channels whose grids it changes.
     fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
         let Some(key) = key(code) else { return Vec::new() };
         let before = self.calibration.chosen();
@@ -44,10 +44,10 @@ impl Calibrating {
         }
     }
 
-    /// Writes what has moved into the display's file.
+    /// Writes the corners that have moved into the display's file.
     fn save(&mut self) {
         let changed = self.calibration.changed();
-        // A display that nobody has named is the built-in window.
+        // A display without a name is the built-in window.
         let name = self.name.as_deref().unwrap_or(crate::ride::WINDOW);
         self.said = if changed.is_empty() {
             "nothing has moved since the file was read".to_owned()
@@ -64,12 +64,12 @@ impl Calibrating {
 }
 
 impl Open {
-    /// Whether corners are being moved.
+    /// True while corners are being moved.
     pub fn calibrates(&self) -> bool {
         self.calibrating.as_ref().is_some_and(|calibrating| calibrating.active)
     }
 
-    /// Begins moving the corners of a room's channels, or goes on with it.
+    /// Starts or resumes moving the corners of a room's channels.
     pub fn calibrate(&mut self) {
         let Scenery::Room(walls) = &mut self.scenery else {
             self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
@@ -79,11 +79,11 @@ impl Open {
         let calibrating = self.calibrating.get_or_insert_with(begun);
         calibrating.active = true;
         walls.show_grids(&self.gpu, &calibrating.calibration);
-        // The vehicle hears of no key until this is over.
+        // The vehicle gets no keys until this is over.
         self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
     }
 
-    /// What a key that is pressed does meanwhile.
+    /// Performs the action of a key that is pressed while corners are being moved.
     pub fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
         let (Scenery::Room(walls), Some(calibrating)) = (&mut self.scenery, &mut self.calibrating) else { return };
         match code {
@@ -102,7 +102,7 @@ impl Open {
     }
 }
 
-/// What a key of the keyboard does.
+/// Calibration key of a key of the keyboard.
 fn key(code: KeyCode) -> Option<Key> {
     Some(match code {
         KeyCode::Tab => Key::Tab,
@@ -115,7 +115,7 @@ fn key(code: KeyCode) -> Option<Key> {
     })
 }
 
-/// What the keys do meanwhile.
+/// Keys and their meanings while corners are being moved.
 const KEYS: [(&str, &str); 5] = [
     ("Tab", "next corner, next channel; with Shift back"),
     ("← → ↑ ↓", "move it by a pixel, with Shift by ten"),
@@ -124,10 +124,10 @@ const KEYS: [(&str, &str); 5] = [
     ("F4", "leave"),
 ];
 
-/// Width and height of a window, points, in which the list of keys would hide no corner.
+/// Width and height above which a window has room for the list of keys without hiding a corner, points.
 const ROOM_FOR_KEYS: (f32, f32) = (500.0, 400.0);
 
-/// Says which corner is chosen and what the keys do, below the middle, where neither a corner nor the middle is hidden.
+/// Shows the chosen corner and the keys, below the middle, so that neither a corner nor the middle is hidden.
 pub fn show(ui: &Ui, calibrating: &Calibrating) {
     let window = ui.ctx().content_rect().size();
     let below = 0.25 * window.y;

@@ -1,37 +1,37 @@
-//! The head-up display: how fast, which time it is for whom, how far, and how the program is doing.
+//! Head-up display: speed, the rider's and the world's clock, distances, and the program's own pace.
 
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2};
 
-/// What the display shows.
+/// Values that the head-up display shows.
 #[derive(Clone, Debug, Default)]
 pub struct Readings {
-    /// Speed in the world as a fraction of light's.
+    /// Speed in the world as a fraction of the speed of light.
     pub beta: f64,
-    /// γ.
+    /// Lorentz factor γ.
     pub gamma: f64,
-    /// η = asinh |u|.
+    /// Rapidity η = asinh |u|.
     pub rapidity: f64,
-    /// Metres a second.
+    /// Speed of light, m/s.
     pub speed_of_light: f64,
-    /// Seconds on the rider's own clock.
+    /// Time on the rider's own clock, seconds.
     pub own_clock_s: f64,
-    /// Seconds on the town's clock.
+    /// Time on the town's clock, seconds.
     pub world_clock_s: f64,
-    /// Metres of road passed, as the town measures them.
+    /// Length of road passed, as the town measures it, metres.
     pub road_m: f64,
-    /// Metres on the rider's own odometer, for whom the road is contracted.
+    /// Distance on the rider's own odometer, for which the road is contracted, metres.
     pub own_m: f64,
-    /// Frames a second.
+    /// Number of frames per second.
     pub frame_rate: f64,
-    /// Name and milliseconds of each stage of a frame.
+    /// Name and duration of each stage of a frame, milliseconds.
     pub stages_ms: Vec<(&'static str, f64)>,
-    /// How far from its place anything is drawn.
+    /// Sentence on the accuracy of the drawn positions.
     pub certainty: String,
-    /// What the rider should know now, most urgent first.
+    /// Notices for the rider, the most urgent first.
     pub notices: Vec<String>,
-    /// The clock stands.
+    /// True if the ride is paused.
     pub paused: bool,
-    /// A recording is running.
+    /// True if a recording is being written.
     pub recording: bool,
 }
 
@@ -44,7 +44,7 @@ const BACKDROP: Color32 = Color32::from_rgba_premultiplied(0x0c, 0x0e, 0x12, 0xb
 /// Height of the bar at the bottom, points.
 const BAR_HEIGHT: f32 = 92.0;
 
-/// Draws the display over the picture.
+/// Draws the head-up display over the picture.
 pub fn show(ui: &Ui, readings: &Readings) {
     let painter = ui.painter();
     let screen = ui.ctx().content_rect();
@@ -58,7 +58,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
         Rect::from_min_size(bar.min + Vec2::new(width * index as f32, 0.0), Vec2::new(width, bar.height()))
             .shrink2(Vec2::new(18.0, 8.0) * scale)
     };
-    // At the left and at the right of a field, both smaller if they would meet.
+    // One text at the left and one at the right of a field; both are made smaller if they would meet.
     let row = |area: Rect, y: f32, left: (&str, f32, Color32), right: (&str, f32, Color32)| {
         let laid = |(words, size, colour): (&str, f32, Color32), share: f32| {
             painter.layout_no_wrap(words.to_owned(), FontId::proportional(size * scale * share), colour)
@@ -96,7 +96,8 @@ pub fn show(ui: &Ui, readings: &Readings) {
         ],
     );
 
-    // Above: the program's own pace at the right; state and notices at the left, below it where they would meet.
+    // At the top right, the program's own pace; at the top left, state and notices, moved below the pace if they
+    // would meet.
     let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
     let pace = format!(
         "{}   {:.1} frames/s   {} ms   F1 help · F3 settings",
@@ -132,7 +133,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
     painter.galley(at, pace, INK);
 }
 
-/// β with as many nines as there are: digits follow 1 − β = 1/(γ² (1 + β)).
+/// Text of β with as many nines as it has: the number of digits follows 1 − β = 1/(γ² (1 + β)).
 fn beta(beta: f64, gamma: f64) -> String {
     if beta < 0.999 {
         return format!("{beta:.3}");
@@ -149,7 +150,7 @@ fn number(value: f64) -> String {
     if value < 100.0 { format!("{value:.3}") } else { format!("{value:.3e}") }
 }
 
-/// A speed in km/h with about three digits; very large ones in km/s.
+/// Text of a speed in km/h with about three digits; of a very large one in km/s.
 fn speed(kilometres_per_hour: f64) -> String {
     match kilometres_per_hour {
         v if v < 1000.0 => format!("{v:.1} km/h"),
@@ -175,7 +176,8 @@ fn clock(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! What is shown must never contradict what is so: a speed below light's never reads 1, a clock never 60 s.
+    //! Law under test: the readings never contradict the state. A speed below that of light never reads 1, and a
+    //! clock never reads 60 s.
 
     use super::*;
 

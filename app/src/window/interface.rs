@@ -1,11 +1,11 @@
-//! egui over the picture: input in, shapes out, drawn in one last pass.
+//! Interface drawn by egui over the picture: input goes in, shapes come out and are drawn in a last pass.
 
 use crate::gpu::Gpu;
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use winit::event::WindowEvent;
 use winit::window::Window;
 
-/// egui's state for one window.
+/// State of egui for one window.
 pub struct Interface {
     context: egui::Context,
     state: egui_winit::State,
@@ -13,7 +13,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// For a window whose surface has `format`.
+    /// Creates the interface of a window whose surface has `format`.
     pub fn new(gpu: &Gpu, window: &Window, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
         context.set_theme(egui::Theme::Dark);
@@ -35,7 +35,8 @@ impl Interface {
         self.state.on_window_event(window, event).consumed
     }
 
-    /// Lays out and draws `contents` over what is in `target`, whose size may still be the window's last one, in pixels.
+    /// Lays out and draws `contents` over the picture in `target`. `size` is the target's size in pixels, which may
+    /// still be the window's previous one.
     pub fn draw(
         &mut self,
         gpu: &Gpu,

@@ -1,9 +1,9 @@
-//! Which key of the window is which key of the ride, by its place on the keyboard rather than its letter.
+//! Keys of the window as keys of the ride, by their place on the keyboard rather than by their letter.
 
 use input::Key;
 use winit::keyboard::KeyCode;
 
-/// The ride's key at a place of the keyboard, if it means anything there.
+/// Key of the ride at a place of the keyboard, if one is assigned.
 pub fn key(code: KeyCode) -> Option<Key> {
     Some(match code {
         KeyCode::KeyA => Key::A,
@@ -38,7 +38,7 @@ pub fn key(code: KeyCode) -> Option<Key> {
 
 #[cfg(test)]
 mod tests {
-    //! A key that no place on the keyboard reaches could never be pressed.
+    //! Law under test: every key of the ride has a place on the keyboard; one without could never be pressed.
 
     use super::*;
 

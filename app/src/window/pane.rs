@@ -1,4 +1,4 @@
-//! A window and the surface that is drawn on in it.
+//! Window with the surface that is drawn on.
 
 use crate::gpu::{Gpu, GpuError};
 use crate::room::{Monitor, WindowPlace};
@@ -8,38 +8,39 @@ use winit::event_loop::ActiveEventLoop;
 use winit::monitor::MonitorHandle;
 use winit::window::{Fullscreen, Window, WindowAttributes};
 
-/// A window that is drawn in.
+/// Window together with its drawing surface.
 pub struct Pane {
-    /// The window.
+    /// Window of the operating system.
     pub window: Arc<Window>,
     surface: wgpu::Surface<'static>,
-    /// How its surface is used.
+    /// Configuration of the window's surface.
     pub configuration: wgpu::SurfaceConfiguration,
 }
 
 impl Pane {
-    /// Makes `surface` of `window` fit to be drawn on. `waits`: for the monitor to show one frame before it takes the next.
+    /// Prepares `surface` of `window` for drawing. `waits` is true if each frame waits until the monitor has shown
+    /// the one before.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] if the device cannot draw on it.
+    /// [`GpuError::NoAdapter`] if the device cannot draw on the surface.
     pub fn new(gpu: &Gpu, window: Arc<Window>, surface: wgpu::Surface<'static>, waits: bool) -> Result<Self, GpuError> {
         let size = window.inner_size();
         let mut configuration = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
             .ok_or_else(|| GpuError::NoAdapter("the window's surface has no format".to_owned()))?;
         configuration.present_mode = if waits { wgpu::PresentMode::AutoVsync } else { wgpu::PresentMode::AutoNoVsync };
-        // The interface mixes colours as they are encoded, so the surface must not encode once more.
+        // The interface mixes encoded colours, so the surface must not encode them once more.
         configuration.format = configuration.format.remove_srgb_suffix();
         surface.configure(&gpu.device, &configuration);
         Ok(Self { window, surface, configuration })
     }
 
-    /// Pixels inside.
+    /// Width and height of the contents, pixels.
     pub fn size(&self) -> [u32; 2] {
         [self.configuration.width, self.configuration.height]
     }
 
-    /// Takes on the window's size. Returns whether there is anything to be drawn in.
+    /// Takes over the window's new size. Returns false if it has no area to draw in.
     pub fn resize(&mut self, gpu: &Gpu, size: PhysicalSize<u32>) -> bool {
         if size.width == 0 || size.height == 0 {
             return false;
@@ -49,10 +50,10 @@ impl Pane {
         true
     }
 
-    /// What the next frame is drawn on; `None` if it cannot be drawn in for the moment, and whether its size may have changed.
+    /// Texture for the next frame, or the reason why there is none at the moment.
     ///
     /// # Errors
-    /// A surface that is lost and cannot be made again.
+    /// [`GpuError::Lost`] for a surface that is lost and cannot be created again.
     pub fn acquire(&mut self, gpu: &Gpu) -> Result<Acquired, GpuError> {
         use wgpu::CurrentSurfaceTexture as Current;
         Ok(match self.surface.get_current_texture() {
@@ -70,17 +71,17 @@ impl Pane {
     }
 }
 
-/// What a window offers to be drawn on.
+/// Answer of a window that is asked for its next texture.
 pub enum Acquired {
-    /// The next frame.
+    /// The texture of the next frame.
     Texture(wgpu::SurfaceTexture),
-    /// Nothing before it has taken on this size.
+    /// A surface that must first be resized to this size.
     Resize(PhysicalSize<u32>),
-    /// Nothing for the moment.
+    /// A surface without a texture at the moment.
     Nothing,
 }
 
-/// How a display's window is to be opened.
+/// Attributes with which a display's window is opened.
 pub fn attributes(events: &ActiveEventLoop, place: &WindowPlace, title: &str) -> WindowAttributes {
     let monitor = place.monitor.as_ref().and_then(|wanted| find(events, wanted));
     let [width, height] = place.size;
@@ -100,7 +101,7 @@ pub fn attributes(events: &ActiveEventLoop, place: &WindowPlace, title: &str) ->
     attributes
 }
 
-/// The monitor that a display names, if it is there.
+/// Monitor that a display names, if it is connected.
 fn find(events: &ActiveEventLoop, wanted: &Monitor) -> Option<MonitorHandle> {
     let mut monitors = events.available_monitors();
     let found = match wanted {

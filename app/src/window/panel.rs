@@ -1,4 +1,4 @@
-//! The settings panel and the help.
+//! Settings panel and help window.
 
 use crate::command::Latency;
 use crate::renderers::Effects;
@@ -7,41 +7,41 @@ use clap::ValueEnum;
 use egui::{Align2, Grid, RichText, Slider, Ui, Window};
 use input::{Action, VehicleKind};
 
-/// What the panel shows and changes by itself: how the picture is drawn, which no recording depends on.
+/// Settings that the panel changes by itself: how the picture is drawn, which no recording depends on.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The panel is open.
+    /// True if the panel is open.
     pub open: bool,
-    /// The help is open.
+    /// True if the help is open.
     pub help: bool,
-    /// The display at the edges is shown.
+    /// True if the head-up display is shown.
     pub readings: bool,
-    /// What relativity does to the picture.
+    /// Relativistic effects on the picture.
     pub effects: Effects,
-    /// How transforming and drawing share a frame's time.
+    /// Division of a frame's time between transforming and drawing.
     pub latency: Latency,
     /// Vertical field of view, degrees.
     pub fov: f64,
-    /// How radiance becomes the picture.
+    /// Development of radiance into the picture.
     pub development: Development,
 }
 
-/// What the ride tells the panel.
+/// State of the ride that the panel shows.
 #[derive(Clone, Debug)]
 pub struct Ride {
-    /// What is ridden.
+    /// Kind of vehicle that is ridden.
     pub vehicle: VehicleKind,
-    /// Proper time per real time.
+    /// Ratio of proper time to real time.
     pub time_scale: f64,
-    /// m/s.
+    /// Speed of light, m/s.
     pub speed_of_light: f64,
-    /// A sentence for each device.
+    /// Sentences on the state of the devices, one each.
     pub devices: Vec<String>,
-    /// What draws, and how much.
+    /// Sentence about the renderer and the amount that it draws.
     pub drawing: String,
 }
 
-/// Shows the panel. What changes the ride comes back as actions, so that it is recorded like a key.
+/// Shows the panel. Changes of the ride are returned as actions, so that they are recorded like keys.
 pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
     let mut actions = Vec::new();
     if settings.help {
@@ -126,7 +126,7 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
     actions
 }
 
-/// Rows that say how radiance becomes the picture.
+/// Rows for the development of radiance into the picture.
 fn light(ui: &mut Ui, development: &mut Development) {
     ui.label("Exposure");
     ui.horizontal(|ui| {
@@ -151,7 +151,7 @@ fn light(ui: &mut Ui, development: &mut Development) {
     choice(ui, &mut development.gamut);
 }
 
-/// One of several.
+/// Row for choosing one of several values.
 fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
     ui.horizontal(|ui| {
         for value in T::value_variants() {
@@ -161,7 +161,7 @@ fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
     ui.end_row();
 }
 
-/// What each key does; the same list as in the README.
+/// Keys and their meanings; the same list as in the README.
 const KEYS: [(&str, &str); 21] = [
     ("W S  ↑ ↓", "pedal, push back; thrust; nose down, up when flying"),
     ("A D  ← →", "steer; thrust sideways"),

@@ -1,4 +1,4 @@
-//! A photo of what the window shows, without the display at its edges.
+//! Photos of the window's picture, without the readings at its edges.
 
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -9,10 +9,11 @@ use crate::renderers::picture::Darkroom;
 use crate::renderers::target::Radiance;
 use crate::walls::Walls;
 
-/// Writes what an eye sees that is adapted to it into `photo-001.png`, or the next number, and says so.
+/// Writes the picture, as an adapted eye sees it, into `photo-001.png` or the next free number. Returns a sentence
+/// with the file's name.
 ///
 /// # Errors
-/// A lost device, or a folder that cannot be written to.
+/// [`Error`] of a lost device, or of a folder that cannot be written to.
 pub fn take(
     gpu: &Gpu,
     radiance: &Radiance,
@@ -26,10 +27,10 @@ pub fn take(
     Ok(format!("photo: {}", path.display()))
 }
 
-/// The same of a room: a file for each of its windows.
+/// Writes a photo of each window of a room. Returns a sentence with the files' names.
 ///
 /// # Errors
-/// As [`take`].
+/// [`Error`] as for [`take`].
 pub fn take_room(gpu: &Gpu, walls: &mut Walls, development: &Development) -> Result<String, Error> {
     let mut told = Vec::new();
     for window in 0..walls.display.windows.len() {

@@ -1,11 +1,11 @@
-//! How long each stage of a frame takes, smoothed for reading.
+//! Timing of the stages of a frame, smoothed for reading.
 
 use std::time::{Duration, Instant};
 
-/// How much of an older value is kept from one frame to the next.
+/// Share of the older value in the smoothed one, per frame.
 const KEPT: f64 = 0.9;
 
-/// Timers of one frame after another.
+/// Timers for a sequence of frames.
 #[derive(Debug, Default)]
 pub struct Pace {
     began: Option<Instant>,
@@ -15,7 +15,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// A frame begins, and with it the last one has ended.
+    /// Marks the beginning of a frame, which is also the end of the previous one.
     pub fn begin(&mut self) {
         let now = Instant::now();
         if let Some(began) = self.began.replace(now) {
@@ -25,7 +25,7 @@ impl Pace {
         self.stage_began = Some(now);
     }
 
-    /// A stage has ended, and the next begins.
+    /// Marks the end of the stage `name`; the next stage begins.
     pub fn stage(&mut self, name: &'static str) {
         let now = Instant::now();
         if let Some(began) = self.stage_began.replace(now) {
@@ -33,7 +33,7 @@ impl Pace {
         }
     }
 
-    /// The transform, which runs beside the others, took this long.
+    /// Records the time of the transform, which runs in parallel with the other stages.
     pub fn transformed(&mut self, duration: Duration) {
         self.note("transform", duration);
     }
@@ -46,12 +46,12 @@ impl Pace {
         }
     }
 
-    /// Frames a second.
+    /// Number of frames per second.
     pub fn frame_rate(&self) -> f64 {
         if self.frame_ms > 0.0 { 1e3 / self.frame_ms } else { 0.0 }
     }
 
-    /// Name and milliseconds of each stage.
+    /// Name and duration of each stage, milliseconds.
     pub fn stages_ms(&self) -> Vec<(&'static str, f64)> {
         self.stages.clone()
     }

@@ -1,7 +1,7 @@
-//! From the observer's directions to a flat picture: an eye's camera.
+//! Cameras: from the observer's directions to a flat picture.
 //!
-//! The camera looks along directions of the observer's own frame, whose axes are a pure boost of the world's. How
-//! light got there is none of its business: the photo-surface is an ordinary three-dimensional object to it.
+//! The camera looks along directions of the observer's own frame, whose axes are a pure boost of the world's. The
+//! paths of light are not its concern: to the camera, the photo-surface is an ordinary three-dimensional object.
 
 use glam::{DQuat, DVec2, DVec3};
 use physics::{Aberration, Celerity};
@@ -9,59 +9,60 @@ use physics::{Aberration, Celerity};
 /// A camera with a flat picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// From eye axes (x right, y up, −z ahead) to the observer's.
+    /// Rotation from the eye's axes (x right, y up, −z ahead) to the observer's.
     pub observer_from_eye: DQuat,
-    /// How much of the plane ahead the picture shows.
+    /// Part of the plane ahead that the picture shows.
     pub field: Field,
 }
 
-/// What of the plane one unit ahead of the eye a picture shows.
+/// Part of the plane one unit ahead of the eye that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Field {
-    /// Its middle lies straight ahead, and its pixels are square.
+    /// A picture whose middle lies straight ahead, with square pixels.
     Ahead {
         /// Full vertical angle, radians, in (0, π).
         fov_y_rad: f64,
     },
-    /// A screen, before whose middle the eye need not be (B A.2; Kooima 2009).
+    /// A screen, whose middle need not be straight ahead of the eye (B A.2; Kooima 2009).
     Screen(Tangents),
 }
 
-/// A rectangle in the plane one unit ahead of the eye: x to the right, y up.
+/// Rectangle in the plane one unit ahead of the eye: x to the right, y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tangents {
-    /// Its lower left corner.
+    /// Lower left corner of the rectangle.
     pub low: DVec2,
-    /// Its upper right corner.
+    /// Upper right corner of the rectangle.
     pub high: DVec2,
 }
 
 impl Tangents {
-    /// Its middle.
+    /// Middle of the rectangle.
     pub fn middle(&self) -> DVec2 {
         0.5 * (self.low + self.high)
     }
 
-    /// From its middle to its upper right corner.
+    /// Vector from the middle to the upper right corner.
     pub fn half(&self) -> DVec2 {
         0.5 * (self.high - self.low)
     }
 
-    /// Pixels per tangent of a picture of `size`, across and down.
+    /// Pixels per unit of tangent in a picture of `size` pixels, horizontally and vertically.
     pub fn focal_length(&self, size: [u32; 2]) -> DVec2 {
         DVec2::new(f64::from(size[0]), f64::from(size[1])) / (self.high - self.low)
     }
 
-    /// The corner or edge farthest from straight ahead, to either side.
+    /// Largest tangents of the rectangle, to either side, horizontally and vertically.
     pub fn farthest(&self) -> DVec2 {
         self.low.abs().max(self.high.abs())
     }
 }
 
 impl Camera {
-    /// A camera that looks along `look` with `up` as far up in the picture as can be (observer's axes, any length).
+    /// Creates a camera that looks along `look`, with `up` as far up in the picture as possible (observer's axes, any
+    /// length).
     ///
-    /// Where `up` is parallel to `look`, the world's −z (or, looking along that, +y) takes its place.
+    /// If `up` is parallel to `look`, the world's −z is used instead; when looking along that, +y.
     pub fn looking(look: DVec3, up: DVec3, fov_y_rad: f64) -> Self {
         let back = -look.normalize_or(DVec3::NEG_Z);
         let right = [up, DVec3::NEG_Z, DVec3::Y]
@@ -73,7 +74,7 @@ impl Camera {
         Self { observer_from_eye: DQuat::from_mat3(&axes), field: Field::Ahead { fov_y_rad } }
     }
 
-    /// What a picture of `size` pixels shows of the plane ahead.
+    /// Rectangle of the plane ahead that a picture of `size` pixels shows.
     pub fn tangents(&self, size: [u32; 2]) -> Tangents {
         match self.field {
             Field::Ahead { fov_y_rad } => {
@@ -85,9 +86,9 @@ impl Camera {
         }
     }
 
-    /// Where a place in a picture of `size` pixels looks, eye axes: (x, y, −1).
+    /// Direction of a place in a picture of `size` pixels, eye axes: (x, y, −1).
     ///
-    /// *Units:* pixels from the upper left corner; the middle of the first pixel is at one half.
+    /// *Units:* pixels from the upper left corner; the centre of the first pixel is at one half.
     pub fn ahead(&self, size: [u32; 2], place: DVec2) -> DVec3 {
         let tangents = self.tangents(size);
         let from_middle = (place - 0.5 * DVec2::new(f64::from(size[0]), f64::from(size[1]))) * DVec2::new(1.0, -1.0);

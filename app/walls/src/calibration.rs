@@ -1,56 +1,58 @@
-//! Moving corners: which one is chosen, where all of them are, and what each key does. No window and no device here.
+//! Movable corners of channels: the chosen corner, the places of all corners, and the action of each key. No window
+//! and no device is used here.
 
 use crate::room::{Corners, Display, NotConvex, Warp};
 use glam::DVec2;
 use thiserror::Error;
 
-/// Pixels that a press moves a corner by.
+/// Distance that a key press moves a corner, pixels.
 pub const STEP: f64 = 1.0;
-/// The same with Shift.
+/// Distance that a key press with Shift moves a corner, pixels.
 pub const LONG_STEP: f64 = 10.0;
-/// Parts of a pixel that places are rounded to: a file's numbers survive being divided by the viewport's size and multiplied again.
+/// Parts of a pixel to which places are rounded. A number from a file then survives a division by the viewport's size
+/// and a multiplication by it.
 const PER_PIXEL: f64 = 1e6;
 
-/// What the corners are called, in the order of [`Corners::places`].
+/// Names of the corners, in the order of [`Corners::places`].
 pub const NAMES: [&str; 4] = ["upper left", "upper right", "lower right", "lower left"];
 
-/// What moves and chooses corners.
+/// Key that chooses or moves corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// The next corner, or with Shift the one before; after a channel's last one comes the next channel.
+    /// Chooses the next corner, or with Shift the one before. After a channel's last corner comes the next channel.
     Tab,
     /// Moves the corner to the right.
     Right,
-    /// To the left.
+    /// Moves the corner to the left.
     Left,
-    /// Up.
+    /// Moves the corner up.
     Up,
-    /// Down.
+    /// Moves the corner down.
     Down,
-    /// Puts the corner where the file has it; with Shift, into its corner of the viewport.
+    /// Puts the corner back to its place in the file, or with Shift into its corner of the viewport.
     Back,
 }
 
-/// Why a key does nothing.
+/// Reason why a key press is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CalibrationError {
-    /// A channel that a measured grid warps.
+    /// A channel that is warped by a measured grid.
     #[error("channel {channel} has a measured warp, so its corners cannot be moved")]
     Measured {
-        /// Its name.
+        /// Name of the channel.
         channel: String,
     },
-    /// A corner that would go past others.
+    /// A move after which the corners would no longer be convex.
     #[error("channel {channel}: {error}")]
     NotConvex {
-        /// Its name.
+        /// Name of the channel.
         channel: String,
-        /// Why.
+        /// Error of the corners' map.
         error: NotConvex,
     },
 }
 
-/// The corners of all channels of a display, one of them chosen.
+/// Corners of all channels of a display, one of them chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     channels: Vec<Nudged>,
@@ -58,19 +60,19 @@ pub struct Calibration {
     corner: usize,
 }
 
-/// The corners of one channel; pixels from the viewport's upper left, y down.
+/// Corners of one channel, pixels from the viewport's upper left, y down.
 #[derive(Clone, Debug, PartialEq)]
 struct Nudged {
     name: String,
     viewport: [DVec2; 4],
     in_file: [DVec2; 4],
     now: [DVec2; 4],
-    /// A measured grid warps it.
+    /// True if the channel is warped by a measured grid.
     measured: bool,
 }
 
 impl Calibration {
-    /// Of a display as its file has it, its first corner chosen.
+    /// Creates the calibration of a display as its file describes it. The first corner is chosen.
     pub fn new(display: &Display) -> Self {
         let nudged = |channel: &crate::room::Channel| {
             let [width, height] = channel.size().map(f64::from);
@@ -86,15 +88,15 @@ impl Calibration {
         Self { channels: display.channels.iter().map(nudged).collect(), channel: 0, corner: 0 }
     }
 
-    /// Index of the channel and of its corner that keys act on.
+    /// Indices of the channel and of its corner that keys act on.
     pub fn chosen(&self) -> (usize, usize) {
         (self.channel, self.corner)
     }
 
-    /// Does what a key does. Returns the channel whose corners have moved, if any have.
+    /// Performs a key's action. Returns the channel whose corners have moved, if any have.
     ///
     /// # Errors
-    /// [`CalibrationError`]: the corner stays where it is.
+    /// [`CalibrationError`]; the corner then stays where it is.
     pub fn press(&mut self, key: Key, shift: bool) -> Result<Option<usize>, CalibrationError> {
         if key == Key::Tab {
             self.choose(shift);
@@ -123,26 +125,27 @@ impl Calibration {
         Ok(Some(self.channel))
     }
 
-    /// How a channel is warped now; `None`: not at all.
+    /// Present warp of a channel; `None` if it has none.
     pub fn warp(&self, channel: usize) -> Option<Warp> {
         let nudged = &self.channels[channel];
         nudged.warp_of(nudged.now).expect("corners that no picture has are refused").map(Warp::Corners)
     }
 
-    /// Names and corners (pixels) of the channels whose corners are not where the file has them; `None`: those of the viewport.
+    /// Names and corners (pixels) of the channels whose corners differ from the file's; `None` for the viewport's own
+    /// corners.
     pub fn changed(&self) -> Vec<(&str, Option<[DVec2; 4]>)> {
         let changed = self.channels.iter().filter(|nudged| nudged.now != nudged.in_file);
         changed.map(|nudged| (nudged.name.as_str(), (nudged.now != nudged.viewport).then_some(nudged.now))).collect()
     }
 
-    /// The file has them now.
+    /// Records that the file now has the present corners.
     pub fn saved(&mut self) {
         for nudged in &mut self.channels {
             nudged.in_file = nudged.now;
         }
     }
 
-    /// Which corner is chosen, and where it is.
+    /// Sentence that names the chosen corner and its place.
     pub fn sentence(&self) -> String {
         let nudged = &self.channels[self.channel];
         let DVec2 { x, y } = nudged.now[self.corner];
@@ -159,7 +162,7 @@ impl Calibration {
 }
 
 impl Nudged {
-    /// The map of corners, as a file would have it.
+    /// Warp that corners given in pixels make; `None` if they are the viewport's own.
     fn warp_of(&self, pixels: [DVec2; 4]) -> Result<Option<Corners>, NotConvex> {
         let size = self.viewport[2];
         if pixels == self.viewport { Ok(None) } else { Corners::new(pixels.map(|place| place / size)).map(Some) }

@@ -1,4 +1,5 @@
-//! A channel whose screen is not flat, or whose projector bends: flat pictures, looked up pixel by pixel.
+//! Channels on curved screens or behind a projector's lens: drawn as flat pictures, in which every pixel looks up its
+//! place.
 
 use super::facet::{Facet, Grid, facets};
 use crate::gpu::Gpu;
@@ -10,22 +11,22 @@ use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// Columns and rows of the grid by which facets are chosen.
+/// Cells along each side of the grid by which facets are chosen.
 const GRID: usize = 48;
 
-/// The map from a viewport's pixels to points of the room, and flat pictures of what is seen there.
+/// Map from a viewport's pixels to points of the room, and the flat pictures seen in these directions.
 pub struct Curved {
     points: wgpu::TextureView,
     grid: Grid,
-    /// Their targets.
+    /// Flat pictures and the targets they are drawn into.
     pub facets: Vec<(Facet, Radiance)>,
-    /// What the channel shows.
+    /// Picture that the channel shows.
     pub shown: wgpu::TextureView,
     size: [u32; 2],
 }
 
 impl Curved {
-    /// Of a channel. Its pixels' points do not depend on the eye, so that they are worked out once.
+    /// Creates the map of a channel. The points of its pixels do not depend on the eye and are computed only once.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
         let size @ [width, height] = channel.size();
         let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
@@ -60,7 +61,7 @@ impl Curved {
         }
     }
 
-    /// Chooses facets for an eye in the room. Textures of the last ones are kept where they fit.
+    /// Chooses facets for an eye in the room. Textures of the previous facets are kept where their size fits.
     pub fn look_from(&mut self, gpu: &Gpu, eye: DVec3, density: f64, format: Format) {
         let largest = gpu.device.limits().max_texture_dimension_2d.min(8192);
         let mut before: Vec<_> = self.facets.drain(..).map(|(_, target)| target).collect();
@@ -71,7 +72,7 @@ impl Curved {
         }
     }
 
-    /// Brings the facets together.
+    /// Resamples the facets into the channel's picture.
     pub fn resample(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, pass: &Pass, eye: DVec3) {
         let [width, height] = self.size;
         for (number, (facet, target)) in self.facets.iter().enumerate() {

@@ -1,46 +1,48 @@
-//! Flat pictures that together show all of a surface that is not flat.
+//! Flat pictures that together show a surface that is not flat.
 //!
-//! What an eye sees on a bent screen is drawn into as few flat pictures as hold it: one, if all of it lies within a pyramid about its middle,
-//! else the faces of a cube around the eye that it is seen on. Each is as fine as all but the finest pixels of the screen need.
+//! The view of a curved screen is drawn into as few flat pictures as possible: into one, if all of it lies within a
+//! pyramid around its middle; else into those faces of a cube around the eye on which it is seen. Each picture is as
+//! fine as all but the finest pixels of the screen need.
 
 use crate::views::Tangents;
 use glam::{DMat3, DVec2, DVec3};
 
-/// The largest tangent that a single flat picture shows: beyond it, six faces of a cube show the same with fewer texels.
+/// Largest tangent that a single flat picture shows. Beyond it, six faces of a cube need fewer texels.
 const WIDEST: f64 = 1.75;
-/// Share of a screen's pixels that may be finer than the flat pictures: where it is seen at a grazing angle, they have no end.
+/// Share of a screen's pixels that may be finer than the flat pictures. At a grazing angle pixels become arbitrarily
+/// fine.
 const COARSER_SHARE: f64 = 0.05;
-/// Room that faces of a cube have beyond their edges, so that texels beside an edge may be mixed.
+/// Factor by which a cube's faces extend beyond their edges, so that texels beside an edge can be interpolated.
 const SEAM: f64 = 1.0 + 1e-3;
-/// Sizes are multiples of this, so that a head that moves does not make new textures for every frame.
+/// Step of texture sizes. With multiples of it, a moving head does not need new textures for every frame.
 const STEP: u32 = 32;
 
-/// Where a viewport's places lie on its surface: rows from above, columns from the left.
+/// Points of a surface at an even grid of a viewport's places: rows from above, columns from the left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Number of columns and rows.
     pub size: [usize; 2],
-    /// Room axes, metres; `None` where nothing is lit.
+    /// Points in room axes, metres; `None` where nothing is lit.
     pub points: Vec<Option<DVec3>>,
-    /// Pixels of the viewport from one column, or row, to the next.
+    /// Distance between neighbouring columns and rows, pixels of the viewport.
     pub pixels: DVec2,
 }
 
-/// A flat picture of what an eye sees.
+/// Flat picture of a part of what an eye sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facet {
-    /// Rotation from its axes (x right, y up, −z ahead) to the room's.
+    /// Rotation from the facet's axes (x right, y up, −z ahead) to the room's.
     pub room_from_facet: DMat3,
-    /// What of the plane ahead it shows.
+    /// Rectangle of the plane ahead that the facet shows, as tangents.
     pub tangents: Tangents,
-    /// Pixels.
+    /// Width and height, texels.
     pub size: [u32; 2],
-    /// Largest tangent to either side for which it is this one that shows a direction.
+    /// Largest tangent, to either side, of the directions that this facet shows.
     pub limit: f64,
 }
 
 impl Facet {
-    /// Tangents of a direction of the room, if it is this facet that shows it.
+    /// Tangents of a direction of the room; `None` if this facet does not show it.
     fn place(&self, direction: DVec3) -> Option<DVec2> {
         let seen = self.room_from_facet.transpose() * direction;
         let place = seen.truncate() / -seen.z;
@@ -48,11 +50,12 @@ impl Facet {
     }
 }
 
-/// The facets for an eye.
+/// Facets for an eye.
 ///
 /// # Arguments
-/// * `density` — texels for each pixel of the viewport, along each axis, where these are finest.
-/// * `largest` — texels that a side may have; more are needed only where a surface is seen at a grazing angle, and are left out.
+/// * `density` — texels for each pixel of the viewport, along each axis, where the pixels are finest.
+/// * `largest` — largest side of a facet, texels. More would be needed only where a surface is seen at a grazing
+///   angle.
 pub fn facets(grid: &Grid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet> {
     let directions: Vec<_> =
         grid.points.iter().map(|point| Some((point.as_ref()? - eye).normalize_or_zero())).collect();
@@ -62,20 +65,20 @@ pub fn facets(grid: &Grid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet>
     let facet =
         |turn: DMat3, limit| Facet { room_from_facet: room_from_facet * turn, tangents: unbound, size: [0, 0], limit };
 
-    // One, if that is enough.
+    // A single facet is used if it can show all directions.
     let single = facet(DMat3::IDENTITY, WIDEST);
     let all = directions.iter().flatten().all(|direction| single.place(*direction).is_some());
     let candidates = if all { vec![single] } else { cube().map(|turn| facet(turn, SEAM)).to_vec() };
     candidates.into_iter().filter_map(|facet| sized(facet, grid, &directions, density, largest)).collect()
 }
 
-/// Bounds a facet by what it shows; `None` if that is nothing.
+/// Facet with its bounds and size set by the directions it shows; `None` if there are none.
 fn sized(facet: Facet, grid: &Grid, directions: &[Option<DVec3>], density: f64, largest: u32) -> Option<Facet> {
     let [columns, rows] = grid.size;
     let at = |column: usize, row: usize| facet.place(directions[row * columns + column]?);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut widest = 0.0_f64;
-    // Side of the square that is as large as a pixel, for each cell of the grid.
+    // Side of a square with the area of one pixel, in tangents, for each cell of the grid.
     let mut sides = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
@@ -95,8 +98,8 @@ fn sized(facet: Facet, grid: &Grid, directions: &[Option<DVec3>], density: f64, 
     if low.x > high.x {
         return None;
     }
-    // The surface goes on for up to a step of the grid beyond the last point that this facet shows, and its pixels are a little finer
-    // between the grid's points than at them.
+    // Between the grid's points, the surface may extend up to one step beyond the last point that this facet shows,
+    // and its pixels are slightly finer there than at the points.
     let margin = if widest > 0.0 { widest } else { facet.limit };
     let bound = DVec2::splat(facet.limit * SEAM);
     let (low, high) = ((low - margin).max(-bound), (high + margin).min(bound));
@@ -110,14 +113,14 @@ fn sized(facet: Facet, grid: &Grid, directions: &[Option<DVec3>], density: f64, 
     Some(Facet { tangents: Tangents { low: middle - half, high: middle + half }, size, ..facet })
 }
 
-/// The rotation from the axes of a picture that looks along `forward`, its columns as upright as can be.
+/// Rotation from the axes of a picture that looks along `forward`, with its columns as upright as possible.
 fn towards(forward: DVec3) -> DMat3 {
     let right = [DVec3::Y, DVec3::NEG_Z].into_iter().map(|up| forward.cross(up)).find(|right| right.length() > 1e-3);
     let right = right.map_or(DVec3::X, DVec3::normalize);
     DMat3::from_cols(right, right.cross(forward), -forward)
 }
 
-/// Turns to the six faces of a cube: ahead, right, behind, left, above, below.
+/// Rotations to the six faces of a cube: ahead, right, behind, left, above, below.
 fn cube() -> [DMat3; 6] {
     let of = |x, y| DMat3::from_cols(x, y, x.cross(y));
     [
@@ -132,12 +135,12 @@ fn cube() -> [DMat3; 6] {
 
 #[cfg(test)]
 mod tests {
-    //! Every point of a surface is shown by a facet, within its bounds and finely enough. A wrong program leaves black gaps between facets, or
-    //! blurs.
+    //! Law under test: every point of a surface is shown by a facet, within the facet's bounds and finely enough. A
+    //! wrong program leaves black gaps between facets, or blurs.
 
     use super::*;
 
-    /// A part of a sphere of radius 2 about the origin, seen as a picture of 640 × 480.
+    /// Part of a sphere of radius 2 about the origin, seen as a picture of 640 × 480 pixels.
     fn sphere(width_rad: f64, height_rad: f64) -> Grid {
         let size = [41, 31];
         let mut points = Vec::new();
@@ -159,7 +162,7 @@ mod tests {
             for eye in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.4)] {
                 let facets = facets(&grid, eye, 1.0, 8192);
                 assert!(facets.len() <= count, "{} facets for {width} × {height}", facets.len());
-                // Cells, and those with less than a texel a pixel.
+                // Number of cells, and number of cells with less than one texel per pixel.
                 let mut counts = [0, 0];
                 for row in 0..30 {
                     for column in 0..40 {

@@ -1,56 +1,58 @@
-//! A head that stands or walks in the vehicle, and the eyes in it.
+//! Head that stands or walks in the vehicle, and its eyes.
 
 use crate::room::{Eye, Viewer};
 use glam::{DMat3, DQuat, DVec3};
 use physics::worldline::State;
 use physics::{Celerity, Observer};
 
-/// A head in the room, whose axes are those of the vehicle (x right, y up, −z ahead).
+/// Head in the room, whose axes are those of the vehicle (x right, y up, −z ahead).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Head {
-    /// The point midway between the eyes, metres from the vehicle's reference point.
+    /// Point midway between the eyes, room axes, metres from the vehicle's reference point.
     pub place_m: DVec3,
-    /// Rotation from the head's axes (x right, y up, −z where it faces).
+    /// Rotation from the head's axes (x right, y up, −z ahead) to the room's.
     pub room_from_head: DMat3,
-    /// Celerity in the room.
+    /// Celerity of the head, room axes.
     pub celerity: Celerity,
 }
 
 impl Head {
-    /// A head that rests and faces −z.
+    /// Head at rest that faces −z.
     pub fn at_rest(place_m: DVec3) -> Self {
         Self { place_m, room_from_head: DMat3::IDENTITY, celerity: Celerity::ZERO }
     }
 }
 
-/// Someone in the room of a vehicle.
+/// Observer in the room of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occupant {
-    /// The vehicle.
+    /// State of the vehicle in the world.
     pub vehicle: State,
-    /// His head in it.
+    /// Head of the observer in the vehicle.
     pub head: Head,
 }
 
-/// One of his eyes.
+/// Eye of an occupant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OccupantEye {
-    /// Event and celerity in the world.
+    /// Event and celerity of the eye in the world.
     pub observer: Observer,
     /// Rotation from the room's axes to those of the pure boost from the world.
     ///
-    /// His own frame's axes are a pure boost of the room's, and are named as the room's are: a pixel of a screen shows what he sees, in these
-    /// axes, towards it. Wigner's rotation is therefore part of this one.
+    /// The axes of the eye's own frame are a pure boost of the room's and are named as the room's are: a pixel of a
+    /// screen shows what the eye sees, in these axes, towards the pixel. Wigner's rotation is therefore part of this
+    /// rotation.
     pub observer_from_room: DQuat,
-    /// Where it is in the room, metres: what screens are looked at from.
+    /// Place of the eye in the room, metres. Screens are looked at from here.
     pub place_m: DVec3,
 }
 
 impl Occupant {
-    /// One of his eyes; the centre is between them.
+    /// Eye of the occupant; the centre is midway between both eyes.
     ///
-    /// *Equation:* the head's event is simultaneous to the vehicle's reference point for the vehicle, the eyes' events to the head's for the
-    /// head (B 5.2, W 6.3): each a step along the simultaneity of its own frame, [`State::aboard`].
+    /// *Equation:* the head's event is simultaneous with the vehicle's reference point in the vehicle's frame; the
+    /// eyes' events are simultaneous with the head's in the head's frame (B 5.2, W 6.3). Each is a step along the
+    /// simultaneity of its own frame, [`State::aboard`].
     pub fn eye(&self, viewer: &Viewer, eye: Eye) -> OccupantEye {
         let Head { place_m, room_from_head, celerity } = self.head;
         let middle = self.vehicle.aboard(place_m, celerity);

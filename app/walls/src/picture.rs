@@ -1,4 +1,4 @@
-//! One channel: where it is drawn, and how it is drawn for an eye.
+//! One channel's picture: its targets, and how it is drawn for an eye.
 
 use super::Quality;
 use super::curved::Curved;
@@ -14,18 +14,18 @@ use crate::views::{Camera, Field, Tangents, sample_offset};
 use glam::{DMat3, DQuat, DVec2};
 use physics::photo_surface::Eye as Vantage;
 
-/// Pixels along each side for which a gain is worked out.
+/// Side of the square of pixels that share one computed gain, pixels.
 const COARSER_GAINS: u32 = 4;
 
-/// One channel's light.
+/// Light of one channel.
 pub struct Picture {
     way: Way,
     sum: Option<Accumulator>,
-    /// What its pixels are multiplied by.
+    /// Gains that the pixels are multiplied by.
     pub gains: Option<wgpu::TextureView>,
-    /// In linear light, once that was asked for.
+    /// Developed picture in linear light, once it has been asked for.
     pub developed: Option<wgpu::TextureView>,
-    /// How its light is held.
+    /// Scale and kind of the stored light.
     pub stored: Stored,
 }
 
@@ -34,28 +34,28 @@ enum Way {
     Curved(Box<Curved>),
 }
 
-/// Who draws what for whom.
+/// Context in which the channels of one eye are drawn.
 pub struct Sitting<'a> {
-    /// The device.
+    /// Graphics device.
     pub gpu: &'a Gpu,
-    /// The room.
+    /// Display with the room's screens.
     pub display: &'a Display,
-    /// How finely.
+    /// Fineness of the pictures.
     pub quality: &'a Quality,
-    /// Sums of samples.
+    /// Passes that add up samples.
     pub passes: &'a display::Display,
-    /// From flat pictures to surfaces.
+    /// Pass that resamples flat pictures onto a curved surface.
     pub resample: &'a Pass,
-    /// Who looks.
+    /// Eye of the occupant.
     pub eye: OccupantEye,
-    /// The same, for renderers.
+    /// Place and celerity of the eye, for the renderers.
     pub vantage: Vantage,
-    /// What relativity does.
+    /// Relativistic effects on the picture.
     pub effects: Effects,
 }
 
 impl Sitting<'_> {
-    /// What a flat picture in the room shows.
+    /// View of a flat picture in the room.
     fn shot(&self, room_from_eye: DMat3, tangents: Tangents) -> Shot {
         let observer_from_eye = self.eye.observer_from_room * DQuat::from_mat3(&room_from_eye);
         Shot {
@@ -69,7 +69,7 @@ impl Sitting<'_> {
 }
 
 impl Picture {
-    /// Targets and tables of a channel.
+    /// Creates the targets and tables of a channel.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &display::Display) -> Self {
         let size = channel.size();
         let way = match channel.flat(display) {
@@ -82,15 +82,15 @@ impl Picture {
         picture
     }
 
-    /// Works out what its pixels are multiplied by.
+    /// Computes the gains of the channel's pixels.
     pub fn brighten(&mut self, gpu: &Gpu, display: &Display, channel: &Channel) {
-        // Measured maps have edges; what is worked out has none.
+        // Measured maps have edges and need every pixel. Computed gains are smooth.
         let measured = channel.alpha.is_some() || channel.beta.is_some();
         let finest = if measured { channel.size() } else { channel.size().map(|side| side.div_ceil(COARSER_GAINS)) };
         self.gains = channel.gains(display, finest).map(|gains| display::gains(gpu, &gains));
     }
 
-    /// The light of the newest sample.
+    /// Light of the newest sample.
     fn sample(&self) -> &wgpu::TextureView {
         match &self.way {
             Way::Flat(target) => target.result(),
@@ -98,12 +98,12 @@ impl Picture {
         }
     }
 
-    /// The light of the channel.
+    /// Light of the channel: the sum of its samples.
     pub fn light(&self) -> &wgpu::TextureView {
         self.sum.as_ref().map_or_else(|| self.sample(), Accumulator::result)
     }
 
-    /// What its flat pictures show, and their pixels. An eye behind its screen sees black.
+    /// Views and sizes of the channel's flat pictures. If the eye is behind the screen, the picture is made black.
     ///
     /// # Errors
     /// [`EyeBehind`].
@@ -115,13 +115,13 @@ impl Picture {
                 return Err(behind);
             }
         };
-        // All of them hold light alike.
+        // The pictures of a channel store light with the same scale.
         let scale = shots.first().map(|(shot, _)| shot.scale());
         shots.iter_mut().for_each(|(shot, _)| shot.stored_scale = scale);
         Ok(shots)
     }
 
-    /// Draws all samples of them, for an eye that the renderer has been prepared for.
+    /// Draws all samples of the views, for an eye that the renderer has been prepared for.
     pub fn draw(
         &mut self,
         renderer: &mut SceneRenderer,
@@ -148,7 +148,7 @@ impl Picture {
                 }
             };
             for (target, (shot, size)) in targets.into_iter().zip(shots) {
-                // What all samples share is kept if there is only one picture.
+                // With a single picture, the preparation is shared by all samples.
                 if sample == 0 || shots.len() > 1 {
                     renderer.prepare_picture(gpu, shot, *size);
                 }
@@ -171,7 +171,7 @@ impl Picture {
         renderer.certainty(first, *size)
     }
 
-    /// Where its flat pictures look.
+    /// Views and sizes of the channel's flat pictures.
     fn shots(&mut self, channel: &Channel, sitting: &Sitting<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
         let place_m = sitting.eye.place_m;
         match &mut self.way {
@@ -190,7 +190,7 @@ impl Picture {
         }
     }
 
-    /// Shows nothing.
+    /// Makes the picture black.
     fn blacken(&self, gpu: &Gpu) {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match &self.way {

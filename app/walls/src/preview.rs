@@ -1,8 +1,9 @@
-//! A picture of the room itself, from anywhere in it: how one works on a display whose hardware is elsewhere.
+//! Pictures of the room itself, seen from any place: for work on a display whose hardware is elsewhere.
 //!
-//! Every channel of one eye is a net of its screen's points that carries what the channel shows. Light of projectors that overlap adds up, as
-//! it does on the real screen. Screens that turn their backs are drawn as outlines only, so that one can look in from outside; those that face
-//! the onlooker hide nothing of each other in a room that is convex, so there is no depth.
+//! Every channel of one eye is a net of its screen's points that carries the channel's picture. The light of
+//! overlapping projectors adds up, as on the real screen. Screens seen from behind are drawn as outlines only, so
+//! that the inside can be seen from outside. Screens seen from the front do not hide each other in a convex room, so
+//! there is no depth buffer.
 
 use super::{Occupant, Walls};
 use crate::gpu::Gpu;
@@ -16,29 +17,30 @@ use physics::Celerity;
 use std::f64::consts::TAU;
 use wgpu::util::DeviceExt;
 
-/// Cells along each side of the net of a channel whose screen is not flat.
+/// Number of cells along each side of the net of a channel whose screen is not flat.
 const CELLS: u32 = 192;
-/// Half the side of the grid on the ground, and the distance of its lines, metres.
+/// Half side of the grid on the ground, and distance between its lines, metres.
 const GROUND_M: (f64, f64) = (6.0, 0.5);
-/// Radius of the head, metres.
+/// Radius of the drawn head, metres.
 const HEAD_M: f64 = 0.11;
-/// Linear light of the lines.
+/// Linear light of the lines on the ground.
 const GROUND_LIGHT: f32 = 0.02;
 const HEAD_LIGHT: f32 = 0.6;
 
-/// From where a room is seen.
+/// Point of view from which the room is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Onlooker {
-    /// Room axes, metres.
+    /// Place of the onlooker, room axes, metres.
     pub from_m: DVec3,
-    /// What is in the picture's middle.
+    /// Point in the picture's middle, room axes, metres.
     pub towards_m: DVec3,
-    /// Full vertical angle, degrees.
+    /// Full vertical angle of view, degrees.
     pub fov_degrees: f64,
 }
 
 impl Onlooker {
-    /// Someone outside, behind and to the right of and above the head, so far away that all screens are in sight.
+    /// Onlooker outside the room: behind, to the right of and above the head, far enough away that all screens are in
+    /// sight.
     pub fn outside(walls: &Walls) -> Self {
         let display = &walls.display;
         let places = [0.0, 0.5, 1.0].into_iter().flat_map(|y| [0.0, 0.5, 1.0].map(|x| DVec2::new(x, y)));
@@ -58,9 +60,10 @@ impl Onlooker {
         }
     }
 
-    /// Goes round what is in the middle, by angles to the right and up, and comes so many times closer.
+    /// Moves around the point in the middle by angles to the right and up, radians, and divides the distance to it by
+    /// `closer`.
     pub fn orbit(&mut self, right_rad: f64, up_rad: f64, closer: f64) {
-        /// From straight above or below.
+        /// Smallest angle from straight above or below, radians.
         const NEAREST_RAD: f64 = 0.05;
         let from = self.from_m - self.towards_m;
         let level = f64::hypot(from.x, from.z);
@@ -83,11 +86,11 @@ impl Onlooker {
 struct Corner {
     point: Vec3,
     place: Vec2,
-    /// 0 in the picture of which the edge is drawn, 1 elsewhere.
+    /// 0 in pictures whose edges are drawn, 1 elsewhere.
     edge: f32,
 }
 
-/// What draws a room.
+/// Pipelines and buffers that draw a room.
 pub struct Preview {
     eye: Eye,
     nets: Vec<Net>,
@@ -99,7 +102,7 @@ pub struct Preview {
     linear: Option<wgpu::TextureView>,
 }
 
-/// A channel's points.
+/// Points of one channel.
 struct Net {
     channel: usize,
     corners: wgpu::Buffer,
@@ -107,7 +110,7 @@ struct Net {
 }
 
 impl Preview {
-    /// Of the channels of one eye: the left one where there are two.
+    /// Creates the preview of one eye's channels: of the left eye where there are two.
     pub fn new(gpu: &Gpu, walls: &Walls, screen: wgpu::TextureFormat) -> Self {
         let eye = walls
             .display
@@ -151,7 +154,7 @@ impl Preview {
         }
     }
 
-    /// Draws the room with what its channels show now, and the occupant's head in it.
+    /// Draws the room with the present pictures of its channels, and the occupant's head in it.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -276,10 +279,10 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, lines: bool) -> wgpu::Ren
     })
 }
 
-/// The net of a channel; `None` if it lights nothing.
+/// Net of a channel; `None` if the channel lights nothing.
 fn net(gpu: &Gpu, walls: &Walls, index: usize, channel: &Channel) -> Option<Net> {
     let cells = if channel.flat(&walls.display).is_some() { 1 } else { CELLS };
-    // The edges of a projector's picture are no edges of the screen.
+    // The edges of a projector's picture are not edges of the screen.
     let outlined = channel.projector.is_none();
     let corner = |column: u32, row: u32| {
         let share = |at: u32| f64::from(at) / f64::from(cells);
@@ -294,7 +297,7 @@ fn net(gpu: &Gpu, walls: &Walls, index: usize, channel: &Channel) -> Option<Net>
             let cell = [[column, row], [column, row + 1], [column + 1, row + 1], [column + 1, row]];
             match cell.map(|[column, row]| corner(column, row)) {
                 [Some(a), Some(b), Some(c), Some(d)] => triangles.extend([a, b, c, a, c, d]),
-                // Three that are lit make one triangle.
+                // Three lit corners of a cell make one triangle.
                 corners => {
                     let lit: Vec<_> = corners.into_iter().flatten().collect();
                     if lit.len() == 3 {
@@ -308,12 +311,12 @@ fn net(gpu: &Gpu, walls: &Walls, index: usize, channel: &Channel) -> Option<Net>
     (count > 0).then(|| Net { channel: index, corners: buffer(gpu, &triangles), count })
 }
 
-/// A line's end of some brightness.
+/// End of a line, with the line's linear light.
 fn end(point: DVec3, light: f32) -> Corner {
     Corner { point: point.as_vec3(), place: Vec2::splat(light), edge: 1.0 }
 }
 
-/// Lines on the ground: the room's y = 0, or the lowest of its screens.
+/// Grid of lines on the ground, the room's plane y = 0.
 fn ground(walls: &Walls) -> Vec<Corner> {
     let (half, step) = GROUND_M;
     let centre = walls.display.viewer.head_m * DVec3::new(1.0, 0.0, 1.0);
@@ -331,7 +334,7 @@ fn ground(walls: &Walls) -> Vec<Corner> {
     lines.collect()
 }
 
-/// The head: three circles, and a line where it faces.
+/// Lines of the head: three circles, and a line from the eye in the direction it faces.
 fn head(walls: &Walls, occupant: &Occupant, eye: Eye) -> Vec<Corner> {
     const STEPS: u32 = 32;
     let head = &occupant.head;

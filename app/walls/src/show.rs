@@ -1,4 +1,4 @@
-//! From the channels' light to windows and pictures.
+//! Output of the channels' light to windows and pictures.
 
 use super::preview::{Onlooker, Preview};
 use super::test_grid::DEVELOPMENT;
@@ -11,7 +11,8 @@ use crate::room::{Combine, Eye};
 use image::RgbaImage;
 
 impl Walls {
-    /// Shows all channels of a window in it. `first_pixel`: where its upper left pixel is on its monitor.
+    /// Shows all channels of a window in it. `first_pixel` is the place of the window's upper left pixel on its
+    /// monitor.
     pub fn show_window(
         &mut self,
         gpu: &Gpu,
@@ -21,7 +22,7 @@ impl Walls {
         screen: &wgpu::TextureView,
         first_pixel: [i32; 2],
     ) {
-        // A window that is smaller than it should be shows those channels that it has room for.
+        // A window that is smaller than described shows only the channels that fit into it.
         let size = screen.texture().size();
         let fits = |[x, y, width, height]: [u32; 4]| x + width <= size.width && y + height <= size.height;
         let of_window = |channel: &usize| {
@@ -32,7 +33,7 @@ impl Walls {
         let mut over = false;
         for &channel in &channels {
             let (eye, viewport) = (self.display.channels[channel].eye, self.display.channels[channel].viewport);
-            // The other eye's, where they share their pixels: both are shown with the left one.
+            // Channel of the other eye, if both share their pixels. Both are shown together with the left one.
             let partner = channels.iter().copied().find(|&other| {
                 let other = &self.display.channels[other];
                 other.eye != eye && other.viewport == viewport
@@ -53,7 +54,7 @@ impl Walls {
         }
     }
 
-    /// Develops a channel's picture.
+    /// Developed picture of a channel.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -66,7 +67,7 @@ impl Walls {
         Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
     }
 
-    /// Develops a window as it is shown.
+    /// Developed picture of a window, with all its channels.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -84,7 +85,7 @@ impl Walls {
         Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
     }
 
-    /// A picture of the room, from somewhere.
+    /// Picture of the room as an onlooker sees it.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -104,7 +105,7 @@ impl Walls {
         Ok(RgbaImage::from_raw(size[0], size[1], pixels).expect("the sheet has four bytes a pixel"))
     }
 
-    /// A channel's picture in linear light, for what comes after.
+    /// Picture of a channel in linear light, for further processing.
     pub fn developed(
         &mut self,
         gpu: &Gpu,
@@ -134,7 +135,7 @@ impl Walls {
         viewport: [u32; 4],
         over: bool,
     ) {
-        // The eye's exposure is meant for how the first channel holds its light.
+        // The common exposure is made for the scale with which the first channel stores its light.
         let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
         let picture = &self.pictures[channel];
         let exposure = (first / picture.stored.scale) as f32;

@@ -1,7 +1,7 @@
-//! Test grids: what a channel shows while its corners are moved.
+//! Test grids, which channels show while their corners are moved.
 //!
-//! A grid is drawn on the picture, so that corners and measured warps bend it as they bend the picture; then it goes the way of
-//! all light, through gains and the projector's curve, but with no exposure that could change.
+//! A grid is drawn on the picture, so corners and measured warps bend it as they bend the picture. Then it passes
+//! through gains and the projector's curve like all light, but with a fixed exposure.
 
 use super::calibration::Calibration;
 use crate::gpu::Gpu;
@@ -12,37 +12,37 @@ use half::f16;
 use rayon::prelude::*;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// How it is developed: light is shown as it is.
+/// Development of test grids: light is shown as it is.
 pub const DEVELOPMENT: Development = Development { exposure: Exposure::WHITE, tone: Tone::Linear, gamut: Gamut::Clamp };
 
-/// Lines along each axis divide the picture into so many parts.
+/// Number of parts into which lines divide the picture along each axis.
 const PARTS: f64 = 10.0;
-/// Half the width of lines in pixels of the picture.
+/// Half the width of a line, pixels of the picture.
 const HALF_WIDTH: f64 = 1.0;
-/// Width of the frame, likewise: it lies wholly within the picture.
+/// Width of the frame, pixels of the picture. The frame lies wholly within the picture.
 const FRAME: f64 = 3.0;
-/// Diameter of the circle in the picture's smaller side.
+/// Diameter of the circle, in units of the picture's smaller side.
 const CIRCLE: f64 = 0.8;
-/// Radius of corners' marks in the picture's smaller side.
+/// Radius of the corners' marks, in units of the picture's smaller side.
 const MARK: f64 = 0.05;
 
-/// Light between lines; white is 1. Not quite black, so that the picture's extent shows.
+/// Light between the lines; white is 1. It is not quite black, so that the picture's extent shows.
 const BETWEEN: f64 = 0.01;
-/// Light of lines but the middle ones.
+/// Light of all lines except the middle ones; white is 1.
 const LINE: f64 = 0.2;
 
-/// The grids of all channels, and an eye that does not adapt to them.
+/// Grids of all channels, and an adaptation that the grids do not change.
 pub struct Grids {
-    /// One for each channel.
+    /// Pictures of the grids, one for each channel.
     pub lights: Vec<wgpu::TextureView>,
-    /// What shows them as they are.
+    /// Adaptation that shows the grids as they are.
     pub adaptation: Adaptation,
-    /// Corners have been moved since they are shown.
+    /// True if corners have been moved since the grids were shown.
     pub moved: bool,
 }
 
 impl Grids {
-    /// Of all channels of a display.
+    /// Creates the grids of all channels of a display.
     pub fn new(gpu: &Gpu, display: &Display, passes: &display::Display, calibration: &Calibration) -> Self {
         let light = |channel: usize| light(gpu, &display.channels[channel], marked(calibration, channel));
         let lights: Vec<_> = (0..display.channels.len()).map(light).collect();
@@ -55,19 +55,19 @@ impl Grids {
         Self { lights, adaptation, moved: false }
     }
 
-    /// Draws a channel's anew.
+    /// Redraws the grid of a channel.
     pub fn update(&mut self, gpu: &Gpu, display: &Display, calibration: &Calibration, channel: usize) {
         self.lights[channel] = light(gpu, &display.channels[channel], marked(calibration, channel));
     }
 }
 
-/// The channel's corner that is chosen, if one is.
+/// Chosen corner, if it belongs to this channel.
 fn marked(calibration: &Calibration, channel: usize) -> Option<usize> {
     let (of_channel, corner) = calibration.chosen();
     (of_channel == channel).then_some(corner)
 }
 
-/// A channel's grid, where the device reads it.
+/// Texture with a channel's grid.
 fn light(gpu: &Gpu, channel: &Channel, chosen: Option<usize>) -> wgpu::TextureView {
     let [width, height] = channel.size();
     let descriptor = wgpu::TextureDescriptor {
@@ -87,7 +87,7 @@ fn light(gpu: &Gpu, channel: &Channel, chosen: Option<usize>) -> wgpu::TextureVi
         .create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Linear light of the pixels of a channel's viewport, row by row from the upper left; black where nothing of the picture is.
+/// Linear light of the pixels of a channel's viewport, row by row from the upper left; black outside the picture.
 fn texels(channel: &Channel, chosen: Option<usize>) -> Vec<[f16; 4]> {
     let [width, height] = channel.size();
     let size = DVec2::new(f64::from(width), f64::from(height));
@@ -101,7 +101,7 @@ fn texels(channel: &Channel, chosen: Option<usize>) -> Vec<[f16; 4]> {
     (0..height).into_par_iter().flat_map_iter(|row| (0..width).map(move |column| texel(column, row))).collect()
 }
 
-/// Linear sRGB that tells the eyes apart.
+/// Colour of an eye's grid, linear sRGB.
 fn colour(eye: Eye) -> DVec3 {
     match eye {
         Eye::Left => DVec3::new(1.0, 0.3, 0.2),
@@ -110,7 +110,7 @@ fn colour(eye: Eye) -> DVec3 {
     }
 }
 
-/// Light of a place of the picture (0 to 1, y down) that has `size` pixels. `chosen`: the corner whose mark is filled.
+/// Light at a place (0 to 1, y down) of a picture of `size` pixels. `chosen` is the corner whose mark is filled.
 fn brightness(place: DVec2, size: DVec2, chosen: Option<usize>) -> f64 {
     let pixels = place * size;
     let smaller = size.min_element();
@@ -130,7 +130,7 @@ fn brightness(place: DVec2, size: DVec2, chosen: Option<usize>) -> f64 {
     let to_edge = pixels.min(size - pixels).min_element();
     light = light.max((FRAME + 0.5 - to_edge).clamp(0.0, 1.0));
 
-    // A quarter of a ring in each corner, of a disc in the chosen one.
+    // A quarter of a ring in each corner, a quarter of a disc in the chosen one.
     for (index, corner) in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().enumerate() {
         let beyond = (pixels - corner * size).length() - MARK * smaller;
         light = light.max(if chosen == Some(index) { (0.5 - beyond).clamp(0.0, 1.0) } else { line(beyond) });
@@ -140,20 +140,20 @@ fn brightness(place: DVec2, size: DVec2, chosen: Option<usize>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! The grid shows where the picture ends: a wrong program would draw its frame elsewhere than where the corners are, or mark
-    //! another corner than the one that keys move.
+    //! Law under test: the grid shows where the picture ends. A wrong program would draw the frame away from the
+    //! corners, or mark another corner than the one that keys move.
 
     use super::*;
     use crate::room::{Corners, Warp};
 
-    /// A channel of 200 × 100 pixels.
+    /// Channel of 200 × 100 pixels.
     fn channel() -> Channel {
         let mut channel = Display::built_in("window").unwrap().channels[0].clone();
         channel.viewport = [0, 0, 200, 100];
         channel
     }
 
-    /// Green of a pixel, which is its brightness for the point between the eyes.
+    /// Green of a pixel, which is its brightness in the grid of the centre eye.
     fn green(texels: &[[f16; 4]], column: usize, row: usize) -> f64 {
         texels[row * 200 + column][1].to_f64()
     }
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn the_chosen_corner_alone_is_filled() {
-        // Within the marks, whose radius is 10 pixels, and beyond the frame.
+        // Pixels within the marks, whose radius is 10 pixels, and beyond the frame.
         let within = [(5, 5), (394, 5), (394, 194), (5, 194)];
         let mut channel = channel();
         channel.viewport = [0, 0, 400, 200];
@@ -209,7 +209,7 @@ mod tests {
         for row in 0..100 {
             for column in 0..200 {
                 let mirrored = [(199 - column, row), (column, 99 - row)].map(|(x, y)| green(&left, x, y));
-                // Rounding of places.
+                // The tolerance covers rounding of places.
                 assert!(mirrored.iter().all(|light| (light - green(&left, column, row)).abs() < 1e-3));
             }
         }

@@ -1,12 +1,14 @@
-//! What the surfaces around a viewer show: every channel of a display, drawn for a head in the vehicle.
+//! Pictures on the surfaces around a viewer: every channel of a display, drawn for a head in the vehicle.
 //!
 //! # How it works
-//! 1. An [`Occupant`] says where each eye is, in the world and in the room ([`head`]).
-//! 2. The photo-surface of an eye does not depend on where it looks, so it is worked out once for all its channels (W 6.4.1).
-//! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other is drawn into flat pictures around the eye
-//!    ([`facet`]), in which every pixel of the channel then looks its place up ([`curved`]).
-//! 4. Both eyes adapt to all channels together, so that no edge between two screens shows; then each is developed, multiplied by
-//!    its projector's gains, and put into its window.
+//! 1. An [`Occupant`] gives the place of each eye, in the world and in the room ([`head`]).
+//! 2. The photo-surface of an eye does not depend on the direction of view, so it is computed once for all channels
+//!   of that eye (W 6.4.1).
+//! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other channel is drawn into
+//!   flat pictures around the eye ([`facet`]), in which every pixel of the channel then looks up its place
+//!   ([`curved`]).
+//! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
+//!   developed, multiplied by its projector's gains, and put into its window.
 
 pub mod calibration;
 pub mod curved;
@@ -33,62 +35,62 @@ use std::time::Duration;
 use test_grid::Grids;
 use thiserror::Error;
 
-/// Why a display cannot show anything.
+/// Reason why a display cannot show anything.
 #[derive(Debug, Error)]
 pub enum WallsError {
-    /// An eye that is nowhere.
+    /// An eye without a valid place or celerity.
     #[error(transparent)]
     Nowhere(#[from] PhotoSurfaceError),
-    /// No device.
+    /// A device that is missing or lost.
     #[error(transparent)]
     Gpu(#[from] GpuError),
 }
 
-/// What drawing the channels came to.
+/// Outcome of drawing the channels.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn {
-    /// Channels that stay black because their eye is behind their screen, by name.
+    /// Channels that stay black because their eye is behind their screen: the channel's name, and the eye's place.
     pub behind: Vec<(String, EyeBehind)>,
-    /// Vertices that have no place in the photo-surfaces.
+    /// Number of vertices that have no place in the photo-surfaces.
     pub not_finite: usize,
-    /// How long the photo-surfaces took, all eyes together.
+    /// Time that the photo-surfaces took, all eyes together.
     pub transform: Duration,
-    /// How far from their places things are drawn, in the channel where that is most.
+    /// Displacement of the drawn picture from the true one, in the channel where it is largest.
     pub certainty: Certainty,
 }
 
-/// How finely channels are drawn.
+/// Fineness with which channels are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
-    /// What is drawn into.
+    /// Formats of the textures that are drawn into.
     pub format: Format,
-    /// Samples a pixel, one draw each.
+    /// Samples per pixel, one draw each.
     pub samples: u32,
-    /// Texels of flat pictures for each pixel of a screen that is not flat, along each axis.
+    /// Texels of flat pictures per pixel of a screen that is not flat, along each axis.
     pub density: f64,
-    /// Whether these texels are mixed; else the nearest one is taken.
+    /// True if these texels are interpolated; else the nearest one is taken.
     pub smooth: bool,
 }
 
-/// The channels of a display, ready to be drawn.
+/// Channels of a display, ready to be drawn.
 pub struct Walls {
-    /// What they are.
+    /// Display that the channels belong to.
     pub display: Display,
     quality: Quality,
     pictures: Vec<Picture>,
     passes: display::Display,
-    /// The same for pictures in linear light.
+    /// Passes as above, for pictures in linear light.
     linear_passes: display::Display,
-    /// One for each window that combines both eyes.
+    /// Combiners of both eyes' pictures, one entry per window.
     combiners: Vec<Option<Combiner>>,
     resample: Pass,
     adaptation: Adaptation,
-    /// What is shown instead of light.
+    /// Test grids that are shown instead of light.
     grids: Option<Grids>,
 }
 
 impl Walls {
-    /// Makes targets, tables and passes. `screen`: the format that channels are shown in.
+    /// Creates targets, tables and passes. `screen` is the format in which channels are shown.
     pub fn new(gpu: &Gpu, display: Display, quality: Quality, screen: wgpu::TextureFormat) -> Self {
         let colour = quality.format.colour;
         let passes = display::Display::new(gpu, colour, screen);
@@ -107,10 +109,10 @@ impl Walls {
         }
     }
 
-    /// Draws the light of every channel, as an occupant sees it; nothing while they show test grids.
+    /// Draws the light of every channel as the occupant sees it. While test grids are shown, nothing is drawn.
     ///
     /// # Errors
-    /// [`WallsError`]: an eye that is nowhere, or a lost device.
+    /// [`WallsError`]: an eye without a valid place, or a lost device.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -121,7 +123,7 @@ impl Walls {
         if self.grids.is_some() {
             return Ok(Drawn::default());
         }
-        // Each eye's photo-surface, the later ones beside the drawing of the first.
+        // The photo-surfaces of later eyes are computed while the first eye's channels are drawn.
         let mut eyes = Vec::new();
         for side in [Eye::Left, Eye::Right, Eye::Centre] {
             if self.display.channels.iter().any(|channel| channel.eye == side) {
@@ -152,7 +154,7 @@ impl Walls {
                     Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
                 }
             }
-            // What the eye's channels share, then each of them.
+            // The work that the eye's channels share is done first, then each channel is drawn.
             let all: Vec<_> = aimed.iter().flat_map(|(_, shots)| shots.iter().copied()).collect();
             renderer.prepare_eye(gpu, &all);
             for (picture, shots) in aimed {
@@ -162,7 +164,7 @@ impl Walls {
         Ok(drawn)
     }
 
-    /// Adapts the viewer to what the channels show now.
+    /// Adapts the viewer to the present light of the channels.
     pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
         if self.grids.is_some() {
             return;
@@ -176,13 +178,13 @@ impl Walls {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Shows test grids from now on, the chosen corner marked.
+    /// Shows test grids from now on, with the chosen corner marked.
     pub fn show_grids(&mut self, gpu: &Gpu, calibration: &Calibration) {
         self.grids = Some(Grids::new(gpu, &self.display, &self.passes, calibration));
     }
 
-    /// Moves a channel's corners to where `calibration` has them, and draws its grid anew: at once what is worked out from the
-    /// channel alone, the rest when its light is [shown](Self::show_light) again.
+    /// Moves a channel's corners to their places in `calibration` and redraws the channel's test grid. The channel's
+    /// own gains are updated at once; all other tables follow when [light is shown](Self::show_light) again.
     pub fn show_grid(&mut self, gpu: &Gpu, calibration: &Calibration, channel: usize) {
         let Some(grids) = &mut self.grids else { return };
         let warp = calibration.warp(channel);
@@ -195,7 +197,8 @@ impl Walls {
         grids.update(gpu, &self.display, calibration, channel);
     }
 
-    /// Shows light again. Tables and gains follow corners that were moved, others' gains too where channels share a screen.
+    /// Shows light again. If corners were moved, tables and gains are rebuilt for all channels, because channels on
+    /// one screen affect each other's gains.
     pub fn show_light(&mut self, gpu: &Gpu) {
         if !self.grids.take().is_some_and(|grids| grids.moved) {
             return;

@@ -1,16 +1,18 @@
-//! The bicycle (B 5.6.1): what pedals, lever and handlebar do to the worldline.
+//! Bicycle (B 5.6.1): how pedals, lever and handlebar change the worldline.
 //!
-//! The commanded celerity is the speed of the pedalled wheel, road by the rider's own clock, over c. The wheel may turn as fast as anybody can pedal:
-//! dx/dτ has no limit, dx/dt stays below c. A heavy bicycle takes the command up with one time constant and gives way to a slower one with another,
-//! since it rolls on. With u the celerity forward, w the commanded one and v = u c,
+//! The commanded celerity is the speed of the pedalled wheel, in metres of road per second of the rider's own clock,
+//! divided by c. The wheel may turn as fast as a person can pedal: dx/dτ has no limit, while dx/dt stays below c. A
+//! heavy bicycle follows a faster command with one time constant and a slower one with another, since it rolls on.
+//! With u the celerity forward, w the commanded one and v = u c,
 //!
-//! - pedals: du/dτ = (w − u)/T, the felt acceleration of which is (du/dτ)/γ;
+//! - pedals: du/dτ = (w − u)/T, felt as the acceleration (du/dτ)/γ;
 //! - brake: a felt deceleration, in two stages: dη/dτ = −b(lever)/c, which stops any celerity in finite time;
 //! - handlebar: dψ/dτ = v tan δ / L. The bend's radius is L/tan δ metres of the world at any speed;
 //! - road: the pitch follows the ground ([`super::ground`]).
 //!
-//! A motion that turns at Ω (about pilot's up and right) is felt as the acceleration a = Ω × u, and as a turn Ω − (a × u)/(1 + γ) = γ Ω against
-//! gyroscopes, Thomas precession included. These are fed to the integrator. Wheels roll where the frame points: [`roll`] takes away what rounding adds across.
+//! A motion that turns at Ω (about the pilot's up and right axes) is felt as the acceleration a = Ω × u, and against
+//! gyroscopes as the turn Ω − (a × u)/(1 + γ) = γ Ω, Thomas precession included. Both go into the integrator. The
+//! wheels roll along the frame: [`roll`] removes the sideways motion that rounding adds.
 
 use glam::DVec3;
 use physics::Celerity;
@@ -21,30 +23,32 @@ use super::settings::BicycleSettings;
 use super::wishes::Wishes;
 use super::world::World;
 
-/// Below this speed a held brake decelerates in proportion to it, as a tyre gives way before it slips, m/s. The bicycle comes to rest smoothly.
+/// Speed below which a held brake decelerates in proportion to it, as a tyre deforms before it slips, m/s. The
+/// bicycle then comes to rest smoothly.
 const STICTION_M_S: f64 = 0.15;
-/// What slows a bicycle that nobody pedals down to a stop at last, m/s².
+/// Deceleration that finally stops a bicycle that nobody pedals, m/s².
 const ROLLING_M_S2: f64 = 0.05;
-/// No front wheel turns a bicycle faster than this, radians per second: it slips.
+/// Fastest turn of the bicycle, radians per second. Beyond it the front wheel would slip.
 const FASTEST_YAW_RAD_S: f64 = 20.0;
-/// Against a wall the front wheel is walked round at this speed at most, m/s.
+/// Largest speed at which the front wheel is walked round at a wall, m/s.
 const WALK_M_S: f64 = 1.5;
 
-/// The controls of a bicycle during one step.
+/// Controls of a bicycle during one step.
 pub(super) struct Bicycle<'a> {
     settings: &'a BicycleSettings,
     world: World,
     wishes: &'a Wishes,
-    /// Where the ground leads.
+    /// Course of the ground ahead.
     course: Course,
-    /// Whether a wall keeps it from going where it points.
+    /// True if a wall blocks the way ahead.
     blocked: bool,
-    /// Time constant of the answer to the pedals. It is chosen once a step: a kink within would cost the integrator its order.
+    /// Time constant of the answer to the pedals, seconds. It is chosen once per step: a change within a step would
+    /// cost the integrator its order.
     response_s: f64,
 }
 
 impl<'a> Bicycle<'a> {
-    /// The controls of a step that begins with the forward celerity `u`.
+    /// Creates the controls of a step that begins with the forward celerity `u`.
     pub(super) fn new(
         settings: &'a BicycleSettings,
         world: World,
@@ -59,11 +63,11 @@ impl<'a> Bicycle<'a> {
         Self { settings, world, wishes, course, blocked, response_s }
     }
 
-    /// Forward proper acceleration in rapidity per second of own time, at the forward celerity `u`.
+    /// Forward proper acceleration at the forward celerity `u`, as rapidity per second of own time.
     fn forward_per_s(&self, u: f64) -> f64 {
         let gamma = u.hypot(1.0);
         let lever = self.wishes.brake;
-        // Nobody pedals against the second stage.
+        // Pedals have no effect during the brake's second stage.
         let pedals = self.pedals_per_s(u) * (1.0 - 2.0 * lever).max(0.0);
         let rolling = if self.wishes.wheel_speed_m_s == 0.0 { ROLLING_M_S2 } else { 0.0 };
         let deceleration = self.world.celerity(brake_m_s2(self.settings, lever) + rolling);
@@ -71,26 +75,26 @@ impl<'a> Bicycle<'a> {
         pedals / gamma - deceleration * (u / stiction).clamp(-1.0, 1.0)
     }
 
-    /// du/dτ that the pedals want.
+    /// Rate du/dτ that the pedals ask for, per second.
     fn pedals_per_s(&self, u: f64) -> f64 {
         (self.world.celerity(self.wishes.wheel_speed_m_s) - u) / self.response_s
     }
 
-    /// dψ/dτ in radians per second.
+    /// Turn rate dψ/dτ, radians per second.
     fn yaw_rad_s(&self, u: f64) -> f64 {
         let speed = self.world.metres_per_own_second(u);
         let wheel = self.wishes.wheel_speed_m_s;
-        // One who stands against a wall lifts the front wheel round.
+        // A rider who stands against a wall lifts the front wheel round.
         let speed = if self.blocked && wheel.abs() > speed.abs() { wheel.clamp(-WALK_M_S, WALK_M_S) } else { speed };
         let rate = speed * self.wishes.steer_rad.tan() / self.settings.wheelbase_m;
         rate.clamp(-FASTEST_YAW_RAD_S, FASTEST_YAW_RAD_S)
     }
 
-    /// What the ergometer's brake should do, 0 to 1: the lever, the wall, and the inertia of what is being accelerated.
+    /// Resistance for the ergometer's brake, 0 to 1: from the lever, the wall, and the inertia of an acceleration.
     pub(super) fn resistance(&self, u: f64) -> f64 {
-        /// A wheel that turns freely on the level.
+        /// Resistance of a wheel that turns freely on level ground.
         const ROLLING: f64 = 0.05;
-        /// A wheel that turns against a wall.
+        /// Resistance of a wheel that turns against a wall.
         const WALL: f64 = 0.6;
         /// Acceleration that is felt as a full load, m/s².
         const HEAVY_M_S2: f64 = 8.0;
@@ -112,7 +116,8 @@ impl Control for Bicycle<'_> {
         let speed = self.world.metres_per_own_second(u.z.abs());
         let pitch = self.course.pitch_rate_rad_s(nose.y.clamp(-1.0, 1.0).asin(), speed);
         let turn = DVec3::new(pitch, self.yaw_rad_s(-u.z), 0.0);
-        // Bend the way with the frame, about the same axis and by the same celerity, or at large γ the one would run away from the other.
+        // The motion is turned with the frame, about the same axis and by the same celerity. Otherwise the two would
+        // drift apart at large γ.
         let acceleration = DVec3::NEG_Z * self.forward_per_s(-u.z) + turn.cross(u);
         let thomas = acceleration.cross(u) / (1.0 + state.celerity.gamma());
         let c = self.world.speed_of_light_m_s();
@@ -120,16 +125,16 @@ impl Control for Bicycle<'_> {
     }
 }
 
-/// Felt deceleration of the two-stage brake: a drag up to half the lever's way, a firm stop beyond, m/s².
+/// Felt deceleration of the two-stage brake, m/s²: a drag up to half the lever's travel, a firm stop beyond.
 fn brake_m_s2(settings: &BicycleSettings, lever: f64) -> f64 {
     let first = (2.0 * lever).min(1.0);
     let second = (2.0 * lever - 1.0).max(0.0);
     settings.drag_m_s2 * first + (settings.stop_m_s2 - settings.drag_m_s2) * second
 }
 
-/// Puts the celerity along the nose and takes away roll: wheels do not slip sideways, and the rider keeps upright.
+/// Puts the celerity along the nose and removes roll: wheels do not slip sideways, and the rider stays upright.
 pub(super) fn roll(state: &mut State) {
-    /// A lean that rounding makes.
+    /// Largest lean that rounding makes; a smaller one is left alone.
     const ROUNDING: f64 = 1e-14;
     let nose = state.orientation * DVec3::NEG_Z;
     let right = state.orientation * DVec3::X;

@@ -1,23 +1,25 @@
-//! The eye of one who rests in the vehicle.
+//! Eye that rests in the vehicle.
 
 use glam::{DQuat, DVec3};
 use physics::worldline::State;
 use physics::{FourVector, Observer};
 
-/// Who looks, and which way his axes are turned.
+/// Observer at an eye, and the rotation of its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
-    /// Event and celerity in the world.
+    /// Event and celerity of the eye in the world.
     pub observer: Observer,
     /// Rotation from the pilot's axes (right, up, backward) to those of the pure boost from the world.
     pub orientation: DQuat,
 }
 
 impl Eye {
-    /// The eye that rests at `offset_m` (pilot's axes) from a vehicle's reference point.
+    /// Eye that rests at `offset_m` (pilot's axes) from a vehicle's reference point.
     ///
-    /// *Equation:* simultaneous in the vehicle, so that the event is the reference point's plus B(−u)(0, R offset): along the motion the offset is
-    /// longer by γ in the world, and later by u·R offset. A gaze along the vehicle at one time of the world would find it contracted instead.
+    /// *Equation:* the eye is simultaneous with the reference point in the vehicle, so its event is the reference
+    /// point's plus B(−u)(0, R offset). In the world, the offset is longer by γ along the motion, and the event is
+    /// later by u·R offset. A view along the vehicle at one time of the world would show the vehicle contracted
+    /// instead.
     pub fn at_rest_in(state: &State, offset_m: DVec3) -> Self {
         let Observer { event, celerity } = state.observer();
         let world_from_vehicle = state.observer().observer_from_world().inverse();
@@ -28,7 +30,8 @@ impl Eye {
 
 #[cfg(test)]
 mod tests {
-    //! The eye must be at its place and time in the vehicle's frame; one that adds the offset in the world would be off by γ along the motion.
+    //! Law under test: the eye is at its place and time in the vehicle's frame. A program that adds the offset in the
+    //! world would be off by γ along the motion.
     use super::*;
     use physics::{Celerity, Event};
 

@@ -1,10 +1,11 @@
 //! Driving and flying (W 6.2, 6.3): three proper accelerations, roll, rudder and brake.
 //!
-//! The stick's three shifts are proper accelerations along the pilot's right, up and backward. Its twist rolls about the axis of motion. The nose is
-//! turned to face the motion by lateral acceleration, or held by gyroscopes ([`Transport`]). For those whose device has no shifts to
-//! the side, nose up and nose left steer like a rudder: a turn Ω of the motion is the acceleration Ω × u, no more than full thrust, so that near rest
-//! the nose turns on the spot and at high celerity the motion bends as slowly as it must. Driving is flying without vertical thrust, level, and on the
-//! ground where there is any.
+//! The stick's three shifts are proper accelerations along the pilot's right, up and backward axes. Its twist rolls
+//! about the axis of motion. The nose is turned to face the motion by lateral acceleration, or held by gyroscopes
+//! ([`Transport`]). For devices that cannot shift sideways, nose up and nose left steer like a rudder: a turn Ω of
+//! the motion is the acceleration Ω × u, limited to full thrust. Near rest the nose then turns on the spot, and at
+//! high celerity the motion bends slowly. Driving is flying without vertical thrust, level, and on the ground where
+//! there is any.
 
 use glam::DVec3;
 use physics::worldline::{Control, FacingMotion, State, Thrust, Transport};
@@ -14,22 +15,22 @@ use super::settings::{FlightSettings, Nose};
 use super::wishes::Wishes;
 use super::world::World;
 
-/// The celerity below which the nose no longer follows the motion.
+/// Celerity below which the nose no longer follows the motion.
 const SOFTENING: f64 = 0.05;
-/// How fast an angle between nose and motion decays, per second of own time.
+/// Decay rate of the angle between nose and motion, per second of own time.
 const ALIGNMENT_PER_S: f64 = 2.0;
-/// A pulled brake decelerates by this many full thrusts.
+/// Deceleration of a pulled brake, in full thrusts.
 const BRAKE_THRUSTS: f64 = 2.0;
-/// The celerity below which the brake fades, so that the vehicle comes to rest smoothly.
+/// Celerity below which the brake fades, so that the vehicle comes to rest smoothly.
 const STICTION: f64 = 0.02;
 
-/// The controls of a driven or flown vehicle during one step.
+/// Controls of a driven or flown vehicle during one step.
 pub(super) struct Flight<'a> {
     settings: &'a FlightSettings,
     world: World,
     wishes: &'a Wishes,
     transport: Transport,
-    /// Where the ground leads, for one who drives.
+    /// Course of the ground ahead; `None` in flight.
     course: Option<Course>,
 }
 
@@ -43,14 +44,14 @@ impl<'a> Flight<'a> {
         Self { settings, world, wishes, transport, course }
     }
 
-    /// The acceleration that turns the motion along with the rudder, pilot's axes, per second.
+    /// Acceleration that turns the motion with the rudder, pilot's axes, per second of own time.
     fn rudder_per_s(&self, rudder: DVec3, u: DVec3) -> DVec3 {
         let full = self.settings.thrust_per_s;
         let wanted = rudder.cross(u);
         wanted * (full / full.hypot(wanted.length()))
     }
 
-    /// The acceleration that keeps one who drives on the ground, world axes, per second.
+    /// Acceleration that keeps a driven vehicle on the ground, world axes, per second of own time.
     fn ground_per_s(&self, course: &Course, state: &State) -> DVec3 {
         let Some(direction) = state.celerity.direction() else { return DVec3::ZERO };
         let u = state.celerity.magnitude();
@@ -92,9 +93,9 @@ impl Control for Flight<'_> {
     }
 }
 
-/// Keeps one who drives level, whatever the ground does.
+/// Keeps a driven vehicle level, whatever the ground does.
 pub(super) fn level(state: &mut State) {
-    /// A tilt that rounding makes.
+    /// Largest tilt that rounding makes; a smaller one is left alone.
     const ROUNDING: f64 = 1e-14;
     let up = state.orientation * DVec3::Y;
     if up.x.hypot(up.z) > ROUNDING {

@@ -1,9 +1,10 @@
-//! The vehicle: from what the rider wants to the worldline he gets.
+//! The vehicle: it turns the rider's controls into a worldline.
 //!
 //! # How it works
 //!
-//! One controller, three ways to drive ([`VehicleKind`]). Each turns the rider's [`Controls`] into a thrust and a turn rate in the pilot's own axes, which
-//! an integrator of [`physics::worldline`] makes into a worldline in proper time, the user's own time (B 2.7, 5.6.1):
+//! There is one controller with three ways to drive ([`VehicleKind`]). Each turns the rider's [`Controls`] into a
+//! thrust and a turn rate in the pilot's own axes. An integrator of [`physics::worldline`] makes a worldline of them,
+//! in proper time, which is the user's own time (B 2.7, 5.6.1):
 //!
 //! | kind | controls | keeps to |
 //! |---|---|---|
@@ -11,10 +12,11 @@
 //! | drive | two thrusts, rudder, brake (`flight`) | the ground, the street |
 //! | fly | three thrusts, roll, rudder, brake (`flight`) | nothing |
 //!
-//! The celerity is never set by hand, save for constraints that are named as such: wheels do not slip (`bicycle::roll`), walls hold (`walls`), the
-//! rapidity is capped at [`RAPIDITY_CAP`]. So nothing jumps, at rest, in reverse or at extreme speed; only a change of kind and a restart may.
+//! The celerity is never set directly, except by named constraints: wheels do not slip (`bicycle::roll`), walls hold
+//! (`walls`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion therefore never jumps, at rest, in reverse or at
+//! extreme speed; only a change of kind and a restart may make it jump.
 //!
-//! A step depends on nothing but the vehicle, the controls and the [`Surroundings`]; the same calls give the same bits.
+//! A step depends only on the vehicle, the controls and the [`Surroundings`]; the same calls give the same bits.
 //!
 //! # Example
 //!
@@ -22,7 +24,8 @@
 //! use input::{Controls, VehicleKind};
 //! use rapidity::vehicle::{OpenPlane, Vehicle, VehicleSettings, World};
 //!
-//! let mut bicycle = Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, Default::default(), VehicleSettings::default())?;
+//! let mut bicycle =
+//!     Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, Default::default(), VehicleSettings::default())?;
 //! let pedalling = Controls { wheel_speed: Some(25.0 / 3.0), ..Default::default() };
 //! for _ in 0..20 * 240 {
 //!     bicycle.step(1.0 / 240.0, &pedalling, &OpenPlane);
@@ -61,19 +64,20 @@ use flight::{Flight, level};
 use ground::{Course, heading, placed, upright};
 use wishes::Wishes;
 
-/// The largest rapidity that a vehicle reaches, γ = 2.7e11: there and back, f64 is off by |δu| ≈ εγ = 6e-5 (NUMERICS).
+/// Largest rapidity of a vehicle, γ = 2.7e11. There, a boost and its inverse in f64 are off by |δu| ≈ εγ = 6e-5
+/// (NUMERICS).
 pub const RAPIDITY_CAP: f64 = 27.0;
 
-/// Longer steps are cut, seconds of own time.
+/// Longest piece that a step is cut into, seconds of own time.
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
-/// More pieces than this are not computed for one step.
+/// Largest number of pieces of one step.
 const MOST_PIECES: f64 = 64.0;
-/// The sine of a slope that no road has.
+/// Sine of a slope steeper than any road.
 const STEEPEST_ROAD: f64 = 0.9;
-/// More strides than this are not computed between walls for one piece of a step.
+/// Largest number of strides between walls for one piece of a step.
 const MOST_STRIDES: usize = 64;
 
-/// A bicycle, a car or a spaceship, and the worldline it has followed so far.
+/// Bicycle, car or spaceship, at the present end of its worldline.
 #[derive(Clone, Debug)]
 pub struct Vehicle {
     world: World,
@@ -81,17 +85,17 @@ pub struct Vehicle {
     settings: VehicleSettings,
     state: State,
     odometer: Odometer,
-    /// A wall keeps it from going where it points.
+    /// True if a wall blocks the way ahead.
     blocked: bool,
     resistance: f64,
     notices: Vec<Notice>,
 }
 
 impl Vehicle {
-    /// A vehicle in this state, its odometer at zero.
+    /// Creates a vehicle in the given state, with its odometer at zero.
     ///
     /// # Errors
-    /// A setting cannot be used.
+    /// [`SettingsError`] for a setting that cannot be used.
     pub fn new(
         world: World,
         kind: VehicleKind,
@@ -103,23 +107,23 @@ impl Vehicle {
         Ok(Self { world, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
     }
 
-    /// Where the reference point is in spacetime: on the ground for one who rides or drives, the pilot's eye for one who flies. The orientation is that
-    /// of the pilot's axes: right, up, backward.
+    /// State of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
+    /// pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// How it is driven.
+    /// Way in which the vehicle is driven.
     pub fn kind(&self) -> VehicleKind {
         self.kind
     }
 
-    /// The world's speed of light.
+    /// World with its speed of light.
     pub fn world(&self) -> World {
         self.world
     }
 
-    /// How it responds.
+    /// Settings of the vehicle's response.
     pub fn settings(&self) -> &VehicleSettings {
         &self.settings
     }
@@ -129,28 +133,28 @@ impl Vehicle {
         &self.odometer
     }
 
-    /// What the rider should be told about the last step.
+    /// Notices for the rider about the last step.
     pub fn notices(&self) -> &[Notice] {
         &self.notices
     }
 
-    /// What the ergometer's brake should do, 0 to 1, from the lever and from what the bicycle feels (B 5.6.1).
+    /// Resistance for the ergometer's brake, 0 to 1, from the lever and from the load on the bicycle (B 5.6.1).
     pub fn resistance(&self) -> f64 {
         self.resistance
     }
 
-    /// The eye of the one who rides, drives or flies.
+    /// Eye of the rider, driver or pilot.
     pub fn eye(&self) -> Eye {
         Eye::at_rest_in(&self.state, self.eye_offset())
     }
 
-    /// Changes the speed of light. Celerity and place stay what they are.
+    /// Changes the speed of light. Celerity and place stay unchanged.
     pub fn set_world(&mut self, world: World) {
         self.world = world;
     }
 
-    /// Changes the way to drive. Taking off, the eye stays where it is; a bicycle and a car are set upright on the ground below, where there is any,
-    /// with what they keep of their celerity.
+    /// Changes the way of driving. At take-off the eye stays in place. A bicycle and a car are set upright on the
+    /// ground below, where there is any, and keep the part of their celerity that their constraints allow.
     pub fn set_kind(&mut self, kind: VehicleKind, surroundings: &dyn Surroundings) {
         if kind == self.kind {
             return;
@@ -163,7 +167,7 @@ impl Vehicle {
         self.settle(surroundings);
     }
 
-    /// Puts a vehicle that belongs there upright on the ground.
+    /// Puts a bicycle or a car upright on the ground.
     pub fn settle(&mut self, surroundings: &dyn Surroundings) {
         self.blocked = false;
         if self.kind == VehicleKind::Fly {
@@ -176,8 +180,9 @@ impl Vehicle {
 
     /// Moves on by `own_s` seconds of the vehicle's own time.
     ///
-    /// Whatever the controls hold, the state stays finite: what is not a number counts as let go, and a step that cannot be integrated is not taken
-    /// ([`Vehicle::notices`]). A step longer than a 240th of a second is cut into such; no more than 64 of them are taken.
+    /// The state stays finite for any controls: a control that is not a number counts as released, and a step that
+    /// cannot be integrated is not taken ([`Vehicle::notices`]). A step longer than 1/240 s is cut into pieces of at
+    /// most that length; at most 64 pieces are taken.
     pub fn step(&mut self, own_s: f64, controls: &Controls, surroundings: &dyn Surroundings) {
         self.notices.clear();
         let wishes = Wishes::new(controls);
@@ -187,7 +192,7 @@ impl Vehicle {
         if !(own_s.is_finite() && own_s > 0.0) {
             return;
         }
-        /// A quotient this little above a whole number is that number.
+        /// Excess over a whole number that counts as rounding.
         const ROUNDING: f64 = 1e-9;
         let own_s = own_s.min(MOST_PIECES * LONGEST_STEP_S);
         let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().max(1.0);
@@ -199,20 +204,20 @@ impl Vehicle {
         }
     }
 
-    /// One piece of a step through free space.
+    /// Takes one piece of a step through free space.
     fn fly(&mut self, own_s: f64, wishes: &Wishes) {
         self.resistance = 0.0;
         let settings = self.settings;
         self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, None));
     }
 
-    /// One piece of a step on the ground, in strides that no wall is thinner than.
+    /// Takes one piece of a step on the ground, in strides shorter than any wall is thick.
     fn ride(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
         let mut left_s = own_s;
         let mut wall = walls::nearest(surroundings, self.state.position, self.way_m(own_s));
         for stride in 1.. {
             self.keep_clear(wall, left_s);
-            // As far as is free, or to the end of the step.
+            // The stride goes as far as the way is free, or to the end of the step.
             let free_m = walls::stride_m(wall, self.way_m(left_s));
             if stride == MOST_STRIDES && self.way_m(left_s) > free_m {
                 self.state.celerity = walls::slowed(self.state.celerity, free_m, left_s, self.world);
@@ -240,7 +245,7 @@ impl Vehicle {
         }
     }
 
-    /// One stride on the ground, walls left aside.
+    /// Takes one stride on the ground, without regard to walls.
     fn drive_on(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
         let (direction, backward) = self.road_direction();
         let course = Course::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
@@ -258,7 +263,7 @@ impl Vehicle {
         self.constrain();
     }
 
-    /// Integrates the worldline, caps the rapidity, and turns the odometer.
+    /// Integrates the worldline, caps the rapidity, and advances the odometer.
     fn integrate(&mut self, own_s: f64, control: &dyn Control) {
         let before = self.state.celerity;
         let step = self.world.metres(own_s);
@@ -283,7 +288,7 @@ impl Vehicle {
         self.odometer.count(self.world, own_s, before, self.state.celerity);
     }
 
-    /// What a vehicle on the ground cannot do: slip sideways, lean, tilt.
+    /// Removes motions that are impossible on the ground: slipping sideways, leaning, tilting.
     fn constrain(&mut self) {
         match self.kind {
             VehicleKind::Bicycle => roll(&mut self.state),
@@ -292,7 +297,8 @@ impl Vehicle {
         }
     }
 
-    /// Takes away what is too fast into the wall. A car slides along it; the frame of a bicycle has to be turned first, and turns as it rolls.
+    /// Removes the excess of celerity into the wall. A car slides along the wall. A bicycle's frame has to be turned
+    /// first, and it turns while the bicycle rolls.
     fn keep_clear(&mut self, wall: Option<Wall>, own_s: f64) {
         let celerity = self.state.celerity.vector();
         let wall = wall.filter(|wall| walls::excess(wall, celerity, self.world) > 0.0);
@@ -311,12 +317,13 @@ impl Vehicle {
         self.state.celerity = Celerity::new(kept).unwrap_or(Celerity::ZERO);
     }
 
-    /// The celerity along the nose.
+    /// Celerity along the nose.
     fn forward(&self) -> f64 {
         self.state.celerity.vector().dot(self.state.orientation * DVec3::NEG_Z)
     }
 
-    /// The direction of the motion, or of the nose at rest, not steeper than a road is; and whether the motion is backward.
+    /// Unit vector of the motion, or of the nose at rest or on a slope steeper than any road; and true if the motion
+    /// is backward.
     fn road_direction(&self) -> (DVec3, bool) {
         let backward = self.forward() < 0.0;
         let nose = heading(self.state.orientation);
@@ -324,7 +331,7 @@ impl Vehicle {
         (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
     }
 
-    /// Road that goes by in a time at the present celerity, metres.
+    /// Distance covered in a time at the present celerity, metres of road.
     fn way_m(&self, own_s: f64) -> f64 {
         self.world.metres(own_s) * self.state.celerity.magnitude()
     }
@@ -340,7 +347,7 @@ impl Vehicle {
     }
 }
 
-/// The unit vector along `from`, turned towards `to` by `angle_rad` or until it is there.
+/// Unit vector along `from`, turned towards `to` by `angle_rad`, but not beyond it.
 fn turned_towards(from: DVec3, to: DVec3, angle_rad: f64) -> DVec3 {
     let from = from.normalize_or_zero();
     let Some(to) = to.try_normalize() else { return from };

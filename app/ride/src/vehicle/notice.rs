@@ -1,23 +1,23 @@
-//! What a rider should be told while he rides.
+//! Notices for the rider during a ride.
 
 use std::fmt;
 
 use super::RAPIDITY_CAP;
 
-/// Something about the last step that is not as it was asked.
+/// Deviation of the last step from what was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notice {
     /// The rapidity has reached its cap.
     RapidityCapped,
-    /// A control was no finite number and counted as let go.
+    /// A control was not a finite number and counted as released.
     ControlsNotFinite,
-    /// The chosen integrator gave up on a step, and RK4 took it.
+    /// The chosen integrator failed in a step, and RK4 took the step.
     TakenByRk4,
     /// A step could not be integrated and was not taken.
     NotIntegrated,
-    /// The walls stand too close for this celerity.
+    /// The walls are too close for this celerity, so the vehicle was slowed down.
     HeldByWalls,
-    /// A speed of light was asked for with which no world can be computed.
+    /// The speed of light that was asked for is out of range.
     SpeedOfLightRefused,
 }
 

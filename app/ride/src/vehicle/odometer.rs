@@ -1,4 +1,4 @@
-//! How far and how long a ride was, by the road and its clocks and by the rider's own.
+//! Odometer: distances and times of a ride, by the world's measure and by the rider's own.
 
 use physics::Celerity;
 
@@ -9,16 +9,17 @@ use super::world::World;
 pub struct Odometer {
     /// Distance along the road, metres of the world: ∫ |u| c dτ.
     pub road_m: f64,
-    /// Distance on the rider's own odometer, metres: the road that went by as he measures it, contracted, ∫ β c dτ.
+    /// Distance on the rider's own odometer, metres: the contracted road that went by, ∫ β c dτ.
     pub own_m: f64,
     /// Time on the rider's own clock, seconds.
     pub own_s: f64,
-    /// Time on the world's clocks as he passes them, seconds: ∫ γ dτ.
+    /// Time on the world's clocks at the rider's place, seconds: ∫ γ dτ.
     pub world_s: f64,
 }
 
 impl Odometer {
-    /// Adds a step by the trapezoidal rule. Places and times themselves would not do: on a far journey they no longer tell one step from the next.
+    /// Adds a step by the trapezoidal rule. Differences of places and times would not do: far from the start, they no
+    /// longer resolve a single step.
     pub(super) fn count(&mut self, world: World, own_s: f64, from: Celerity, to: Celerity) {
         let mean = |value: fn(Celerity) -> f64| 0.5 * (value(from) + value(to));
         let own_m = world.metres(own_s);

@@ -1,25 +1,25 @@
-//! What can be set about the vehicles. All of it decides where a ride goes, so all of it belongs into a recording.
+//! Settings of the vehicles. Each of them affects the ride, so all of them are kept in a recording.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How the vehicles respond.
+/// Settings of a vehicle's response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VehicleSettings {
-    /// The bicycle.
+    /// Settings of the bicycle.
     pub bicycle: BicycleSettings,
-    /// Driving and flying.
+    /// Settings of driving and flying.
     pub flight: FlightSettings,
-    /// How the worldline is integrated.
+    /// Integrator of the worldline.
     pub integrator: IntegratorKind,
-    /// Where the eye of the rider or driver is from the reference point on the ground, metres: right, up, backward.
+    /// Offset of the rider's or driver's eye from the reference point on the ground, metres: right, up, backward.
     pub eye_m: [f64; 3],
 }
 
 impl Default for VehicleSettings {
-    /// Eyes 1.6 m above the ground.
+    /// Default settings, with eyes 1.6 m above the ground.
     fn default() -> Self {
         Self {
             bicycle: BicycleSettings::default(),
@@ -34,7 +34,7 @@ impl VehicleSettings {
     /// Checks every setting.
     ///
     /// # Errors
-    /// Names the first that cannot be used.
+    /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
         let Self { bicycle, flight, integrator: _, eye_m } = self;
         let positive = [
@@ -58,47 +58,48 @@ impl VehicleSettings {
     }
 }
 
-/// What is asked of every positive setting; a vehicle outside would be none to ride.
+/// Range allowed for every positive setting. A vehicle outside it could not be ridden.
 const MODEST: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
-/// No eye is farther than this from its vehicle, metres.
+/// Largest offset of an eye from its vehicle along each axis, metres.
 const FARTHEST_EYE_M: f64 = 1e3;
 
-/// A setting that cannot be used.
+/// Setting that cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("vehicle setting {key} is {value}: expected {expected}")]
 pub struct SettingsError {
-    /// Its full name.
+    /// Full name of the setting.
     pub key: &'static str,
-    /// What it is set to.
+    /// Value of the setting.
     pub value: f64,
-    /// What would do.
+    /// Description of the values that are allowed.
     pub expected: &'static str,
 }
 
-/// The bicycle of B 5.6.1. Speeds and accelerations are those that the rider measures: road by his own clock.
+/// Settings of the bicycle of B 5.6.1. Speeds and accelerations are as the rider measures them: road by the rider's
+/// own clock.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BicycleSettings {
-    /// Distance of the axles, metres.
+    /// Distance between the axles, metres.
     pub wheelbase_m: f64,
-    /// How soon the bicycle has taken up a faster pedalling, seconds (time constant).
+    /// Time constant with which the bicycle follows faster pedalling, seconds.
     pub pedal_response_s: f64,
-    /// How soon it gives way to a slower one, seconds (time constant): it rolls on.
+    /// Time constant with which the bicycle follows slower pedalling, seconds: it rolls on.
     pub coast_response_s: f64,
-    /// Deceleration with the brake lever half pulled, the end of its first stage, m/s².
+    /// Deceleration with the brake lever half pulled, at the end of its first stage, m/s².
     pub drag_m_s2: f64,
-    /// Deceleration with the lever pulled through, the end of its second stage, m/s².
+    /// Deceleration with the lever fully pulled, at the end of its second stage, m/s².
     pub stop_m_s2: f64,
 }
 
 impl Default for BicycleSettings {
-    /// A heavy bicycle.
+    /// Default settings: a heavy bicycle.
     fn default() -> Self {
         Self { wheelbase_m: 1.1, pedal_response_s: 0.7, coast_response_s: 3.0, drag_m_s2: 1.0, stop_m_s2: 6.0 }
     }
 }
 
-/// Driving and flying (W 6.2, 6.3).
+/// Settings of driving and flying (W 6.2, 6.3).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlightSettings {
@@ -106,18 +107,18 @@ pub struct FlightSettings {
     pub thrust_per_s: f64,
     /// Turn rate at full deflection, radians per second of own time.
     pub turn_rad_s: f64,
-    /// Which way the nose points.
+    /// Direction of the nose.
     pub nose: Nose,
 }
 
 impl Default for FlightSettings {
-    /// u = 1, that is β = 0.71, after three seconds: asinh 1 / 3 s.
+    /// Default settings: u = 1, that is β = 0.71, is reached after three seconds (asinh 1 / 3 s).
     fn default() -> Self {
         Self { thrust_per_s: 0.294, turn_rad_s: 1.0, nose: Nose::default() }
     }
 }
 
-/// Which way the nose of a driven or flown vehicle points.
+/// Direction of the nose of a driven or flown vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Nose {
@@ -125,26 +126,26 @@ pub enum Nose {
     #[default]
     #[value(name = "facing")]
     FacesMotion,
-    /// Held by gyroscopes: it turns only when told to, and by Thomas precession (Fermi–Walker transport).
+    /// The nose is held by gyroscopes: it turns only when told to, and by Thomas precession (Fermi–Walker transport).
     Gyroscopic,
 }
 
-/// How the worldline is integrated.
+/// Method of integrating the worldline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum IntegratorKind {
-    /// Classical Runge–Kutta.
+    /// Classical Runge–Kutta method of fourth order.
     #[default]
     Rk4,
-    /// Exact for constant controls, midpoint for others.
+    /// Exact for constant controls, midpoint rule for others.
     Exact,
-    /// Adaptive (DOPRI5).
+    /// Adaptive Dormand–Prince method (DOPRI5).
     #[value(name = "dopri5")]
     DormandPrince,
 }
 
 impl IntegratorKind {
-    /// The name in recordings and on the command line.
+    /// Name in recordings and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rk4 => "rk4",

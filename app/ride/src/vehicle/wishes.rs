@@ -1,14 +1,14 @@
-//! The controls, made safe: finite, within their ranges, with a wheel that stands still where there is none.
+//! Safe controls: finite and within their ranges. A missing wheel counts as standing still.
 
 use glam::DVec3;
 use input::Controls;
 
-/// No handlebar turns further than this, radians: at a right angle the kinematic bicycle would turn on the spot.
+/// Largest angle of the handlebar, radians. At a right angle the kinematic bicycle would turn on the spot.
 const FARTHEST_STEER_RAD: f64 = 1.2;
-/// No wheel is pedalled faster than this, m/s.
+/// Largest speed of the pedalled wheel, m/s.
 const FASTEST_WHEEL_M_S: f64 = 100.0;
 
-/// What the rider wants, see [`Controls`].
+/// Rider's controls after the checks; see [`Controls`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Wishes {
     pub(super) wheel_speed_m_s: f64,
@@ -16,7 +16,7 @@ pub(super) struct Wishes {
     pub(super) brake: f64,
     pub(super) thrust: DVec3,
     pub(super) turn: DVec3,
-    /// Whether one of the controls was no finite number; it counts as let go.
+    /// True if one of the controls was not a finite number; it counts as released.
     pub(super) contained: bool,
 }
 

@@ -1,12 +1,12 @@
-//! The speed of light of a world, and the conversions that it makes possible.
+//! Speed of light of a world, and the conversions that depend on it.
 //!
-//! Physics has no metres per second: times are lengths of light travel, velocities are celerities. Wheels, brakes and clocks on a
-//! wall know nothing of that. Here, and only here, one becomes the other.
+//! The physics has no metres per second: times are lengths of light travel, and velocities are celerities. Wheels,
+//! brakes and clocks use seconds. This module is the only place where one is converted into the other.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A world, as far as its unit of time is concerned.
+/// World, as far as its speed of light is concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct World {
@@ -14,17 +14,17 @@ pub struct World {
 }
 
 impl World {
-    /// The slowest light, m/s: a thousandth of a snail's pace keeps every conversion finite.
+    /// Slowest light, m/s. A thousandth of a snail's pace keeps every conversion finite.
     pub const SLOWEST_M_S: f64 = 1e-6;
-    /// The fastest light, m/s: beyond it nothing relativistic is left to see.
+    /// Fastest light, m/s. Beyond it no relativistic effect can be seen.
     pub const FASTEST_M_S: f64 = 1e12;
-    /// The old town of B 5.6.1: 30 km/h.
+    /// Old town of B 5.6.1, with a speed of light of 30 km/h.
     pub const OLD_TOWN: Self = Self { speed_of_light_m_s: 30.0 / 3.6 };
 
-    /// A world in which light goes at this speed.
+    /// Creates a world whose light has this speed.
     ///
     /// # Errors
-    /// The speed lies outside [`World::SLOWEST_M_S`] to [`World::FASTEST_M_S`], or is not a number.
+    /// [`WorldError`] if the speed lies outside [`World::SLOWEST_M_S`] to [`World::FASTEST_M_S`], or is not a number.
     pub fn new(speed_of_light_m_s: f64) -> Result<Self, WorldError> {
         if (Self::SLOWEST_M_S..=Self::FASTEST_M_S).contains(&speed_of_light_m_s) {
             Ok(Self { speed_of_light_m_s })
@@ -33,27 +33,27 @@ impl World {
         }
     }
 
-    /// c in m/s.
+    /// Speed of light c, m/s.
     pub fn speed_of_light_m_s(self) -> f64 {
         self.speed_of_light_m_s
     }
 
-    /// A time in seconds as the way of light, metres.
+    /// Length of light travel, metres, of a time in seconds.
     pub fn metres(self, seconds: f64) -> f64 {
         seconds * self.speed_of_light_m_s
     }
 
-    /// A time in metres of light travel in seconds.
+    /// Time in seconds of a length of light travel in metres.
     pub fn seconds(self, metres: f64) -> f64 {
         metres / self.speed_of_light_m_s
     }
 
-    /// Metres of road per second of the rider's own time as a celerity.
+    /// Celerity of a speed in metres of road per second of the rider's own time.
     pub fn celerity(self, metres_per_own_second: f64) -> f64 {
         metres_per_own_second / self.speed_of_light_m_s
     }
 
-    /// A celerity as metres of road per second of the rider's own time.
+    /// Speed in metres of road per second of the rider's own time, from a celerity.
     pub fn metres_per_own_second(self, celerity: f64) -> f64 {
         celerity * self.speed_of_light_m_s
     }
@@ -72,7 +72,7 @@ impl From<World> for f64 {
     }
 }
 
-/// A speed of light with which no world can be computed.
+/// Speed of light out of range.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error(
     "the speed of light is {speed_of_light_m_s} m/s: expected {:e} to {:e} m/s",
@@ -80,7 +80,7 @@ impl From<World> for f64 {
     World::FASTEST_M_S
 )]
 pub struct WorldError {
-    /// What was given.
+    /// Speed that was given, m/s.
     pub speed_of_light_m_s: f64,
 }
 
@@ -93,7 +93,7 @@ mod tests {
         let world = World::new(8.0).unwrap();
         assert_eq!((world.metres(2.5), world.seconds(20.0)), (20.0, 2.5));
         assert_eq!((world.celerity(6.0), world.metres_per_own_second(0.75)), (0.75, 6.0));
-        // 30 km/h.
+        // This is 30 km/h.
         assert!((World::OLD_TOWN.metres(3600.0) - 30_000.0).abs() < 1e-9);
     }
 

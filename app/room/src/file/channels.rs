@@ -1,4 +1,4 @@
-//! `[[channel]]`: names become indices, files become maps.
+//! `[[channel]]` tables: names are turned into indices, and named files into maps.
 
 use super::schema;
 use super::text::Text;
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec4};
 use std::path::Path;
 use toml::Spanned;
 
-/// What channels refer to.
+/// Named parts of the display that channels refer to.
 pub(super) struct Resolver<'a> {
     pub text: &'a Text<'a>,
     pub screens: &'a [Screen],
@@ -20,7 +20,7 @@ pub(super) struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// All channels.
+    /// Channels of all `[[channel]]` tables, in the file's order.
     pub fn resolve(&self, tables: &[Spanned<schema::Channel>]) -> Result<Vec<Channel>, DisplayError> {
         super::names(self.text, "channel", tables, |channel| &channel.name)?;
         tables.iter().map(|table| self.channel(table)).collect()
@@ -93,7 +93,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// Corners are pixels from the viewport's upper left; those left out stay where they are.
+    /// Warp from corners, given in pixels from the viewport's upper left. A corner left out stays at the viewport's
+    /// own; `None` if all four do.
     fn corners(
         &self,
         given: &schema::Corners,
@@ -148,7 +149,7 @@ fn part(given: &schema::Channel, at: &dyn Fn(&str) -> Box<At>) -> Result<Part, D
     }
 }
 
-/// The index of a name.
+/// Index of `name` among the known names.
 fn find<'a>(
     at: impl Fn() -> Box<At>,
     kind: &'static str,
@@ -163,7 +164,7 @@ fn find<'a>(
     })
 }
 
-/// Why a channel's picture cannot be called that.
+/// Reason why `name` cannot be the name of a channel's picture file; `None` if it can.
 fn not_a_file_name(name: &str) -> Option<&'static str> {
     if name.contains(['/', '\\']) {
         Some("a channel's picture is a file of that name, so it must have no / and no \\")

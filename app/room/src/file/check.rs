@@ -1,10 +1,10 @@
-//! What only the whole display can show: pixels that two channels want, eyes behind their screens.
+//! Checks of the whole display: two channels on the same pixels, eyes behind their screens.
 
 use crate::frustum::EyeBehind;
 use crate::{At, Channel, Combine, Display, DisplayError, Eye};
 use glam::{DMat3, DVec2};
 
-/// Compares everything with everything; `at` says where a key of a channel is.
+/// Refuses channels that overlap and eyes behind screens. `at` gives the place of a channel's key in the file.
 pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
@@ -29,17 +29,17 @@ fn overlap(a: &Channel, b: &Channel) -> bool {
     !(apart(0) || apart(1))
 }
 
-/// A left and a right channel on the same pixels.
+/// True for a left and a right channel on the same pixels.
 fn pair(a: &Channel, b: &Channel) -> bool {
     a.viewport == b.viewport && matches!((a.eye, b.eye), (Eye::Left, Eye::Right) | (Eye::Right, Eye::Left))
 }
 
-/// The untracked head's eye, if it sees the middle of what the channel shows from behind.
+/// Eye of the untracked head, if it sees the middle of the channel's part of the screen from behind.
 fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
     let surface = &display.screens[channel.screen].surface;
     let eye_m = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let uv = channel.part.uv(DVec2::splat(0.5));
-    // Of a projector's channel, the middle of what it lights.
+    // A projector's channel is judged at the middle of the area that it lights.
     let uv = match channel.projector {
         Some(_) => surface.uv(channel.point(display, DVec2::splat(0.5))?)?,
         None => uv,
@@ -48,7 +48,7 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
     (distance_m <= 0.0).then_some(EyeBehind { eye_m, distance_m })
 }
 
-/// What the user should know about a good display.
+/// Notices for the user about a display without errors.
 pub(super) fn notices(display: &Display) -> Vec<String> {
     let mut notices = Vec::new();
     for (index, window) in display.windows.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Display files: TOML in, a checked [`Display`] out. docs/DISPLAYS.md lists every key.
 //!
-//! `schema` has the tables as written, `screens` and `channels` resolve them, and `check` compares what only the whole can show.
-//! [`save()`] is the way back, for corners.
+//! Module `schema` has the tables as written, `screens`, `projectors` and `channels` resolve them, and `check` makes
+//! the checks that need the whole display. [`save()`] writes nudged corners back into the file.
 
 mod channels;
 mod check;
@@ -20,7 +20,7 @@ use std::path::Path;
 use text::Text;
 use toml::{Spanned, Value};
 
-/// The largest side of a window in pixels: what no graphics device draws.
+/// Largest side of a window, pixels. No graphics device draws a larger one.
 const MAX_PIXELS: u32 = 1 << 16;
 
 /// Reads a display file.
@@ -39,8 +39,8 @@ pub fn load(path: &Path) -> Result<Display, DisplayError> {
 /// Understands a display file's text.
 ///
 /// # Arguments
-/// * `name` — what to call the file in errors.
-/// * `folder` — where the files that it names are.
+/// * `name` — name of the file, for errors.
+/// * `folder` — folder of the files that the text names.
 ///
 /// # Errors
 /// [`DisplayError`].
@@ -75,7 +75,7 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
     Ok(display)
 }
 
-/// What is asked of a written display, of an imported one.
+/// Checks an imported display as a written one is checked.
 ///
 /// # Errors
 /// [`DisplayError`].
@@ -85,7 +85,7 @@ pub(super) fn check_imported(name: &str, display: &Display) -> Result<(), Displa
     })
 }
 
-/// Names are unique, and not empty.
+/// Checks that names are unique and not empty.
 fn names<'a, T: 'a>(
     text: &Text<'_>,
     kind: &'static str,

@@ -1,4 +1,4 @@
-//! `[[projector]]`: where it stands, and which lens its keys describe.
+//! `[[projector]]` tables: the projector's place, and the lens that its keys describe.
 
 use super::schema;
 use super::text::Text;
@@ -8,10 +8,10 @@ use glam::DVec2;
 use std::path::Path;
 use toml::Spanned;
 
-/// Lenses as files spell them.
+/// Names of the lenses in files.
 const LENSES: [&str; 3] = ["pinhole", "scan", "table"];
 
-/// All projectors.
+/// Projectors of all `[[projector]]` tables, in the file's order.
 pub(super) fn resolve(
     text: &Text<'_>,
     tables: &[Spanned<schema::Projector>],
@@ -24,7 +24,7 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// One table, and where it is.
+/// One `[[projector]]` table, and the byte of the text where it begins.
 struct Form<'a> {
     text: &'a Text<'a>,
     start: usize,
@@ -88,7 +88,7 @@ impl Form<'_> {
             });
         }
 
-        // A key of another lens would be without effect: that is a mistake.
+        // A key of another lens would have no effect, so it is refused as a mistake.
         let given = self.given;
         let keys = [
             ("throw_ratio", "pinhole", given.throw_ratio.is_some()),
@@ -155,7 +155,8 @@ impl Form<'_> {
         let magnification = self.positive("magnification", self.given.magnification.unwrap_or(1.0))?;
         let lens = Lens::scan(size, step.to_radians(), magnification);
 
-        // Beyond a quarter turn of a mirror, or half a turn of the light, places come twice.
+        // Beyond a quarter turn of a mirror, or half a turn of the light, two places of the picture have the same
+        // direction.
         let halves = size.map(|side| 0.5 * f64::from(side) * step);
         let corner = (halves[0].to_radians().cos() * halves[1].to_radians().cos()).acos().to_degrees();
         if halves.iter().any(|half| *half >= 90.0) || magnification * corner >= 180.0 {

@@ -1,4 +1,5 @@
-//! Nudged corners back into the display file they came from, which else stays as it is, to the letter.
+//! Saving of nudged corners in the display file they came from. Everything else in the file stays as it is, to the
+//! letter.
 
 use crate::{DisplayError, built_in, import, read};
 use glam::DVec2;
@@ -9,59 +10,59 @@ use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Val
 /// The keys of `corners`, in the order of [`Corners::places`](crate::Corners).
 const KEYS: [&str; 4] = ["upper_left", "upper_right", "lower_right", "lower_left"];
 
-/// Why corners are not saved.
+/// Reason why corners are not saved.
 #[derive(Debug, Error)]
 pub enum SaveError {
-    /// A display that comes with the program.
+    /// A display built into the program, which has no file.
     #[error(
         "{name} is built in, so there is no file to save in: copy its file, app/displays/{name}.toml, and name the copy with --display"
     )]
     BuiltIn {
-        /// Its name.
+        /// Name of the display.
         name: String,
     },
-    /// A file that is only read.
+    /// A file of another program, which is only read.
     #[error("{}: files of other programs are only read; describe the display in a .toml file, where corners can be saved", path.display())]
     Imported {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// No TOML any more.
+    /// A file that is no longer valid TOML.
     #[error("the file cannot be understood any more: {0}")]
     Syntax(#[from] toml_edit::TomlError),
-    /// The file has no such channel any more.
+    /// A channel that is no longer in the file.
     #[error("the file has no channel {name:?} any more; start the ride again")]
     NoChannel {
-        /// Its name.
+        /// Name of the channel.
         name: String,
     },
-    /// A channel whose corners are no table.
+    /// A channel whose `corners` key is not a table.
     #[error("channel {name:?}: its corners are no table {{ upper_left = [x, y], … }}; mend the file")]
     NoTable {
-        /// Its name.
+        /// Name of the channel.
         name: String,
     },
-    /// What would be saved cannot be read again, or what is there cannot be read.
+    /// A file that cannot be read, or whose text would no longer be a valid display once saved.
     #[error("nothing was saved: {0}")]
     Display(#[from] Box<DisplayError>),
-    /// The operating system refuses.
+    /// A file that the operating system does not write.
     #[error("{} cannot be written: {error}; check the folder, its permissions and the space left", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
 }
 
-/// Corners of one channel, in pixels from its viewport's upper left; `None`: those of the viewport.
+/// Name of a channel and its corners in pixels from its viewport's upper left; `None` for the viewport's own corners.
 pub type NudgedCorners<'a> = (&'a str, Option<[DVec2; 4]>);
 
-/// A display file's text with other corners, in the order upper left, upper right, lower right, lower left. Comments, order and all
-/// other keys stay as they are, and so do corners that are where they were.
+/// Text of a display file with other corners, in the order upper left, upper right, lower right, lower left.
+/// Comments, the order of the keys and all other keys stay as they are, and so do corners that have not moved.
 ///
 /// # Errors
-/// [`SaveError`]: no TOML, or no such channel.
+/// [`SaveError`]: the text is no TOML, or it has no such channel.
 pub fn saved(text: &str, corners: &[NudgedCorners<'_>]) -> Result<String, SaveError> {
     let mut document: DocumentMut = text.parse()?;
     for (name, places) in corners {
@@ -79,7 +80,8 @@ pub fn saved(text: &str, corners: &[NudgedCorners<'_>]) -> Result<String, SaveEr
     Ok(document.to_string())
 }
 
-/// Saves corners in the file of the display that was named so; see [`saved`]. The file changes at once and whole, or not at all.
+/// Saves corners in the file of the display called `name`; see [`saved`]. The file is replaced whole, or not changed
+/// at all.
 ///
 /// # Errors
 /// [`SaveError`].
@@ -90,7 +92,7 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     if import::is_imported(Path::new(name)) {
         return Err(SaveError::Imported { path: name.into() });
     }
-    // What a link points to is written, not the link.
+    // A link's target is written, not the link.
     let cannot = |error| SaveError::Write { path: name.into(), error };
     let path = std::fs::canonicalize(name).map_err(cannot)?;
     let refuse = |reason| Box::new(DisplayError::Read { path: name.into(), reason });
@@ -108,14 +110,14 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
         std::fs::rename(&partial, &path)
     });
     if let Err(error) = written {
-        // What has failed has been said; a file that cannot be removed either says nothing new.
+        // The first error has been reported already. A failure to remove the partial file would add nothing.
         let _ = std::fs::remove_file(&partial);
         return Err(cannot(error));
     }
     Ok(path)
 }
 
-/// The table of a channel, `[[channel]]` or `channel = [{ … }]`.
+/// Table of a channel, written `[[channel]]` or `channel = [{ … }]`.
 fn channel<'a>(document: &'a mut DocumentMut, name: &str) -> Option<&'a mut dyn TableLike> {
     let named = |table: &dyn TableLike| table.get("name").and_then(Item::as_str) == Some(name);
     match document.get_mut("channel")? {
@@ -138,7 +140,7 @@ fn put(corners: &mut dyn TableLike, key: &str, place: DVec2) {
     }
     let written = |coordinate: f64| Value::Float(Formatted::new(coordinate));
     let mut value = Value::Array(Array::from_iter([written(place.x), written(place.y)]));
-    // What is around it stays: a comment behind it, in a table of its own.
+    // The text around the old value stays, such as a comment behind it in a table of its own.
     if let Some(before) = before {
         *value.decor_mut() = before.decor().clone();
     }

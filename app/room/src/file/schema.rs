@@ -1,4 +1,4 @@
-//! The file's tables as they are written: every key, nothing resolved.
+//! Tables of a display file as they are written: every key, nothing resolved.
 
 use serde::Deserialize;
 use toml::{Spanned, Value};

@@ -1,4 +1,4 @@
-//! `[[screen]]`: which form a screen is written in, and what it comes to.
+//! `[[screen]]` tables: the form in which a screen is written, and the surface that it describes.
 
 use super::schema;
 use super::text::Text;
@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use std::path::Path;
 use toml::Spanned;
 
-/// All screens.
+/// Screens of all `[[screen]]` tables, in the file's order.
 pub(super) fn resolve(
     text: &Text<'_>,
     tables: &[Spanned<schema::Screen>],
@@ -24,7 +24,7 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// One table, and where it is.
+/// One `[[screen]]` table, and the byte of the text where it begins.
 struct Form<'a> {
     text: &'a Text<'a>,
     start: usize,
@@ -81,7 +81,7 @@ impl Form<'_> {
         }
     }
 
-    /// Everything that is a number is one.
+    /// Checks that every number of the table is finite.
     fn finite(&self) -> Result<(), DisplayError> {
         let given = self.given;
         let points = [
@@ -122,7 +122,7 @@ impl Form<'_> {
         let given = self.given;
         let [ll, lr, ul, ur] = [given.lower_left, given.lower_right, given.upper_left, given.upper_right]
             .map(|corner| corner.map(DVec3::from));
-        // Any three say where the fourth is.
+        // Any three corners determine the fourth.
         let (ll, lr, ul) = match (ll, lr, ul, ur) {
             (Some(ll), Some(lr), Some(ul), _) => (ll, lr, ul),
             (Some(ll), Some(lr), None, Some(ur)) => (ll, lr, ll + ur - lr),
@@ -148,7 +148,7 @@ impl Form<'_> {
             .map_err(|reason| DisplayError::NotRectangle { at: self.at("size"), reason })
     }
 
-    /// Yaws from left to right and the two ends of the height, of what is curved.
+    /// Checks the yaws left and right, the lower and upper end, and the radius of a curved screen.
     fn ranges(&self, key: &str, [left, right, bottom, top]: [f64; 4], radius: f64) -> Result<(), DisplayError> {
         if radius <= 0.0 {
             return self.refuse(key, format!("its radius is {radius} m; it must be more than 0"));

@@ -1,19 +1,19 @@
-//! The file's text: what line something is on, and how the parser's words become ours.
+//! Text of a display file: line numbers for errors, and the parser's errors as this program's.
 
 use crate::error::{At, DisplayError, nearest};
 
-/// A file's name and text.
+/// Name and text of a file.
 pub(super) struct Text<'a> {
     pub name: &'a str,
     pub text: &'a str,
 }
 
 impl Text<'_> {
-    /// Where a key of the table is that begins at byte `start`; an empty key is the table itself.
+    /// Place of a key in the table that begins at byte `start`. An empty key means the table itself.
     pub fn at(&self, start: usize, table: &str, key: &str) -> Box<At> {
         let from = start.min(self.text.len());
         let tail = self.text.get(from..).unwrap_or_default();
-        // The table ends where the next one begins; its own head is the first line.
+        // The table ends where the next one begins. Its own head is the first line.
         let lines = tail.lines().enumerate();
         let own = lines.take_while(|(index, line)| *index == 0 || !line.trim_start().starts_with('['));
         let offset = own
@@ -24,12 +24,12 @@ impl Text<'_> {
         Box::new(At { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what })
     }
 
-    /// Line of a byte, from 1.
+    /// Line number of a byte, counted from 1.
     fn line(&self, byte: usize) -> usize {
         1 + self.text.bytes().take(byte).filter(|byte| *byte == b'\n').count()
     }
 
-    /// What the parser found wrong, with the key that was probably meant.
+    /// Error that the parser found, with the key that was probably meant.
     pub fn syntax(&self, error: &toml::de::Error) -> DisplayError {
         let message = error.message();
         let mut reason = message.replace('\n', " ");

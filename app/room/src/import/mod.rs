@@ -1,4 +1,4 @@
-//! Displays that other programs describe: MPCDI and ParaView's `.pvx`.
+//! Import of displays described by other programs: MPCDI and ParaView's `.pvx`.
 
 mod mpcdi;
 mod pvx;
@@ -22,7 +22,7 @@ pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
     Ok(display)
 }
 
-/// Whether it is one that is read here, by its ending.
+/// True for a file that is imported here, judged by its ending.
 pub(super) fn is_imported(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     name.ends_with(".mpcdi") || name.ends_with(".mpcdi.xml") || is_pvx(path)
@@ -32,7 +32,7 @@ fn is_pvx(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pvx"))
 }
 
-/// A name made fit for a picture's file, and different from those before it.
+/// Name without characters that no file name may have, and different from all in `taken`, to which it is added.
 fn file_name(name: &str, taken: &mut Vec<String>) -> String {
     let fit = |letter: char| if letter.is_control() || "/\\<>:\"|?*".contains(letter) { '-' } else { letter };
     let fitted: String = name.trim().trim_start_matches('.').chars().map(fit).take(100).collect();

@@ -1,8 +1,9 @@
 //! MPCDI, the common output of projector calibrations (VESA, 1.0 and 2.0): profiles 2d and a3.
 //!
-//! A container is a zip with an `mpcdi.xml` and the maps it names; a bare `.mpcdi.xml` has them beside it. Each region is a projector's raster.
-//! In profile a3 its warp holds the very points of the surface: they become a mesh, and the picture lies evenly on the grid. In 2d it says
-//! which place of the region's picture each pixel shows; where that picture is in the room is left open.
+//! A container is a zip with an `mpcdi.xml` and the maps it names. A bare `.mpcdi.xml` has the maps beside it. Each
+//! region is the raster of one projector. In profile a3 its warp holds the points of the surface themselves: they
+//! become a mesh, and the picture lies evenly on the grid. In profile 2d the warp says which place of the region's
+//! picture each pixel shows; the picture's place in the room is left open.
 
 use super::{file_name, xml};
 use crate::maps;
@@ -16,14 +17,14 @@ use roxmltree::Node;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-/// The largest file in a container, bytes: what unpacks to more is none.
+/// Largest file in a container, bytes unpacked. A larger file is refused.
 const MAX_FILE: u64 = 1 << 29;
 
-/// Where the picture of a 2d profile is put: metres before the head, and its width.
+/// Distance before the head and width of a 2d profile's picture, metres. The file does not say them.
 const FLAT_DISTANCE_M: f64 = 2.0;
 const FLAT_WIDTH_M: f64 = 4.0;
 
-/// Understands a container or a bare file. What is wrong is said in words that follow its name.
+/// Reads a container or a bare file. An error's text is worded to follow the file's name.
 pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
     let mut files = if bytes.starts_with(b"PK") {
         let zip = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("it is no good zip: {error}"))?;
@@ -69,7 +70,7 @@ fn empty() -> Display {
     }
 }
 
-/// Where the maps are.
+/// Source of the description and the maps.
 enum Files<'a> {
     Zip(Box<zip::ZipArchive<Cursor<Vec<u8>>>>),
     Bare { xml: Vec<u8>, folder: &'a Path },
@@ -83,11 +84,11 @@ impl Files<'_> {
         }
     }
 
-    /// A file by its name, in upper or lower case.
+    /// Contents of a file by its name, in upper or lower case.
     fn read(&mut self, name: &str) -> Result<Vec<u8>, String> {
         match self {
             Self::Bare { folder, .. } => {
-                // A map lies beside its description, nowhere else.
+                // A bare description may name only files in its own folder.
                 if Path::new(name).components().count() != 1 || Path::new(name).file_name().is_none() {
                     return Err(format!("{name:?} is not beside it"));
                 }
@@ -110,18 +111,18 @@ impl Files<'_> {
     }
 }
 
-/// A display in the making.
+/// A display under construction.
 struct Import<'a> {
     files: Files<'a>,
     root: Node<'a, 'a>,
-    /// Profile a3.
+    /// True for profile a3, where the warp holds the surface's points.
     solid: bool,
     names: Vec<String>,
     display: Display,
 }
 
 impl<'a> Import<'a> {
-    /// A projector's raster: a window, a channel, and a screen, which regions of a 2d buffer share.
+    /// Adds one projector's raster: a window, a channel, and a screen. The regions of one 2d buffer share a screen.
     fn region(&mut self, buffer: Node<'a, 'a>, region: Node<'a, 'a>) -> Result<(), String> {
         let id = xml::attribute(region, "id").unwrap_or("region");
         let wrong = |reason: String| format!("region {id:?}: {reason}");
@@ -177,7 +178,7 @@ impl<'a> Import<'a> {
         Ok(())
     }
 
-    /// The points of profile a3: y up, x to the *left*, z into the screen.
+    /// Surface from the points of profile a3: y up, x to the *left*, z into the screen.
     fn surface(&mut self, file: Option<Node<'a, 'a>>, bytes: &[u8]) -> Result<Surface, String> {
         let map = maps::grid(bytes).map_err(|error| error.to_string())?;
         let unit = file.and_then(|file| xml::text(file, "geometricUnit")).unwrap_or("unknown");
@@ -218,7 +219,7 @@ impl<'a> Import<'a> {
         }
     }
 
-    /// The flat screen that a 2d buffer's regions are parts of.
+    /// Index of the flat screen that a 2d buffer's regions are parts of; it is added for the first of them.
     fn picture(&mut self, buffer: Node<'a, 'a>) -> Result<usize, String> {
         let name = xml::attribute(buffer, "id").unwrap_or("buffer").to_owned();
         if let Some(index) = self.display.screens.iter().position(|screen| screen.name == name) {
@@ -251,7 +252,7 @@ impl<'a> Import<'a> {
     }
 }
 
-/// A region's rectangle in its buffer, which counts y down.
+/// Rectangle of a region in its buffer, which counts y downwards.
 fn part(region: Node<'_, '_>) -> Result<Part, String> {
     let [x, y, width, height] = [
         xml::number(region, "x")?,

@@ -1,4 +1,5 @@
-//! ParaView's wall and CAVE files: one flat screen for each `Machine`, by three corners; metres, y up, −z ahead, the eyes at the origin.
+//! ParaView's wall and CAVE files. Each `Machine` has one flat screen, given by three corners in metres: y up, −z
+//! ahead, the eyes at the origin.
 
 use super::{file_name, xml};
 use crate::{
@@ -7,13 +8,13 @@ use crate::{
 use glam::{DVec2, DVec3};
 use roxmltree::Node;
 
-/// ParaView's, metres.
+/// Eye separation that ParaView uses when the file has none, metres.
 const EYE_SEPARATION_M: f64 = 0.065;
 
-/// The height in pixels of a window whose machine has no geometry.
+/// Height of the window of a machine without `Geometry`, pixels.
 const HEIGHT: f64 = 600.0;
 
-/// Understands a file. What is wrong is said in words that follow the file's name.
+/// Reads a file. An error's text is worded to follow the file's name.
 pub(super) fn read(bytes: &[u8]) -> Result<Display, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
     let document = xml::document(text, "pvx")?;
@@ -48,7 +49,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Display, String> {
     Ok(display)
 }
 
-/// A machine's screen, window and channels.
+/// Adds a machine's screen, window and channels.
 fn add(display: &mut Display, machine: Node<'_, '_>, name: String, names: &mut Vec<String>) -> Result<(), String> {
     let [lower_left, lower_right, upper_right] =
         ["LowerLeft", "LowerRight", "UpperRight"].map(|key| corner(machine, key));
@@ -134,10 +135,10 @@ fn corner(machine: Node<'_, '_>, key: &str) -> Result<DVec3, String> {
     }
 }
 
-/// Width, height, and place if there is one.
+/// Width and height, pixels, and the window's place, if one is given.
 type Geometry = ([u32; 2], Option<[i32; 2]>);
 
-/// `WxH+X+Y`, as X11 writes it.
+/// Size and place from `WxH+X+Y`, as X11 writes them.
 fn geometry(text: &str) -> Option<Geometry> {
     let (width, rest) = text.split_once(['x', 'X'])?;
     let end = rest.find(['+', '-']).unwrap_or(rest.len());
@@ -153,7 +154,7 @@ fn geometry(text: &str) -> Option<Geometry> {
     Some((size, Some([place[..second].parse().ok()?, place[second..].parse().ok()?])))
 }
 
-/// The screen in `DISPLAY=:0.1`.
+/// Monitor from the screen number in `DISPLAY=:0.1`.
 fn monitor(environment: &str) -> Option<Monitor> {
     let display = environment.split_whitespace().find_map(|word| word.strip_prefix("DISPLAY="))?;
     let (_, numbers) = display.rsplit_once(':')?;

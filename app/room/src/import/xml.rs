@@ -1,4 +1,4 @@
-//! XML whose writers do not agree on upper and lower case.
+//! XML reading that ignores upper and lower case, in which the writing programs differ.
 
 use roxmltree::{Document, Node};
 
@@ -13,29 +13,29 @@ pub(super) fn document<'a>(text: &'a str, root: &str) -> Result<Document<'a>, St
     Ok(document)
 }
 
-/// All elements of that name below a node, at any depth.
+/// Elements called `name` below a node, at any depth.
 pub(super) fn all<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     node.descendants().filter(move |node| node.is_element() && node.tag_name().name().eq_ignore_ascii_case(name))
 }
 
-/// The first such element.
+/// First element called `name` below a node, at any depth.
 pub(super) fn first<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
     all(node, name).find(|found| *found != node)
 }
 
-/// The text in the first element of that name, without the space round it; `None` where it is empty.
+/// Text of the first element called `name`, without surrounding space; `None` if it is empty.
 pub(super) fn text<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<&'a str> {
     first(node, name)?.text().map(str::trim).filter(|text| !text.is_empty())
 }
 
-/// An attribute.
+/// Value of an attribute, without surrounding space.
 pub(super) fn attribute<'a>(node: Node<'a, 'a>, name: &str) -> Option<&'a str> {
     node.attributes()
         .find(|attribute| attribute.name().eq_ignore_ascii_case(name))
         .map(|attribute| attribute.value().trim())
 }
 
-/// An attribute that must be there, as a number that is finite.
+/// Finite number in an attribute that must be there.
 pub(super) fn number(node: Node<'_, '_>, name: &str) -> Result<f64, String> {
     let value = node.attributes().find(|attribute| attribute.name().eq_ignore_ascii_case(name));
     let value = value.ok_or_else(|| format!("{}: it has no {name}", place(node)))?.value();
@@ -43,7 +43,7 @@ pub(super) fn number(node: Node<'_, '_>, name: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("{}: {name} = {value:?} is no number", place(node)))
 }
 
-/// Which element, and on which line.
+/// Line and name of an element, for errors.
 pub(super) fn place(node: Node<'_, '_>) -> String {
     let line = node.document().text_pos_at(node.range().start).row;
     format!("line {line}, <{}>", node.tag_name().name())

@@ -1,49 +1,52 @@
-//! Lenses: which way the light of each place of a projector's picture goes, and back.
+//! Lenses of projectors: the direction of the light of each place in the picture, and the inverse.
 //!
-//! Directions are in the projector's axes: x right, y up as in its upright picture, −z along the optical axis. Places run from 0 to 1, x right
-//! and y down from the picture's upper left, as it leaves the projector.
+//! Directions are in the projector's axes: x right, y up as in its upright picture, −z along the optical axis. Places
+//! run from 0 to 1, x right and y down from the upper left of the picture as it leaves the projector.
 
 use crate::net::{Grid, Net};
 use glam::{DVec2, DVec3};
 
-/// φ_p of B eq. 4.1.
+/// Lens of a projector: the map φ_p of B eq. 4.1 from places of the picture to directions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Lens {
-    /// A flat picture from a point, as most projectors have it.
+    /// A flat picture from one point, as most projectors make it.
     Pinhole {
-        /// Tangent of the angle to the picture's left edge, to the right positive; a shifted lens has `left` ≠ −`right`.
+        /// Tangent of the angle from the axis to the picture's left edge, positive to the right. A shifted lens has
+        /// `left` ≠ −`right`.
         left: f64,
-        /// To its right edge.
+        /// Tangent of the angle to the picture's right edge, positive to the right.
         right: f64,
-        /// To its lower edge, up positive.
+        /// Tangent of the angle to the picture's lower edge, positive upwards.
         bottom: f64,
-        /// To its upper edge.
+        /// Tangent of the angle to the picture's upper edge, positive upwards.
         top: f64,
     },
-    /// A laser beam that mirrors turn by even steps, with an optic that multiplies the angle to the axis (B eq. 4.6, 4.7).
+    /// A laser beam that mirrors turn by even steps, with an optic that multiplies the angle to the axis (B eq. 4.6,
+    /// 4.7).
     Scan {
-        /// From the picture's middle to its right edge, radians at the mirrors.
+        /// Angle of the mirrors from the picture's middle to its right edge, radians.
         half_width_rad: f64,
-        /// From its middle to its upper edge, radians at the mirrors.
+        /// Angle of the mirrors from the picture's middle to its upper edge, radians.
         half_height_rad: f64,
-        /// Angle to the axis behind the optic over that before it.
+        /// Angle to the axis behind the optic, divided by the angle before it.
         magnification: f64,
     },
-    /// Measured.
+    /// A measured lens.
     Table(Table),
 }
 
-/// A lens known at an even grid of places, piecewise linear in yaw and pitch between.
+/// Measured lens, known at an even grid of places; yaw and pitch are piecewise linear between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     grid: Grid,
-    /// Yaw (to the left) and pitch (up), radians; rows from above, each from the left.
+    /// Yaw (to the left) and pitch (up), radians. Rows begin at the top, each from the left.
     angles: Vec<DVec2>,
     back: Net,
 }
 
 impl Table {
-    /// From yaw and pitch in radians at `columns` × `rows` places, at least two each, rows from above.
+    /// Creates a lens from yaw and pitch in radians at `columns` × `rows` places, at least two each way, the top row
+    /// first.
     pub fn new(columns: u32, rows: u32, angles: Vec<DVec2>) -> Self {
         let grid = Grid { columns, rows };
         let back = Net::new(angles.clone(), &grid.triangles());
@@ -52,12 +55,12 @@ impl Table {
 }
 
 impl Lens {
-    /// A pinhole by its throw ratio.
+    /// Creates a pinhole lens from its throw ratio.
     ///
     /// # Arguments
-    /// * `throw_ratio` — distance to a wall over the picture's width there.
-    /// * `aspect` — the picture's width over its height.
-    /// * `shift` — how far the lens shifts the picture's middle from the axis, in widths to the right and heights up.
+    /// * `throw_ratio` — distance to a wall, divided by the picture's width there.
+    /// * `aspect` — width of the picture, divided by its height.
+    /// * `shift` — shift of the picture's middle from the axis, in widths to the right and heights upwards.
     pub fn pinhole(throw_ratio: f64, aspect: f64, shift: DVec2) -> Self {
         let (width, height) = (1.0 / throw_ratio, 1.0 / (throw_ratio * aspect));
         Self::Pinhole {
@@ -68,13 +71,14 @@ impl Lens {
         }
     }
 
-    /// A laser scanner with `size` pixels, `step_rad` apart at the mirrors.
+    /// Creates a laser scanner's lens with `size` pixels, `step_rad` apart at the mirrors.
     pub fn scan(size: [u32; 2], step_rad: f64, magnification: f64) -> Self {
         let [half_width_rad, half_height_rad] = size.map(|side| 0.5 * f64::from(side) * step_rad);
         Self::Scan { half_width_rad, half_height_rad, magnification }
     }
 
-    /// Unit vector along the light of a place; `None` outside a table. Pinhole and scanner go on beyond the picture's edges.
+    /// Unit vector along the light of a place; `None` outside a table. Pinhole and scanner continue beyond the
+    /// picture's edges.
     pub fn direction(&self, place: DVec2) -> Option<DVec3> {
         match self {
             Self::Pinhole { left, right, bottom, top } => {
@@ -102,7 +106,7 @@ impl Lens {
         }
     }
 
-    /// The place whose light goes along `direction` (any length), inside the picture or not; `None` where there is none.
+    /// Place whose light goes along `direction` (any length), inside the picture or not; `None` if there is none.
     pub fn place(&self, direction: DVec3) -> Option<DVec2> {
         match self {
             Self::Pinhole { left, right, bottom, top } => {
@@ -128,7 +132,7 @@ impl Lens {
         }
     }
 
-    /// Solid angle that the picture's light fills at a place, per unit of the picture's area, steradians.
+    /// Solid angle filled by the picture's light at a place, per unit of the picture's area, steradians.
     ///
     /// *Accuracy.* Differences over 1e-4 of the picture: 1e-7 for pinhole and scanner.
     pub fn solid_angle(&self, place: DVec2) -> Option<f64> {
@@ -137,7 +141,7 @@ impl Lens {
             _ => DVec2::splat(1e-4),
         };
         let side = |step: DVec2| {
-            // A table ends at the edges; the others may go beyond.
+            // A table ends at the picture's edges; the other lenses may go beyond.
             let (mut from, mut to) = (place - step, place + step);
             if matches!(self, Self::Table(_)) {
                 (from, to) = (from.clamp(DVec2::ZERO, DVec2::ONE), to.clamp(DVec2::ZERO, DVec2::ONE));

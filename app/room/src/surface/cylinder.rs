@@ -3,37 +3,37 @@
 use super::{EDGE, Hit, NEAREST, share};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-/// A curved wall round a vertical axis.
+/// Curved wall around a vertical axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
-    /// Where the axis is; its y is what `bottom_m` and `top_m` are counted from.
+    /// Point of the axis from which `bottom_m` and `top_m` are counted, room axes, metres.
     pub centre: DVec3,
-    /// Metres.
+    /// Radius of the cylinder, metres.
     pub radius_m: f64,
-    /// Yaw of the left edge from −z, radians, to the left positive.
+    /// Yaw of the left edge from −z, radians, positive to the left.
     pub left_rad: f64,
-    /// Yaw of the right edge; less than `left_rad`, by at most 2π.
+    /// Yaw of the right edge, radians; less than `left_rad`, by at most 2π.
     pub right_rad: f64,
-    /// Height of the lower edge, metres.
+    /// Height of the lower edge above `centre`, metres.
     pub bottom_m: f64,
-    /// Height of the upper edge, metres.
+    /// Height of the upper edge above `centre`, metres.
     pub top_m: f64,
 }
 
 impl Cylinder {
-    /// Point at a place, 0 to 1 from the lower left.
+    /// Point at a place, uv 0 to 1 from the lower left; room axes, metres.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         let height = self.bottom_m + uv.y * (self.top_m - self.bottom_m);
         self.centre - self.normal(uv) * self.radius_m + DVec3::Y * height
     }
 
-    /// Unit vector to the axis.
+    /// Unit vector from the wall to the axis, room axes.
     pub fn normal(&self, uv: DVec2) -> DVec3 {
         let (sin, cos) = (self.left_rad + uv.x * (self.right_rad - self.left_rad)).sin_cos();
         DVec3::new(sin, 0.0, cos)
     }
 
-    /// Along the arc and upwards, metres.
+    /// Width along the arc and height, metres.
     pub fn size_m(&self) -> DVec2 {
         DVec2::new(self.radius_m * (self.left_rad - self.right_rad), self.top_m - self.bottom_m)
     }
@@ -52,7 +52,7 @@ impl Cylinder {
             })
     }
 
-    /// The place of a point, relative to the centre; `None` outside.
+    /// Place uv of a point given relative to the centre; `None` outside the wall.
     pub(super) fn uv(&self, offset: DVec3) -> Option<DVec2> {
         let u = share(-offset.x.atan2(-offset.z), self.left_rad, self.right_rad)?;
         let v = (offset.y - self.bottom_m) / (self.top_m - self.bottom_m);

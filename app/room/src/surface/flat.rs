@@ -1,55 +1,56 @@
-//! A rectangle.
+//! Flat screens: rectangles.
 
 use super::{EDGE, Hit, NEAREST};
 use crate::room_from_turned;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-/// How far from a right angle, as its cosine, and from closing, in shares of its sides, a rectangle's corners may be: measured
-/// ones are never exact. They are made rectangular.
+/// Largest error of a rectangle's corners: the cosine of the angle between two sides, and the gap at the fourth
+/// corner divided by the sum of the sides. Measured corners are never exact; within this tolerance they are made
+/// rectangular.
 const TOLERANCE: f64 = 2e-3;
 
-/// Corners that make no rectangle.
+/// Corners that do not form a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NotRectangle {
     /// A side without length, or a corner that is not finite.
     #[error("the sides of the rectangle are {width_m} m and {height_m} m long; each must have a length")]
     NoArea {
-        /// Metres.
+        /// Width, metres.
         width_m: f64,
-        /// Metres.
+        /// Height, metres.
         height_m: f64,
     },
-    /// Sides that are not at right angles.
+    /// Two sides that are not at right angles.
     #[error("the sides meet at {angle_deg:.2}°, not at a right angle: the corners are those of no rectangle")]
     Oblique {
-        /// Degrees.
+        /// Angle between the sides, degrees.
         angle_deg: f64,
     },
-    /// A fourth corner that is somewhere else.
+    /// A fourth corner that does not close the rectangle.
     #[error("upper_right is {off_m:.4} m from where the other three corners put it; leave it out, or correct it")]
     Open {
-        /// Metres.
+        /// Distance of the given corner from the expected one, metres.
         off_m: f64,
     },
 }
 
-/// A flat screen.
+/// Flat rectangular screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flat {
-    /// Corner, room axes, metres.
+    /// Lower left corner, room axes, metres.
     pub lower_left: DVec3,
-    /// From there to the lower right corner.
+    /// Vector from the lower left to the lower right corner, room axes, metres.
     pub right: DVec3,
-    /// From the lower left to the upper left corner; at right angles to `right`.
+    /// Vector from the lower left to the upper left corner, room axes, metres; at right angles to `right`.
     pub up: DVec3,
 }
 
 impl Flat {
-    /// From its lower left, lower right and upper left corners, as seen by the viewer.
+    /// Creates a screen from its lower left, lower right and upper left corners, as seen by the viewer.
     ///
     /// # Errors
-    /// [`NotRectangle`] beyond 2 parts in 1000; within, `up` is made perpendicular.
+    /// [`NotRectangle`] if the corners are off by more than 2 parts in 1000. Within that, `up` is made perpendicular.
     pub fn from_corners(lower_left: DVec3, lower_right: DVec3, upper_left: DVec3) -> Result<Self, NotRectangle> {
         let (right, up) = (lower_right - lower_left, upper_left - lower_left);
         let (width_m, height_m) = (right.length(), up.length());
@@ -63,7 +64,7 @@ impl Flat {
         Ok(Self { lower_left, right, up: up - right * (right.dot(up) / (width_m * width_m)) })
     }
 
-    /// Whether a fourth corner, the upper right, closes the rectangle.
+    /// Checks that a fourth corner, the upper right, closes the rectangle.
     ///
     /// # Errors
     /// [`NotRectangle::Open`].
@@ -73,7 +74,8 @@ impl Flat {
         if off_m <= allowed { Ok(()) } else { Err(NotRectangle::Open { off_m }) }
     }
 
-    /// From its centre, its width and height in metres, and how it is turned from facing +z (degrees, see [`room_from_turned`]).
+    /// Creates a screen from its centre, its width and height in metres, and its rotation from facing +z (degrees,
+    /// see [`room_from_turned`]).
     ///
     /// # Errors
     /// [`NotRectangle::NoArea`].
@@ -88,18 +90,18 @@ impl Flat {
         Self::from_corners(corner, corner + right, corner + up)
     }
 
-    /// A part of it: `from` its lower left `to` its upper right, in uv.
+    /// Part of the screen between `from`, its lower left, and `to`, its upper right, both in uv.
     pub fn part(&self, from: DVec2, to: DVec2) -> Self {
         let size = to - from;
         Self { lower_left: self.point(from), right: self.right * size.x, up: self.up * size.y }
     }
 
-    /// Point at a place, 0 to 1 from the lower left.
+    /// Point at a place, uv 0 to 1 from the lower left; room axes, metres.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         self.lower_left + self.right * uv.x + self.up * uv.y
     }
 
-    /// Unit vector to the viewer's side.
+    /// Unit vector towards the viewer's side, room axes.
     pub fn normal(&self) -> DVec3 {
         self.right.cross(self.up).normalize()
     }
@@ -120,7 +122,7 @@ impl Flat {
         Some(Hit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
     }
 
-    /// The place of a point, relative to the lower left corner; `None` outside.
+    /// Place uv of a point given relative to the lower left corner; `None` outside the screen.
     pub(super) fn uv(&self, offset: DVec3) -> Option<DVec2> {
         let (right, up) = (self.right.length_squared(), self.up.length_squared());
         let uv = DVec2::new(offset.dot(self.right) / right, offset.dot(self.up) / up);

@@ -1,4 +1,4 @@
-//! Any surface at all, as triangles.
+//! Surfaces of any shape, as triangles.
 
 use super::{EDGE, Hit, NEAREST};
 use crate::net::{Grid, Net, Within};
@@ -9,37 +9,38 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
 use std::sync::OnceLock;
 
-/// Triangles with places: front faces are counter-clockwise as seen by the viewer.
+/// Triangles with places uv. Front faces are counter-clockwise as seen by the viewer.
 #[derive(Clone)]
 pub struct Mesh {
     points: Vec<DVec3>,
     places: Places,
     size_m: f64,
-    /// Of a grid, made when first asked for: who only wants the points of a projector's pixels never does.
+    /// Places and triangles. Those of a grid are made when first needed; the points of a projector's pixels do not
+    /// need them.
     shape: OnceLock<Shape>,
-    /// For rays; made when the first comes.
+    /// Bounding boxes for ray tests, made for the first ray.
     boxes: OnceLock<Bvh>,
 }
 
 #[derive(Clone)]
 struct Shape {
     uvs: Vec<DVec2>,
-    /// Without those that are holes.
+    /// Triangles that are not holes.
     triangles: Vec<[u32; 3]>,
 }
 
-/// How the triangle at a place is found.
+/// Search for the triangle at a place.
 #[derive(Clone)]
 enum Places {
-    /// From its number in the grid.
+    /// Even grid, where the place gives the triangle's number.
     Grid(Grid),
-    /// By search.
+    /// Any other mesh, where the triangle is searched for.
     Net(Net),
 }
 
 impl PartialEq for Mesh {
     fn eq(&self, other: &Self) -> bool {
-        // Holes are NaN, and as good as equal.
+        // Holes are NaN, and two of them count as equal.
         let alike = |(a, b): (&DVec3, &DVec3)| a == b || !a.is_finite() && !b.is_finite();
         self.points.len() == other.points.len()
             && self.points.iter().zip(&other.points).all(alike)
@@ -66,15 +67,16 @@ impl Shape {
 }
 
 impl Mesh {
-    /// From triangles; indices must be below the number of points, and there are as many uvs as points. What has a corner that
-    /// is not finite, or no area, is a hole.
+    /// Creates a mesh from triangles. Indices must be below the number of points, and there must be as many uvs as
+    /// points. A triangle with a corner that is not finite, or without area, is a hole.
     pub fn new(points: Vec<DVec3>, uvs: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
         let places = Places::Net(Net::new(uvs.clone(), triangles));
         let shape = Shape::new(&points, uvs, triangles.to_vec());
         Self { shape: shape.into(), ..Self::with(points, places) }
     }
 
-    /// From points in rows, the lower left one first, evenly spaced in uv; at least two columns and two rows.
+    /// Creates a mesh from points in rows, the lower left one first, evenly spaced in uv; at least two columns and
+    /// two rows.
     pub fn grid(columns: u32, rows: u32, points: Vec<DVec3>) -> Self {
         Self::with(points, Places::Grid(Grid { columns, rows }))
     }
@@ -93,27 +95,27 @@ impl Mesh {
                 let uvs = (0..grid.columns * grid.rows).map(|sample| grid.place(sample)).collect();
                 Shape::new(&self.points, uvs, grid.triangles())
             }
-            // A net comes with its shape.
+            // A mesh with a net was given its shape when it was created.
             Places::Net(_) => Shape { uvs: Vec::new(), triangles: Vec::new() },
         })
     }
 
-    /// Vertices, room axes, metres; what is not finite is unknown.
+    /// Vertices, room axes, metres; one that is not finite is unknown.
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// Their places, 0 to 1 from the lower left.
+    /// Places uv of the vertices, 0 to 1 from the lower left.
     pub fn uvs(&self) -> &[DVec2] {
         &self.shape().uvs
     }
 
-    /// The triangles that are none of them holes.
+    /// Triangles that are not holes, as indices of vertices.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.shape().triangles
     }
 
-    /// Length of its bounding box's diagonal, metres.
+    /// Diagonal of the bounding box, metres.
     pub fn size_m(&self) -> f64 {
         self.size_m
     }
@@ -125,12 +127,12 @@ impl Mesh {
         }
     }
 
-    /// Point at a place; `None` in a hole.
+    /// Point at a place uv; `None` in a hole.
     pub fn point(&self, uv: DVec2) -> Option<DVec3> {
         Some(self.find(uv)?.mix(&self.points)).filter(|point| point.is_finite())
     }
 
-    /// Unit normal of the triangle there; `None` in a hole.
+    /// Unit normal of the triangle at a place uv; `None` in a hole.
     pub fn normal(&self, uv: DVec2) -> Option<DVec3> {
         self.facing(self.find(uv)?.corners)
     }
@@ -168,7 +170,7 @@ impl Mesh {
         })
     }
 
-    /// The place of a point on one of the triangles, which are all looked at.
+    /// Place uv of a point on one of the triangles. Every triangle is tested.
     pub(super) fn uv(&self, point: DVec3) -> Option<DVec2> {
         let within = |&corners: &[u32; 3]| {
             let triangle = self.corners(corners);
@@ -184,7 +186,7 @@ impl Mesh {
     }
 }
 
-/// Where a ray meets a triangle, in lengths of its direction, and the corners' weights there.
+/// Distance at which a ray meets a triangle, in lengths of `direction`, and the weights of the corners at that point.
 ///
 /// *Equation.* Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection (1997).
 fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, DVec3)> {

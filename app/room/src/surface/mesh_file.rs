@@ -1,14 +1,14 @@
-//! Meshes from files: Wavefront OBJ, and CSV grids.
+//! Meshes read from files: Wavefront OBJ and CSV grids.
 
 use super::Mesh;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The most triangles that are read.
+/// Largest number of triangles that is read.
 const MAX_TRIANGLES: usize = 4_000_000;
 
-/// Reads `path`: `.obj` or `.csv`. What is wrong is said in words that follow the file's name.
+/// Reads the `.obj` or `.csv` file `path`. Error texts are worded to follow the file's name.
 pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
     let text = crate::read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
@@ -19,7 +19,8 @@ pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
     }
 }
 
-/// `v x y z` in metres, `vt u v` from the lower left, `f v/vt …` counter-clockwise as seen by the viewer; all else is passed over.
+/// Reads an OBJ text: `v x y z` in metres, `vt u v` from the lower left, `f v/vt …` counter-clockwise as seen by the
+/// viewer. Other lines are ignored.
 fn obj(text: &str) -> Result<Mesh, String> {
     let (mut positions, mut places) = (Vec::new(), Vec::new());
     let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
@@ -71,14 +72,14 @@ fn obj(text: &str) -> Result<Mesh, String> {
     good(Mesh::new(points, uvs, &triangles))
 }
 
-/// OBJ counts from 1, or backwards from −1.
+/// Index from an OBJ number, which counts from 1, or backwards from −1.
 fn nth(part: &str, count: usize) -> Option<usize> {
     let number: i64 = part.parse().ok()?;
     let index = if number > 0 { number - 1 } else { count as i64 + number };
     usize::try_from(index).ok().filter(|index| number != 0 && *index < count)
 }
 
-/// Lines `u, v, x, y, z`.
+/// Reads a CSV text with lines `u, v, x, y, z`.
 fn csv(text: &str) -> Result<Mesh, String> {
     let (columns, rows, points) = crate::grid_file::read::<3>(text, "u, v, x, y, z")?;
     good(Mesh::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
@@ -95,7 +96,7 @@ fn good(mesh: Mesh) -> Result<Mesh, String> {
     }
 }
 
-/// The first N numbers, if there are that many and all are finite.
+/// First N numbers of a line; `None` if there are fewer, or if one is not finite.
 fn numbers<'a, const N: usize>(mut words: impl Iterator<Item = &'a str>) -> Option<[f64; N]> {
     let mut found = [0.0; N];
     for number in &mut found {

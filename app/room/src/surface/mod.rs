@@ -1,7 +1,7 @@
-//! Surfaces in the room that can show something.
+//! Surfaces in the room on which pictures are shown.
 //!
-//! Every surface has places uv, 0 to 1 from the lower left as seen by the viewer, a normal that points to the viewer's side, and a first
-//! point that a ray hits.
+//! Every surface has places uv, 0 to 1 from the lower left as seen by the viewer; a normal that points to the
+//! viewer's side; and, for every ray, the first point that the ray hits.
 
 mod cylinder;
 mod flat;
@@ -19,41 +19,42 @@ pub use sweep::{SweepError, sweep};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A ray closer to its start than this share of the surface's size hits nothing: a projector on the rim of a dome does not light
-/// the rim.
+/// Nearest hit of a ray, as a share of the surface's size. Closer to its start a ray hits nothing, so that a
+/// projector on the rim of a dome does not light the rim.
 const NEAREST: f64 = 1e-9;
 
-/// Rounding may put a point on an edge this far (in uv) beyond it.
+/// Largest distance in uv by which rounding may put a point of the edge beyond it.
 const EDGE: f64 = 1e-9;
 
-/// Where a ray hits a surface first.
+/// First hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// In lengths of the ray's direction.
+    /// Distance along the ray, in lengths of its direction.
     pub distance: f64,
-    /// Room axes, metres.
+    /// Point that is hit, room axes, metres.
     pub point: DVec3,
-    /// Unit vector to the viewer's side, whichever side the ray came from.
+    /// Unit vector to the viewer's side, whichever side the ray came from; room axes.
     pub normal: DVec3,
     /// Place on the surface, 0 to 1 from the lower left as seen by the viewer.
     pub uv: DVec2,
 }
 
-/// What a screen is made of.
+/// Shape and place of a screen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
-    /// A rectangle.
+    /// A flat rectangle.
     Flat(Flat),
     /// A wall curved round a vertical axis.
     Cylinder(Cylinder),
-    /// A dome, or part of one.
+    /// A dome, or a part of one.
     Sphere(Sphere),
-    /// Triangles.
+    /// A mesh of triangles.
     Mesh(Box<Mesh>),
 }
 
 impl Surface {
-    /// Point at a place on the surface: room axes, metres. Places outside 0 to 1 are those on its nearest edge. `None`: a hole in a mesh.
+    /// Point at a place on the surface: room axes, metres. A place outside 0 to 1 is moved to the nearest edge.
+    /// `None` in a hole of a mesh.
     pub fn point(&self, uv: DVec2) -> Option<DVec3> {
         let uv = uv.clamp(DVec2::ZERO, DVec2::ONE);
         match self {
@@ -64,7 +65,7 @@ impl Surface {
         }
     }
 
-    /// Unit normal there, to the viewer's side. `None`: a hole in a mesh.
+    /// Unit normal at a place, towards the viewer's side; room axes. `None` in a hole of a mesh.
     pub fn normal(&self, uv: DVec2) -> Option<DVec3> {
         let uv = uv.clamp(DVec2::ZERO, DVec2::ONE);
         match self {
@@ -75,7 +76,7 @@ impl Surface {
         }
     }
 
-    /// Where a ray from `origin` along `direction` (any length but zero) hits the surface first, from either side.
+    /// First hit of a ray from `origin` along `direction` (any length but zero), from either side of the surface.
     pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         match self {
             Self::Flat(flat) => flat.hit(origin, direction),
@@ -85,7 +86,8 @@ impl Surface {
         }
     }
 
-    /// The place of a point of the surface; `None` if the point is not near it. Meshes are searched through.
+    /// Place uv of a point of the surface; `None` if the point is not near the surface. A mesh is searched as a
+    /// whole.
     pub fn uv(&self, point: DVec3) -> Option<DVec2> {
         match self {
             Self::Flat(flat) => flat.uv(point - flat.lower_left),
@@ -95,7 +97,8 @@ impl Surface {
         }
     }
 
-    /// As a mesh of columns × rows places, at least two each, for what draws the room: a mesh as it is, anything else evenly divided.
+    /// Mesh of columns × rows places, at least two each, for drawing the room. A mesh is returned as it is; any other
+    /// surface is divided evenly.
     pub fn to_mesh(&self, columns: u32, rows: u32) -> Mesh {
         if let Self::Mesh(mesh) = self {
             return (**mesh).clone();
@@ -108,7 +111,7 @@ impl Surface {
         Mesh::grid(columns, rows, points.collect())
     }
 
-    /// Width and height as one would measure them along the surface, metres; of a mesh, its bounding box's diagonal twice.
+    /// Width and height measured along the surface, metres. For a mesh, both are the diagonal of its bounding box.
     pub fn size_m(&self) -> DVec2 {
         match self {
             Self::Flat(flat) => flat.size_m(),
@@ -118,7 +121,7 @@ impl Surface {
         }
     }
 
-    /// What it is called in reports: flat, cylinder, sphere or mesh.
+    /// Name of the surface's kind in reports: flat, cylinder, sphere or mesh.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Flat(_) => "flat",
@@ -129,7 +132,7 @@ impl Surface {
     }
 }
 
-/// Where a·t² + 2·b·t + c = 0, the lower first; NaN where nowhere.
+/// Solutions of a·t² + 2·b·t + c = 0, the smaller first; NaN if there are none.
 ///
 /// The textbook form cancels for the root near zero, which a projector on a dome's rim has.
 fn crossings(a: f64, b: f64, c: f64) -> [f64; 2] {
@@ -139,7 +142,7 @@ fn crossings(a: f64, b: f64, c: f64) -> [f64; 2] {
     if one <= other { [one, other] } else { [other, one] }
 }
 
-/// How far a yaw is on the way from `left` down to `right`, 0 to 1; `None` outside.
+/// Position of a yaw between `left` (0) and `right` (1), counted downwards; `None` outside.
 fn share(yaw: f64, left: f64, right: f64) -> Option<f64> {
     let width = left - right;
     let slack = EDGE * width;

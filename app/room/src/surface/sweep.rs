@@ -1,46 +1,47 @@
-//! A sheet that bends in one direction: a profile of height and depth, rounded at its corners, carried along x.
+//! Sheets that bend in one direction: a profile of height and depth, rounded at its corners, carried along x.
 
 use super::Mesh;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-/// Rounded corners are cut into chords of at most this angle: 0.5 mm from the arc at a radius of half a metre.
+/// Largest angle of the chords into which rounded corners are cut, radians: 0.5 mm from the arc at a radius of half a
+/// metre.
 const CHORD_RAD: f64 = 0.0873;
 
-/// A profile that cannot be.
+/// Profile from which no sheet can be made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SweepError {
-    /// Fewer than two points, or two in one place.
+    /// Fewer than two points, or two neighbours in one place.
     #[error("a profile needs at least two points, each in a place of its own")]
     TooShort,
-    /// A rounding for which there is no room.
+    /// A rounding that does not fit on the sides next to its corner.
     #[error(
         "bend = {bend_m} m does not fit at corner {corner} of the profile: it would use up {needed_m:.3} m of each side; make it smaller"
     )]
     TooRound {
-        /// Metres.
+        /// Radius of the rounding, metres.
         bend_m: f64,
-        /// Number of the point, from 1.
+        /// Number of the profile's point, counted from 1.
         corner: usize,
-        /// Metres from the corner to where the rounding begins.
+        /// Distance from the corner to the beginning of the rounding, metres.
         needed_m: f64,
     },
 }
 
-/// The sheet, with u along x from the left and v along the profile by its length.
+/// Mesh of the sheet, with u along x from the left and v along the profile by its length.
 ///
 /// # Arguments
-/// * `centre` — what `profile` is counted from.
-/// * `width_m` — along x, half of it on either side of `centre`.
+/// * `centre` — origin of `profile`, room axes, metres.
+/// * `width_m` — width along x, metres, half of it on either side of `centre`.
 /// * `profile` — (y, z) in metres from the lower edge to the upper.
-/// * `bend_m` — radius that the profile's inner corners are rounded with; 0: sharp.
+/// * `bend_m` — radius of the rounding at the profile's inner corners, metres; 0 leaves them sharp.
 ///
 /// # Errors
 /// [`SweepError`].
 pub fn sweep(centre: DVec3, width_m: f64, profile: &[DVec2], bend_m: f64) -> Result<Mesh, SweepError> {
     let line = rounded(profile, bend_m)?;
 
-    // Rows even in length make the grid's v the length itself; the corners of the line are kept by cutting there as well.
+    // Each row's v is its length along the profile, and there is a row at every corner of the line.
     let mut along = vec![0.0];
     for pair in line.windows(2) {
         along.push(along[along.len() - 1] + pair[0].distance(pair[1]));
@@ -60,7 +61,7 @@ pub fn sweep(centre: DVec3, width_m: f64, profile: &[DVec2], bend_m: f64) -> Res
     Ok(Mesh::new(points, uvs, &triangles))
 }
 
-/// The profile with its corners rounded.
+/// Profile with rounded corners, as a line of points (y, z), metres.
 fn rounded(profile: &[DVec2], bend_m: f64) -> Result<Vec<DVec2>, SweepError> {
     if profile.len() < 2 || profile.windows(2).any(|pair| pair[0].distance(pair[1]) <= 0.0) {
         return Err(SweepError::TooShort);
@@ -72,7 +73,7 @@ fn rounded(profile: &[DVec2], bend_m: f64) -> Result<Vec<DVec2>, SweepError> {
         let turn = std::f64::consts::PI - back.angle_to(ahead).abs();
         let needed_m = bend_m * (0.5 * turn).tan();
 
-        // Half a side is each corner's, the whole of the first and of the last side.
+        // Each corner may use half of a side; on the first and the last side it may use the whole.
         let room = |side: f64, whole: bool| if whole { side } else { 0.5 * side };
         let first = room(before.distance(at), index == 0);
         let last = room(at.distance(after), index + 3 == profile.len());

@@ -1,15 +1,15 @@
-//! Keys move the corner that is chosen, and nothing else; what no picture can have is refused. A wrong program would move another
-//! corner, lose a fraction of a pixel at each press, or draw a picture that is turned inside out.
+//! Law under test: keys move the chosen corner and nothing else, and corners that form no picture are refused. A
+//! wrong program would move another corner, lose a fraction of a pixel at each press, or turn a picture inside out.
 
 use super::*;
 use crate::room::{Corners, Warp};
 
-/// Both channels of the stereo wall.
+/// Display with two channels: the built-in stereo wall.
 fn wall() -> Display {
     Display::built_in("stereo-wall").unwrap()
 }
 
-/// A calibration of it, after these keys.
+/// Calibration of the stereo wall after the given keys; `true` means with Shift.
 fn after(keys: &[(Key, bool)]) -> Calibration {
     let mut calibration = Calibration::new(&wall());
     for (key, shift) in keys {
@@ -62,7 +62,7 @@ fn there_and_back_is_nothing() {
 
 #[test]
 fn backspace_goes_to_where_the_file_has_it_and_with_shift_to_the_viewport() {
-    // A third of a pixel, so that rounding would show.
+    // A third of a pixel is used so that rounding would show.
     let mut display = wall();
     let size = DVec2::new(1024.0, 768.0);
     let in_file = [DVec2::new(7.333_333, 5.1), DVec2::new(1024.0, 0.0), size, DVec2::new(0.0, 768.0)];
@@ -87,7 +87,7 @@ fn a_corner_beyond_the_others_is_refused_and_stays() {
     let mut display = wall();
     display.channels[0].viewport = [0, 0, 30, 30];
     let mut calibration = Calibration::new(&display);
-    // The upper left one may go down the diagonal to where it meets the line between its neighbours, x + y = 30.
+    // The upper left corner may go down the diagonal to the line between its neighbours, x + y = 30.
     for key in [Key::Right, Key::Down] {
         calibration.press(key, true).unwrap();
     }

@@ -1,11 +1,11 @@
-//! What is saved is what was nudged, and nothing else: a wrong program would lose comments, put other keys in order, or write what is
-//! read back as other corners.
+//! Law under test: saving changes the nudged corners and nothing else. A wrong program would lose comments, reorder
+//! other keys, or write corners that are read back as others.
 
 use super::*;
 use crate::file::parse;
 use crate::{Corners, Warp};
 
-/// A file as somebody has written it: comments, an odd order, corners of every form.
+/// Display file as a user may write it: comments, an unusual order, corners in every form.
 const FILE: &str = r#"# our wall, measured in May
 name = "wall"   # the large one
 
@@ -49,7 +49,7 @@ fn corners(text: &str, channel: usize) -> Option<Warp> {
     parse(text, "d.toml", Path::new("")).unwrap().channels[channel].warp.clone()
 }
 
-/// As a display has them.
+/// Warp of a display whose corners are at `places`, pixels, in a viewport of `size` pixels.
 fn warp(places: [DVec2; 4], size: DVec2) -> Option<Warp> {
     Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()))
 }
@@ -80,7 +80,7 @@ fn corners_that_are_there_keep_their_comments_and_what_has_not_moved() {
     assert!(text.contains("corners = { upper_left = [1.5, 2], lower_right = [99.0, 198.25]"), "{text}");
     assert!(text.contains("}   # by eye\n"), "{text}");
     assert!(text.contains("upper_left = [1.5, 2.0]  # near the door\n"), "{text}");
-    // What is saved once more is the same.
+    // Saving the same corners once more changes nothing.
     assert_eq!(saved(&text, &[("b", Some(places)), ("c", Some(places))]).unwrap(), text);
 }
 
@@ -121,7 +121,7 @@ fn a_file_is_written_whole_or_not_at_all() {
     let written = std::fs::read_to_string(&path).unwrap();
     assert_eq!(written, saved(FILE, &[("a", Some(PLACES))]).unwrap());
 
-    // Corners that no picture has are not written, and nothing is left behind.
+    // Crossed corners are no picture: they are not written, and no partial file is left behind.
     let crossed = [PLACES[2], PLACES[1], PLACES[0], PLACES[3]];
     assert!(matches!(save(name, &[("a", Some(crossed))]), Err(SaveError::Display(_))));
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
