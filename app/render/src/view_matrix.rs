@@ -4,7 +4,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use physics::Celerity;
 use view::Camera;
 
-/// Metres in front of the eye, at rest, nearer than which nothing is drawn.
+/// Distance in front of the eye, at rest, within which nothing is drawn, metres.
 pub const NEAR_M: f64 = 0.02;
 
 /// What the shaders need to draw one picture.
@@ -22,7 +22,7 @@ pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celer
     let kappa_of_light = motion.gamma() + motion.magnitude();
     let kappa = if geometry { kappa_of_light } else { 1.0 };
 
-    // Reversed depth with an infinite far plane keeps f32's relative precision at every distance; astern the
+    // Reversed depth with an infinite far plane keeps f32's relative precision at every distance. Astern, the
     // photo-surface comes closer by 1/(2κ), and the near plane with it.
     let near = NEAR_M / kappa;
     let projection = DMat4::from_cols(
@@ -54,7 +54,7 @@ pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celer
     }
 }
 
-/// Rounds a matrix to what the GPU takes.
+/// Matrix rounded to f32 for the GPU.
 pub fn matrix(matrix: &DMat4) -> Mat4 {
     matrix.as_mat4()
 }

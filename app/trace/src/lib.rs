@@ -1,18 +1,21 @@
-//! The reference: one ray of light for every sample of every pixel, followed back to where it came from (W 5.2).
+//! The reference renderer: one ray of light for every sample of every pixel, followed back to its source (W 5.2).
 //!
-//! A pixel is a direction in the observer's frame. Aberration takes it to the frame of whatever it may meet, in f64 and without any
-//! approximation: to the world's for what rests there, to its own for each group of meshes that moves uniformly. In that frame nothing moves, so light
-//! travels along a straight line from a body that is where it always was, and a hierarchy of boxes finds the first triangle on the
-//! way (`hits`). What is met in several frames is compared by its distance in the observer's, which along one sight line also orders the
-//! times at which the light left. The surface there sends out what its material, sun and sky make it send out in its own frame
-//! (`surface`); the observer sees it shifted and brightened (`light`).
+//! A pixel is a direction in the observer's frame. Aberration takes it, in f64 and without approximation, to the
+//! frame of everything that it may meet: the world's for what rests there, its own for each group of meshes that
+//! moves uniformly. In that frame nothing moves. So light travels along a straight line from a body that does not
+//! change its place, and a hierarchy of boxes finds the first triangle on the way (`hits`). Hits in several frames
+//! are compared by their distance in the observer's frame, which along one sight line also orders the times at which
+//! the light left. The surface there emits what its material, sun and sky make it emit in its own frame (`surface`);
+//! the observer sees it shifted and brightened (`light`).
 //!
-//! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`); a lens and a shutter spread a pixel's rays over places and
-//! moments (`lens`).
+//! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`). A lens and a shutter spread a
+//! pixel's rays over places and moments (`lens`).
 //!
-//! What is animated rests in no frame: in its own a ray is a curve, which is followed where the body is (`curve`).
+//! Animated bodies rest in no frame. In the body's own frame a ray is a curve, which is followed near the body
+//! (`curve`).
 //!
-//! Edges bend by themselves, and no triangle is cut. It is slow, and right: what the other renderers draw is held against it.
+//! Edges bend without any cut of triangles. The tracer is slow and exact: the pictures of the other renderers are
+//! compared with its pictures.
 
 mod curve;
 mod finish;

@@ -5,7 +5,7 @@ use scene::carriers::Spectra;
 use scene::{Scene, SceneFault};
 use view::{Shot, Stored, sample_offset};
 use glam::{DVec2, DVec3};
-use crate::hits::{Bodies, Sight};
+use crate::hits::{Bodies, Place, Sight};
 use image::Rgb32FImage;
 use crate::light::Light;
 use crate::path::{Leg, Seen};
@@ -19,12 +19,12 @@ const TILE: u32 = 16;
 
 /// A scene that is ready to be traced.
 pub struct RayTracer {
-    surfaces: Surfaces,
-    bodies: Bodies,
-    light: Light,
-    background: Option<[f32; 3]>,
-    optics: Optics,
-    bounces: u32,
+    pub(crate) surfaces: Surfaces,
+    pub(crate) bodies: Bodies,
+    pub(crate) light: Light,
+    pub(crate) background: Option<[f32; 3]>,
+    pub(crate) optics: Optics,
+    pub(crate) bounces: u32,
 }
 
 /// Result of tracing, rows from the top. Pixels that were not traced are black.

@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec2, DVec3};
 use physics::{Aberration, Celerity};
 
-/// A camera with a flat picture.
+/// Camera with a flat picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Rotation from the eye's axes (x right, y up, −z ahead) to the observer's.
@@ -95,7 +95,8 @@ impl Camera {
         (tangents.middle() + from_middle / tangents.focal_length(size)).extend(-1.0)
     }
 
-    /// Doppler factor of light from the world at a place in a picture of usual shape: −1 to 1 from left to right, and from below to above.
+    /// Doppler factor of light from the world at a place in a picture of the usual shape: −1 to 1 from left to right,
+    /// and from bottom to top.
     pub fn doppler_at(&self, place: DVec2, motion: Celerity, geometry: bool) -> f64 {
         const USUAL: [u32; 2] = [16, 10];
         let tangents = self.tangents(USUAL);

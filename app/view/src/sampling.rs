@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-/// Where sample `index` of `count` lies within its pixel: offsets from the centre in −½…½.
+/// Offset of sample `index` of `count` from the centre of its pixel, pixels, in −½…½.
 ///
-/// The additive recurrence on the plastic number (Roberts' R₂) fills the square evenly for every count; one
-/// sample is the centre itself.
+/// The additive recurrence on the plastic number (Roberts' R₂) fills the square evenly for every count. A single
+/// sample is at the centre.
 pub fn sample_offset(index: u32, count: u32) -> DVec2 {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     if count <= 1 {

@@ -6,14 +6,14 @@ use glam::{DQuat, DVec2};
 use physics::photo_surface::Eye;
 use physics::{Celerity, Event, Observer};
 
-/// Where an eye is, how it moves, and where it looks.
+/// Place, motion and direction of view of an eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaze {
-    /// Place and celerity, world axes.
+    /// Place and celerity of the eye, world axes.
     pub eye: Eye,
-    /// World time of the look, metres of light travel.
+    /// World time of the view, metres of light travel.
     pub ct: f64,
-    /// From eye axes (x right, y up, −z ahead) to the observer's.
+    /// Rotation from the eye's axes (x right, y up, −z ahead) to the observer's.
     pub observer_from_eye: DQuat,
 }
 
@@ -24,7 +24,7 @@ pub struct Shot {
     pub camera: Camera,
     /// Place and celerity of the eye, world axes.
     pub eye: Eye,
-    /// World time of the look, metres of light travel.
+    /// World time of the view, metres of light travel.
     pub ct: f64,
     /// What relativity does to the picture.
     pub effects: Effects,
@@ -61,19 +61,19 @@ impl Shot {
     }
 }
 
-/// How a texture holds radiance.
+/// Scale in which a texture holds radiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
-    /// Luminance in cd/m² of what is white at rest.
+    /// Luminance of what is white at rest, cd/m².
     pub white: f64,
-    /// The texture's red, green and blue are linear sRGB, relative to that white, times this.
+    /// Factor of the texture's values: its red, green and blue are linear sRGB, relative to that white, times this.
     pub scale: f64,
-    /// Whether Doppler shift or searchlight effect changed the light. Then the texture's alpha is the luminance that the same
-    /// surface has unshifted, relative to white and not scaled.
+    /// True if Doppler shift or searchlight effect changed the light. Then the texture's alpha is the luminance of
+    /// the same surface without any shift, relative to white and not scaled.
     pub shifted: bool,
 }
 
 impl Stored {
-    /// Light that is as it was sent out.
+    /// Light as it was emitted: relative to white, not scaled, not shifted.
     pub const UNSHIFTED: Self = Self { white: 1.0, scale: 1.0, shifted: false };
 }

@@ -16,7 +16,7 @@ use bytemuck::bytes_of;
 /// Time constant of the adaptation, seconds of proper time: in this time the eye adapts by 1 − 1/e of the way.
 pub const TIME_CONSTANT_S: f64 = 0.5;
 
-/// What an eye sees.
+/// A picture that an eye sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
     /// Radiance, one sample a pixel.

@@ -1,0 +1,3 @@
+//! Tests of the crate `built_in`, one module a subject.
+
+mod town;

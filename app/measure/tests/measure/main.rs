@@ -1,0 +1,3 @@
+//! Tests of the crate `measure`, one module a subject.
+
+mod extremes;

@@ -1,0 +1,4 @@
+//! Tests of the crate `probe`, one module a subject.
+
+mod answers;
+mod lines;

@@ -1,0 +1,8 @@
+//! Tests of the crate `ride`, one module a subject.
+
+mod simulation;
+mod tour;
+mod town;
+mod vehicle_bicycle;
+mod vehicle_flight;
+mod vehicle_walls;
