@@ -6,8 +6,8 @@
 
 use glam::DVec3;
 
-use crate::Celerity;
 use crate::axis::Axis;
+use crate::celerity::Celerity;
 
 /// Aberration for an observer of one celerity, prepared once and applied to many directions.
 ///

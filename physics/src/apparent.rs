@@ -10,8 +10,9 @@
 use glam::DVec3;
 
 use crate::axis::{Axis, Image, power_of_two_below};
+use crate::celerity::Celerity;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::{Celerity, Observer};
+use crate::observer::Observer;
 
 /// A point source in uniform motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

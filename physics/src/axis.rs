@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use crate::Celerity;
+use crate::celerity::Celerity;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// The direction and size of a celerity, prepared for use on many vectors.

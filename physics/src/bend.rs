@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::Celerity;
+use crate::celerity::Celerity;
 
 /// Share of an edge's length within which of its middle every triangle lies that has no longer edge: √3/2.
 const REACH: f64 = 0.866_025_403_784_438_7;

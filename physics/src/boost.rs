@@ -1,8 +1,9 @@
 //! Pure Lorentz boosts: from the world's frame to that of an observer who moves through it, and back.
 
 use crate::axis::Axis;
+use crate::celerity::Celerity;
 use crate::double_double::DoubleDouble;
-use crate::{Celerity, FourVector};
+use crate::event::FourVector;
 
 /// A pure boost, prepared once and applied to many four-vectors.
 ///

@@ -8,8 +8,8 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::Celerity;
 use crate::axis::Axis;
+use crate::celerity::Celerity;
 
 /// Two boosts in a row: B(head)·B(vehicle) = R(wigner)·B(celerity).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,8 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::celerity::unit_vector;
-use crate::{Event, FourVector, Observer};
+use crate::event::{Event, FourVector};
+use crate::observer::Observer;
 
 /// The events of both eyes, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

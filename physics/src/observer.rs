@@ -1,6 +1,8 @@
 //! The observer: where and when a look is taken, and how fast the one who looks is moving.
 
-use crate::{Boost, Celerity, Event};
+use crate::boost::Boost;
+use crate::celerity::Celerity;
+use crate::event::Event;
 
 /// An event on a worldline with the celerity there, both in the world's frame and axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -7,8 +7,10 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::celerity::unit_vector;
-use crate::{Celerity, Event, Observer, Source, apparent};
+use crate::apparent::{self, Source};
+use crate::celerity::{Celerity, unit_vector};
+use crate::event::Event;
+use crate::observer::Observer;
 
 /// A place perceived by both eyes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

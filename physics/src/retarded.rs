@@ -5,9 +5,10 @@
 //! decreasing: there is at most one root, and it stays bracketed while Newton's method, f' = −1 − n·β, closes in on it (the theses solve
 //! uniform motion only, W 5.1.2).
 
-use crate::Event;
 use glam::DVec3;
 use thiserror::Error;
+
+use crate::event::Event;
 
 /// Where a point is at each time of the world.
 pub trait Worldline {

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{Carrier, planck, shares, white};
+use super::planck;
+use super::shares::{shares, white};
 
 /// A spectrum: of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,15 +117,6 @@ impl Spectrum {
     /// of its own maximum. *Units:* nm.
     pub fn reflectance(&self, wavelength_nm: f64) -> f64 {
         self.lifted_reflectance(wavelength_nm, 0.0)
-    }
-
-    /// Tristimulus values (CIE 1931 2°) of this light as an observer sees it who meets it with the Doppler factor D:
-    /// colour and brightness.
-    ///
-    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only where
-    /// D⁵ L is beyond all numbers.
-    pub fn xyz(&self, doppler: f64) -> DVec3 {
-        Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
     }
 
     /// e^lift times the radiance.

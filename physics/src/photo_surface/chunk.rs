@@ -3,10 +3,10 @@
 use std::mem::MaybeUninit;
 
 use super::formula::{AtRest, ExactAstern, Formula, LightCone};
-use super::lanes::{AlignedLine, Lanes, OutputLine};
+use super::lanes::{AlignedLine, LaneWork, Lanes, OutputLine};
+use super::line::{LINE, Line};
 use super::plan::{Form, Plan};
 use super::simd;
-use super::vertices::{LINE, Line};
 
 /// What one call of the kernel works on.
 pub(super) struct Chunk<'a> {
@@ -21,17 +21,23 @@ pub(super) struct Chunk<'a> {
     pub(super) streaming: bool,
 }
 
-impl Chunk<'_> {
-    /// Transforms the chunk; returns how many of its results are not finite.
+impl LaneWork for Chunk<'_> {
+    /// Number of results that are not finite.
+    type Output = usize;
+
+    /// Transforms the chunk.
     #[inline(always)]
-    pub(super) fn transform<L: Lanes>(self) -> usize {
+    fn run<L: Lanes>(self) -> usize {
         match self.form {
             Form::AtRest => self.transform_by::<L, AtRest<L>>(),
             Form::LightCone => self.transform_by::<L, LightCone<L>>(),
             Form::ExactAstern => self.transform_by::<L, ExactAstern<L>>(),
         }
     }
+}
 
+impl Chunk<'_> {
+    /// Transforms the chunk with one formula; returns the number of results that are not finite.
     #[inline(always)]
     fn transform_by<L: Lanes, F: Formula<L>>(self) -> usize {
         let formula = F::new(&self.plan);

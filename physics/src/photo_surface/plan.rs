@@ -6,8 +6,8 @@
 
 use glam::DVec3;
 
-use super::PhotoSurfaceError;
-use super::vertices::Sphere;
+use super::eye::Eye;
+use super::sphere::Sphere;
 
 /// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
 ///
@@ -17,37 +17,6 @@ const LEAST_DOPPLER: f64 = 0.25;
 
 /// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
 pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
-
-/// Where the light is received: a point of the world and the velocity of whoever looks from there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eye {
-    position: DVec3,
-    celerity: DVec3,
-}
-
-impl Eye {
-    /// An eye at `position` (world frame, metres) that moves with `celerity` u = γβ (world axes).
-    ///
-    /// # Errors
-    /// [`PhotoSurfaceError::Eye`] if either is not finite.
-    pub fn new(position: DVec3, celerity: DVec3) -> Result<Self, PhotoSurfaceError> {
-        if position.is_finite() && celerity.is_finite() {
-            Ok(Self { position, celerity })
-        } else {
-            Err(PhotoSurfaceError::Eye { position, celerity })
-        }
-    }
-
-    /// Where the eye is when it receives the light; world frame, metres.
-    pub fn position(&self) -> DVec3 {
-        self.position
-    }
-
-    /// The eye's celerity in the world frame.
-    pub fn celerity(&self) -> DVec3 {
-        self.celerity
-    }
-}
 
 /// Which formula a chunk gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,14 +45,14 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn new(eye: &Eye, origin: DVec3) -> Self {
         // Scale before taking the length: |u|² must neither overflow nor vanish.
-        let scale = eye.celerity.abs().max_element();
+        let scale = eye.celerity().abs().max_element();
         let (speed, direction) = if scale == 0.0 {
             (0.0, DVec3::ZERO)
         } else {
-            let scaled = eye.celerity / scale;
+            let scaled = eye.celerity() / scale;
             (scale * scaled.length(), scaled.normalize())
         };
-        let (offset, offset_rest) = exact_difference(eye.position, origin);
+        let (offset, offset_rest) = exact_difference(eye.position(), origin);
         Self { offset, offset_rest, direction, kappa: speed.hypot(1.0) + speed }
     }
 

@@ -2,11 +2,13 @@
 
 use std::mem::MaybeUninit;
 
-use super::PhotoSurfaceError;
 use super::chunk::Chunk;
-use super::plan::{Eye, Plan};
+use super::error::PhotoSurfaceError;
+use super::eye::Eye;
+use super::line::{CHUNK, LINE};
+use super::plan::Plan;
 use super::simd;
-use super::vertices::{CHUNK, LINE, Vertices};
+use super::vertices::Vertices;
 
 /// One mesh and where to write its apparent positions and, if wanted, Doppler factors.
 ///

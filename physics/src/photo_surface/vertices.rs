@@ -8,26 +8,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::PhotoSurfaceError;
-use super::plan::{Eye, Form, Plan};
-
-/// Vertices in a chunk: the unit of work of a thread. The speed is the same from 2,000 to 32,000.
-pub const CHUNK: usize = 8192;
-
-/// Vertices in a line: two of the widest registers.
-pub(super) const LINE: usize = 32;
-
-/// A line of one coordinate, aligned to a cache line.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub(super) struct Line(pub(super) [f32; LINE]);
-
-/// A sphere around all finite vertices of a chunk, relative to the origin of the vertices; metres.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sphere {
-    pub(super) centre: DVec3,
-    pub(super) radius: f64,
-}
+use super::error::PhotoSurfaceError;
+use super::eye::Eye;
+use super::line::{CHUNK, LINE, Line};
+use super::plan::{Form, Plan};
+use super::sphere::Sphere;
 
 /// The vertices of one mesh at rest in the world frame.
 ///

@@ -2,16 +2,9 @@
 
 use glam::DVec3;
 
-use super::{State, WorldlineError};
-
-/// Push and turn at one instant, both in the pilot's own axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Thrust {
-    /// Proper acceleration, what an accelerometer on board shows, in units of c² per metre (1/m).
-    pub acceleration: DVec3,
-    /// Rotation against gyroscopes on board, right-handed, in radians per metre of proper time.
-    pub turn_rate: DVec3,
-}
+use super::error::WorldlineError;
+use super::state::State;
+use super::thrust::Thrust;
 
 impl Thrust {
     /// A push given in the axes of the pure boost from the world to the vehicle's frame, without a turn.

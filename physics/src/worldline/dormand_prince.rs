@@ -5,8 +5,12 @@
 //! Prince, "A family of embedded Runge–Kutta formulae", J. Comp. Appl. Math. 6 (1980); step control: E. Hairer et al.,
 //! *Solving Ordinary Differential Equations I*, II.4.
 
+use super::control::Control;
+use super::error::WorldlineError;
+use super::integrator::Integrator;
+use super::limits::LEAST_TOLERANCE;
 use super::runge_kutta::{Rates, Tableau};
-use super::{Control, Integrator, State, WorldlineError};
+use super::state::State;
 
 /// An integrator that chooses its own steps.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +43,7 @@ const MOST_TRIALS: usize = 100_000;
 
 impl DormandPrince {
     /// The smallest tolerance accepted: rounding hides errors below it.
-    pub const LEAST_TOLERANCE: f64 = 1e-14;
+    pub const LEAST_TOLERANCE: f64 = LEAST_TOLERANCE;
 
     /// An integrator with this error allowed per inner step: in rapidity, in radians, and in time and way as shares of
     /// those of the step.

@@ -8,10 +8,12 @@
 
 use glam::DQuat;
 
-use super::control::finite_thrust;
+use super::control::{Control, finite_thrust};
+use super::error::WorldlineError;
+use super::integrator::Integrator;
 use super::rotation::Rotation;
-use super::state::{Increment, Rest};
-use super::{Control, Integrator, State, Thrust, WorldlineError};
+use super::state::{Increment, Rest, State};
+use super::thrust::Thrust;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// Exact for constant thrust and turn rate; a control that varies is taken at the middle of the step (second order).

@@ -1,7 +1,10 @@
 //! The classical Runge–Kutta method of fourth order, in proper time.
 
+use super::control::Control;
+use super::error::WorldlineError;
+use super::integrator::Integrator;
 use super::runge_kutta::{Rates, Tableau};
-use super::{Control, Integrator, State, WorldlineError};
+use super::state::State;
 
 /// Fourth order at a fixed cost of four thrusts a step; the default.
 ///

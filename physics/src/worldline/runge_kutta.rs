@@ -5,9 +5,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::control::finite_thrust;
-use super::state::{Increment, Rest};
-use super::{Control, State, WorldlineError};
+use super::control::{Control, finite_thrust};
+use super::error::WorldlineError;
+use super::state::{Increment, Rest, State};
 
 /// Rates of change with proper time.
 #[derive(Clone, Copy, Default)]

@@ -2,10 +2,13 @@
 
 use glam::{DQuat, DVec3, DVec4};
 
-use super::WorldlineError;
+use super::error::WorldlineError;
 use super::rotation::Rotation;
+use crate::celerity::Celerity;
+use crate::composition::{Composition, compose};
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
+use crate::event::{Event, FourVector};
+use crate::observer::Observer;
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
 ///

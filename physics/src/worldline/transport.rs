@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{State, Thrust};
+use super::state::State;
+use super::thrust::Thrust;
 
 /// The pilot's forward direction, in the pilot's axes.
 const NOSE: DVec3 = DVec3::NEG_Z;
