@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
-use physics::photo_surface::{Eye, Kernel, Surface, Vertices};
+use physics::photo_surface::{Kernel, PhotoSurfaceEye, Surface, Vertices};
 
 const VERTICES: usize = 1 << 20;
 const GROUPS: [usize; 5] = [1, 4, 16, 64, 256];
@@ -30,8 +30,10 @@ fn groups(count: usize) -> Vec<Vertices> {
 }
 
 /// The observer as each group has him.
-fn eyes(count: usize) -> Vec<Eye> {
-    (0..count).map(|group| Eye::new(DVec3::Y, DVec3::new(0.75, 0.0, 0.001 * group as f64)).unwrap()).collect()
+fn eyes(count: usize) -> Vec<PhotoSurfaceEye> {
+    (0..count)
+        .map(|group| PhotoSurfaceEye::new(DVec3::Y, DVec3::new(0.75, 0.0, 0.001 * group as f64)).unwrap())
+        .collect()
 }
 
 fn main() {

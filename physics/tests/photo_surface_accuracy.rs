@@ -9,7 +9,7 @@
 #![expect(clippy::unwrap_used, reason = "a helper that fails, fails its test")]
 
 use glam::DVec3;
-use physics::photo_surface::{Eye, Instructions, Kernel, Surface, Vertices};
+use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, Surface, Vertices};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -111,7 +111,7 @@ fn direction(random: &mut impl Rng, ahead: DVec3) -> DVec3 {
 fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Exact {
     let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
     let surface = Surface::new(vertices, [&mut x, &mut y, &mut z]).unwrap().with_doppler(&mut doppler).unwrap();
-    let stats = kernel.transform(&Eye::new(eye, u).unwrap(), vec![surface]);
+    let stats = kernel.transform(&PhotoSurfaceEye::new(eye, u).unwrap(), vec![surface]);
     assert_eq!(stats.not_finite(), 0);
     Exact { position: DVec3::new(x[0].into(), y[0].into(), z[0].into()), doppler: doppler[0].into() }
 }
@@ -205,7 +205,7 @@ fn chunks_of_many_vertices_are_as_accurate_as_single_ones() {
         position.iter_mut().for_each(|stream| stream.resize(offsets.len(), 0.0));
         let [x, y, z] = &mut position;
         let surface = Surface::new(&vertices, [x, y, z]).unwrap();
-        Kernel::default().transform(&Eye::new(eye, u).unwrap(), vec![surface]);
+        Kernel::default().transform(&PhotoSurfaceEye::new(eye, u).unwrap(), vec![surface]);
         for (index, offset) in offsets.iter().enumerate() {
             let got = DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(position[axis][index])));
             let want = reference(offset.as_dvec3(), origin, eye, u).position;

@@ -4,12 +4,16 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::instructions::Instructions;
+use crate::celerity::Celerity;
 
 /// What cannot be transformed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum PhotoSurfaceError {
-    /// The eye is nowhere, or its velocity is none.
-    #[error("the eye's position {position} m and celerity {celerity} must be finite numbers")]
+    /// A position or a celerity of the eye that is not finite, or a celerity beyond the limit.
+    #[error(
+        "the eye's position {position} m and celerity {celerity} must be finite numbers, the celerity no longer than {limit:e}",
+        limit = Celerity::LIMIT
+    )]
     Eye {
         /// As given; world frame, metres.
         position: DVec3,

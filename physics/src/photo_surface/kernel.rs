@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::error::PhotoSurfaceError;
-use super::eye::Eye;
+use super::eye::PhotoSurfaceEye;
 use super::instructions::Instructions;
 use super::line::CHUNK;
 use super::simd;
@@ -69,15 +69,24 @@ impl Kernel {
 
     /// Writes the photo-surface of all meshes of a frame, shared between the caller and the current rayon pool.
     ///
-    /// *Frames*: vertices in the world frame; apparent positions relative to the eye, in its rest frame, on the
-    /// world's axes after a pure boost; metres. *Equation*: the light-cone form of x' = d + u (r + u·d/(1+γ)), D = γ + u·n
-    /// (Weiskopf 2001, 5.1), with d the displacement from the eye to the vertex.
-    pub fn transform(&self, eye: &Eye, surfaces: Vec<Surface<'_>>) -> Stats {
-        self.transform_each(surfaces.into_iter().map(|surface| (*eye, surface)).collect())
+    /// *Frames*: `eye` (an `&Observer` or an eye) and vertices in the world frame; apparent positions relative to the
+    /// eye, in its rest frame, on the world's axes after a pure boost; metres. *Equation*: the light-cone form of
+    /// x' = d + u (r + u·d/(1+γ)), D = γ + u·n (W 5.1), with d the displacement from the eye to the vertex.
+    ///
+    /// A position of the eye that is not finite makes no result finite: every vertex is counted.
+    pub fn transform<'e, E>(&self, eye: &'e E, surfaces: Vec<Surface<'_>>) -> Stats
+    where
+        PhotoSurfaceEye: From<&'e E>,
+    {
+        let eye = PhotoSurfaceEye::from(eye);
+        self.transform_each(surfaces.into_iter().map(|surface| (eye, surface)).collect())
     }
 
-    /// The same for surfaces that are seen by an eye each: what moves uniformly has the observer in its own frame (W 5.1.2).
-    pub fn transform_each(&self, surfaces: Vec<(Eye, Surface<'_>)>) -> Stats {
+    /// Writes the photo-surfaces of meshes that have an eye each: an object in uniform motion has the observer in the
+    /// object's own frame (W 5.1.2).
+    pub fn transform_each<E: Into<PhotoSurfaceEye>>(&self, surfaces: Vec<(E, Surface<'_>)>) -> Stats {
+        let surfaces: Vec<(PhotoSurfaceEye, _)> =
+            surfaces.into_iter().map(|(eye, surface)| (eye.into(), surface)).collect();
         let vertices: usize = surfaces.iter().map(|(_, surface)| surface.vertices().len()).sum();
         let not_finite_inputs = surfaces.iter().map(|(_, surface)| surface.vertices().not_finite().len()).sum();
         let bytes: usize = surfaces.iter().map(|(_, surface)| surface.output_bytes()).sum();

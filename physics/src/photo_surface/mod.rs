@@ -28,17 +28,19 @@
 //! # Example
 //! ```
 //! use glam::DVec3;
-//! use physics::photo_surface::{Eye, Kernel, Surface, Vertices};
+//! use physics::photo_surface::{Kernel, Surface, Vertices};
+//! use physics::{Celerity, Event, Observer};
 //!
 //! // A point one metre ahead, for an eye at 0.6 c: u = 0.75, γ = 1.25, D = 2.
 //! let vertices = Vertices::from_world(DVec3::ZERO, [DVec3::NEG_Z])?;
-//! let eye = Eye::new(DVec3::ZERO, DVec3::NEG_Z * 0.75)?;
+//! let celerity = Celerity::new(DVec3::NEG_Z * 0.75)?;
+//! let observer = Observer { event: Event::default(), celerity };
 //! let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
 //! let surface = Surface::new(&vertices, [&mut x, &mut y, &mut z])?.with_doppler(&mut doppler)?;
-//! let stats = Kernel::default().transform(&eye, vec![surface]);
+//! let stats = Kernel::default().transform(&observer, vec![surface]);
 //! assert_eq!((x[0], y[0], z[0], doppler[0]), (0.0, 0.0, -2.0, 2.0));
 //! assert_eq!(stats.not_finite(), 0);
-//! # Ok::<(), physics::photo_surface::PhotoSurfaceError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod chunk;
@@ -59,7 +61,8 @@ mod twice;
 mod vertices;
 
 pub use error::PhotoSurfaceError;
-pub use eye::Eye;
+pub use eye::PhotoSurfaceEye;
+pub use eye::PhotoSurfaceEye as Eye; // until app is moved
 pub use instructions::Instructions;
 pub use kernel::{Kernel, Stores};
 pub use line::CHUNK;

@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
-use super::eye::Eye;
+use super::eye::PhotoSurfaceEye;
 use super::sphere::Sphere;
+use crate::double_double::DoubleDoubleVec3;
 
 /// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
 ///
@@ -43,17 +44,16 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(eye: &Eye, origin: DVec3) -> Self {
-        // Scale before taking the length: |u|² must neither overflow nor vanish.
-        let scale = eye.celerity().abs().max_element();
-        let (speed, direction) = if scale == 0.0 {
-            (0.0, DVec3::ZERO)
-        } else {
-            let scaled = eye.celerity() / scale;
-            (scale * scaled.length(), scaled.normalize())
-        };
-        let (offset, offset_rest) = exact_difference(eye.position(), origin);
-        Self { offset, offset_rest, direction, kappa: speed.hypot(1.0) + speed }
+    /// Plan for a mesh whose coordinates are relative to `origin` (world frame, metres).
+    pub(super) fn new(eye: &PhotoSurfaceEye, origin: DVec3) -> Self {
+        let celerity = eye.celerity();
+        let offset = DoubleDoubleVec3::difference(eye.position(), origin);
+        Self {
+            offset: offset.high,
+            offset_rest: offset.low,
+            direction: celerity.direction().unwrap_or(DVec3::ZERO),
+            kappa: celerity.gamma() + celerity.magnitude(),
+        }
     }
 
     /// The cheapest formula that is accurate everywhere in `sphere`.
@@ -79,22 +79,18 @@ impl Plan {
     }
 }
 
-/// a − b and what its rounding lost (Knuth's two-sum).
-fn exact_difference(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
-    let difference = a - b;
-    let of_b = difference - a;
-    (difference, (a - (difference - of_b)) - (b + of_b))
-}
-
 #[cfg(test)]
 mod tests {
     //! The choice of formula. A wrong one would spend f64 work on what lies ahead, or, worse, leave vertices
     //! astern to the form that loses their direction.
 
     use super::*;
+    use crate::celerity::Celerity;
+    use crate::observer::Observer;
 
     fn moving_along_x(celerity: f64) -> Plan {
-        Plan::new(&Eye::new(DVec3::ZERO, DVec3::X * celerity).unwrap(), DVec3::ZERO)
+        let observer = Observer { celerity: Celerity::from_finite(DVec3::X * celerity), ..Observer::default() };
+        Plan::new(&PhotoSurfaceEye::from(&observer), DVec3::ZERO)
     }
 
     fn sphere(x: f64, y: f64, radius: f64) -> Sphere {
@@ -129,7 +125,9 @@ mod tests {
 
     #[test]
     fn celerities_of_any_size_have_a_direction() {
-        for size in [f64::MIN_POSITIVE * f64::EPSILON, 1e-200, 1e200, 1e308] {
+        // The largest is that of two celerities at their limit, one after the other.
+        for size in [f64::MIN_POSITIVE * f64::EPSILON, 1e-200, Celerity::LIMIT, 2.0 * Celerity::LIMIT * Celerity::LIMIT]
+        {
             let plan = moving_along_x(size);
             assert_eq!(plan.direction, DVec3::X, "|u| = {size:e}");
             assert!(plan.kappa >= 1.0, "|u| = {size:e}: kappa {}", plan.kappa);

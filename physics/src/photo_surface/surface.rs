@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::chunk::Chunk;
 use super::error::PhotoSurfaceError;
-use super::eye::Eye;
+use super::eye::PhotoSurfaceEye;
 use super::line::{CHUNK, LINE};
 use super::plan::Plan;
 use super::simd;
@@ -72,7 +72,11 @@ impl<'a> Surface<'a> {
     }
 
     /// Cuts the work into chunks, each with the formula it needs.
-    pub(super) fn into_chunks(self, eye: &Eye, streaming: bool) -> impl Iterator<Item = Chunk<'a>> + use<'a> {
+    pub(super) fn into_chunks(
+        self,
+        eye: &PhotoSurfaceEye,
+        streaming: bool,
+    ) -> impl Iterator<Item = Chunk<'a>> + use<'a> {
         let Self { vertices, position: [x, y, z], doppler } = self;
         let plan = Plan::new(eye, vertices.origin());
         let [in_x, in_y, in_z] = vertices.streams().map(|stream| stream.chunks(CHUNK / LINE));

@@ -9,7 +9,7 @@
 use glam::{DVec3, Vec3};
 
 use super::error::PhotoSurfaceError;
-use super::eye::Eye;
+use super::eye::PhotoSurfaceEye;
 use super::line::{CHUNK, LINE, Line};
 use super::plan::{Form, Plan};
 use super::sphere::Sphere;
@@ -103,11 +103,15 @@ impl Vertices {
         DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])))
     }
 
-    /// Whether any of them may lie where f32 alone loses its direction: within 14.5° of dead astern of an eye that is fast enough to matter.
+    /// True if any vertex may lie where f32 alone loses its direction: within 14.5° of dead astern of an eye that is
+    /// fast enough to matter. False for an eye whose position is not finite.
     ///
     /// A program that transforms with f32 only, as a GPU does, leaves such vertices to the kernel.
-    pub fn reach_astern(&self, eye: &Eye) -> bool {
-        let plan = Plan::new(eye, self.origin);
+    pub fn reach_astern<'e, E>(&self, eye: &'e E) -> bool
+    where
+        PhotoSurfaceEye: From<&'e E>,
+    {
+        let plan = Plan::new(&PhotoSurfaceEye::from(eye), self.origin);
         self.spheres.iter().any(|sphere| plan.form(sphere) == Form::ExactAstern)
     }
 
