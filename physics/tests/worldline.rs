@@ -11,7 +11,7 @@ use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
     Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, State, Thrust, Transport, WorldlineError, travel,
 };
-use physics::{Boost, Celerity, Event, FourVector};
+use physics::{Boost, Celerity, Event, FourVector, Observer};
 use support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
@@ -445,6 +445,23 @@ fn head_ahead_in_the_vehicle_is_further_on_and_later_in_the_world() {
     assert!(head.position.distance(DVec3::new(-5.0, 0.0, 0.0)) < 8.0 * EPSILON);
     assert!((head.ct - 3.0).abs() < 8.0 * EPSILON);
     assert_eq!((head.celerity, head.orientation), (vehicle.celerity, vehicle.orientation));
+}
+
+#[test]
+fn eye_at_rest_aboard_is_at_the_bits_that_recordings_were_made_with() {
+    // Old recordings are verified to the bit, so the order of operations is part of the interface.
+    let mut random = seeded(18);
+    for _ in 0..500 {
+        let event = Event { ct: size(&mut random, -3.0..6.0), position: vector(&mut random, -3.0..6.0) };
+        let vehicle = State::new(event, celerity(&mut random, -6.0..6.0), orientation(&mut random));
+        let place = vector(&mut random, -2.0..1.0);
+        let world_from_vehicle = vehicle.observer().observer_from_world().inverse();
+        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: vehicle.orientation * place });
+        let expected = Observer { event: event + displacement, celerity: vehicle.celerity };
+        assert_eq!(vehicle.observer_at(place), expected);
+        let aboard = vehicle.aboard(place, Celerity::ZERO);
+        assert_eq!((aboard.observer(), aboard.orientation), (expected, vehicle.orientation));
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::rotation::Rotation;
 use crate::celerity::Celerity;
 use crate::composition::{Composition, compose};
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::event::{Event, FourVector};
+use crate::event::Event;
 use crate::observer::Observer;
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
@@ -68,20 +68,27 @@ impl State {
         Event { ct: self.ct, position: self.position }
     }
 
-    /// Someone who rests in the vehicle's reference point.
+    /// The observer who rests in the vehicle's reference point.
     pub fn observer(&self) -> Observer {
         Observer { event: self.event(), celerity: self.celerity }
     }
 
-    /// The state of a head within the vehicle, at the same time for the vehicle (W 6.3).
+    /// The observer who rests in the vehicle at `place`, at the same time for the vehicle.
+    ///
+    /// *Frames, units:* `place` from the vehicle's reference point, in the pilot's axes, metres; the result in the
+    /// world. *Equation:* [`Observer::at_offset`].
+    pub fn observer_at(&self, place: DVec3) -> Observer {
+        self.observer().at_offset(self.orientation * place)
+    }
+
+    /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest there
+    /// is [`State::observer_at`] with the vehicle's orientation.
     ///
     /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
     /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
     /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
     pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
-        let world_from_vehicle = self.observer().observer_from_world().inverse();
-        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: self.orientation * place });
-        let Event { ct, position } = self.event() + displacement;
+        let Event { ct, position } = self.observer_at(place).event;
         let head = Celerity::from_finite(self.orientation * celerity.vector());
         let Composition { celerity, wigner } = compose(self.celerity, head);
         let orientation = wigner.inverse() * self.orientation;
