@@ -31,6 +31,7 @@ pub mod colour;
 pub mod composition;
 pub mod event;
 pub mod eyes;
+pub mod light_cone;
 pub mod observer;
 pub mod perceived;
 pub mod photo_surface;
@@ -43,6 +44,7 @@ pub use boost::Boost;
 pub use celerity::{Beta, Celerity, CelerityError};
 pub use composition::{Composition, compose};
 pub use event::{Event, FourVector};
+pub use light_cone::LightConeCoordinates;
 pub use observer::Observer;
 
 /// The vector and quaternion types of the public interface.

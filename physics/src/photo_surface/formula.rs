@@ -1,16 +1,14 @@
 //! The equations, written once for every vector width.
 //!
-//! Each form takes the offsets p of as many vertices as a register holds and gives the apparent positions and
-//! Doppler factors. With d = p − o the displacement from the eye to the vertex, h and d⊥ its parts along and
-//! across the motion, the emission event is (−r, d), and the boost only scales its light-cone coordinates r ± h:
+//! Each form takes the offsets p of as many vertices as a register holds and gives the apparent positions and Doppler
+//! factors. With d = p − o the displacement from the eye to the vertex, h and d⊥ its parts along and across the motion,
+//! these are the equations of [`crate::light_cone`] in f32, with q = |d⊥|², A = κ ahead / 2, C = behind / (2κ):
 //!
 //! ```text
-//! q = |d⊥|²    r = √(h² + q)    big = r + |h|    small = q / big
-//! (a, c) = h ≥ 0 ? (big, small) : (small, big)    A = κ a / 2    C = c / (2κ)
 //! x' = d⊥ + (A − C) e    D = (A + C) / r
 //! ```
 //!
-//! Neither r + |h| nor q / big cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
+//! Nothing in them cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
 //! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for
 //! vertices that lie there: neighbours in a mesh mostly are neighbours in space, so that few do.
 

@@ -52,7 +52,7 @@ impl Plan {
             offset: offset.high,
             offset_rest: offset.low,
             direction: celerity.direction().unwrap_or(DVec3::ZERO),
-            kappa: celerity.gamma() + celerity.magnitude(),
+            kappa: celerity.kappa(),
         }
     }
 
