@@ -32,6 +32,7 @@ pub mod composition;
 pub mod event;
 pub mod eyes;
 pub mod light_cone;
+pub mod newton;
 pub mod observer;
 pub mod perceived;
 pub mod photo_surface;

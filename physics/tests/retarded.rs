@@ -127,4 +127,8 @@ fn what_is_faster_than_light_is_refused_and_what_touches_the_eye_is_seen_at_once
     assert_eq!(here.ct, 2.0);
     let nowhere = retarded(Event::default(), &counted(|_| (DVec3::splat(f64::NAN), DVec3::ZERO)));
     assert!(matches!(nowhere, Err(NotSeen::Never { .. })));
+    // Light as good as keeps up with this source, and its velocity is said to be the opposite one.
+    let speed = DVec3::X * 0.999_999;
+    let lying = retarded(Event::default(), &counted(|ct| (DVec3::X * 10.0 - speed * ct, speed)));
+    assert!(matches!(lying, Err(NotSeen::NotConverged { .. })), "{lying:?}");
 }
