@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
-use physics::photo_surface::{Kernel, PhotoSurfaceEye, Surface, Vertices};
+use physics::photo_surface::{Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
 
 const VERTICES: usize = 1 << 20;
 const GROUPS: [usize; 5] = [1, 4, 16, 64, 256];
@@ -47,7 +47,7 @@ fn main() {
             let [mut x, mut y, mut z] = output.each_mut().map(Vec::as_mut_slice);
             let seen = vertices.iter().zip(eyes).map(|(vertices, eye)| {
                 let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..vertices.len()).unwrap());
-                (*eye, Surface::new(vertices, streams).unwrap())
+                (*eye, PhotoSurfaceMesh::new(vertices, streams).unwrap())
             });
             let seen = seen.collect();
             let started = Instant::now();

@@ -14,7 +14,7 @@ use crate::light_cone::LightConeCoordinates;
 
 /// The direction and size of a celerity, prepared for use on many vectors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct BoostAxis {
     /// e, the unit vector of the motion; +x for an observer at rest, where any will do.
     pub(crate) direction: DoubleDoubleVec3,
     /// w = |u|.
@@ -23,7 +23,7 @@ pub(crate) struct Axis {
     pub(crate) kappa: f64,
 }
 
-/// A vector split by an [`Axis`].
+/// A vector split by an [`BoostAxis`].
 pub(crate) struct Split {
     /// h = e·d.
     pub(crate) along: DoubleDouble,
@@ -50,7 +50,7 @@ impl Image {
     }
 }
 
-impl Axis {
+impl BoostAxis {
     pub(crate) fn new(celerity: Celerity) -> Self {
         let magnitude = celerity.magnitude();
         let direction = unit(celerity.vector());

@@ -8,7 +8,7 @@
 
 use glam::{DVec3, Vec3};
 use physics::photo_surface::{
-    CHUNK, Instructions, Kernel, PhotoSurfaceError, PhotoSurfaceEye, Stats, Stores, Surface, Vertices,
+    CHUNK, Instructions, Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Stores, Vertices,
 };
 use physics::{Celerity, Event, Observer};
 use rand::{RngExt, SeedableRng};
@@ -19,13 +19,13 @@ const ROUNDING: f32 = 1.2e-7;
 
 /// A photo-surface in ordinary memory.
 #[derive(Clone, Debug, PartialEq)]
-struct Seen {
+struct WrittenSurface {
     position: [Vec<f32>; 3],
     doppler: Vec<f32>,
     stats: Stats,
 }
 
-impl Seen {
+impl WrittenSurface {
     fn bits(&self) -> Vec<u32> {
         self.position.iter().chain([&self.doppler]).flatten().map(|value| value.to_bits()).collect()
     }
@@ -38,16 +38,16 @@ impl Seen {
 /// Written before each transform: whatever remains of it was forgotten.
 const UNTOUCHED: f32 = -7.0;
 
-fn see<'e, E>(kernel: Kernel, vertices: &Vertices, eye: &'e E) -> Seen
+fn see<'e, E>(kernel: Kernel, vertices: &Vertices, eye: &'e E) -> WrittenSurface
 where
     PhotoSurfaceEye: From<&'e E>,
 {
     let mut streams = [const { Vec::new() }; 4];
     streams.iter_mut().for_each(|stream| stream.resize(vertices.len(), UNTOUCHED));
     let [mut x, mut y, mut z, mut doppler] = streams;
-    let surface = Surface::new(vertices, [&mut x, &mut y, &mut z]).unwrap();
+    let surface = PhotoSurfaceMesh::new(vertices, [&mut x, &mut y, &mut z]).unwrap();
     let stats = kernel.transform(eye, vec![surface.with_doppler(&mut doppler).unwrap()]);
-    Seen { position: [x, y, z], doppler, stats }
+    WrittenSurface { position: [x, y, z], doppler, stats }
 }
 
 fn moving(celerity: DVec3) -> PhotoSurfaceEye {
@@ -186,7 +186,7 @@ fn any_alignment_of_the_output_gives_the_same_bits() {
         let (x, rest) = used.split_at_mut(100);
         let (y, rest) = rest.split_at_mut(100);
         let (z, after) = rest.split_at_mut(100);
-        kernel.transform(&eye, vec![Surface::new(&vertices, [x, y, z]).unwrap()]);
+        kernel.transform(&eye, vec![PhotoSurfaceMesh::new(&vertices, [x, y, z]).unwrap()]);
         assert_eq!([&*x, &*y, &*z], expected.position.each_ref().map(Vec::as_slice), "shift {shift}");
         assert!(before.iter().chain(after.iter()).all(|&value| value == UNTOUCHED), "shift {shift}");
     }
@@ -201,7 +201,7 @@ fn streamed_lines_hold_the_same_bits_where_they_are_aligned() {
     let [x, y, z, doppler] = &mut memory.0;
     for kernel in available() {
         for eye in eyes() {
-            let surface = Surface::new(&vertices, [x, y, z]).unwrap().with_doppler(doppler).unwrap();
+            let surface = PhotoSurfaceMesh::new(&vertices, [x, y, z]).unwrap().with_doppler(doppler).unwrap();
             kernel.with_stores(Stores::Streamed).transform(&eye, vec![surface]);
             let expected = see(kernel.with_stores(Stores::Cached), &vertices, &eye);
             assert_eq!([&x[..], y, z], expected.position.each_ref().map(Vec::as_slice));
@@ -215,8 +215,11 @@ fn meshes_of_a_frame_are_written_each_to_its_own_place() {
     let eye = moving(DVec3::new(0.0, 0.0, -3.0));
     let meshes = [town(90_000), Vertices::from_world(DVec3::X, []).unwrap(), town(7), town(CHUNK)];
     let mut memory = meshes.each_ref().map(|mesh| [(); 3].map(|()| vec![UNTOUCHED; mesh.len()]));
-    let surfaces =
-        meshes.iter().zip(&mut memory).map(|(mesh, [x, y, z])| Surface::new(mesh, [x, y, z]).unwrap()).collect();
+    let surfaces = meshes
+        .iter()
+        .zip(&mut memory)
+        .map(|(mesh, [x, y, z])| PhotoSurfaceMesh::new(mesh, [x, y, z]).unwrap())
+        .collect();
     let stats = Kernel::default().transform(&eye, surfaces);
     assert_eq!(stats.vertices, 90_007 + CHUNK);
     for (mesh, written) in meshes.iter().zip(memory) {
@@ -329,10 +332,10 @@ fn input_that_cannot_be_used_is_refused_with_its_values() {
     assert!(matches!(origin, PhotoSurfaceError::Origin { .. }) && origin.to_string().contains("NaN"));
     let vertices = town(3);
     let (mut x, mut y, mut z, mut doppler) = ([0.0; 3], [0.0; 2], [0.0; 3], [0.0; 4]);
-    let error = Surface::new(&vertices, [&mut x, &mut y, &mut z]).unwrap_err();
+    let error = PhotoSurfaceMesh::new(&vertices, [&mut x, &mut y, &mut z]).unwrap_err();
     assert_eq!(error, PhotoSurfaceError::OutputLength { stream: "y", length: 2, vertices: 3 });
     let mut y = [0.0; 3];
-    let surface = Surface::new(&vertices, [&mut x, &mut y, &mut z]).unwrap();
+    let surface = PhotoSurfaceMesh::new(&vertices, [&mut x, &mut y, &mut z]).unwrap();
     let error = surface.with_doppler(&mut doppler).unwrap_err();
     assert_eq!(error, PhotoSurfaceError::OutputLength { stream: "doppler", length: 4, vertices: 3 });
 }

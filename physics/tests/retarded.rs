@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 use physics::glam::DVec3;
 use physics::retarded::{NotSeen, Worldline, retarded};
-use physics::{Beta, Celerity, Event, Observer, Source, apparent};
+use physics::{Beta, Celerity, Event, Observer, PointSource, apparent};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -112,7 +112,8 @@ fn uniform_motion_is_seen_as_apparent_moving_has_it() {
         let celerity = Beta::new(beta).unwrap().celerity();
         let event = Event { ct, position: place };
         let seen = retarded(event, &counted(|ct| (position + beta * ct, beta))).unwrap();
-        let exact = apparent::moving(&Observer { event, celerity: Celerity::ZERO }, &Source { position, celerity });
+        let exact =
+            apparent::moving(&Observer { event, celerity: Celerity::ZERO }, &PointSource { position, celerity });
         let scale = TOLERANCE * exact.position.length().max(1.0);
         assert!((seen.position - place - exact.position).length() < scale);
         assert!((seen.ct - exact.emitted_at).abs() < scale);

@@ -2,9 +2,9 @@
 
 use physics::colour::ShiftTable;
 
-/// Bind group that holds [`View`], [`Lighting`] and the shadow map.
+/// Bind group that holds [`ViewUniforms`](crate::ViewUniforms), [`LightingUniforms`](crate::LightingUniforms) and the shadow map.
 pub const VIEW_GROUP: u32 = 0;
-/// Bind group that holds [`Material`] and its textures.
+/// Bind group that holds [`MaterialUniforms`](crate::MaterialUniforms) and its textures.
 pub const MATERIAL_GROUP: u32 = 1;
 /// How far, in shadow-map texels, the sun's shadow is smoothed.
 pub const SHADOW_FILTER_TEXELS: f32 = 0.75;

@@ -19,8 +19,18 @@ pub use constants::{
     PANORAMA_LOOKS, SCREEN_OCTAVES, SHADOW_BIAS_M, SHADOW_FILTER_TEXELS, SHADOW_NORMAL_OFFSET_M, SHIFT_NODES,
     TONE_EXPONENTIAL, TONE_FILMIC, TONE_HISTOGRAM, TONE_LINEAR, TONE_REINHARD, VIEW_GROUP,
 };
-pub use layout::{Accumulate, Adaptation, Facet, Lighting, Map, Material, Metering, Pane, Placement, RoomView, View};
+pub use layout::{
+    AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, LightingUniforms, MapUniforms, MaterialUniforms,
+    MeteringUniforms, PlacementUniforms, RoomViewUniforms, ViewUniforms,
+};
 pub use modules::{
     ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW, SKY, SURFACE,
     WARP,
+};
+
+// until app is moved
+pub use layout::{
+    AccumulateUniforms as Accumulate, AdaptationState as Adaptation, AtlasTile as Pane, FacetUniforms as Facet,
+    LightingUniforms as Lighting, MapUniforms as Map, MaterialUniforms as Material, MeteringUniforms as Metering,
+    PlacementUniforms as Placement, RoomViewUniforms as RoomView, ViewUniforms as View,
 };

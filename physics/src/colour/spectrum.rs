@@ -12,6 +12,8 @@ use thiserror::Error;
 use super::planck;
 use super::shares::{shares, white};
 
+pub use self::SampledSpectrum as Sampled; // until app is moved
+
 /// A spectrum: of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spectrum {
@@ -21,7 +23,7 @@ pub enum Spectrum {
         kelvin: f64,
     },
     /// Measured values.
-    Sampled(Sampled),
+    Sampled(SampledSpectrum),
     /// The smooth spectrum of a linear sRGB colour.
     Rgb([f64; 3]),
     /// The same at every wavelength as far as the eye can tell: white light, or an even reflectance of 1.
@@ -30,7 +32,7 @@ pub enum Spectrum {
 
 /// Values at given wavelengths: linear between them, constant beyond the ends. Cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sampled {
+pub struct SampledSpectrum {
     samples: Arc<[[f64; 2]]>,
 }
 
@@ -88,7 +90,7 @@ impl Spectrum {
     /// # Errors
     /// What is wrong with the first bad sample.
     pub fn sampled(samples: impl Into<Arc<[[f64; 2]]>>) -> Result<Self, SpectrumError> {
-        Sampled::new(samples).map(Self::Sampled)
+        SampledSpectrum::new(samples).map(Self::Sampled)
     }
 
     /// A linear sRGB colour.
@@ -156,7 +158,7 @@ impl Spectrum {
     }
 }
 
-impl Sampled {
+impl SampledSpectrum {
     /// Checks and keeps samples of [wavelength in nm, value].
     ///
     /// # Errors

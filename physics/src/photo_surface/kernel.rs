@@ -7,9 +7,9 @@ use super::error::PhotoSurfaceError;
 use super::eye::PhotoSurfaceEye;
 use super::instructions::Instructions;
 use super::line::CHUNK;
+use super::mesh::PhotoSurfaceMesh;
 use super::simd;
 use super::stats::Stats;
-use super::surface::Surface;
 
 /// Whether results go through the caches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,7 +74,7 @@ impl Kernel {
     /// x' = d + u (r + u·d/(1+γ)), D = γ + u·n (W 5.1), with d the displacement from the eye to the vertex.
     ///
     /// A position of the eye that is not finite makes no result finite: every vertex is counted.
-    pub fn transform<'e, E>(&self, eye: &'e E, surfaces: Vec<Surface<'_>>) -> Stats
+    pub fn transform<'e, E>(&self, eye: &'e E, surfaces: Vec<PhotoSurfaceMesh<'_>>) -> Stats
     where
         PhotoSurfaceEye: From<&'e E>,
     {
@@ -84,7 +84,7 @@ impl Kernel {
 
     /// Writes the photo-surfaces of meshes that have an eye each: an object in uniform motion has the observer in the
     /// object's own frame (W 5.1.2).
-    pub fn transform_each<E: Into<PhotoSurfaceEye>>(&self, surfaces: Vec<(E, Surface<'_>)>) -> Stats {
+    pub fn transform_each<E: Into<PhotoSurfaceEye>>(&self, surfaces: Vec<(E, PhotoSurfaceMesh<'_>)>) -> Stats {
         let surfaces: Vec<(PhotoSurfaceEye, _)> =
             surfaces.into_iter().map(|(eye, surface)| (eye.into(), surface)).collect();
         let vertices: usize = surfaces.iter().map(|(_, surface)| surface.vertices().len()).sum();

@@ -9,4 +9,4 @@ pub(super) const LINE: usize = 32;
 /// A line of one coordinate, aligned to a cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(super) struct Line(pub(super) [f32; LINE]);
+pub(super) struct VertexLine(pub(super) [f32; LINE]);

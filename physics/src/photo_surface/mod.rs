@@ -28,7 +28,7 @@
 //! # Example
 //! ```
 //! use glam::DVec3;
-//! use physics::photo_surface::{Kernel, Surface, Vertices};
+//! use physics::photo_surface::{Kernel, PhotoSurfaceMesh, Vertices};
 //! use physics::{Celerity, Event, Observer};
 //!
 //! // A point one metre ahead, for an eye at 0.6 c: u = 0.75, γ = 1.25, D = 2.
@@ -36,7 +36,7 @@
 //! let celerity = Celerity::new(DVec3::NEG_Z * 0.75)?;
 //! let observer = Observer { event: Event::default(), celerity };
 //! let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
-//! let surface = Surface::new(&vertices, [&mut x, &mut y, &mut z])?.with_doppler(&mut doppler)?;
+//! let surface = PhotoSurfaceMesh::new(&vertices, [&mut x, &mut y, &mut z])?.with_doppler(&mut doppler)?;
 //! let stats = Kernel::default().transform(&observer, vec![surface]);
 //! assert_eq!((x[0], y[0], z[0], doppler[0]), (0.0, 0.0, -2.0, 2.0));
 //! assert_eq!(stats.not_finite(), 0);
@@ -51,21 +51,23 @@ mod instructions;
 mod kernel;
 mod lanes;
 mod line;
+mod mesh;
+#[cfg(target_arch = "x86_64")]
+mod paired;
 mod plan;
 mod simd;
 mod sphere;
 mod stats;
-mod surface;
-#[cfg(target_arch = "x86_64")]
-mod twice;
 mod vertices;
 
 pub use error::PhotoSurfaceError;
 pub use eye::PhotoSurfaceEye;
-pub use eye::PhotoSurfaceEye as Eye; // until app is moved
 pub use instructions::Instructions;
 pub use kernel::{Kernel, Stores};
 pub use line::CHUNK;
+pub use mesh::PhotoSurfaceMesh;
 pub use stats::Stats;
-pub use surface::Surface;
 pub use vertices::Vertices;
+
+pub use eye::PhotoSurfaceEye as Eye; // until app is moved
+pub use mesh::PhotoSurfaceMesh as Surface; // until app is moved

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::eye::PhotoSurfaceEye;
-use super::sphere::Sphere;
+use super::sphere::BoundingSphere;
 use crate::double_double::DoubleDoubleVec3;
 
 /// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
@@ -21,7 +21,7 @@ pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAS
 
 /// Which formula a chunk gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum FormulaChoice {
     /// The eye is at rest: positions are only shifted, exactly.
     AtRest,
     /// The light-cone form in f32.
@@ -32,7 +32,7 @@ pub(super) enum Form {
 
 /// The frame as one mesh sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(super) struct FramePlan {
     /// The eye's position relative to the mesh's origin.
     pub(super) offset: DVec3,
     /// What `offset` was rounded by: it counts where the eye is near a vertex and both are far from the origin.
@@ -43,8 +43,8 @@ pub(super) struct Plan {
     pub(super) kappa: f64,
 }
 
-impl Plan {
-    /// Plan for a mesh whose coordinates are relative to `origin` (world frame, metres).
+impl FramePlan {
+    /// FramePlan for a mesh whose coordinates are relative to `origin` (world frame, metres).
     pub(super) fn new(eye: &PhotoSurfaceEye, origin: DVec3) -> Self {
         let celerity = eye.celerity();
         let offset = DoubleDoubleVec3::difference(eye.position(), origin);
@@ -57,18 +57,18 @@ impl Plan {
     }
 
     /// The cheapest formula that is accurate everywhere in `sphere`.
-    pub(super) fn form(&self, sphere: &Sphere) -> Form {
+    pub(super) fn form(&self, sphere: &BoundingSphere) -> FormulaChoice {
         if self.direction == DVec3::ZERO {
-            Form::AtRest
+            FormulaChoice::AtRest
         } else if self.kappa * LEAST_DOPPLER > 1.0 && self.touches_rear_cone(sphere) {
-            Form::ExactAstern
+            FormulaChoice::ExactAstern
         } else {
-            Form::LightCone
+            FormulaChoice::LightCone
         }
     }
 
     /// Whether the distance from the rear cone, whose tip is the eye, to the sphere's centre is within its radius.
-    fn touches_rear_cone(&self, sphere: &Sphere) -> bool {
+    fn touches_rear_cone(&self, sphere: &BoundingSphere) -> bool {
         let centre = sphere.centre - self.offset;
         let astern = -centre.dot(self.direction);
         let across = centre.cross(self.direction).length();
@@ -88,13 +88,13 @@ mod tests {
     use crate::celerity::Celerity;
     use crate::observer::Observer;
 
-    fn moving_along_x(celerity: f64) -> Plan {
+    fn moving_along_x(celerity: f64) -> FramePlan {
         let observer = Observer { celerity: Celerity::from_finite(DVec3::X * celerity), ..Observer::default() };
-        Plan::new(&PhotoSurfaceEye::from(&observer), DVec3::ZERO)
+        FramePlan::new(&PhotoSurfaceEye::from(&observer), DVec3::ZERO)
     }
 
-    fn sphere(x: f64, y: f64, radius: f64) -> Sphere {
-        Sphere { centre: DVec3::new(x, y, 0.0), radius }
+    fn sphere(x: f64, y: f64, radius: f64) -> BoundingSphere {
+        BoundingSphere { centre: DVec3::new(x, y, 0.0), radius }
     }
 
     #[test]
@@ -107,20 +107,20 @@ mod tests {
     #[test]
     fn only_what_touches_the_rear_cone_is_taken_exactly() {
         let plan = moving_along_x(100.0);
-        assert_eq!(plan.form(&sphere(10.0, 0.0, 9.0)), Form::LightCone, "ahead");
-        assert_eq!(plan.form(&sphere(10.0, 0.0, 11.0)), Form::ExactAstern, "around the eye");
-        assert_eq!(plan.form(&sphere(-10.0, 0.0, 0.0)), Form::ExactAstern, "dead astern");
+        assert_eq!(plan.form(&sphere(10.0, 0.0, 9.0)), FormulaChoice::LightCone, "ahead");
+        assert_eq!(plan.form(&sphere(10.0, 0.0, 11.0)), FormulaChoice::ExactAstern, "around the eye");
+        assert_eq!(plan.form(&sphere(-10.0, 0.0, 0.0)), FormulaChoice::ExactAstern, "dead astern");
         let edge = 10.0 * LEAST_DOPPLER.asin().tan();
-        assert_eq!(plan.form(&sphere(-10.0, edge * 0.999, 0.0)), Form::ExactAstern, "inside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge * 1.001, 0.0)), Form::LightCone, "outside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 1.9)), Form::LightCone, "beside the cone");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 2.1)), Form::ExactAstern, "reaching into the cone");
+        assert_eq!(plan.form(&sphere(-10.0, edge * 0.999, 0.0)), FormulaChoice::ExactAstern, "inside the edge");
+        assert_eq!(plan.form(&sphere(-10.0, edge * 1.001, 0.0)), FormulaChoice::LightCone, "outside the edge");
+        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 1.9)), FormulaChoice::LightCone, "beside the cone");
+        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 2.1)), FormulaChoice::ExactAstern, "reaching into the cone");
     }
 
     #[test]
     fn slow_eyes_and_resting_eyes_take_the_cheap_forms() {
-        assert_eq!(moving_along_x(1.8).form(&sphere(-10.0, 0.0, 1.0)), Form::LightCone);
-        assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), Form::AtRest);
+        assert_eq!(moving_along_x(1.8).form(&sphere(-10.0, 0.0, 1.0)), FormulaChoice::LightCone);
+        assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), FormulaChoice::AtRest);
     }
 
     #[test]

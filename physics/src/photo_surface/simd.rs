@@ -51,16 +51,16 @@ mod x86 {
     use std::ops::{Add, Div, Mul, Sub};
 
     use super::super::lanes::{AlignedLine, LaneWork, Lanes, WideLanes};
-    use super::super::twice::Twice;
+    use super::super::paired::Paired;
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn avx2<W: LaneWork>(work: W) -> W::Output {
-        work.run::<Twice<F32x8>>()
+        work.run::<Paired<F32x8>>()
     }
 
     #[target_feature(enable = "avx512f,avx2,fma")]
     pub(super) fn avx512<W: LaneWork>(work: W) -> W::Output {
-        work.run::<Twice<F32x16>>()
+        work.run::<Paired<F32x16>>()
     }
 
     #[derive(Clone, Copy)]

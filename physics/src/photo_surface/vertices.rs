@@ -10,9 +10,9 @@ use glam::{DVec3, Vec3};
 
 use super::error::PhotoSurfaceError;
 use super::eye::PhotoSurfaceEye;
-use super::line::{CHUNK, LINE, Line};
-use super::plan::{Form, Plan};
-use super::sphere::Sphere;
+use super::line::{CHUNK, LINE, VertexLine};
+use super::plan::{FormulaChoice, FramePlan};
+use super::sphere::BoundingSphere;
 
 /// The vertices of one mesh at rest in the world frame.
 ///
@@ -22,8 +22,8 @@ use super::sphere::Sphere;
 pub struct Vertices {
     origin: DVec3,
     count: usize,
-    streams: [Vec<Line>; 3],
-    spheres: Vec<Sphere>,
+    streams: [Vec<VertexLine>; 3],
+    spheres: Vec<BoundingSphere>,
     not_finite: Vec<usize>,
 }
 
@@ -75,7 +75,7 @@ impl Vertices {
         let lane = self.count % LINE;
         for (stream, coordinate) in self.streams.iter_mut().zip(offset.to_array()) {
             if lane == 0 {
-                stream.push(Line([0.0; LINE]));
+                stream.push(VertexLine([0.0; LINE]));
             }
             if let Some(line) = stream.last_mut() {
                 line.0[lane] = coordinate;
@@ -85,17 +85,17 @@ impl Vertices {
     }
 
     /// The sphere about the middle of the box around the chunk's finite vertices.
-    fn bounding_sphere(&self, first: usize) -> Sphere {
+    fn bounding_sphere(&self, first: usize) -> BoundingSphere {
         let finite =
             || (first..self.count.min(first + CHUNK)).map(|index| self.offset(index)).filter(|p| p.is_finite());
         let mut finite_offsets = finite();
         let Some(seed) = finite_offsets.next() else {
-            return Sphere { centre: DVec3::ZERO, radius: 0.0 };
+            return BoundingSphere { centre: DVec3::ZERO, radius: 0.0 };
         };
         let (low, high) = finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
         let centre = (low + high) / 2.0;
         let radius = finite().map(|p| p.distance_squared(centre)).fold(0.0, f64::max).sqrt();
-        Sphere { centre, radius }
+        BoundingSphere { centre, radius }
     }
 
     /// Position of a vertex relative to the origin, in metres.
@@ -111,8 +111,8 @@ impl Vertices {
     where
         PhotoSurfaceEye: From<&'e E>,
     {
-        let plan = Plan::new(&PhotoSurfaceEye::from(eye), self.origin);
-        self.spheres.iter().any(|sphere| plan.form(sphere) == Form::ExactAstern)
+        let plan = FramePlan::new(&PhotoSurfaceEye::from(eye), self.origin);
+        self.spheres.iter().any(|sphere| plan.form(sphere) == FormulaChoice::ExactAstern)
     }
 
     /// Number of vertices, those that are not finite included.
@@ -136,11 +136,11 @@ impl Vertices {
         &self.not_finite
     }
 
-    pub(super) fn streams(&self) -> [&[Line]; 3] {
+    pub(super) fn streams(&self) -> [&[VertexLine]; 3] {
         self.streams.each_ref().map(Vec::as_slice)
     }
 
-    pub(super) fn spheres(&self) -> &[Sphere] {
+    pub(super) fn spheres(&self) -> &[BoundingSphere] {
         &self.spheres
     }
 }

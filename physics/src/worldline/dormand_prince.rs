@@ -10,7 +10,7 @@ use super::error::WorldlineError;
 use super::integrator::Integrator;
 use super::limits::LEAST_TOLERANCE;
 use super::runge_kutta::{Rates, Tableau};
-use super::state::State;
+use super::state::WorldlineState;
 
 /// An integrator that chooses its own steps.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ impl Default for DormandPrince {
 }
 
 impl Integrator for DormandPrince {
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError> {
+    fn step(&self, state: &WorldlineState, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError> {
         if !step.is_finite() {
             return Err(WorldlineError::StepNotFinite { step });
         }
@@ -111,7 +111,7 @@ impl Integrator for DormandPrince {
 struct Attempt {
     /// The largest error as a share of the tolerance.
     error: f64,
-    end: State,
+    end: WorldlineState,
     /// The rates at the end.
     last: Rates,
 }
@@ -120,7 +120,7 @@ impl DormandPrince {
     /// Tries one inner step of the step asked for.
     fn attempt(
         &self,
-        state: &State,
+        state: &WorldlineState,
         trial: f64,
         step: f64,
         first: Rates,

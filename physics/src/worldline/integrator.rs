@@ -2,7 +2,7 @@
 
 use super::control::Control;
 use super::error::WorldlineError;
-use super::state::State;
+use super::state::WorldlineState;
 
 /// A way to take a step along a worldline.
 pub trait Integrator {
@@ -12,5 +12,5 @@ pub trait Integrator {
     ///
     /// The step or a thrust asked of `control` is not finite, the result would overflow, or the integrator does not
     /// reach its tolerance.
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError>;
+    fn step(&self, state: &WorldlineState, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError>;
 }

@@ -48,7 +48,9 @@ pub use exact::Exact;
 pub use integrator::Integrator;
 pub use limits::MOST_STEPS;
 pub use rk4::Rk4;
-pub use state::State;
+pub use state::WorldlineState;
 pub use thrust::Thrust;
 pub use transport::{FacingMotion, Transport};
 pub use travel::travel;
+
+pub use state::WorldlineState as State; // until app is moved

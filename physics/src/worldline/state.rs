@@ -14,7 +14,7 @@ use crate::observer::Observer;
 ///
 /// The fields may be set at will (a wall, a cap); the orientation has to stay a unit quaternion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct State {
+pub struct WorldlineState {
     /// τ, the time on the vehicle's own clock, metres.
     pub proper_time: f64,
     /// ct in the world, metres.
@@ -34,7 +34,7 @@ struct Remainder {
     proper_time: f64,
     ct: f64,
     position: DVec3,
-    rest: Rest,
+    rest: LowParts,
 }
 
 /// What a step adds to a state.
@@ -46,17 +46,17 @@ pub(super) struct Increment {
     /// The new orientation; its length is corrected.
     pub(super) orientation: DQuat,
     /// What the new celerity and orientation leave, for a step that knows them that well.
-    pub(super) rest: Rest,
+    pub(super) rest: LowParts,
 }
 
 /// Parts of a celerity and an orientation below the last place of f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Rest {
+pub(super) struct LowParts {
     pub(super) celerity: DVec3,
     pub(super) orientation: DVec4,
 }
 
-impl State {
+impl WorldlineState {
     /// A vehicle at an event, its own clock at zero.
     pub fn new(event: Event, celerity: Celerity, orientation: DQuat) -> Self {
         let Event { ct, position } = event;
@@ -82,7 +82,7 @@ impl State {
     }
 
     /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest there
-    /// is [`State::observer_at`] with the vehicle's orientation.
+    /// is [`WorldlineState::observer_at`] with the vehicle's orientation.
     ///
     /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
     /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
@@ -92,7 +92,7 @@ impl State {
         let head = Celerity::from_finite(self.orientation * celerity.vector());
         let Composition { celerity, wigner } = compose(self.celerity, head);
         let orientation = wigner.inverse() * self.orientation;
-        let remainder = Remainder { rest: Rest::default(), ..self.remainder };
+        let remainder = Remainder { rest: LowParts::default(), ..self.remainder };
         Self { ct, position, celerity, orientation, remainder, ..*self }
     }
 

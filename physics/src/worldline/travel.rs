@@ -4,7 +4,7 @@ use super::control::Control;
 use super::error::WorldlineError;
 use super::integrator::Integrator;
 use super::limits::MOST_STEPS;
-use super::state::State;
+use super::state::WorldlineState;
 
 /// Follows a worldline for a proper time `duration` in equal steps, as few as are none longer than `longest_step`.
 ///
@@ -18,19 +18,19 @@ use super::state::State;
 /// One unit of proper time at unit acceleration is one of rapidity.
 ///
 /// ```
-/// use physics::{glam::DVec3, worldline::{Exact, State, Thrust, travel}};
+/// use physics::{glam::DVec3, worldline::{Exact, WorldlineState, Thrust, travel}};
 /// let thrust = Thrust { acceleration: DVec3::NEG_Z, turn_rate: DVec3::ZERO };
-/// let end = travel(&Exact, &State::default(), 1.0, 1.0 / 240.0, &thrust)?;
+/// let end = travel(&Exact, &WorldlineState::default(), 1.0, 1.0 / 240.0, &thrust)?;
 /// assert!((end.celerity.rapidity() - 1.0).abs() < 1e-14);
 /// # Ok::<(), physics::worldline::WorldlineError>(())
 /// ```
 pub fn travel(
     integrator: &dyn Integrator,
-    start: &State,
+    start: &WorldlineState,
     duration: f64,
     longest_step: f64,
     control: &dyn Control,
-) -> Result<State, WorldlineError> {
+) -> Result<WorldlineState, WorldlineError> {
     /// A quotient this little above a whole number is that number.
     const ROUNDING: f64 = 1e-9;
     let valid = duration.is_finite() && duration >= 0.0 && longest_step.is_finite() && longest_step > 0.0;
