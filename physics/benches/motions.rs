@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
-use physics::photo_surface::{Eye, Kernel, Surface, Vertices};
+use physics::photo_surface::{Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
 
 const VERTICES: usize = 1 << 20;
 const GROUPS: [usize; 5] = [1, 4, 16, 64, 256];
@@ -30,8 +30,10 @@ fn groups(count: usize) -> Vec<Vertices> {
 }
 
 /// The observer as each group has him.
-fn eyes(count: usize) -> Vec<Eye> {
-    (0..count).map(|group| Eye::new(DVec3::Y, DVec3::new(0.75, 0.0, 0.001 * group as f64)).unwrap()).collect()
+fn eyes(count: usize) -> Vec<PhotoSurfaceEye> {
+    (0..count)
+        .map(|group| PhotoSurfaceEye::new(DVec3::Y, DVec3::new(0.75, 0.0, 0.001 * group as f64)).unwrap())
+        .collect()
 }
 
 fn main() {
@@ -45,7 +47,7 @@ fn main() {
             let [mut x, mut y, mut z] = output.each_mut().map(Vec::as_mut_slice);
             let seen = vertices.iter().zip(eyes).map(|(vertices, eye)| {
                 let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..vertices.len()).unwrap());
-                (*eye, Surface::new(vertices, streams).unwrap())
+                (*eye, PhotoSurfaceMesh::new(vertices, streams).unwrap())
             });
             let seen = seen.collect();
             let started = Instant::now();

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DVec3, Vec3};
-use physics::photo_surface::{CHUNK, Eye, Instructions, Kernel, Stores, Surface, Vertices};
+use physics::photo_surface::{CHUNK, Instructions, Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Stores, Vertices};
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -85,9 +85,9 @@ fn run(work: Work, vertices: &Vertices, memory: &mut Memory, doppler: bool, thre
     let Memory { input, output } = memory;
     match work {
         Work::Kernel { instructions, stores, celerity } => {
-            let eye = Eye::new(DVec3::new(0.3, 1.7, 0.1), DVec3::X * celerity).unwrap();
+            let eye = PhotoSurfaceEye::new(DVec3::new(0.3, 1.7, 0.1), DVec3::X * celerity).unwrap();
             let [x, y, z, d] = output.each_mut().map(Stream::values);
-            let mut surface = Surface::new(vertices, [x, y, z]).unwrap();
+            let mut surface = PhotoSurfaceMesh::new(vertices, [x, y, z]).unwrap();
             if doppler {
                 surface = surface.with_doppler(d).unwrap();
             }

@@ -9,22 +9,22 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
-    Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, State, Thrust, Transport, travel,
+    Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, Thrust, Transport, WorldlineState, travel,
 };
 use physics::{Celerity, Event};
 
 /// A rider's step, 1/240 s at 30 km/h for light: 35 mm of light time.
 const STEP: f64 = 0.035;
 
-fn cruising() -> State {
+fn cruising() -> WorldlineState {
     let celerity = Celerity::new(DVec3::new(0.3, 0.1, -1.2)).expect("a finite celerity");
-    State::new(Event::default(), celerity, DQuat::from_rotation_y(0.4))
+    WorldlineState::new(Event::default(), celerity, DQuat::from_rotation_y(0.4))
 }
 
 fn one_step(criterion: &mut Criterion) {
     let thrust = Thrust { acceleration: DVec3::new(0.5, 0.1, -1.0), turn_rate: DVec3::new(0.2, -0.7, 0.1) };
     let facing = Transport::FacingMotion(FacingMotion { softening: 0.05, alignment: 5.0 });
-    let following = move |state: &State| facing.thrust(state, DVec3::new(0.5, 0.0, -1.0));
+    let following = move |state: &WorldlineState| facing.thrust(state, DVec3::new(0.5, 0.0, -1.0));
     let controls: [(&str, &dyn Control); 3] =
         [("coasting", &Thrust::default()), ("constant", &thrust), ("facing", &following)];
     let integrators: [(&str, &dyn Integrator); 3] =
@@ -49,7 +49,7 @@ fn equal_error(criterion: &mut Criterion) {
     let integrators: [(&str, &dyn Integrator); 3] = [("rk4", &Rk4), ("exact", &Exact), ("dopri5", &strict)];
     let mut group = criterion.benchmark_group("worldline/unit-at-error-1e-7");
     for (name, integrator) in integrators {
-        let journey = |steps: u32| travel(integrator, &State::default(), 1.0, 1.0 / f64::from(steps), &thrust);
+        let journey = |steps: u32| travel(integrator, &WorldlineState::default(), 1.0, 1.0 / f64::from(steps), &thrust);
         let within =
             |steps: &u32| journey(*steps).is_ok_and(|end| (end.celerity.rapidity() - 10.0).abs() < LARGEST_ERROR);
         let steps = (1..1000).find(within).expect("every integrator gets there in 1000 steps");

@@ -6,8 +6,8 @@
 
 use glam::DVec3;
 
-use crate::Celerity;
-use crate::axis::Axis;
+use crate::axis::BoostAxis;
+use crate::celerity::Celerity;
 
 /// Aberration for an observer of one celerity, prepared once and applied to many directions.
 ///
@@ -24,12 +24,12 @@ use crate::axis::Axis;
 /// # Ok::<(), physics::CelerityError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Aberration(Axis);
+pub struct Aberration(BoostAxis);
 
 impl Aberration {
     /// Aberration for an observer of this celerity, measured in the world.
     pub fn new(celerity: Celerity) -> Self {
-        Self(Axis::new(celerity))
+        Self(BoostAxis::new(celerity))
     }
 
     /// The direction n' in which the observer sees light that in the world comes from `n`, and the Doppler factor.

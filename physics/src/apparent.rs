@@ -9,13 +9,16 @@
 
 use glam::DVec3;
 
-use crate::axis::{Axis, Image, power_of_two_below};
+use crate::axis::{BoostAxis, Image, power_of_two_below};
+use crate::celerity::Celerity;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::{Celerity, Observer};
+use crate::observer::Observer;
+
+pub use self::PointSource as Source; // until app is moved
 
 /// A point source in uniform motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Source {
+pub struct PointSource {
     /// Place at world time 0, metres.
     pub position: DVec3,
     /// Celerity in the world.
@@ -55,7 +58,7 @@ pub struct Apparent {
 /// ```
 pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
     let displacement = DoubleDoubleVec3::difference(point, observer.event.position);
-    let Image { position, doppler, world_distance, .. } = Axis::new(observer.celerity).image(displacement);
+    let Image { position, doppler, world_distance, .. } = BoostAxis::new(observer.celerity).image(displacement);
     Apparent { position, doppler, emitted_at: observer.event.ct - world_distance }
 }
 
@@ -69,7 +72,7 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
 /// of the source at d.
 ///
 /// *Accuracy:* as [`at_rest`] (`tests/high_precision.rs`).
-pub fn moving(observer: &Observer, source: &Source) -> Apparent {
+pub fn moving(observer: &Observer, source: &PointSource) -> Apparent {
     let time = DoubleDouble::from(observer.event.ct);
     let celerity = DoubleDoubleVec3::from(source.celerity.vector());
     let gamma = (DoubleDouble::from(1.0) + celerity.dot(celerity)).sqrt();
@@ -91,7 +94,7 @@ pub fn moving(observer: &Observer, source: &Source) -> Apparent {
     let displacement = (now - celerity.scaled(age)).times_power_of_two(scale);
     let emitted_at = time - gamma * age * scale.into();
 
-    let seen = Axis::new(observer.celerity).image(displacement);
-    let sent = Axis::new(source.celerity).image(displacement);
+    let seen = BoostAxis::new(observer.celerity).image(displacement);
+    let sent = BoostAxis::new(source.celerity).image(displacement);
     Apparent { position: seen.position, doppler: seen.doppler / sent.doppler, emitted_at: emitted_at.rounded() }
 }

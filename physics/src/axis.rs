@@ -8,12 +8,13 @@
 
 use glam::DVec3;
 
-use crate::Celerity;
+use crate::celerity::Celerity;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
+use crate::light_cone::LightConeCoordinates;
 
 /// The direction and size of a celerity, prepared for use on many vectors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct BoostAxis {
     /// e, the unit vector of the motion; +x for an observer at rest, where any will do.
     pub(crate) direction: DoubleDoubleVec3,
     /// w = |u|.
@@ -22,7 +23,7 @@ pub(crate) struct Axis {
     pub(crate) kappa: f64,
 }
 
-/// A vector split by an [`Axis`].
+/// A vector split by an [`BoostAxis`].
 pub(crate) struct Split {
     /// h = e·d.
     pub(crate) along: DoubleDouble,
@@ -49,11 +50,11 @@ impl Image {
     }
 }
 
-impl Axis {
+impl BoostAxis {
     pub(crate) fn new(celerity: Celerity) -> Self {
         let magnitude = celerity.magnitude();
         let direction = unit(celerity.vector());
-        Self { direction, magnitude, kappa: celerity.gamma() + magnitude }
+        Self { direction, magnitude, kappa: celerity.kappa() }
     }
 
     /// The axis of the opposite motion.
@@ -73,9 +74,8 @@ impl Axis {
     /// *Frames:* `displacement` from the observer to the point, world axes; the image in the axes of the pure boost.
     ///
     /// *Equation:* the light that arrives now left the point r ago, and (−r, d) boosts to (−|x'|, x'). With h the part
-    /// along, a = r + h and c = r − h are the light-cone coordinates: x' = d⊥ + (κ a − c / κ) e / 2, |x'| = (κ a +
-    /// c / κ) / 2, the vector form of tan θ'/2 = e^(−η) tan θ/2. Of a and c the smaller is |d⊥|² over the larger.
-    /// (W 4.5, 5.1; B 2.6.1.)
+    /// along and d⊥ the part across, x' = d⊥ + h' e and |x'| = r', h' and r' from the boosted light-cone coordinates of
+    /// [`crate::light_cone`].
     ///
     /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every
     /// direction and γ to 1e12 (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
@@ -97,16 +97,11 @@ impl Axis {
         let along = split.along.rounded();
         let across_squared = split.across.length_squared();
         let distance = (along * along + across_squared).sqrt();
-        // Form both light-cone coordinates without a difference.
-        let larger = distance + along.abs();
-        let smaller = across_squared / larger;
-        let (forward, backward) = if along >= 0.0 { (larger, smaller) } else { (smaller, larger) };
-        // Boost: stretch one, shrink the other.
-        let forward = 0.5 * self.kappa * forward;
-        let backward = 0.5 * backward / self.kappa;
-        let image_distance = forward + backward;
+        // Boost the light-cone coordinates: stretch one, shrink the other.
+        let seen = LightConeCoordinates::at_distance(distance, along, across_squared).boosted(self.kappa);
+        let image_distance = seen.distance();
         Image {
-            position: (split.across + self.direction.high * (forward - backward)) * scale,
+            position: (split.across + self.direction.high * seen.along()) * scale,
             distance: image_distance * scale,
             world_distance: distance * scale,
             doppler: image_distance / distance,

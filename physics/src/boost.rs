@@ -1,8 +1,9 @@
 //! Pure Lorentz boosts: from the world's frame to that of an observer who moves through it, and back.
 
-use crate::axis::Axis;
+use crate::axis::BoostAxis;
+use crate::celerity::Celerity;
 use crate::double_double::DoubleDouble;
-use crate::{Celerity, FourVector};
+use crate::event::FourVector;
 
 /// A pure boost, prepared once and applied to many four-vectors.
 ///
@@ -18,12 +19,12 @@ use crate::{Celerity, FourVector};
 /// # Ok::<(), physics::CelerityError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Boost(Axis);
+pub struct Boost(BoostAxis);
 
 impl Boost {
     /// The boost into the frame of an observer of this celerity (measured in the world).
     pub fn observer_from_world(celerity: Celerity) -> Self {
-        Self(Axis::new(celerity))
+        Self(BoostAxis::new(celerity))
     }
 
     /// `world_from_observer` of an `observer_from_world`, and the reverse.
@@ -37,7 +38,7 @@ impl Boost {
     /// w (t − h). The only difference left, t − h, is taken at 106 bits, so what error there is comes from the f64
     /// components of the input and the result.
     pub fn apply(self, vector: FourVector) -> FourVector {
-        let Axis { direction, magnitude, kappa } = self.0;
+        let BoostAxis { direction, magnitude, kappa } = self.0;
         if magnitude == 0.0 {
             return vector;
         }

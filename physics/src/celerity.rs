@@ -83,6 +83,14 @@ impl Celerity {
         (1.0 + self.0.length_squared()).sqrt()
     }
 
+    /// κ = γ + |u| = e^η: the Doppler factor dead ahead. Dead astern it is 1/κ.
+    ///
+    /// *Equation:* a boost multiplies the light-cone coordinate r + h by κ and r − h by 1/κ
+    /// ([`crate::light_cone`]; W 4.5, B 2.6.1). *Accuracy:* a sum of like signs, two units in the last place.
+    pub fn kappa(self) -> f64 {
+        self.gamma() + self.magnitude()
+    }
+
     /// η = asinh |u|, the proper acceleration summed along a straight start from rest.
     pub fn rapidity(self) -> f64 {
         self.magnitude().asinh()
@@ -212,4 +220,28 @@ pub enum CelerityError {
         /// What was given.
         vector: DVec3,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: κ = e^η. A program that took κ from β, as √((1 + β)/(1 − β)), would lose it where β is all but 1, and one
+    //! that took γ − |u| for 1/κ would find 0.
+    use super::*;
+
+    #[test]
+    fn three_four_five_gives_kappa_two() {
+        assert_eq!(Celerity::new(DVec3::new(0.0, -0.75, 0.0)).unwrap().kappa(), 2.0);
+        assert_eq!(Celerity::ZERO.kappa(), 1.0);
+    }
+
+    #[test]
+    fn kappa_is_the_exponential_of_the_rapidity_at_every_speed() {
+        for rapidity in [1e-12, 0.1, 1.0, 10.0, 27.0, 100.0, 172.0] {
+            let kappa = Celerity::from_rapidity(DVec3::new(1.0, -2.0, 2.0), rapidity).unwrap().kappa();
+            // The rapidity's own rounding is multiplied by itself.
+            let tolerance = 4.0 * f64::EPSILON * (1.0 + rapidity);
+            assert!((kappa / rapidity.exp() - 1.0).abs() < tolerance, "{rapidity}: {kappa}");
+        }
+        assert_eq!(Celerity::new(DVec3::X * 1e75).unwrap().kappa(), 2e75);
+    }
 }

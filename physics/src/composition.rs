@@ -8,8 +8,8 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::Celerity;
-use crate::axis::Axis;
+use crate::axis::BoostAxis;
+use crate::celerity::Celerity;
 
 /// Two boosts in a row: B(head)·B(vehicle) = R(wigner)·B(celerity).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub struct Composition {
 /// # Ok::<(), physics::CelerityError>(())
 /// ```
 pub fn compose(vehicle: Celerity, head: Celerity) -> Composition {
-    let (first, second) = (Axis::new(vehicle), Axis::new(head));
+    let (first, second) = (BoostAxis::new(vehicle), BoostAxis::new(head));
     let (w1, w2) = (first.magnitude, second.magnitude);
     if w1 == 0.0 || w2 == 0.0 {
         let celerity = if w1 == 0.0 { head } else { vehicle };

@@ -8,7 +8,8 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::celerity::unit_vector;
-use crate::{Event, FourVector, Observer};
+use crate::event::Event;
+use crate::observer::Observer;
 
 /// The events of both eyes, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,9 +45,8 @@ pub fn eyes(observer: &Observer, separation: f64, right: DVec3) -> Result<Eyes, 
         return Err(EyesError::Separation { separation });
     }
     let right = unit_vector(right).ok_or(EyesError::Right { right })?;
-    let world_from_observer = observer.observer_from_world().inverse();
-    let half = world_from_observer.apply(FourVector { t: 0.0, r: right * (0.5 * separation) });
-    Ok(Eyes { left: observer.event + -half, right: observer.event + half })
+    let half = right * (0.5 * separation);
+    Ok(Eyes { left: observer.at_offset(-half).event, right: observer.at_offset(half).event })
 }
 
 /// Why there is no pair of eyes.

@@ -24,26 +24,33 @@ mod double_double;
 
 pub mod aberration;
 pub mod apparent;
-pub mod bend;
 pub mod boost;
 pub mod celerity;
 pub mod colour;
 pub mod composition;
 pub mod event;
 pub mod eyes;
+pub mod interpolation_error;
+pub mod light_cone;
+pub mod newton;
 pub mod observer;
-pub mod perceived;
 pub mod photo_surface;
 pub mod retarded;
+pub mod stereo_perception;
 pub mod worldline;
 
 pub use aberration::Aberration;
-pub use apparent::{Apparent, Source};
+pub use apparent::{Apparent, PointSource};
 pub use boost::Boost;
 pub use celerity::{Beta, Celerity, CelerityError};
 pub use composition::{Composition, compose};
 pub use event::{Event, FourVector};
+pub use light_cone::LightConeCoordinates;
 pub use observer::Observer;
+
+pub use apparent::PointSource as Source; // until app is moved
+pub use interpolation_error as bend; // until app is moved
+pub use stereo_perception as perceived; // until app is moved
 
 /// The vector and quaternion types of the public interface.
 pub use glam;

@@ -5,9 +5,15 @@
 //! decreasing: there is at most one root, and it stays bracketed while Newton's method, f' = −1 − n·β, closes in on it (the theses solve
 //! uniform motion only, W 5.1.2).
 
-use crate::Event;
 use glam::DVec3;
 use thiserror::Error;
+
+use crate::event::Event;
+use crate::newton::{Newton, NewtonError, RootInterval};
+
+/// Number of looks at a worldline after which the search is given up: three times what bisecting an f64 to its last bit
+/// takes.
+const MOST_LOOKS: usize = 200;
 
 /// Where a point is at each time of the world.
 pub trait Worldline {
@@ -43,6 +49,12 @@ pub enum NotSeen {
         /// Earliest world time looked at, metres.
         ct: f64,
     },
+    /// A worldline on which the search for the retarded event does not end: its velocity is not that of its motion.
+    #[error("the search for the event at which it is seen did not converge near ct = {ct} m")]
+    NotConverged {
+        /// World time looked at last, metres.
+        ct: f64,
+    },
 }
 
 /// Finds the event at which `observer` sees what moves along `worldline`.
@@ -68,36 +80,29 @@ pub fn retarded(observer: Event, worldline: &impl Worldline) -> Result<Retarded,
     if lag >= 0.0 {
         return Ok(now);
     }
-    let (mut late, mut step) = (observer.ct, -lag);
-    let mut early = observer.ct - step;
-    let mut guess = loop {
-        let (seen, lag, _) = look(early)?;
-        if lag >= 0.0 {
-            break seen;
-        }
-        late = early;
+    let (mut high, mut step) = (observer.ct, -lag);
+    let mut low = observer.ct - step;
+    while look(low)?.1 < 0.0 {
+        high = low;
         step *= 2.0;
-        early = observer.ct - step;
-        if !early.is_finite() || step > 1e300 {
-            return Err(NotSeen::Never { ct: early });
+        low = observer.ct - step;
+        if !low.is_finite() || step > 1e300 {
+            return Err(NotSeen::Never { ct: low });
         }
-    };
-
-    // Newton from wherever is best, bisection where that leaves the bracket.
-    for _ in 0..200 {
-        let (seen, lag, direction) = look(guess.ct)?;
-        if lag >= 0.0 {
-            early = seen.ct;
-        } else {
-            late = seen.ct;
-        }
-        guess = seen;
-        let newton = seen.ct + lag / (1.0 + direction.dot(seen.beta));
-        let next = if newton > early && newton < late { newton } else { 0.5 * (early + late) };
-        if lag == 0.0 || next == seen.ct || next <= early || next >= late {
-            break;
-        }
-        guess.ct = next;
     }
-    look(guess.ct).map(|(seen, ..)| seen)
+
+    // Solve from the earlier end.
+    let interval = RootInterval::Bracket { low, high, sign_at_low: 1.0 };
+    let search = Newton { tolerance: 0.0, most_steps: MOST_LOOKS };
+    let ct = search.root(interval, low, |ct| {
+        let (seen, lag, direction) = look(ct)?;
+        Ok((lag, -(1.0 + direction.dot(seen.beta))))
+    });
+    match ct {
+        Ok(ct) => look(ct).map(|(seen, ..)| seen),
+        Err(NewtonError::Function(not_seen)) => Err(not_seen),
+        Err(NewtonError::NotConverged { x: ct, .. } | NewtonError::Left { x: ct, .. }) => {
+            Err(NotSeen::NotConverged { ct })
+        }
+    }
 }

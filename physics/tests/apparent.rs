@@ -5,7 +5,7 @@
 mod support;
 
 use physics::glam::DVec3;
-use physics::{Aberration, Boost, Celerity, Event, FourVector, Observer, Source, apparent};
+use physics::{Aberration, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
@@ -85,8 +85,10 @@ fn point_ahead_recedes_and_point_astern_comes_near() {
 #[test]
 fn approaching_source_is_seen_where_it_was() {
     // At β = 0.6 towards an observer at rest, 4 m away now: light left it at −10 m, 10 m away. D = 2.
-    let source =
-        Source { position: DVec3::new(4.0, 0.0, 0.0), celerity: Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap() };
+    let source = PointSource {
+        position: DVec3::new(4.0, 0.0, 0.0),
+        celerity: Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap(),
+    };
     let seen = apparent::moving(&observer(DVec3::ZERO), &source);
     assert!(seen.position.distance(DVec3::new(10.0, 0.0, 0.0)) < 1e-14);
     assert!((seen.doppler - 2.0).abs() < 1e-15 && (seen.emitted_at + 10.0).abs() < 1e-14);
@@ -102,7 +104,7 @@ fn companion_looks_as_at_rest() {
         let abeam = direction(&mut random).cross(u.vector()).normalize() * size(&mut random, -3.0..3.0);
         let seen = apparent::moving(
             &Observer { event: Event::default(), celerity: u },
-            &Source { position: abeam, celerity: u },
+            &PointSource { position: abeam, celerity: u },
         );
         // Rounding of `abeam` along the motion is stretched by γ.
         let tolerance = 8.0 * EPSILON * u.gamma();
@@ -117,17 +119,17 @@ fn source_at_the_eye_is_seen_there() {
     let observer = Observer { event: Event { ct: 7.0, position: DVec3::ONE }, celerity: u };
     let seen = apparent::at_rest(&observer, DVec3::ONE);
     assert_eq!((seen.position, seen.emitted_at, seen.doppler), (DVec3::ZERO, 7.0, 1.25));
-    let here = Source { position: DVec3::ONE, celerity: Celerity::ZERO };
+    let here = PointSource { position: DVec3::ONE, celerity: Celerity::ZERO };
     assert_eq!(apparent::moving(&observer, &here), seen);
 }
 
 /// A random observer and source, γ to about 30.
-fn pair(random: &mut ChaCha8Rng) -> (Observer, Source) {
+fn pair(random: &mut ChaCha8Rng) -> (Observer, PointSource) {
     let observer = Observer {
         event: Event { ct: random.random_range(-10.0..10.0), position: vector(random, -1.0..1.0) },
         celerity: celerity(random, -2.0..1.5),
     };
-    (observer, Source { position: vector(random, -1.0..1.0), celerity: celerity(random, -2.0..1.5) })
+    (observer, PointSource { position: vector(random, -1.0..1.0), celerity: celerity(random, -2.0..1.5) })
 }
 
 #[test]
@@ -184,7 +186,7 @@ fn source_at_rest_is_the_slowest_moving_one() {
     let mut random = seeded(35);
     for _ in 0..500 {
         let (observer, source) = pair(&mut random);
-        let resting = Source { celerity: Celerity::ZERO, ..source };
+        let resting = PointSource { celerity: Celerity::ZERO, ..source };
         let (moving, at_rest) = (apparent::moving(&observer, &resting), apparent::at_rest(&observer, source.position));
         assert_eq!(moving.position, at_rest.position);
         assert_eq!(moving.doppler, at_rest.doppler);

@@ -4,7 +4,7 @@
 
 mod support;
 
-use physics::colour::{Carrier, Sampled, Spectrum, SpectrumError};
+use physics::colour::{Carrier, SampledSpectrum, Spectrum, SpectrumError};
 use physics::glam::DVec3;
 use rand::RngExt;
 use support::{relative_difference, seeded, size};
@@ -102,7 +102,7 @@ fn what_is_reflected_is_reflectance_times_illuminant() {
 
 #[test]
 fn numbers_that_are_no_spectrum_are_refused() {
-    let refusal = |samples: &[[f64; 2]]| Sampled::new(samples).unwrap_err();
+    let refusal = |samples: &[[f64; 2]]| SampledSpectrum::new(samples).unwrap_err();
     assert_eq!(refusal(&[]), SpectrumError::Empty);
     assert_eq!(refusal(&[[0.0, 1.0]]), SpectrumError::Wavelength { index: 0, nm: 0.0 });
     assert_eq!(refusal(&[[500.0, 1.0], [500.0, 1.0]]), SpectrumError::Wavelength { index: 1, nm: 500.0 });

@@ -6,8 +6,8 @@ mod support;
 
 use physics::eyes::{EyesError, eyes};
 use physics::glam::DVec3;
-use physics::perceived::{PerceivedError, perceived};
-use physics::{Celerity, Event, Observer, Source, apparent};
+use physics::stereo_perception::{StereoPerceptionError, perceived_place};
+use physics::{Celerity, Event, Observer, PointSource, apparent};
 use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
 
 /// Half the distance of the eyes.
@@ -67,7 +67,7 @@ fn source_at_rest_is_perceived_where_it_is() {
     let mut random = seeded(42);
     for _ in 0..500 {
         let position = vector(&mut random, 0.0..2.0) + DVec3::new(0.0, 10.0, 0.0);
-        let Ok(seen) = perceived(pair(), &Source { position, celerity: Celerity::ZERO }, 3.0) else {
+        let Ok(seen) = perceived_place(pair(), &PointSource { position, celerity: Celerity::ZERO }, 3.0) else {
             panic!("{position} is off the line through the eyes");
         };
         let vergence = (position - pair()[0]).angle_between(position - pair()[1]);
@@ -95,8 +95,8 @@ fn source_along_the_eyes_is_perceived_where_borchers_puts_it() {
             let place = vector(&mut random, -0.5..0.5);
             let (x, y, time) = (place.x, place.y.abs() + 0.1, place.z);
             let celerity = Celerity::new(DVec3::new(u, 0.0, 0.0)).unwrap();
-            let source = Source { position: DVec3::new(x / celerity.gamma(), y, 0.0), celerity };
-            let seen = perceived(pair(), &source, time).unwrap();
+            let source = PointSource { position: DVec3::new(x / celerity.gamma(), y, 0.0), celerity };
+            let seen = perceived_place(pair(), &source, time).unwrap();
             let expected = along_the_eyes(x, y, u, time);
             assert!(relative_difference(seen.position, expected) < TOLERANCE, "{source:?} {seen:?} {expected}");
             assert!(seen.gap < TOLERANCE);
@@ -110,9 +110,10 @@ fn perceived_place_is_midway_between_the_sight_lines() {
     let mut random = seeded(44);
     let mut widest: f64 = 0.0;
     for _ in 0..200 {
-        let source = Source { position: vector(&mut random, -0.5..0.5), celerity: celerity(&mut random, -1.0..1.0) };
+        let source =
+            PointSource { position: vector(&mut random, -0.5..0.5), celerity: celerity(&mut random, -1.0..1.0) };
         let time = size(&mut random, -1.0..0.5);
-        let seen = perceived(pair(), &source, time).unwrap();
+        let seen = perceived_place(pair(), &source, time).unwrap();
         widest = widest.max(seen.gap);
         // From the middle, half a gap to one line and half a gap the opposite way to the other, square to both.
         let [first, second] = pair().map(|eye| {
@@ -129,18 +130,21 @@ fn perceived_place_is_midway_between_the_sight_lines() {
 
 #[test]
 fn blind_cases_are_refused() {
-    let resting = |position| Source { position, celerity: Celerity::ZERO };
-    let on_the_line = perceived(pair(), &resting(DVec3::new(3.0, 0.0, 0.0)), 0.0);
-    assert!(matches!(on_the_line, Err(PerceivedError::Parallel { .. })), "{on_the_line:?}");
-    let far = perceived(pair(), &resting(DVec3::new(0.0, 0.0, -1e20)), 0.0);
-    assert!(matches!(far, Err(PerceivedError::Parallel { .. })), "{far:?}");
-    let at_eye = perceived(pair(), &resting(pair()[0]), 0.0);
-    assert!(matches!(at_eye, Err(PerceivedError::SourceAtEye { .. })), "{at_eye:?}");
-    let one_eye = perceived([DVec3::ONE; 2], &resting(DVec3::ZERO), 0.0);
-    assert!(matches!(one_eye, Err(PerceivedError::EyesCoincide { .. })), "{one_eye:?}");
+    let resting = |position| PointSource { position, celerity: Celerity::ZERO };
+    let on_the_line = perceived_place(pair(), &resting(DVec3::new(3.0, 0.0, 0.0)), 0.0);
+    assert!(matches!(on_the_line, Err(StereoPerceptionError::Parallel { .. })), "{on_the_line:?}");
+    let far = perceived_place(pair(), &resting(DVec3::new(0.0, 0.0, -1e20)), 0.0);
+    assert!(matches!(far, Err(StereoPerceptionError::Parallel { .. })), "{far:?}");
+    let at_eye = perceived_place(pair(), &resting(pair()[0]), 0.0);
+    assert!(matches!(at_eye, Err(StereoPerceptionError::SourceAtEye { .. })), "{at_eye:?}");
+    let one_eye = perceived_place([DVec3::ONE; 2], &resting(DVec3::ZERO), 0.0);
+    assert!(matches!(one_eye, Err(StereoPerceptionError::EyesCoincide { .. })), "{one_eye:?}");
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(perceived(pair(), &resting(DVec3::Y), bad), Err(PerceivedError::NotFinite));
-        assert_eq!(perceived(pair(), &resting(DVec3::Y * bad), 0.0), Err(PerceivedError::NotFinite));
-        assert_eq!(perceived([DVec3::X, DVec3::X * bad], &resting(DVec3::Y), 0.0), Err(PerceivedError::NotFinite));
+        assert_eq!(perceived_place(pair(), &resting(DVec3::Y), bad), Err(StereoPerceptionError::NotFinite));
+        assert_eq!(perceived_place(pair(), &resting(DVec3::Y * bad), 0.0), Err(StereoPerceptionError::NotFinite));
+        assert_eq!(
+            perceived_place([DVec3::X, DVec3::X * bad], &resting(DVec3::Y), 0.0),
+            Err(StereoPerceptionError::NotFinite)
+        );
     }
 }

@@ -8,7 +8,7 @@ use std::ops::{Add, Mul, Sub};
 
 use dashu_float::FBig;
 use physics::glam::DVec3;
-use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, Source, apparent, compose};
+use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent, compose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use support::{EPSILON, celerity, direction, direction_off, seeded, size, vector};
@@ -222,7 +222,8 @@ fn moving_source_appears_where_600_bits_put_it() {
                 1 => celerity(&mut random, decade..decade + 1.0),
                 _ => Celerity::new(u.vector() * (1.0 + size(&mut random, -12.0..0.0))).unwrap(),
             };
-            let source = Source { position: place + displacement(&mut random, u, case / 3), celerity: source_celerity };
+            let source =
+                PointSource { position: place + displacement(&mut random, u, case / 3), celerity: source_celerity };
             let seen = apparent::moving(&observer, &source);
 
             let (u, v) = (RealVec::new(u.vector()), RealVec::new(source_celerity.vector()));

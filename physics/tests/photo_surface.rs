@@ -7,7 +7,10 @@
 #![expect(clippy::unwrap_used, reason = "a helper that fails, fails its test")]
 
 use glam::{DVec3, Vec3};
-use physics::photo_surface::{CHUNK, Eye, Instructions, Kernel, PhotoSurfaceError, Stats, Stores, Surface, Vertices};
+use physics::photo_surface::{
+    CHUNK, Instructions, Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Stores, Vertices,
+};
+use physics::{Celerity, Event, Observer};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -16,13 +19,13 @@ const ROUNDING: f32 = 1.2e-7;
 
 /// A photo-surface in ordinary memory.
 #[derive(Clone, Debug, PartialEq)]
-struct Seen {
+struct WrittenSurface {
     position: [Vec<f32>; 3],
     doppler: Vec<f32>,
     stats: Stats,
 }
 
-impl Seen {
+impl WrittenSurface {
     fn bits(&self) -> Vec<u32> {
         self.position.iter().chain([&self.doppler]).flatten().map(|value| value.to_bits()).collect()
     }
@@ -35,21 +38,24 @@ impl Seen {
 /// Written before each transform: whatever remains of it was forgotten.
 const UNTOUCHED: f32 = -7.0;
 
-fn see(kernel: Kernel, vertices: &Vertices, eye: &Eye) -> Seen {
+fn see<'e, E>(kernel: Kernel, vertices: &Vertices, eye: &'e E) -> WrittenSurface
+where
+    PhotoSurfaceEye: From<&'e E>,
+{
     let mut streams = [const { Vec::new() }; 4];
     streams.iter_mut().for_each(|stream| stream.resize(vertices.len(), UNTOUCHED));
     let [mut x, mut y, mut z, mut doppler] = streams;
-    let surface = Surface::new(vertices, [&mut x, &mut y, &mut z]).unwrap();
+    let surface = PhotoSurfaceMesh::new(vertices, [&mut x, &mut y, &mut z]).unwrap();
     let stats = kernel.transform(eye, vec![surface.with_doppler(&mut doppler).unwrap()]);
-    Seen { position: [x, y, z], doppler, stats }
+    WrittenSurface { position: [x, y, z], doppler, stats }
 }
 
-fn moving(celerity: DVec3) -> Eye {
-    Eye::new(DVec3::new(0.5, 1.7, -0.3), celerity).unwrap()
+fn moving(celerity: DVec3) -> PhotoSurfaceEye {
+    PhotoSurfaceEye::new(DVec3::new(0.5, 1.7, -0.3), celerity).unwrap()
 }
 
 /// Some speeds that choose each of the formulas.
-fn eyes() -> [Eye; 4] {
+fn eyes() -> [PhotoSurfaceEye; 4] {
     [
         moving(DVec3::ZERO),
         moving(DVec3::new(0.3, 0.0, -0.6)),
@@ -72,7 +78,7 @@ fn available() -> impl Iterator<Item = Kernel> {
 #[test]
 fn three_fifths_of_light_speed_is_exact() {
     let vertices = Vertices::from_world(DVec3::ZERO, [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::Y]).unwrap();
-    let eye = Eye::new(DVec3::ZERO, DVec3::NEG_Z * 0.75).unwrap();
+    let eye = PhotoSurfaceEye::new(DVec3::ZERO, DVec3::NEG_Z * 0.75).unwrap();
     for kernel in available() {
         let seen = see(kernel, &vertices, &eye);
         assert_eq!(seen.position(0), Vec3::new(0.0, 0.0, -2.0), "ahead");
@@ -86,7 +92,7 @@ fn three_fifths_of_light_speed_is_exact() {
 #[test]
 fn an_eye_at_rest_sees_things_where_they_are() {
     let origin = DVec3::new(1e6, -2e5, 3e6);
-    let eye = Eye::new(origin + DVec3::new(0.1, 0.2, 0.3), DVec3::ZERO).unwrap();
+    let eye = PhotoSurfaceEye::new(origin + DVec3::new(0.1, 0.2, 0.3), DVec3::ZERO).unwrap();
     let offsets =
         (0..1000).map(|index| Vec3::new(index as f32 * 0.37 - 100.0, (index % 7) as f32, -0.01 * index as f32));
     let vertices = Vertices::from_offsets(origin, offsets.clone()).unwrap();
@@ -180,7 +186,7 @@ fn any_alignment_of_the_output_gives_the_same_bits() {
         let (x, rest) = used.split_at_mut(100);
         let (y, rest) = rest.split_at_mut(100);
         let (z, after) = rest.split_at_mut(100);
-        kernel.transform(&eye, vec![Surface::new(&vertices, [x, y, z]).unwrap()]);
+        kernel.transform(&eye, vec![PhotoSurfaceMesh::new(&vertices, [x, y, z]).unwrap()]);
         assert_eq!([&*x, &*y, &*z], expected.position.each_ref().map(Vec::as_slice), "shift {shift}");
         assert!(before.iter().chain(after.iter()).all(|&value| value == UNTOUCHED), "shift {shift}");
     }
@@ -195,7 +201,7 @@ fn streamed_lines_hold_the_same_bits_where_they_are_aligned() {
     let [x, y, z, doppler] = &mut memory.0;
     for kernel in available() {
         for eye in eyes() {
-            let surface = Surface::new(&vertices, [x, y, z]).unwrap().with_doppler(doppler).unwrap();
+            let surface = PhotoSurfaceMesh::new(&vertices, [x, y, z]).unwrap().with_doppler(doppler).unwrap();
             kernel.with_stores(Stores::Streamed).transform(&eye, vec![surface]);
             let expected = see(kernel.with_stores(Stores::Cached), &vertices, &eye);
             assert_eq!([&x[..], y, z], expected.position.each_ref().map(Vec::as_slice));
@@ -209,8 +215,11 @@ fn meshes_of_a_frame_are_written_each_to_its_own_place() {
     let eye = moving(DVec3::new(0.0, 0.0, -3.0));
     let meshes = [town(90_000), Vertices::from_world(DVec3::X, []).unwrap(), town(7), town(CHUNK)];
     let mut memory = meshes.each_ref().map(|mesh| [(); 3].map(|()| vec![UNTOUCHED; mesh.len()]));
-    let surfaces =
-        meshes.iter().zip(&mut memory).map(|(mesh, [x, y, z])| Surface::new(mesh, [x, y, z]).unwrap()).collect();
+    let surfaces = meshes
+        .iter()
+        .zip(&mut memory)
+        .map(|(mesh, [x, y, z])| PhotoSurfaceMesh::new(mesh, [x, y, z]).unwrap())
+        .collect();
     let stats = Kernel::default().transform(&eye, surfaces);
     assert_eq!(stats.vertices, 90_007 + CHUNK);
     for (mesh, written) in meshes.iter().zip(memory) {
@@ -261,7 +270,7 @@ fn a_vertex_at_the_eye_has_no_direction_and_no_shift() {
     let vertices = Vertices::from_world(DVec3::ZERO, [position]).unwrap();
     for kernel in available() {
         for celerity in [1.0, 1e3, 1e9] {
-            let seen = see(kernel, &vertices, &Eye::new(position, DVec3::Y * celerity).unwrap());
+            let seen = see(kernel, &vertices, &PhotoSurfaceEye::new(position, DVec3::Y * celerity).unwrap());
             assert_eq!(seen.position(0), Vec3::ZERO);
             assert_eq!((seen.doppler[0], seen.stats.not_finite()), (0.0, 0));
         }
@@ -274,7 +283,7 @@ fn finite_garbage_never_panics() {
     let mut garbage = || f64::from_bits(random.random());
     let mut vector = || DVec3::from_array(std::array::from_fn(|_| garbage()));
     for _ in 0..2000 {
-        let (Ok(eye), origin) = (Eye::new(vector(), vector()), vector()) else {
+        let (Ok(eye), origin) = (PhotoSurfaceEye::new(vector(), vector()), vector()) else {
             continue;
         };
         let Ok(vertices) = Vertices::from_world(origin, (0..33).map(|_| vector())) else {
@@ -288,17 +297,45 @@ fn finite_garbage_never_panics() {
 }
 
 #[test]
+fn an_observer_sees_what_an_eye_of_the_same_place_and_celerity_sees() {
+    let vertices = town(CHUNK + 21);
+    for eye in eyes() {
+        let event = Event { ct: 5.0, position: eye.position() };
+        let observer = Observer { event, celerity: eye.celerity() };
+        assert_eq!(see(Kernel::default(), &vertices, &observer).bits(), see(Kernel::default(), &vertices, &eye).bits());
+        assert_eq!(vertices.reach_astern(&observer), vertices.reach_astern(&eye));
+    }
+}
+
+#[test]
+fn an_observer_at_no_finite_position_sees_nothing_and_every_vertex_is_counted() {
+    let vertices = town(100);
+    for bad in [f64::NAN, f64::INFINITY] {
+        for celerity in [DVec3::ZERO, DVec3::X, DVec3::Y * 1e9] {
+            let event = Event { ct: 0.0, position: DVec3::new(0.0, bad, 0.0) };
+            let observer = Observer { event, celerity: Celerity::new(celerity).unwrap() };
+            assert!(!vertices.reach_astern(&observer));
+            for kernel in available() {
+                let seen = see(kernel, &vertices, &observer);
+                assert_eq!((seen.stats.not_finite_inputs, seen.stats.not_finite_results), (0, 100));
+                assert!(seen.position.iter().chain([&seen.doppler]).flatten().all(|&value| value == 0.0));
+            }
+        }
+    }
+}
+
+#[test]
 fn input_that_cannot_be_used_is_refused_with_its_values() {
-    let eye = Eye::new(DVec3::ZERO, DVec3::X * f64::INFINITY).unwrap_err();
+    let eye = PhotoSurfaceEye::new(DVec3::ZERO, DVec3::X * f64::INFINITY).unwrap_err();
     assert!(matches!(eye, PhotoSurfaceError::Eye { .. }) && eye.to_string().contains("inf"));
     let origin = Vertices::from_world(DVec3::NAN, []).unwrap_err();
     assert!(matches!(origin, PhotoSurfaceError::Origin { .. }) && origin.to_string().contains("NaN"));
     let vertices = town(3);
     let (mut x, mut y, mut z, mut doppler) = ([0.0; 3], [0.0; 2], [0.0; 3], [0.0; 4]);
-    let error = Surface::new(&vertices, [&mut x, &mut y, &mut z]).unwrap_err();
+    let error = PhotoSurfaceMesh::new(&vertices, [&mut x, &mut y, &mut z]).unwrap_err();
     assert_eq!(error, PhotoSurfaceError::OutputLength { stream: "y", length: 2, vertices: 3 });
     let mut y = [0.0; 3];
-    let surface = Surface::new(&vertices, [&mut x, &mut y, &mut z]).unwrap();
+    let surface = PhotoSurfaceMesh::new(&vertices, [&mut x, &mut y, &mut z]).unwrap();
     let error = surface.with_doppler(&mut doppler).unwrap_err();
     assert_eq!(error, PhotoSurfaceError::OutputLength { stream: "doppler", length: 4, vertices: 3 });
 }

@@ -9,7 +9,7 @@
 #![expect(clippy::unwrap_used, reason = "a helper that fails, fails its test")]
 
 use glam::DVec3;
-use physics::photo_surface::{Eye, Instructions, Kernel, Surface, Vertices};
+use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -46,13 +46,13 @@ fn exact_difference(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     (difference, (a - (difference - back)) - (b + back))
 }
 
-struct Exact {
+struct Reference {
     position: DVec3,
     doppler: f64,
 }
 
 /// The apparent position of `offset` (from `origin`) for an eye at `eye` with celerity `u`.
-fn reference(offset: DVec3, origin: DVec3, eye: DVec3, u: DVec3) -> Exact {
+fn reference(offset: DVec3, origin: DVec3, eye: DVec3, u: DVec3) -> Reference {
     let (eye_high, eye_low) = exact_difference(eye, origin);
     let (d, rounding) = exact_difference(offset, eye_high);
     let rest = rounding - eye_low;
@@ -67,13 +67,13 @@ fn reference(offset: DVec3, origin: DVec3, eye: DVec3, u: DVec3) -> Exact {
     let small = moment.length_squared() / big;
     let (sum, difference) = if along >= 0.0 { (big, small) } else { (small, big) };
     let (advanced, retarded) = (kappa * sum / 2.0, difference / (2.0 * kappa));
-    Exact { position: across + (advanced - retarded) * (u / speed), doppler: (advanced + retarded) / distance }
+    Reference { position: across + (advanced - retarded) * (u / speed), doppler: (advanced + retarded) / distance }
 }
 
-fn textbook(d: DVec3, u: DVec3) -> Exact {
+fn textbook(d: DVec3, u: DVec3) -> Reference {
     let gamma = u.length().hypot(1.0);
     let position = d + u * (d.length() + u.dot(d) / (1.0 + gamma));
-    Exact { position, doppler: gamma + u.dot(d.normalize()) }
+    Reference { position, doppler: gamma + u.dot(d.normalize()) }
 }
 
 fn angle(a: DVec3, b: DVec3) -> f64 {
@@ -108,12 +108,13 @@ fn direction(random: &mut impl Rng, ahead: DVec3) -> DVec3 {
 }
 
 /// Kernel results for a mesh of one vertex, so that its own place alone chooses the formula.
-fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Exact {
+fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Reference {
     let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
-    let surface = Surface::new(vertices, [&mut x, &mut y, &mut z]).unwrap().with_doppler(&mut doppler).unwrap();
-    let stats = kernel.transform(&Eye::new(eye, u).unwrap(), vec![surface]);
+    let surface =
+        PhotoSurfaceMesh::new(vertices, [&mut x, &mut y, &mut z]).unwrap().with_doppler(&mut doppler).unwrap();
+    let stats = kernel.transform(&PhotoSurfaceEye::new(eye, u).unwrap(), vec![surface]);
     assert_eq!(stats.not_finite(), 0);
-    Exact { position: DVec3::new(x[0].into(), y[0].into(), z[0].into()), doppler: doppler[0].into() }
+    Reference { position: DVec3::new(x[0].into(), y[0].into(), z[0].into()), doppler: doppler[0].into() }
 }
 
 /// The worst errors over `cases` random cases: direction in rad, distance and D relative.
@@ -204,8 +205,8 @@ fn chunks_of_many_vertices_are_as_accurate_as_single_ones() {
         let mut position = [const { Vec::new() }; 3];
         position.iter_mut().for_each(|stream| stream.resize(offsets.len(), 0.0));
         let [x, y, z] = &mut position;
-        let surface = Surface::new(&vertices, [x, y, z]).unwrap();
-        Kernel::default().transform(&Eye::new(eye, u).unwrap(), vec![surface]);
+        let surface = PhotoSurfaceMesh::new(&vertices, [x, y, z]).unwrap();
+        Kernel::default().transform(&PhotoSurfaceEye::new(eye, u).unwrap(), vec![surface]);
         for (index, offset) in offsets.iter().enumerate() {
             let got = DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(position[axis][index])));
             let want = reference(offset.as_dvec3(), origin, eye, u).position;

@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 use physics::glam::DVec3;
 use physics::retarded::{NotSeen, Worldline, retarded};
-use physics::{Beta, Celerity, Event, Observer, Source, apparent};
+use physics::{Beta, Celerity, Event, Observer, PointSource, apparent};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -112,7 +112,8 @@ fn uniform_motion_is_seen_as_apparent_moving_has_it() {
         let celerity = Beta::new(beta).unwrap().celerity();
         let event = Event { ct, position: place };
         let seen = retarded(event, &counted(|ct| (position + beta * ct, beta))).unwrap();
-        let exact = apparent::moving(&Observer { event, celerity: Celerity::ZERO }, &Source { position, celerity });
+        let exact =
+            apparent::moving(&Observer { event, celerity: Celerity::ZERO }, &PointSource { position, celerity });
         let scale = TOLERANCE * exact.position.length().max(1.0);
         assert!((seen.position - place - exact.position).length() < scale);
         assert!((seen.ct - exact.emitted_at).abs() < scale);
@@ -127,4 +128,8 @@ fn what_is_faster_than_light_is_refused_and_what_touches_the_eye_is_seen_at_once
     assert_eq!(here.ct, 2.0);
     let nowhere = retarded(Event::default(), &counted(|_| (DVec3::splat(f64::NAN), DVec3::ZERO)));
     assert!(matches!(nowhere, Err(NotSeen::Never { .. })));
+    // Light as good as keeps up with this source, and its velocity is said to be the opposite one.
+    let speed = DVec3::X * 0.999_999;
+    let lying = retarded(Event::default(), &counted(|ct| (DVec3::X * 10.0 - speed * ct, speed)));
+    assert!(matches!(lying, Err(NotSeen::NotConverged { .. })), "{lying:?}");
 }

@@ -9,9 +9,10 @@ use std::f64::consts::TAU;
 
 use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
-    Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, State, Thrust, Transport, WorldlineError, travel,
+    Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, Thrust, Transport, WorldlineError, WorldlineState,
+    travel,
 };
-use physics::{Boost, Celerity, Event, FourVector};
+use physics::{Boost, Celerity, Event, FourVector, Observer};
 use support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
@@ -24,7 +25,8 @@ fn push(acceleration: DVec3) -> Thrust {
 
 /// Rapidity reached from rest at 10 units of acceleration for one of proper time, less 10.
 fn rapidity_error(integrator: &dyn Integrator, rate: f64) -> f64 {
-    let end = travel(integrator, &State::default(), 1.0, 1.0 / rate, &push(DVec3::new(6.0, 0.0, 8.0))).unwrap();
+    let end =
+        travel(integrator, &WorldlineState::default(), 1.0, 1.0 / rate, &push(DVec3::new(6.0, 0.0, 8.0))).unwrap();
     (end.celerity.rapidity() - 10.0).abs()
 }
 
@@ -48,7 +50,8 @@ fn rk4_is_of_fourth_order() {
 fn hyperbolic_motion_keeps_clocks_and_way() {
     // x = (cosh aτ − 1)/a, ct = sinh(aτ)/a.
     for (name, integrator) in integrators() {
-        let end = travel(&*integrator, &State::default(), 2.0, 1.0 / 240.0, &push(DVec3::new(0.0, 1.5, 0.0))).unwrap();
+        let end = travel(&*integrator, &WorldlineState::default(), 2.0, 1.0 / 240.0, &push(DVec3::new(0.0, 1.5, 0.0)))
+            .unwrap();
         let expected = DVec3::new(0.0, (3.0_f64.cosh() - 1.0) / 1.5, 0.0);
         assert!(relative_difference(end.position, expected) < 1e-10, "{name}");
         assert!((end.ct / (3.0_f64.sinh() / 1.5) - 1.0).abs() < 1e-10, "{name}");
@@ -59,14 +62,15 @@ fn hyperbolic_motion_keeps_clocks_and_way() {
 
 /// A circle of celerity `w` with lateral acceleration `a`, the nose on the motion: start, constant controls, and the
 /// state after `tau`.
-fn circle(w: f64, a: f64, tau: f64) -> (State, Thrust, State) {
+fn circle(w: f64, a: f64, tau: f64) -> (WorldlineState, Thrust, WorldlineState) {
     let gamma = (1.0 + w * w).sqrt();
-    let start = State::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w)).unwrap(), DQuat::IDENTITY);
+    let start =
+        WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w)).unwrap(), DQuat::IDENTITY);
     // To the right: forward −z × right x = −y.
     let thrust = Thrust { acceleration: DVec3::new(a, 0.0, 0.0), turn_rate: DVec3::new(0.0, -gamma * a / w, 0.0) };
     let (angle, radius) = (tau * a / w, w * w / a);
     let (sine, cosine) = angle.sin_cos();
-    let mut end = State::new(
+    let mut end = WorldlineState::new(
         Event { ct: gamma * tau, position: radius * DVec3::new(2.0 * (angle / 2.0).sin().powi(2), 0.0, -sine) },
         Celerity::new(w * DVec3::new(sine, 0.0, -cosine)).unwrap(),
         DQuat::from_rotation_y(-angle),
@@ -115,7 +119,7 @@ fn circle_at_gamma_1000_is_the_same_in_long_and_short_steps() {
 #[test]
 fn ship_stopped_from_outside_rests_exactly() {
     let thrust = Thrust { acceleration: DVec3::new(0.3, 0.1, -0.7), turn_rate: DVec3::new(0.1, 0.5, 0.0) };
-    let mut state = travel(&Exact, &State::default(), 1.0, 1.0 / 240.0, &thrust).unwrap();
+    let mut state = travel(&Exact, &WorldlineState::default(), 1.0, 1.0 / 240.0, &thrust).unwrap();
     state.celerity = Celerity::ZERO;
     for integrator in [&Exact as &dyn Integrator, &Rk4] {
         let end = travel(integrator, &state, 10.0, 1.0 / 240.0, &Thrust::default()).unwrap();
@@ -130,7 +134,7 @@ fn gyroscope_on_a_circle_at_gamma_1000_reaches_the_tabled_accuracy() {
     // is all the rotation.
     let (start, turning, expected) = circle(1e3, 10.0, 1.0);
     let rate = turning.turn_rate.y;
-    let thrust = |state: &State| push(DQuat::from_rotation_y(rate * state.proper_time) * turning.acceleration);
+    let thrust = |state: &WorldlineState| push(DQuat::from_rotation_y(rate * state.proper_time) * turning.acceleration);
     let expected = expected.orientation * DQuat::from_rotation_y(-rate);
     // The exact step takes the control at its middle: second order.
     let limits: [(&dyn Integrator, f64, f64); 4] =
@@ -159,8 +163,10 @@ fn whole_circle_comes_back() {
 #[test]
 fn gyroscope_precesses_by_thomas_angle_on_a_circle() {
     // γ = 1.25: 2π(γ − 1) = 90° against the sense of the motion, which here is right-handed about −y.
-    let start = State::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -0.75)).unwrap(), DQuat::IDENTITY);
-    let inward = |state: &State| Thrust::in_boost_axes(state, state.celerity.direction().unwrap().cross(DVec3::Y));
+    let start =
+        WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -0.75)).unwrap(), DQuat::IDENTITY);
+    let inward =
+        |state: &WorldlineState| Thrust::in_boost_axes(state, state.celerity.direction().unwrap().cross(DVec3::Y));
     for (name, integrator) in integrators() {
         let end = travel(&*integrator, &start, TAU * 0.75, 1.0 / 960.0, &inward).unwrap();
         let error = turn_between(end.orientation, DQuat::from_rotation_y(TAU * 0.25));
@@ -173,7 +179,7 @@ fn gyroscope_precesses_by_thomas_angle_on_a_circle() {
 fn integrators_agree_on_random_controls() {
     let mut random = seeded(11);
     for _ in 0..20 {
-        let start = State::new(
+        let start = WorldlineState::new(
             Event { ct: 1.0, position: vector(&mut random, 0.0..2.0) },
             celerity(&mut random, -2.0..2.0),
             orientation(&mut random),
@@ -195,7 +201,7 @@ fn integrators_agree_on_random_controls() {
 fn backwards_undoes_forwards() {
     let mut random = seeded(12);
     for _ in 0..20 {
-        let start = State::new(Event::default(), celerity(&mut random, -2.0..1.0), orientation(&mut random));
+        let start = WorldlineState::new(Event::default(), celerity(&mut random, -2.0..1.0), orientation(&mut random));
         let thrust = Thrust { acceleration: direction(&mut random), turn_rate: direction(&mut random) };
         for (name, integrator) in integrators() {
             let there = integrator.step(&start, 0.05, &thrust).unwrap();
@@ -209,7 +215,7 @@ fn backwards_undoes_forwards() {
 #[test]
 fn reversed_thrust_brings_the_ship_to_rest() {
     // There and back leaves ε γ_max of celerity, γ_max = cosh 10.
-    let mut state = State::default();
+    let mut state = WorldlineState::default();
     for acceleration in [10.0, -10.0] {
         state = travel(&Exact, &state, 1.0, 1.0 / 60.0, &push(DVec3::new(0.0, 0.0, acceleration))).unwrap();
     }
@@ -220,7 +226,7 @@ fn reversed_thrust_brings_the_ship_to_rest() {
 fn coasting_is_one_step_or_a_million() {
     // Each sum of a third loses half a unit in the last place, always to the same side: 1e6 of them 1e-10 of the way.
     const TOLERANCE: f64 = 4.0 * EPSILON;
-    let start = State::new(
+    let start = WorldlineState::new(
         Event { ct: 0.1, position: DVec3::new(0.7, -0.3, 0.1) },
         Celerity::new(DVec3::new(1e3, 2.0, 1e-3)).unwrap(),
         DQuat::from_rotation_y(0.3),
@@ -246,7 +252,7 @@ fn any_finite_input_ends_in_a_finite_state_or_an_error() {
     let mut random = seeded(13);
     let (mut taken, mut refused) = (0, 0);
     for _ in 0..300 {
-        let start = State::new(
+        let start = WorldlineState::new(
             Event { ct: 0.0, position: vector(&mut random, -6.0..9.0) },
             celerity(&mut random, -8.0..70.0),
             orientation(&mut random),
@@ -272,7 +278,7 @@ fn any_finite_input_ends_in_a_finite_state_or_an_error() {
 
 #[test]
 fn bad_input_is_refused() {
-    let start = State::default();
+    let start = WorldlineState::default();
     for (name, integrator) in integrators() {
         for bad in [f64::NAN, f64::INFINITY] {
             let step = integrator.step(&start, bad, &Thrust::default());
@@ -297,11 +303,11 @@ fn bad_input_is_refused() {
 #[test]
 fn adaptive_integrator_says_when_it_does_not_converge() {
     // An acceleration that depends on the last bits of the state has no solution to converge to.
-    let noise = |state: &State| {
+    let noise = |state: &WorldlineState| {
         let bits = (state.ct.to_bits() ^ state.position.x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
         push(DVec3::X * 1e6 * (bits as f64 / (1_u64 << 53) as f64 - 0.5))
     };
-    let error = DormandPrince::new(1e-12).unwrap().step(&State::default(), 1.0, &noise).unwrap_err();
+    let error = DormandPrince::new(1e-12).unwrap().step(&WorldlineState::default(), 1.0, &noise).unwrap_err();
     assert!(matches!(error, WorldlineError::NotConverged { .. }), "{error}");
 }
 
@@ -309,7 +315,12 @@ fn adaptive_integrator_says_when_it_does_not_converge() {
 fn journey_takes_whole_steps() {
     struct Counter(std::cell::Cell<u32>);
     impl Integrator for Counter {
-        fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError> {
+        fn step(
+            &self,
+            state: &WorldlineState,
+            step: f64,
+            control: &dyn Control,
+        ) -> Result<WorldlineState, WorldlineError> {
             self.0.set(self.0.get() + 1);
             Rk4.step(state, step, control)
         }
@@ -318,7 +329,7 @@ fn journey_takes_whole_steps() {
         [(0.0, 0.1, 0), (0.3, 0.1, 3), (1.0, 1.0 / 240.0, 240), (1.0, 0.3, 4), (0.1, 5.0, 1)]
     {
         let counter = Counter(std::cell::Cell::new(0));
-        let end = travel(&counter, &State::default(), duration, step, &Thrust::default()).unwrap();
+        let end = travel(&counter, &WorldlineState::default(), duration, step, &Thrust::default()).unwrap();
         assert_eq!(counter.0.get(), expected);
         assert!((end.proper_time - duration).abs() <= EPSILON);
     }
@@ -329,7 +340,7 @@ fn facing() -> FacingMotion {
 }
 
 /// The sine of the angle between the nose and the line of motion.
-fn misalignment(state: &State) -> f64 {
+fn misalignment(state: &WorldlineState) -> f64 {
     let nose = state.orientation * DVec3::NEG_Z;
     state.celerity.direction().map_or(0.0, |motion| nose.cross(motion).length())
 }
@@ -338,7 +349,7 @@ fn misalignment(state: &State) -> f64 {
 fn nose_stays_on_the_motion_through_a_curve() {
     for (w, duration) in [(1.0, 3.0), (1e3, 3.0), (1e9, 3.0)] {
         let (start, _, _) = circle(w, 1.0, 0.0);
-        let curve = |state: &State| Transport::FacingMotion(facing()).thrust(state, DVec3::new(1.0, 0.3, 0.0));
+        let curve = |state: &WorldlineState| Transport::FacingMotion(facing()).thrust(state, DVec3::new(1.0, 0.3, 0.0));
         for (name, integrator) in integrators() {
             let end = travel(&*integrator, &start, duration, 1.0 / 240.0, &curve).unwrap();
             assert!(misalignment(&end) < 1e-3, "{name} {w} {}", misalignment(&end));
@@ -358,12 +369,13 @@ fn nose_is_smooth_through_rest_and_in_reverse() {
     // Forward, a stop, reverse, a curve in reverse: nothing turns while the motion is straight, and the nose stays
     // opposed to it after.
     let transport = Transport::FacingMotion(facing());
-    let mut state = State::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -1.0)).unwrap(), DQuat::IDENTITY);
-    let backwards = |state: &State| transport.thrust(state, DVec3::Z);
+    let mut state =
+        WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -1.0)).unwrap(), DQuat::IDENTITY);
+    let backwards = |state: &WorldlineState| transport.thrust(state, DVec3::Z);
     state = travel(&Rk4, &state, 2.0, 1.0 / 240.0, &backwards).unwrap();
     assert!(turn_between(state.orientation, DQuat::IDENTITY) < 1e-12);
     assert!(state.celerity.vector().z > 0.5);
-    let curve = |state: &State| transport.thrust(state, DVec3::new(0.5, 0.0, 0.0));
+    let curve = |state: &WorldlineState| transport.thrust(state, DVec3::new(0.5, 0.0, 0.0));
     state = travel(&Rk4, &state, 2.0, 1.0 / 240.0, &curve).unwrap();
     assert!((state.orientation * DVec3::NEG_Z).dot(state.celerity.direction().unwrap()) < -0.999);
 }
@@ -372,10 +384,10 @@ fn nose_is_smooth_through_rest_and_in_reverse() {
 fn turn_rate_is_bounded_at_every_speed_and_zero_at_rest() {
     let mut random = seeded(14);
     let facing = facing();
-    let rest = State::new(Event::default(), Celerity::ZERO, orientation(&mut random));
+    let rest = WorldlineState::new(Event::default(), Celerity::ZERO, orientation(&mut random));
     assert_eq!(facing.turn_rate(&rest, DVec3::X).length(), 0.0);
     for _ in 0..1000 {
-        let state = State::new(Event::default(), celerity(&mut random, -12.0..12.0), orientation(&mut random));
+        let state = WorldlineState::new(Event::default(), celerity(&mut random, -12.0..12.0), orientation(&mut random));
         let acceleration = direction(&mut random);
         // γ w / (w² + s²) ≤ 1/(2s) + 1.
         let most = 0.5 / facing.softening + 1.0 + 0.5 * facing.alignment;
@@ -387,9 +399,11 @@ fn turn_rate_is_bounded_at_every_speed_and_zero_at_rest() {
 fn left_over_angle_decays_when_speed_returns() {
     let transport = Transport::FacingMotion(facing());
     for (angle, reversed) in [(0.5, false), (2.6, true)] {
-        let start = State::new(Event::default(), Celerity::new(DVec3::NEG_Z).unwrap(), DQuat::from_rotation_y(angle));
+        let start =
+            WorldlineState::new(Event::default(), Celerity::new(DVec3::NEG_Z).unwrap(), DQuat::from_rotation_y(angle));
         let end =
-            travel(&Rk4, &start, 4.0, 1.0 / 240.0, &|state: &State| transport.thrust(state, DVec3::ZERO)).unwrap();
+            travel(&Rk4, &start, 4.0, 1.0 / 240.0, &|state: &WorldlineState| transport.thrust(state, DVec3::ZERO))
+                .unwrap();
         assert!(misalignment(&end) < 1e-6);
         assert_eq!((end.orientation * DVec3::NEG_Z).z > 0.0, reversed);
         assert_eq!(end.celerity, start.celerity);
@@ -401,7 +415,7 @@ fn thrust_reversed_at_every_leap_keeps_the_ship_at_hand() {
     // Bang-bang control in leaps of 1e-6 to 10: each pair of equal opposite leaps ends at rest.
     let mut random = seeded(16);
     for (name, integrator) in [("exact", &Exact as &dyn Integrator), ("dopri5", &DormandPrince::default())] {
-        let mut state = State::default();
+        let mut state = WorldlineState::default();
         for _ in 0..200 {
             let (leap, acceleration) = (size(&mut random, -6.0..1.0), direction(&mut random));
             for sign in [1.0, -1.0] {
@@ -419,12 +433,12 @@ fn head_aboard_has_the_tetrad_of_both_boosts() {
     let mut random = seeded(17);
     for _ in 0..500 {
         let event = Event { ct: 3.0, position: vector(&mut random, 0.0..1.0) };
-        let vehicle = State::new(event, celerity(&mut random, -2.0..2.0), orientation(&mut random));
+        let vehicle = WorldlineState::new(event, celerity(&mut random, -2.0..2.0), orientation(&mut random));
         let head = celerity(&mut random, -2.0..1.0);
         let aboard = vehicle.aboard(DVec3::ZERO, head);
         assert_eq!(aboard.event(), event);
         let input = FourVector { t: 1.0, r: direction(&mut random) };
-        let world_from = |state: &State, vector: FourVector| {
+        let world_from = |state: &WorldlineState, vector: FourVector| {
             let turned = FourVector { t: vector.t, r: state.orientation * vector.r };
             state.observer().observer_from_world().inverse().apply(turned)
         };
@@ -440,7 +454,7 @@ fn head_ahead_in_the_vehicle_is_further_on_and_later_in_the_world() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let celerity = Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap();
     // The nose, −z, turned onto the motion, −x.
-    let vehicle = State::new(Event::default(), celerity, DQuat::from_rotation_y(quarter));
+    let vehicle = WorldlineState::new(Event::default(), celerity, DQuat::from_rotation_y(quarter));
     let head = vehicle.aboard(DVec3::new(0.0, 0.0, -4.0), Celerity::ZERO);
     assert!(head.position.distance(DVec3::new(-5.0, 0.0, 0.0)) < 8.0 * EPSILON);
     assert!((head.ct - 3.0).abs() < 8.0 * EPSILON);
@@ -448,8 +462,25 @@ fn head_ahead_in_the_vehicle_is_further_on_and_later_in_the_world() {
 }
 
 #[test]
+fn eye_at_rest_aboard_is_at_the_bits_that_recordings_were_made_with() {
+    // Old recordings are verified to the bit, so the order of operations is part of the interface.
+    let mut random = seeded(18);
+    for _ in 0..500 {
+        let event = Event { ct: size(&mut random, -3.0..6.0), position: vector(&mut random, -3.0..6.0) };
+        let vehicle = WorldlineState::new(event, celerity(&mut random, -6.0..6.0), orientation(&mut random));
+        let place = vector(&mut random, -2.0..1.0);
+        let world_from_vehicle = vehicle.observer().observer_from_world().inverse();
+        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: vehicle.orientation * place });
+        let expected = Observer { event: event + displacement, celerity: vehicle.celerity };
+        assert_eq!(vehicle.observer_at(place), expected);
+        let aboard = vehicle.aboard(place, Celerity::ZERO);
+        assert_eq!((aboard.observer(), aboard.orientation), (expected, vehicle.orientation));
+    }
+}
+
+#[test]
 fn gyroscopic_transport_asks_for_no_turn() {
     let mut random = seeded(15);
-    let state = State::new(Event::default(), celerity(&mut random, 0.0..3.0), orientation(&mut random));
+    let state = WorldlineState::new(Event::default(), celerity(&mut random, 0.0..3.0), orientation(&mut random));
     assert_eq!(Transport::Gyroscopic.thrust(&state, DVec3::X).turn_rate, DVec3::ZERO);
 }

@@ -8,7 +8,7 @@ use glam::{Mat4, Vec2, Vec4};
 /// Positions given to the shader are relative to the eye, in the observer's axes (a pure boost of the world's).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct View {
+pub struct ViewUniforms {
     /// Reversed depth, infinite far plane.
     pub clip_from_observer: Mat4,
     /// Direction through the picture's centre, observer's axes; w unused.
@@ -35,7 +35,7 @@ pub struct View {
 /// Daylight, in the frame of what it falls on: the world's, or that of something that moves.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Lighting {
+pub struct LightingUniforms {
     /// From the scene's own coordinates to the shadow map's texture coordinates and depth.
     pub shadow_from_world: Mat4,
     /// Unit vector towards the sun; w = 1 if what lies between counts, 0 if nothing can cast a shadow here.
@@ -61,7 +61,7 @@ pub struct Lighting {
 /// One surface.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Material {
+pub struct MaterialUniforms {
     /// Linear factor of the base colour, and opacity.
     pub base_colour: Vec4,
     /// Linear radiance; w = opacity below which nothing is drawn, if the pipeline is masked.
@@ -74,7 +74,7 @@ pub struct Material {
 /// A part of a cube's face, drawn somewhere in the atlas.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct Pane {
+pub struct AtlasTile {
     /// Tangents at its upper left corner.
     pub corner: Vec2,
     /// Texels per tangent, right and down.
@@ -88,7 +88,7 @@ pub struct Pane {
 /// How a pixel finds its place in the map.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Map {
+pub struct MapUniforms {
     /// From the observer's axes (or the world's, turned alike) to the cube's: +z is along the motion.
     pub cube_from_observer: Mat4,
 }
@@ -96,7 +96,7 @@ pub struct Map {
 /// How samples are summed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Accumulate {
+pub struct AccumulateUniforms {
     /// What each sample counts for: one over their number.
     pub weight: f32,
 }
@@ -104,7 +104,7 @@ pub struct Accumulate {
 /// What the light meter is asked.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Metering {
+pub struct MeteringUniforms {
     /// Exposure over the texture's scale, if it is not automatic.
     pub exposure: f32,
     /// Base-2 logarithm of the exposure, or of what is added to the automatic one.
@@ -128,7 +128,7 @@ pub struct Metering {
 /// What the eye is adapted to; stays on the device from frame to frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Adaptation {
+pub struct AdaptationState {
     /// What the texture's values are multiplied with: exposure over scale.
     pub exposure: f32,
     /// Exposed gain that is shown as white, at least 1.
@@ -144,7 +144,7 @@ pub struct Adaptation {
 /// Where on a screen a picture is shown.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Placement {
+pub struct PlacementUniforms {
     /// The screen's pixel that its upper left one is.
     pub origin: Vec2,
     /// What its values are multiplied by before all else.
@@ -156,7 +156,7 @@ pub struct Placement {
 /// A flat picture of what an eye sees, taken to be shown on a surface that is not flat. Axes of the room.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Facet {
+pub struct FacetUniforms {
     /// Where the eye is, metres; w = the largest tangent, right or up, that this facet shows.
     pub eye: Vec4,
     /// To the right in the picture; w unused.
@@ -172,7 +172,7 @@ pub struct Facet {
 /// From where a room is seen.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct RoomView {
+pub struct RoomViewUniforms {
     /// From the room's axes, metres.
     pub clip_from_room: Mat4,
 }

@@ -44,11 +44,11 @@ fn structs_have_the_same_layout_on_both_sides() {
     let surface = parse(&shaders::SURFACE);
     assert_mirrors!(
         surface,
-        View { clip_from_observer, forward, right, up, motion, shift, layer, source, eye, eye_rest }
+        ViewUniforms { clip_from_observer, forward, right, up, motion, shift, layer, source, eye, eye_rest }
     );
     assert_mirrors!(
         surface,
-        Lighting {
+        LightingUniforms {
             shadow_from_world,
             sun_direction,
             sun,
@@ -61,18 +61,18 @@ fn structs_have_the_same_layout_on_both_sides() {
             background
         }
     );
-    assert_mirrors!(surface, Material { base_colour, emissive, carriers });
+    assert_mirrors!(surface, MaterialUniforms { base_colour, emissive, carriers });
     let warp = parse(&shaders::WARP);
-    assert_mirrors!(warp, Pane { corner, scale, low, high });
-    assert_mirrors!(warp, Map { cube_from_observer });
-    assert_mirrors!(parse(&shaders::ACCUMULATE), Accumulate { weight });
+    assert_mirrors!(warp, AtlasTile { corner, scale, low, high });
+    assert_mirrors!(warp, MapUniforms { cube_from_observer });
+    assert_mirrors!(parse(&shaders::ACCUMULATE), AccumulateUniforms { weight });
     let meter = parse(&shaders::METER);
     assert_mirrors!(
         meter,
-        Metering { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances, columns, rows }
+        MeteringUniforms { exposure, log2_exposure, log2_scale, share, automatic, gains, luminances, columns, rows }
     );
-    assert_mirrors!(parse(&shaders::DISPLAY), Placement { origin, exposure, odd });
-    assert_mirrors!(parse(&shaders::ROOM), RoomView { clip_from_room });
-    assert_mirrors!(parse(&shaders::RESAMPLE), Facet { eye, right, up, forward, texel });
-    assert_mirrors!(meter, Adaptation { exposure, white, log2_exposure, gain, bright });
+    assert_mirrors!(parse(&shaders::DISPLAY), PlacementUniforms { origin, exposure, odd });
+    assert_mirrors!(parse(&shaders::ROOM), RoomViewUniforms { clip_from_room });
+    assert_mirrors!(parse(&shaders::RESAMPLE), FacetUniforms { eye, right, up, forward, texel });
+    assert_mirrors!(meter, AdaptationState { exposure, white, log2_exposure, gain, bright });
 }

@@ -1,12 +1,12 @@
 // Adds one sample to the sum of those before it.
 
-struct Accumulate {
+struct AccumulateUniforms {
     weight: f32,
 }
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
 @group(0) @binding(1) var sum_so_far: texture_2d<f32>;
-@group(0) @binding(2) var<uniform> accumulate: Accumulate;
+@group(0) @binding(2) var<uniform> accumulate: AccumulateUniforms;
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {

@@ -5,7 +5,7 @@ override SWAP_EYES: bool = false;
 
 @group(0) @binding(0) var first: texture_2d<f32>;
 @group(0) @binding(1) var second: texture_2d<f32>;
-@group(0) @binding(2) var<uniform> placement: Placement;
+@group(0) @binding(2) var<uniform> placement: PlacementUniforms;
 
 // What of each eye reaches the screen's red, green and blue: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001.
 fn dubois(left: vec3<f32>, right: vec3<f32>) -> vec3<f32> {

@@ -9,9 +9,9 @@ override GAINS: bool = false;
 override SIGNAL_POWER: f32 = 0.0;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
-@group(0) @binding(1) var<uniform> adaptation: Adaptation;
+@group(0) @binding(1) var<uniform> adaptation: AdaptationState;
 @group(0) @binding(2) var<storage, read> curve: array<f32>;
-@group(0) @binding(3) var<uniform> placement: Placement;
+@group(0) @binding(3) var<uniform> placement: PlacementUniforms;
 @group(0) @binding(4) var gains: texture_2d<f32>;
 
 // Gains are even enough to be tabled more coarsely than the picture, and mixed.

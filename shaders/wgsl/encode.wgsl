@@ -1,6 +1,6 @@
 // The curve of an sRGB screen (IEC 61966-2-1), and where on it a picture is.
 
-struct Placement {
+struct PlacementUniforms {
     origin: vec2<f32>,
     exposure: f32,
     odd: f32,

@@ -1,7 +1,7 @@
 // The light meter: histograms of a frame, and what the eye makes of them. Integers only are shared between threads, so that the sums do not
 // depend on the order in which threads come by.
 
-struct Metering {
+struct MeteringUniforms {
     exposure: f32,
     log2_exposure: f32,
     log2_scale: f32,
@@ -26,10 +26,10 @@ const OWN: u32 = METER_BINS / THREADS;
 var<workgroup> sums: array<f32, THREADS>;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
-@group(0) @binding(1) var<uniform> metering: Metering;
+@group(0) @binding(1) var<uniform> metering: MeteringUniforms;
 // First the bins of the gain, then those of the luminance.
 @group(0) @binding(2) var<storage, read_write> bins: array<Bin>;
-@group(0) @binding(3) var<storage, read_write> adaptation: Adaptation;
+@group(0) @binding(3) var<storage, read_write> adaptation: AdaptationState;
 @group(0) @binding(4) var<storage, read_write> curve: array<f32>;
 
 fn count(first: u32, log2_value: f32) {

@@ -1,6 +1,6 @@
 // What meter and display know of radiance. Mirrors of shaders/src/layout.rs.
 
-struct Adaptation {
+struct AdaptationState {
     exposure: f32,
     white: f32,
     log2_exposure: f32,

@@ -1,6 +1,6 @@
 // From a flat picture to a surface that is not flat: each pixel's point on the surface, seen from the eye, finds its place in the picture.
 
-struct Facet {
+struct FacetUniforms {
     eye: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
@@ -13,7 +13,7 @@ override SMOOTH: bool = true;
 
 // Of each pixel, in the room; w = 0 where the projector meets no surface.
 @group(0) @binding(0) var points: texture_2d<f32>;
-@group(0) @binding(1) var<uniform> facet: Facet;
+@group(0) @binding(1) var<uniform> facet: FacetUniforms;
 @group(0) @binding(2) var picture: texture_2d<f32>;
 
 fn texel_at(place: vec2<i32>) -> vec4<f32> {

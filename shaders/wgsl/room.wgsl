@@ -1,13 +1,13 @@
 // A room seen from anywhere: its screens with what they show, those that turn their backs as outlines.
 
-struct RoomView {
+struct RoomViewUniforms {
     clip_from_room: mat4x4<f32>,
 }
 
 // Nothing but lines: of a grid on the ground, and of a head.
 override LINES: bool = false;
 
-@group(0) @binding(0) var<uniform> room: RoomView;
+@group(0) @binding(0) var<uniform> room: RoomViewUniforms;
 @group(0) @binding(1) var shown: texture_2d<f32>;
 
 struct Corner {

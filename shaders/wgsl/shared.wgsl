@@ -1,6 +1,6 @@
 // What every drawing shader is given. Mirrors of shaders/src/layout.rs.
 
-struct View {
+struct ViewUniforms {
     clip_from_observer: mat4x4<f32>,
     forward: vec4<f32>,
     right: vec4<f32>,
@@ -13,7 +13,7 @@ struct View {
     eye_rest: vec4<f32>,
 }
 
-struct Lighting {
+struct LightingUniforms {
     shadow_from_world: mat4x4<f32>,
     sun_direction: vec4<f32>,
     sun: vec4<f32>,
@@ -26,5 +26,5 @@ struct Lighting {
     background: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> lighting: Lighting;
+@group(0) @binding(0) var<uniform> view: ViewUniforms;
+@group(0) @binding(1) var<uniform> lighting: LightingUniforms;

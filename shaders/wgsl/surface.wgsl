@@ -1,7 +1,7 @@
 // Triangles: apparent positions come in three streams, everything else as the world has it.
 // The radiance that leaves a surface is worked out in its own frame: the world's, or that of what moves, with the light that falls on it there.
 
-struct Material {
+struct MaterialUniforms {
     base_colour: vec4<f32>,
     emissive: vec4<f32>,
     carriers: vec4<f32>,
@@ -29,7 +29,7 @@ override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
 @group(0) @binding(3) var shadow_sampler: sampler_comparison;
-@group(1) @binding(0) var<uniform> material: Material;
+@group(1) @binding(0) var<uniform> material: MaterialUniforms;
 @group(1) @binding(1) var base_colour_texture: texture_2d<f32>;
 @group(1) @binding(2) var base_colour_sampler: sampler;
 @group(1) @binding(3) var emissive_texture: texture_2d<f32>;

@@ -1,13 +1,13 @@
 // From the map of the world around the eye to what the observer sees: a pixel's direction, bent, finds its pane, and the pane its light.
 
-struct Pane {
+struct AtlasTile {
     corner: vec2<f32>,
     scale: vec2<f32>,
     low: vec2<f32>,
     high: vec2<f32>,
 }
 
-struct Map {
+struct MapUniforms {
     cube_from_observer: mat4x4<f32>,
 }
 
@@ -17,7 +17,7 @@ override SMOOTH: bool = true;
 // The map holds places of surfaces instead of weights.
 override PLACES: bool = false;
 
-@group(1) @binding(0) var<uniform> map: Map;
+@group(1) @binding(0) var<uniform> map: MapUniforms;
 // Which pane is where: one layer for each quarter of a face, and one for each of their cells that is cut further.
 @group(1) @binding(1) var cells: texture_2d_array<i32>;
 // Two texels each: corner and scale, low and high.
@@ -55,7 +55,7 @@ fn on_cube(direction: vec3<f32>) -> OnCube {
 
 // The pane that holds a place on the cube. Each quarter of a face is counted from its middle outwards, so that nothing is added to a
 // place beside the motion's axis, and no digit lost.
-fn pane_at(place: OnCube) -> Pane {
+fn pane_at(place: OnCube) -> AtlasTile {
     let side = f32(MAP_CELLS);
     let quarter = select(0u, 1u, place.tangent.x < 0.0) + select(0u, 2u, place.tangent.y < 0.0);
     var within = min(abs(place.tangent) * side, vec2(side));
@@ -67,15 +67,15 @@ fn pane_at(place: OnCube) -> Pane {
     }
     let first = textureLoad(panes, vec2(0, -1 - found), 0);
     let last = textureLoad(panes, vec2(1, -1 - found), 0);
-    return Pane(first.xy, first.zw, last.xy, last.zw);
+    return AtlasTile(first.xy, first.zw, last.xy, last.zw);
 }
 
-fn nearest_texel(place: vec2<f32>, pane: Pane) -> vec2<i32> {
+fn nearest_texel(place: vec2<f32>, pane: AtlasTile) -> vec2<i32> {
     return vec2<i32>(clamp(floor(place), pane.low, pane.high - 1.0));
 }
 
 // Weights of one carrier at a place in the atlas, within a pane.
-fn weights_at(place: vec2<f32>, pane: Pane, layer: u32) -> vec3<f32> {
+fn weights_at(place: vec2<f32>, pane: AtlasTile, layer: u32) -> vec3<f32> {
     if (!SMOOTH) {
         return textureLoad(atlas, nearest_texel(place, pane), layer, 0).rgb;
     }
@@ -86,7 +86,7 @@ fn weights_at(place: vec2<f32>, pane: Pane, layer: u32) -> vec3<f32> {
 
 // Where a pixel looks into the map.
 struct Look {
-    pane: Pane,
+    pane: AtlasTile,
     // In the atlas, texels.
     place: vec2<f32>,
     doppler: f32,

@@ -6,7 +6,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Spectrum, matching, shares, srgb};
+use super::shares::shares;
+use super::spectrum::Spectrum;
+use super::{matching, srgb};
 
 /// A spectrum Q(λ): white light, light that is sent out, or light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,5 +81,16 @@ impl Carrier {
             bends.sort_by(f64::total_cmp);
         }
         bends
+    }
+}
+
+impl Spectrum {
+    /// Tristimulus values (CIE 1931 2°) of this light as an observer sees it who meets it with the Doppler factor D:
+    /// colour and brightness.
+    ///
+    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only where
+    /// D⁵ L is beyond all numbers.
+    pub fn xyz(&self, doppler: f64) -> DVec3 {
+        Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
     }
 }

@@ -24,5 +24,7 @@ mod table;
 pub use carrier::Carrier;
 pub use shares::{shares, white};
 pub use shift_table::ShiftTable;
-pub use spectrum::{Sampled, Spectrum, SpectrumError};
+pub use spectrum::{SampledSpectrum, Spectrum, SpectrumError};
 pub use srgb::{luminance, rgb_from_xyz, xyz_from_rgb};
+
+pub use spectrum::SampledSpectrum as Sampled; // until app is moved

@@ -12,7 +12,8 @@ use std::f64::consts::{LN_2, LN_10};
 use glam::{DMat3, DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::{Carrier, srgb};
+use super::carrier::Carrier;
+use super::srgb;
 
 /// Colours over ln D, as a texture holds them.
 #[derive(Clone, Debug, PartialEq)]

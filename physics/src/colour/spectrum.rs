@@ -9,7 +9,10 @@ use std::sync::Arc;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{Carrier, planck, shares, white};
+use super::planck;
+use super::shares::{shares, white};
+
+pub use self::SampledSpectrum as Sampled; // until app is moved
 
 /// A spectrum: of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +23,7 @@ pub enum Spectrum {
         kelvin: f64,
     },
     /// Measured values.
-    Sampled(Sampled),
+    Sampled(SampledSpectrum),
     /// The smooth spectrum of a linear sRGB colour.
     Rgb([f64; 3]),
     /// The same at every wavelength as far as the eye can tell: white light, or an even reflectance of 1.
@@ -29,7 +32,7 @@ pub enum Spectrum {
 
 /// Values at given wavelengths: linear between them, constant beyond the ends. Cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sampled {
+pub struct SampledSpectrum {
     samples: Arc<[[f64; 2]]>,
 }
 
@@ -87,7 +90,7 @@ impl Spectrum {
     /// # Errors
     /// What is wrong with the first bad sample.
     pub fn sampled(samples: impl Into<Arc<[[f64; 2]]>>) -> Result<Self, SpectrumError> {
-        Sampled::new(samples).map(Self::Sampled)
+        SampledSpectrum::new(samples).map(Self::Sampled)
     }
 
     /// A linear sRGB colour.
@@ -116,15 +119,6 @@ impl Spectrum {
     /// of its own maximum. *Units:* nm.
     pub fn reflectance(&self, wavelength_nm: f64) -> f64 {
         self.lifted_reflectance(wavelength_nm, 0.0)
-    }
-
-    /// Tristimulus values (CIE 1931 2°) of this light as an observer sees it who meets it with the Doppler factor D:
-    /// colour and brightness.
-    ///
-    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only where
-    /// D⁵ L is beyond all numbers.
-    pub fn xyz(&self, doppler: f64) -> DVec3 {
-        Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
     }
 
     /// e^lift times the radiance.
@@ -164,7 +158,7 @@ impl Spectrum {
     }
 }
 
-impl Sampled {
+impl SampledSpectrum {
     /// Checks and keeps samples of [wavelength in nm, value].
     ///
     /// # Errors

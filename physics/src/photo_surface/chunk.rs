@@ -3,16 +3,16 @@
 use std::mem::MaybeUninit;
 
 use super::formula::{AtRest, ExactAstern, Formula, LightCone};
-use super::lanes::{AlignedLine, Lanes, OutputLine};
-use super::plan::{Form, Plan};
+use super::lanes::{AlignedLine, LaneWork, Lanes, OutputLine};
+use super::line::{LINE, VertexLine};
+use super::plan::{FormulaChoice, FramePlan};
 use super::simd;
-use super::vertices::{LINE, Line};
 
 /// What one call of the kernel works on.
-pub(super) struct Chunk<'a> {
-    pub(super) plan: Plan,
-    pub(super) form: Form,
-    pub(super) input: [&'a [Line]; 3],
+pub(super) struct KernelChunk<'a> {
+    pub(super) plan: FramePlan,
+    pub(super) form: FormulaChoice,
+    pub(super) input: [&'a [VertexLine]; 3],
     /// A value of each for every vertex.
     pub(super) position: [&'a mut [MaybeUninit<f32>]; 3],
     /// A value for every vertex, or none at all where D is not wanted.
@@ -21,17 +21,23 @@ pub(super) struct Chunk<'a> {
     pub(super) streaming: bool,
 }
 
-impl Chunk<'_> {
-    /// Transforms the chunk; returns how many of its results are not finite.
+impl LaneWork for KernelChunk<'_> {
+    /// Number of results that are not finite.
+    type Output = usize;
+
+    /// Transforms the chunk.
     #[inline(always)]
-    pub(super) fn transform<L: Lanes>(self) -> usize {
+    fn run<L: Lanes>(self) -> usize {
         match self.form {
-            Form::AtRest => self.transform_by::<L, AtRest<L>>(),
-            Form::LightCone => self.transform_by::<L, LightCone<L>>(),
-            Form::ExactAstern => self.transform_by::<L, ExactAstern<L>>(),
+            FormulaChoice::AtRest => self.transform_by::<L, AtRest<L>>(),
+            FormulaChoice::LightCone => self.transform_by::<L, LightCone<L>>(),
+            FormulaChoice::ExactAstern => self.transform_by::<L, ExactAstern<L>>(),
         }
     }
+}
 
+impl KernelChunk<'_> {
+    /// Transforms the chunk with one formula; returns the number of results that are not finite.
     #[inline(always)]
     fn transform_by<L: Lanes, F: Formula<L>>(self) -> usize {
         let formula = F::new(&self.plan);
@@ -71,18 +77,18 @@ impl Chunk<'_> {
 }
 
 /// A line to write to: through the caches or past them.
-trait Target {
+trait LineTarget {
     fn put<L: Lanes>(&mut self, first: usize, values: L);
 }
 
-impl Target for OutputLine {
+impl LineTarget for OutputLine {
     #[inline(always)]
     fn put<L: Lanes>(&mut self, first: usize, values: L) {
         values.store(&mut self[first..]);
     }
 }
 
-impl Target for AlignedLine {
+impl LineTarget for AlignedLine {
     #[inline(always)]
     fn put<L: Lanes>(&mut self, first: usize, values: L) {
         values.stream(self, first);
@@ -91,9 +97,9 @@ impl Target for AlignedLine {
 
 /// Transforms as many lines as there are in the first target; returns how many results are not finite.
 #[inline(always)]
-fn transform_lines<L: Lanes, F: Formula<L>, T: Target>(
+fn transform_lines<L: Lanes, F: Formula<L>, T: LineTarget>(
     formula: &F,
-    input: [&[Line]; 3],
+    input: [&[VertexLine]; 3],
     [x, y, z, doppler]: [&mut [T]; 4],
 ) -> usize {
     let lines = x.len();
@@ -114,9 +120,9 @@ fn transform_lines<L: Lanes, F: Formula<L>, T: Target>(
 
 /// Transforms a line; returns a set bit for every vertex whose result is finite. The others are written as zeros.
 #[inline(always)]
-fn transform_line<L: Lanes, F: Formula<L>, T: Target>(
+fn transform_line<L: Lanes, F: Formula<L>, T: LineTarget>(
     formula: &F,
-    [in_x, in_y, in_z]: [&Line; 3],
+    [in_x, in_y, in_z]: [&VertexLine; 3],
     [x, y, z]: [&mut T; 3],
     mut doppler: Option<&mut T>,
 ) -> u32 {

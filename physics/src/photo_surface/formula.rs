@@ -1,21 +1,19 @@
 //! The equations, written once for every vector width.
 //!
-//! Each form takes the offsets p of as many vertices as a register holds and gives the apparent positions and
-//! Doppler factors. With d = p − o the displacement from the eye to the vertex, h and d⊥ its parts along and
-//! across the motion, the emission event is (−r, d), and the boost only scales its light-cone coordinates r ± h:
+//! Each form takes the offsets p of as many vertices as a register holds and gives the apparent positions and Doppler
+//! factors. With d = p − o the displacement from the eye to the vertex, h and d⊥ its parts along and across the motion,
+//! these are the equations of [`crate::light_cone`] in f32, with q = |d⊥|², A = κ ahead / 2, C = behind / (2κ):
 //!
 //! ```text
-//! q = |d⊥|²    r = √(h² + q)    big = r + |h|    small = q / big
-//! (a, c) = h ≥ 0 ? (big, small) : (small, big)    A = κ a / 2    C = c / (2κ)
 //! x' = d⊥ + (A − C) e    D = (A + C) / r
 //! ```
 //!
-//! Neither r + |h| nor q / big cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
+//! Nothing in them cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
 //! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for
 //! vertices that lie there: neighbours in a mesh mostly are neighbours in space, so that few do.
 
 use super::lanes::{Lanes, WideLanes, each};
-use super::plan::{Plan, REAR_CONE_COTANGENT_SQUARED};
+use super::plan::{FramePlan, REAR_CONE_COTANGENT_SQUARED};
 
 /// Above this a length or a squared length counts as not finite: the next operation might overflow.
 const LARGEST: f32 = 1e38;
@@ -24,7 +22,7 @@ const LARGEST: f32 = 1e38;
 const SMALLEST: f32 = f32::MIN_POSITIVE;
 
 /// What a form says of a register's worth of vertices.
-pub(super) struct Seen<L> {
+pub(super) struct ApparentLanes<L> {
     /// x', observer's rest frame, axes of the world after a pure boost; metres.
     pub(super) position: [L; 3],
     /// D.
@@ -33,7 +31,7 @@ pub(super) struct Seen<L> {
     pub(super) finite: u32,
 }
 
-impl<L: Lanes> Seen<L> {
+impl<L: Lanes> ApparentLanes<L> {
     /// The same with zeros where it is not finite.
     #[inline(always)]
     pub(super) fn collapsed(self) -> Self {
@@ -49,19 +47,19 @@ impl<L: Lanes> Seen<L> {
 
 /// One of the formulas, its constants spread over registers.
 pub(super) trait Formula<L: Lanes> {
-    fn new(plan: &Plan) -> Self;
-    fn seen(&self, vertex: [L; 3]) -> Seen<L>;
+    fn new(plan: &FramePlan) -> Self;
+    fn seen(&self, vertex: [L; 3]) -> ApparentLanes<L>;
 }
 
 /// The eye's offset from the mesh's origin as f32 high and low parts, 48 bits together.
-struct Offset<L> {
+struct LaneOffset<L> {
     high: [L; 3],
     low: [L; 3],
 }
 
-impl<L: Lanes> Offset<L> {
+impl<L: Lanes> LaneOffset<L> {
     #[inline(always)]
-    fn new(plan: &Plan) -> Self {
+    fn new(plan: &FramePlan) -> Self {
         let high = plan.offset.as_vec3();
         let low = (plan.offset - high.as_dvec3() + plan.offset_rest).as_vec3();
         Self { high: each!(L::splat, high.to_array()), low: each!(L::splat, low.to_array()) }
@@ -75,32 +73,32 @@ impl<L: Lanes> Offset<L> {
 }
 
 /// x' = d and D = 1.
-pub(super) struct AtRest<L>(Offset<L>);
+pub(super) struct AtRest<L>(LaneOffset<L>);
 
 impl<L: Lanes> Formula<L> for AtRest<L> {
     #[inline(always)]
-    fn new(plan: &Plan) -> Self {
-        Self(Offset::new(plan))
+    fn new(plan: &FramePlan) -> Self {
+        Self(LaneOffset::new(plan))
     }
 
     #[inline(always)]
-    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+    fn seen(&self, vertex: [L; 3]) -> ApparentLanes<L> {
         let position = self.0.displacement(vertex);
         let size = position[0].abs() + position[1].abs() + position[2].abs();
-        Seen { position, doppler: L::splat(1.0), finite: size.below(L::splat(LARGEST)) }
+        ApparentLanes { position, doppler: L::splat(1.0), finite: size.below(L::splat(LARGEST)) }
     }
 }
 
 /// κ and e, and the steps that both moving forms share.
-struct Boost<L> {
+struct LaneBoost<L> {
     direction: [L; 3],
     half_kappa: L,
     half_over_kappa: L,
 }
 
-impl<L: Lanes> Boost<L> {
+impl<L: Lanes> LaneBoost<L> {
     #[inline(always)]
-    fn new(plan: &Plan) -> Self {
+    fn new(plan: &FramePlan) -> Self {
         Self {
             direction: each!(L::splat, plan.direction.as_vec3().to_array()),
             half_kappa: L::splat((plan.kappa / 2.0) as f32),
@@ -117,7 +115,7 @@ impl<L: Lanes> Boost<L> {
 
     /// Scales the light-cone coordinates and puts x' and D together.
     #[inline(always)]
-    fn seen(&self, along: L, across: [L; 3]) -> Seen<L> {
+    fn seen(&self, along: L, across: [L; 3]) -> ApparentLanes<L> {
         let [ax, ay, az] = across;
         let across_squared = length_squared(across);
         let distance = along.mul_add(along, across_squared).sqrt();
@@ -133,7 +131,7 @@ impl<L: Lanes> Boost<L> {
         let lengthened = advanced - retarded;
         let apparent_distance = advanced + retarded;
         let [ex, ey, ez] = self.direction;
-        Seen {
+        ApparentLanes {
             position: [lengthened.mul_add(ex, ax), lengthened.mul_add(ey, ay), lengthened.mul_add(ez, az)],
             doppler: apparent_distance * (big * inverse),
             finite: (apparent_distance + product).below(L::splat(LARGEST)),
@@ -143,8 +141,8 @@ impl<L: Lanes> Boost<L> {
 
 /// The light-cone form in f32.
 pub(super) struct LightCone<L> {
-    offset: Offset<L>,
-    boost: Boost<L>,
+    offset: LaneOffset<L>,
+    boost: LaneBoost<L>,
 }
 
 impl<L: Lanes> LightCone<L> {
@@ -162,12 +160,12 @@ impl<L: Lanes> LightCone<L> {
 
 impl<L: Lanes> Formula<L> for LightCone<L> {
     #[inline(always)]
-    fn new(plan: &Plan) -> Self {
-        Self { offset: Offset::new(plan), boost: Boost::new(plan) }
+    fn new(plan: &FramePlan) -> Self {
+        Self { offset: LaneOffset::new(plan), boost: LaneBoost::new(plan) }
     }
 
     #[inline(always)]
-    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+    fn seen(&self, vertex: [L; 3]) -> ApparentLanes<L> {
         let (along, across) = self.along_and_across(vertex);
         self.boost.seen(along, across)
     }
@@ -203,7 +201,7 @@ impl<L: Lanes> ExactAstern<L> {
 
 impl<L: Lanes> Formula<L> for ExactAstern<L> {
     #[inline(always)]
-    fn new(plan: &Plan) -> Self {
+    fn new(plan: &FramePlan) -> Self {
         Self {
             light_cone: LightCone::new(plan),
             offset: each!(L::Wide::splat, plan.offset.to_array()),
@@ -213,7 +211,7 @@ impl<L: Lanes> Formula<L> for ExactAstern<L> {
     }
 
     #[inline(always)]
-    fn seen(&self, vertex: [L; 3]) -> Seen<L> {
+    fn seen(&self, vertex: [L; 3]) -> ApparentLanes<L> {
         let (along, mut across) = self.light_cone.along_and_across(vertex);
         let astern = Self::astern(along, across);
         if astern != 0 {

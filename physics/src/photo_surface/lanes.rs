@@ -7,7 +7,7 @@
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
 
-use super::vertices::LINE;
+use super::line::LINE;
 
 /// A line of the caller's memory, written and never read.
 pub(super) type OutputLine = [MaybeUninit<f32>; LINE];
@@ -54,6 +54,18 @@ pub(super) trait Lanes:
 
     fn widen(self) -> Self::Wide;
     fn narrow(wide: Self::Wide) -> Self;
+}
+
+/// Work that is written once for registers of every width.
+pub(super) trait LaneWork {
+    /// Result of the work.
+    type Output;
+
+    /// Does the work with registers of the type `L`.
+    ///
+    /// Implementations are `#[inline(always)]`, so that they are compiled with the instructions that the caller has
+    /// enabled.
+    fn run<L: Lanes>(self) -> Self::Output;
 }
 
 /// As many f64 values as [`Lanes`] has f32 values.

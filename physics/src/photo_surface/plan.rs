@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
-use super::PhotoSurfaceError;
-use super::vertices::Sphere;
+use super::eye::PhotoSurfaceEye;
+use super::sphere::BoundingSphere;
+use crate::double_double::DoubleDoubleVec3;
 
 /// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
 ///
@@ -18,40 +19,9 @@ const LEAST_DOPPLER: f64 = 0.25;
 /// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
 pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
 
-/// Where the light is received: a point of the world and the velocity of whoever looks from there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eye {
-    position: DVec3,
-    celerity: DVec3,
-}
-
-impl Eye {
-    /// An eye at `position` (world frame, metres) that moves with `celerity` u = γβ (world axes).
-    ///
-    /// # Errors
-    /// [`PhotoSurfaceError::Eye`] if either is not finite.
-    pub fn new(position: DVec3, celerity: DVec3) -> Result<Self, PhotoSurfaceError> {
-        if position.is_finite() && celerity.is_finite() {
-            Ok(Self { position, celerity })
-        } else {
-            Err(PhotoSurfaceError::Eye { position, celerity })
-        }
-    }
-
-    /// Where the eye is when it receives the light; world frame, metres.
-    pub fn position(&self) -> DVec3 {
-        self.position
-    }
-
-    /// The eye's celerity in the world frame.
-    pub fn celerity(&self) -> DVec3 {
-        self.celerity
-    }
-}
-
 /// Which formula a chunk gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum FormulaChoice {
     /// The eye is at rest: positions are only shifted, exactly.
     AtRest,
     /// The light-cone form in f32.
@@ -62,7 +32,7 @@ pub(super) enum Form {
 
 /// The frame as one mesh sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(super) struct FramePlan {
     /// The eye's position relative to the mesh's origin.
     pub(super) offset: DVec3,
     /// What `offset` was rounded by: it counts where the eye is near a vertex and both are far from the origin.
@@ -73,33 +43,32 @@ pub(super) struct Plan {
     pub(super) kappa: f64,
 }
 
-impl Plan {
-    pub(super) fn new(eye: &Eye, origin: DVec3) -> Self {
-        // Scale before taking the length: |u|² must neither overflow nor vanish.
-        let scale = eye.celerity.abs().max_element();
-        let (speed, direction) = if scale == 0.0 {
-            (0.0, DVec3::ZERO)
-        } else {
-            let scaled = eye.celerity / scale;
-            (scale * scaled.length(), scaled.normalize())
-        };
-        let (offset, offset_rest) = exact_difference(eye.position, origin);
-        Self { offset, offset_rest, direction, kappa: speed.hypot(1.0) + speed }
+impl FramePlan {
+    /// FramePlan for a mesh whose coordinates are relative to `origin` (world frame, metres).
+    pub(super) fn new(eye: &PhotoSurfaceEye, origin: DVec3) -> Self {
+        let celerity = eye.celerity();
+        let offset = DoubleDoubleVec3::difference(eye.position(), origin);
+        Self {
+            offset: offset.high,
+            offset_rest: offset.low,
+            direction: celerity.direction().unwrap_or(DVec3::ZERO),
+            kappa: celerity.kappa(),
+        }
     }
 
     /// The cheapest formula that is accurate everywhere in `sphere`.
-    pub(super) fn form(&self, sphere: &Sphere) -> Form {
+    pub(super) fn form(&self, sphere: &BoundingSphere) -> FormulaChoice {
         if self.direction == DVec3::ZERO {
-            Form::AtRest
+            FormulaChoice::AtRest
         } else if self.kappa * LEAST_DOPPLER > 1.0 && self.touches_rear_cone(sphere) {
-            Form::ExactAstern
+            FormulaChoice::ExactAstern
         } else {
-            Form::LightCone
+            FormulaChoice::LightCone
         }
     }
 
     /// Whether the distance from the rear cone, whose tip is the eye, to the sphere's centre is within its radius.
-    fn touches_rear_cone(&self, sphere: &Sphere) -> bool {
+    fn touches_rear_cone(&self, sphere: &BoundingSphere) -> bool {
         let centre = sphere.centre - self.offset;
         let astern = -centre.dot(self.direction);
         let across = centre.cross(self.direction).length();
@@ -110,26 +79,22 @@ impl Plan {
     }
 }
 
-/// a − b and what its rounding lost (Knuth's two-sum).
-fn exact_difference(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
-    let difference = a - b;
-    let of_b = difference - a;
-    (difference, (a - (difference - of_b)) - (b + of_b))
-}
-
 #[cfg(test)]
 mod tests {
     //! The choice of formula. A wrong one would spend f64 work on what lies ahead, or, worse, leave vertices
     //! astern to the form that loses their direction.
 
     use super::*;
+    use crate::celerity::Celerity;
+    use crate::observer::Observer;
 
-    fn moving_along_x(celerity: f64) -> Plan {
-        Plan::new(&Eye::new(DVec3::ZERO, DVec3::X * celerity).unwrap(), DVec3::ZERO)
+    fn moving_along_x(celerity: f64) -> FramePlan {
+        let observer = Observer { celerity: Celerity::from_finite(DVec3::X * celerity), ..Observer::default() };
+        FramePlan::new(&PhotoSurfaceEye::from(&observer), DVec3::ZERO)
     }
 
-    fn sphere(x: f64, y: f64, radius: f64) -> Sphere {
-        Sphere { centre: DVec3::new(x, y, 0.0), radius }
+    fn sphere(x: f64, y: f64, radius: f64) -> BoundingSphere {
+        BoundingSphere { centre: DVec3::new(x, y, 0.0), radius }
     }
 
     #[test]
@@ -142,25 +107,27 @@ mod tests {
     #[test]
     fn only_what_touches_the_rear_cone_is_taken_exactly() {
         let plan = moving_along_x(100.0);
-        assert_eq!(plan.form(&sphere(10.0, 0.0, 9.0)), Form::LightCone, "ahead");
-        assert_eq!(plan.form(&sphere(10.0, 0.0, 11.0)), Form::ExactAstern, "around the eye");
-        assert_eq!(plan.form(&sphere(-10.0, 0.0, 0.0)), Form::ExactAstern, "dead astern");
+        assert_eq!(plan.form(&sphere(10.0, 0.0, 9.0)), FormulaChoice::LightCone, "ahead");
+        assert_eq!(plan.form(&sphere(10.0, 0.0, 11.0)), FormulaChoice::ExactAstern, "around the eye");
+        assert_eq!(plan.form(&sphere(-10.0, 0.0, 0.0)), FormulaChoice::ExactAstern, "dead astern");
         let edge = 10.0 * LEAST_DOPPLER.asin().tan();
-        assert_eq!(plan.form(&sphere(-10.0, edge * 0.999, 0.0)), Form::ExactAstern, "inside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge * 1.001, 0.0)), Form::LightCone, "outside the edge");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 1.9)), Form::LightCone, "beside the cone");
-        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 2.1)), Form::ExactAstern, "reaching into the cone");
+        assert_eq!(plan.form(&sphere(-10.0, edge * 0.999, 0.0)), FormulaChoice::ExactAstern, "inside the edge");
+        assert_eq!(plan.form(&sphere(-10.0, edge * 1.001, 0.0)), FormulaChoice::LightCone, "outside the edge");
+        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 1.9)), FormulaChoice::LightCone, "beside the cone");
+        assert_eq!(plan.form(&sphere(-10.0, edge + 2.0, 2.1)), FormulaChoice::ExactAstern, "reaching into the cone");
     }
 
     #[test]
     fn slow_eyes_and_resting_eyes_take_the_cheap_forms() {
-        assert_eq!(moving_along_x(1.8).form(&sphere(-10.0, 0.0, 1.0)), Form::LightCone);
-        assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), Form::AtRest);
+        assert_eq!(moving_along_x(1.8).form(&sphere(-10.0, 0.0, 1.0)), FormulaChoice::LightCone);
+        assert_eq!(moving_along_x(0.0).form(&sphere(-10.0, 0.0, 1.0)), FormulaChoice::AtRest);
     }
 
     #[test]
     fn celerities_of_any_size_have_a_direction() {
-        for size in [f64::MIN_POSITIVE * f64::EPSILON, 1e-200, 1e200, 1e308] {
+        // The largest is that of two celerities at their limit, one after the other.
+        for size in [f64::MIN_POSITIVE * f64::EPSILON, 1e-200, Celerity::LIMIT, 2.0 * Celerity::LIMIT * Celerity::LIMIT]
+        {
             let plan = moving_along_x(size);
             assert_eq!(plan.direction, DVec3::X, "|u| = {size:e}");
             assert!(plan.kappa >= 1.0, "|u| = {size:e}: kappa {}", plan.kappa);

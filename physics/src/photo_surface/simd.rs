@@ -6,57 +6,23 @@
 
 use std::mem::MaybeUninit;
 
-use super::chunk::Chunk;
-use super::lanes::{AlignedLine, OutputLine, Portable};
+use super::instructions::Instructions;
+use super::lanes::{AlignedLine, LaneWork, OutputLine, Portable};
 
-/// The instructions that a [`Kernel`](super::Kernel) computes with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instructions {
-    /// What every processor of the target has: SSE2 on x86-64, NEON on AArch64.
-    Portable,
-    /// AVX2 and FMA, eight vertices at a time.
-    Avx2,
-    /// AVX-512, sixteen vertices at a time.
-    Avx512,
-}
-
-impl Instructions {
-    /// All of them, the slowest first.
-    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
-
-    /// Whether this processor has them.
-    pub fn are_available(self) -> bool {
-        match self {
-            Self::Portable => true,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => is_x86_feature_detected!("avx512f") && Self::Avx2.are_available(),
-            #[cfg(not(target_arch = "x86_64"))]
-            Self::Avx2 | Self::Avx512 => false,
+/// Does the work with registers of the given instructions, or with portable ones where the processor lacks them.
+pub(super) fn run<W: LaneWork>(instructions: Instructions, work: W) -> W::Output {
+    match instructions {
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx512 if instructions.are_available() => {
+            // SAFETY: the processor has the instructions.
+            unsafe { x86::avx512(work) }
         }
-    }
-
-    /// The widest that this processor has.
-    pub fn fastest() -> Self {
-        Self::ALL.into_iter().rfind(|instructions| instructions.are_available()).unwrap_or(Self::Portable)
-    }
-
-    /// Transforms a chunk; returns how many of its results are not finite.
-    pub(super) fn transform(self, chunk: Chunk<'_>) -> usize {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 if self.are_available() => {
-                // SAFETY: the processor has the instructions.
-                unsafe { x86::avx512(chunk) }
-            }
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 if self.are_available() => {
-                // SAFETY: the processor has the instructions.
-                unsafe { x86::avx2(chunk) }
-            }
-            _ => chunk.transform::<Portable<f32>>(),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx2 if instructions.are_available() => {
+            // SAFETY: the processor has the instructions.
+            unsafe { x86::avx2(work) }
         }
+        _ => work.run::<Portable<f32>>(),
     }
 }
 
@@ -84,18 +50,17 @@ mod x86 {
     use std::mem::MaybeUninit;
     use std::ops::{Add, Div, Mul, Sub};
 
-    use super::super::chunk::Chunk;
-    use super::super::lanes::{AlignedLine, Lanes, WideLanes};
-    use super::super::twice::Twice;
+    use super::super::lanes::{AlignedLine, LaneWork, Lanes, WideLanes};
+    use super::super::paired::Paired;
 
     #[target_feature(enable = "avx2,fma")]
-    pub(super) fn avx2(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<Twice<F32x8>>()
+    pub(super) fn avx2<W: LaneWork>(work: W) -> W::Output {
+        work.run::<Paired<F32x8>>()
     }
 
     #[target_feature(enable = "avx512f,avx2,fma")]
-    pub(super) fn avx512(chunk: Chunk<'_>) -> usize {
-        chunk.transform::<Twice<F32x16>>()
+    pub(super) fn avx512<W: LaneWork>(work: W) -> W::Output {
+        work.run::<Paired<F32x16>>()
     }
 
     #[derive(Clone, Copy)]

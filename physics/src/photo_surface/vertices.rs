@@ -8,26 +8,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::PhotoSurfaceError;
-use super::plan::{Eye, Form, Plan};
-
-/// Vertices in a chunk: the unit of work of a thread. The speed is the same from 2,000 to 32,000.
-pub const CHUNK: usize = 8192;
-
-/// Vertices in a line: two of the widest registers.
-pub(super) const LINE: usize = 32;
-
-/// A line of one coordinate, aligned to a cache line.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub(super) struct Line(pub(super) [f32; LINE]);
-
-/// A sphere around all finite vertices of a chunk, relative to the origin of the vertices; metres.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sphere {
-    pub(super) centre: DVec3,
-    pub(super) radius: f64,
-}
+use super::error::PhotoSurfaceError;
+use super::eye::PhotoSurfaceEye;
+use super::line::{CHUNK, LINE, VertexLine};
+use super::plan::{FormulaChoice, FramePlan};
+use super::sphere::BoundingSphere;
 
 /// The vertices of one mesh at rest in the world frame.
 ///
@@ -37,8 +22,8 @@ pub(super) struct Sphere {
 pub struct Vertices {
     origin: DVec3,
     count: usize,
-    streams: [Vec<Line>; 3],
-    spheres: Vec<Sphere>,
+    streams: [Vec<VertexLine>; 3],
+    spheres: Vec<BoundingSphere>,
     not_finite: Vec<usize>,
 }
 
@@ -90,7 +75,7 @@ impl Vertices {
         let lane = self.count % LINE;
         for (stream, coordinate) in self.streams.iter_mut().zip(offset.to_array()) {
             if lane == 0 {
-                stream.push(Line([0.0; LINE]));
+                stream.push(VertexLine([0.0; LINE]));
             }
             if let Some(line) = stream.last_mut() {
                 line.0[lane] = coordinate;
@@ -100,17 +85,17 @@ impl Vertices {
     }
 
     /// The sphere about the middle of the box around the chunk's finite vertices.
-    fn bounding_sphere(&self, first: usize) -> Sphere {
+    fn bounding_sphere(&self, first: usize) -> BoundingSphere {
         let finite =
             || (first..self.count.min(first + CHUNK)).map(|index| self.offset(index)).filter(|p| p.is_finite());
         let mut finite_offsets = finite();
         let Some(seed) = finite_offsets.next() else {
-            return Sphere { centre: DVec3::ZERO, radius: 0.0 };
+            return BoundingSphere { centre: DVec3::ZERO, radius: 0.0 };
         };
         let (low, high) = finite_offsets.fold((seed, seed), |(low, high), p| (low.min(p), high.max(p)));
         let centre = (low + high) / 2.0;
         let radius = finite().map(|p| p.distance_squared(centre)).fold(0.0, f64::max).sqrt();
-        Sphere { centre, radius }
+        BoundingSphere { centre, radius }
     }
 
     /// Position of a vertex relative to the origin, in metres.
@@ -118,12 +103,16 @@ impl Vertices {
         DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(self.streams[axis][index / LINE].0[index % LINE])))
     }
 
-    /// Whether any of them may lie where f32 alone loses its direction: within 14.5° of dead astern of an eye that is fast enough to matter.
+    /// True if any vertex may lie where f32 alone loses its direction: within 14.5° of dead astern of an eye that is
+    /// fast enough to matter. False for an eye whose position is not finite.
     ///
     /// A program that transforms with f32 only, as a GPU does, leaves such vertices to the kernel.
-    pub fn reach_astern(&self, eye: &Eye) -> bool {
-        let plan = Plan::new(eye, self.origin);
-        self.spheres.iter().any(|sphere| plan.form(sphere) == Form::ExactAstern)
+    pub fn reach_astern<'e, E>(&self, eye: &'e E) -> bool
+    where
+        PhotoSurfaceEye: From<&'e E>,
+    {
+        let plan = FramePlan::new(&PhotoSurfaceEye::from(eye), self.origin);
+        self.spheres.iter().any(|sphere| plan.form(sphere) == FormulaChoice::ExactAstern)
     }
 
     /// Number of vertices, those that are not finite included.
@@ -147,11 +136,11 @@ impl Vertices {
         &self.not_finite
     }
 
-    pub(super) fn streams(&self) -> [&[Line]; 3] {
+    pub(super) fn streams(&self) -> [&[VertexLine]; 3] {
         self.streams.each_ref().map(Vec::as_slice)
     }
 
-    pub(super) fn spheres(&self) -> &[Sphere] {
+    pub(super) fn spheres(&self) -> &[BoundingSphere] {
         &self.spheres
     }
 }

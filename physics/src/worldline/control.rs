@@ -2,30 +2,23 @@
 
 use glam::DVec3;
 
-use super::{State, WorldlineError};
-
-/// Push and turn at one instant, both in the pilot's own axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Thrust {
-    /// Proper acceleration, what an accelerometer on board shows, in units of c² per metre (1/m).
-    pub acceleration: DVec3,
-    /// Rotation against gyroscopes on board, right-handed, in radians per metre of proper time.
-    pub turn_rate: DVec3,
-}
+use super::error::WorldlineError;
+use super::state::WorldlineState;
+use super::thrust::Thrust;
 
 impl Thrust {
     /// A push given in the axes of the pure boost from the world to the vehicle's frame, without a turn.
-    pub fn in_boost_axes(state: &State, acceleration: DVec3) -> Self {
+    pub fn in_boost_axes(state: &WorldlineState, acceleration: DVec3) -> Self {
         Self { acceleration: state.orientation.inverse() * acceleration, turn_rate: DVec3::ZERO }
     }
 }
 
 /// The thrust as a function of the state; integrators ask for it as often within a step as their order needs.
 ///
-/// A constant [`Thrust`] is a control, and so is any closure from a [`State`] to a [`Thrust`].
+/// A constant [`Thrust`] is a control, and so is any closure from a [`WorldlineState`] to a [`Thrust`].
 pub trait Control {
     /// The thrust in this state.
-    fn thrust(&self, state: &State) -> Thrust;
+    fn thrust(&self, state: &WorldlineState) -> Thrust;
 
     /// Whether the thrust is the same in every state, which saves [`Exact`](super::Exact) half its work.
     fn is_constant(&self) -> bool {
@@ -34,7 +27,7 @@ pub trait Control {
 }
 
 impl Control for Thrust {
-    fn thrust(&self, _: &State) -> Thrust {
+    fn thrust(&self, _: &WorldlineState) -> Thrust {
         *self
     }
 
@@ -43,15 +36,15 @@ impl Control for Thrust {
     }
 }
 
-impl<F: Fn(&State) -> Thrust> Control for F {
-    fn thrust(&self, state: &State) -> Thrust {
+impl<F: Fn(&WorldlineState) -> Thrust> Control for F {
+    fn thrust(&self, state: &WorldlineState) -> Thrust {
         self(state)
     }
 }
 
 /// Asks the control, and passes on only what is finite.
 #[inline]
-pub(super) fn finite_thrust(control: &dyn Control, state: &State) -> Result<Thrust, WorldlineError> {
+pub(super) fn finite_thrust(control: &dyn Control, state: &WorldlineState) -> Result<Thrust, WorldlineError> {
     let thrust = control.thrust(state);
     if thrust.acceleration.is_finite() && thrust.turn_rate.is_finite() {
         Ok(thrust)

@@ -5,8 +5,12 @@
 //! Prince, "A family of embedded Runge–Kutta formulae", J. Comp. Appl. Math. 6 (1980); step control: E. Hairer et al.,
 //! *Solving Ordinary Differential Equations I*, II.4.
 
+use super::control::Control;
+use super::error::WorldlineError;
+use super::integrator::Integrator;
+use super::limits::LEAST_TOLERANCE;
 use super::runge_kutta::{Rates, Tableau};
-use super::{Control, Integrator, State, WorldlineError};
+use super::state::WorldlineState;
 
 /// An integrator that chooses its own steps.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +43,7 @@ const MOST_TRIALS: usize = 100_000;
 
 impl DormandPrince {
     /// The smallest tolerance accepted: rounding hides errors below it.
-    pub const LEAST_TOLERANCE: f64 = 1e-14;
+    pub const LEAST_TOLERANCE: f64 = LEAST_TOLERANCE;
 
     /// An integrator with this error allowed per inner step: in rapidity, in radians, and in time and way as shares of
     /// those of the step.
@@ -64,7 +68,7 @@ impl Default for DormandPrince {
 }
 
 impl Integrator for DormandPrince {
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError> {
+    fn step(&self, state: &WorldlineState, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError> {
         if !step.is_finite() {
             return Err(WorldlineError::StepNotFinite { step });
         }
@@ -107,7 +111,7 @@ impl Integrator for DormandPrince {
 struct Attempt {
     /// The largest error as a share of the tolerance.
     error: f64,
-    end: State,
+    end: WorldlineState,
     /// The rates at the end.
     last: Rates,
 }
@@ -116,7 +120,7 @@ impl DormandPrince {
     /// Tries one inner step of the step asked for.
     fn attempt(
         &self,
-        state: &State,
+        state: &WorldlineState,
         trial: f64,
         step: f64,
         first: Rates,

@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
-use super::{MOST_STEPS, Thrust};
+use super::limits::{LEAST_TOLERANCE, MOST_STEPS};
+use super::thrust::Thrust;
+use crate::celerity::Celerity;
 
 /// Why a step was not taken. The state before it is still good.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -28,7 +30,7 @@ pub enum WorldlineError {
     #[error(
         "a step of {step} m from proper time {proper_time} m leads beyond what can be computed (celerities to {limit:e}); \
          take shorter steps, thrust less, or cap the rapidity",
-        limit = crate::Celerity::LIMIT
+        limit = Celerity::LIMIT
     )]
     Overflow {
         /// Proper time at the start of the step, metres.
@@ -50,7 +52,7 @@ pub enum WorldlineError {
         tolerance: f64,
     },
     /// A tolerance that cannot be met.
-    #[error("a tolerance must lie between {least:e} and 1, not {tolerance}", least = super::DormandPrince::LEAST_TOLERANCE)]
+    #[error("a tolerance must lie between {least:e} and 1, not {tolerance}", least = LEAST_TOLERANCE)]
     Tolerance {
         /// The tolerance asked for.
         tolerance: f64,

@@ -8,10 +8,12 @@
 
 use glam::DQuat;
 
-use super::control::finite_thrust;
+use super::control::{Control, finite_thrust};
+use super::error::WorldlineError;
+use super::integrator::Integrator;
 use super::rotation::Rotation;
-use super::state::{Increment, Rest};
-use super::{Control, Integrator, State, Thrust, WorldlineError};
+use super::state::{Increment, LowParts, WorldlineState};
+use super::thrust::Thrust;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// Exact for constant thrust and turn rate; a control that varies is taken at the middle of the step (second order).
@@ -28,7 +30,7 @@ const LONGEST_SPAN: f64 = 0.6;
 const MOST_SPANS: f64 = 1e6;
 
 impl Integrator for Exact {
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError> {
+    fn step(&self, state: &WorldlineState, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError> {
         if !step.is_finite() {
             return Err(WorldlineError::StepNotFinite { step });
         }
@@ -42,7 +44,7 @@ impl Integrator for Exact {
 }
 
 /// A step in as many spans as the series needs to converge.
-fn constant_thrust(start: &State, step: f64, thrust: &Thrust) -> Result<State, WorldlineError> {
+fn constant_thrust(start: &WorldlineState, step: f64, thrust: &Thrust) -> Result<WorldlineState, WorldlineError> {
     let rate = thrust.acceleration.length() + thrust.turn_rate.length();
     let spans = (step.abs() * rate / LONGEST_SPAN).ceil().max(1.0);
     if spans > MOST_SPANS || spans.is_nan() {
@@ -50,7 +52,7 @@ fn constant_thrust(start: &State, step: f64, thrust: &Thrust) -> Result<State, W
     }
     let mut state = *start;
     let span = step / spans;
-    let motion = Motion::of(thrust, span);
+    let motion = SpanMotion::of(thrust, span);
     for _ in 0..spans as u64 {
         state = motion.applied(&state, span)?;
     }
@@ -58,7 +60,7 @@ fn constant_thrust(start: &State, step: f64, thrust: &Thrust) -> Result<State, W
 }
 
 /// The motion over one span, seen from the comoving frame and in the pilot's axes at its start, to about 106 bits.
-struct Motion {
+struct SpanMotion {
     /// dt.
     time: DoubleDouble,
     /// dx.
@@ -69,14 +71,14 @@ struct Motion {
     rotation: Rotation,
 }
 
-impl Motion {
+impl SpanMotion {
     fn of(thrust: &Thrust, span: f64) -> Self {
         let (time, way, celerity) = four_velocity_series(thrust, span);
         Self { time, way, celerity, rotation: rotation(thrust, span) }
     }
 
     /// Boosts the motion by the tetrad B(u) R(q) of the state.
-    fn applied(&self, state: &State, span: f64) -> Result<State, WorldlineError> {
+    fn applied(&self, state: &WorldlineState, span: f64) -> Result<WorldlineState, WorldlineError> {
         let one = DoubleDouble::from(1.0);
         let gamma_of = |u: DoubleDoubleVec3| (one + u.dot(u)).sqrt();
         let (u, orientation) = (state.precise_celerity(), state.precise_orientation());
@@ -94,7 +96,7 @@ impl Motion {
             position: (dx + u.scaled(self.time + u.dot(dx) * inverse)).rounded(),
             celerity: celerity.high,
             orientation: DQuat::from_vec4(orientation),
-            rest: Rest { celerity: celerity.low, orientation: orientation_rest },
+            rest: LowParts { celerity: celerity.low, orientation: orientation_rest },
         };
         state.advanced(span, &increment)
     }

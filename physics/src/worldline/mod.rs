@@ -31,72 +31,26 @@ mod control;
 mod dormand_prince;
 mod error;
 mod exact;
+mod integrator;
+mod limits;
 mod rk4;
 mod rotation;
 mod runge_kutta;
 mod state;
+mod thrust;
 mod transport;
+mod travel;
 
-pub use control::{Control, Thrust};
+pub use control::Control;
 pub use dormand_prince::DormandPrince;
 pub use error::WorldlineError;
 pub use exact::Exact;
+pub use integrator::Integrator;
+pub use limits::MOST_STEPS;
 pub use rk4::Rk4;
-pub use state::State;
+pub use state::WorldlineState;
+pub use thrust::Thrust;
 pub use transport::{FacingMotion, Transport};
+pub use travel::travel;
 
-/// A way to take a step along a worldline.
-pub trait Integrator {
-    /// The state a proper time `step` (metres, of either sign) after `state`.
-    ///
-    /// # Errors
-    ///
-    /// The step or a thrust asked of `control` is not finite, the result would overflow, or the integrator does not
-    /// reach its tolerance.
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError>;
-}
-
-/// The most steps that [`travel`] takes in one call.
-pub const MOST_STEPS: f64 = 1e9;
-
-/// Follows a worldline for a proper time `duration` in equal steps, as few as are none longer than `longest_step`.
-///
-/// # Errors
-///
-/// `duration` is negative or `longest_step` not positive, either is not finite, they ask for more than [`MOST_STEPS`],
-/// or a step fails.
-///
-/// # Example
-///
-/// One unit of proper time at unit acceleration is one of rapidity.
-///
-/// ```
-/// use physics::{glam::DVec3, worldline::{Exact, State, Thrust, travel}};
-/// let thrust = Thrust { acceleration: DVec3::NEG_Z, turn_rate: DVec3::ZERO };
-/// let end = travel(&Exact, &State::default(), 1.0, 1.0 / 240.0, &thrust)?;
-/// assert!((end.celerity.rapidity() - 1.0).abs() < 1e-14);
-/// # Ok::<(), physics::worldline::WorldlineError>(())
-/// ```
-pub fn travel(
-    integrator: &dyn Integrator,
-    start: &State,
-    duration: f64,
-    longest_step: f64,
-    control: &dyn Control,
-) -> Result<State, WorldlineError> {
-    /// A quotient this little above a whole number is that number.
-    const ROUNDING: f64 = 1e-9;
-    let valid = duration.is_finite() && duration >= 0.0 && longest_step.is_finite() && longest_step > 0.0;
-    if !valid {
-        return Err(WorldlineError::Duration { duration, longest_step });
-    }
-    let steps = (duration / longest_step * (1.0 - ROUNDING)).ceil();
-    if steps > MOST_STEPS {
-        return Err(WorldlineError::TooManySteps { duration, longest_step });
-    }
-    let mut state = *start;
-    for _ in 0..steps as u64 {
-        state = integrator.step(&state, duration / steps, control)?;
-    }
-    Ok(state)
-}
+pub use state::WorldlineState as State; // until app is moved

@@ -1,7 +1,10 @@
 //! The classical Runge–Kutta method of fourth order, in proper time.
 
+use super::control::Control;
+use super::error::WorldlineError;
+use super::integrator::Integrator;
 use super::runge_kutta::{Rates, Tableau};
-use super::{Control, Integrator, State, WorldlineError};
+use super::state::WorldlineState;
 
 /// Fourth order at a fixed cost of four thrusts a step; the default.
 ///
@@ -18,7 +21,7 @@ const TABLEAU: Tableau<4> = Tableau {
 const WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
 impl Integrator for Rk4 {
-    fn step(&self, state: &State, step: f64, control: &dyn Control) -> Result<State, WorldlineError> {
+    fn step(&self, state: &WorldlineState, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError> {
         if !step.is_finite() {
             return Err(WorldlineError::StepNotFinite { step });
         }

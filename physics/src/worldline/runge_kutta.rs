@@ -5,9 +5,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::control::finite_thrust;
-use super::state::{Increment, Rest};
-use super::{Control, State, WorldlineError};
+use super::control::{Control, finite_thrust};
+use super::error::WorldlineError;
+use super::state::{Increment, LowParts, WorldlineState};
 
 /// Rates of change with proper time.
 #[derive(Clone, Copy, Default)]
@@ -22,7 +22,7 @@ pub(super) struct Rates {
 impl Rates {
     /// The equations at the head of [`super`].
     #[inline]
-    pub(super) fn of(state: &State, control: &dyn Control) -> Result<Self, WorldlineError> {
+    pub(super) fn of(state: &WorldlineState, control: &dyn Control) -> Result<Self, WorldlineError> {
         let thrust = finite_thrust(control, state)?;
         let (u, gamma) = (state.celerity.vector(), state.celerity.gamma());
         let acceleration = state.orientation * thrust.acceleration;
@@ -50,17 +50,17 @@ impl Rates {
     }
 
     /// The state that these rates lead to in a proper time `span`.
-    pub(super) fn applied(&self, state: &State, span: f64) -> Result<State, WorldlineError> {
+    pub(super) fn applied(&self, state: &WorldlineState, span: f64) -> Result<WorldlineState, WorldlineError> {
         state.advanced(span, &self.increment(state, span))
     }
 
-    fn increment(&self, state: &State, span: f64) -> Increment {
+    fn increment(&self, state: &WorldlineState, span: f64) -> Increment {
         Increment {
             ct: span * self.ct,
             position: span * self.position,
             celerity: state.celerity.vector() + span * self.celerity,
             orientation: state.orientation + self.orientation * span,
-            rest: Rest::default(),
+            rest: LowParts::default(),
         }
     }
 }
@@ -78,7 +78,7 @@ impl<const N: usize> Tableau<N> {
     #[inline]
     pub(super) fn rates(
         &self,
-        state: &State,
+        state: &WorldlineState,
         step: f64,
         first: Rates,
         control: &dyn Control,

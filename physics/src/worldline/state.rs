@@ -2,16 +2,19 @@
 
 use glam::{DQuat, DVec3, DVec4};
 
-use super::WorldlineError;
+use super::error::WorldlineError;
 use super::rotation::Rotation;
+use crate::celerity::Celerity;
+use crate::composition::{Composition, compose};
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
-use crate::{Celerity, Composition, Event, FourVector, Observer, compose};
+use crate::event::Event;
+use crate::observer::Observer;
 
 /// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
 ///
 /// The fields may be set at will (a wall, a cap); the orientation has to stay a unit quaternion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct State {
+pub struct WorldlineState {
     /// τ, the time on the vehicle's own clock, metres.
     pub proper_time: f64,
     /// ct in the world, metres.
@@ -31,7 +34,7 @@ struct Remainder {
     proper_time: f64,
     ct: f64,
     position: DVec3,
-    rest: Rest,
+    rest: LowParts,
 }
 
 /// What a step adds to a state.
@@ -43,17 +46,17 @@ pub(super) struct Increment {
     /// The new orientation; its length is corrected.
     pub(super) orientation: DQuat,
     /// What the new celerity and orientation leave, for a step that knows them that well.
-    pub(super) rest: Rest,
+    pub(super) rest: LowParts,
 }
 
 /// Parts of a celerity and an orientation below the last place of f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Rest {
+pub(super) struct LowParts {
     pub(super) celerity: DVec3,
     pub(super) orientation: DVec4,
 }
 
-impl State {
+impl WorldlineState {
     /// A vehicle at an event, its own clock at zero.
     pub fn new(event: Event, celerity: Celerity, orientation: DQuat) -> Self {
         let Event { ct, position } = event;
@@ -65,24 +68,31 @@ impl State {
         Event { ct: self.ct, position: self.position }
     }
 
-    /// Someone who rests in the vehicle's reference point.
+    /// The observer who rests in the vehicle's reference point.
     pub fn observer(&self) -> Observer {
         Observer { event: self.event(), celerity: self.celerity }
     }
 
-    /// The state of a head within the vehicle, at the same time for the vehicle (W 6.3).
+    /// The observer who rests in the vehicle at `place`, at the same time for the vehicle.
+    ///
+    /// *Frames, units:* `place` from the vehicle's reference point, in the pilot's axes, metres; the result in the
+    /// world. *Equation:* [`Observer::at_offset`].
+    pub fn observer_at(&self, place: DVec3) -> Observer {
+        self.observer().at_offset(self.orientation * place)
+    }
+
+    /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest there
+    /// is [`WorldlineState::observer_at`] with the vehicle's orientation.
     ///
     /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
     /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
     /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
     pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
-        let world_from_vehicle = self.observer().observer_from_world().inverse();
-        let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: self.orientation * place });
-        let Event { ct, position } = self.event() + displacement;
+        let Event { ct, position } = self.observer_at(place).event;
         let head = Celerity::from_finite(self.orientation * celerity.vector());
         let Composition { celerity, wigner } = compose(self.celerity, head);
         let orientation = wigner.inverse() * self.orientation;
-        let remainder = Remainder { rest: Rest::default(), ..self.remainder };
+        let remainder = Remainder { rest: LowParts::default(), ..self.remainder };
         Self { ct, position, celerity, orientation, remainder, ..*self }
     }
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{State, Thrust};
+use super::state::WorldlineState;
+use super::thrust::Thrust;
 
 /// The pilot's forward direction, in the pilot's axes.
 const NOSE: DVec3 = DVec3::NEG_Z;
@@ -33,7 +34,7 @@ pub struct FacingMotion {
 
 impl Transport {
     /// The thrust for this acceleration (pilot's axes), with the turn rate that this transport wants in this state.
-    pub fn thrust(&self, state: &State, acceleration: DVec3) -> Thrust {
+    pub fn thrust(&self, state: &WorldlineState, acceleration: DVec3) -> Thrust {
         let turn_rate = match self {
             Self::Gyroscopic => DVec3::ZERO,
             Self::FacingMotion(facing) => facing.turn_rate(state, acceleration),
@@ -48,7 +49,7 @@ impl FacingMotion {
     /// *Equation:* in the axes of the pure boost the direction of motion e turns at e × a/w. Less the Thomas rate (a ×
     /// u)/(1 + γ), which the axes turn by in any case, that is γ (u × a)/w². Softened, w² + s² stands for w²; the
     /// nose f is drawn to ±e by (f × u)(f·u)/(w² + s²).
-    pub fn turn_rate(&self, state: &State, acceleration: DVec3) -> DVec3 {
+    pub fn turn_rate(&self, state: &WorldlineState, acceleration: DVec3) -> DVec3 {
         let (u, gamma) = (state.celerity.vector(), state.celerity.gamma());
         let acceleration = state.orientation * acceleration;
         let nose = state.orientation * NOSE;

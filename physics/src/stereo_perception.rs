@@ -7,12 +7,16 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::celerity::unit_vector;
-use crate::{Celerity, Event, Observer, Source, apparent};
+use crate::apparent::{self, PointSource};
+use crate::celerity::{Celerity, unit_vector};
+use crate::event::Event;
+use crate::observer::Observer;
+
+pub use self::{StereoPerception as Perceived, StereoPerceptionError as PerceivedError, perceived_place as perceived}; // until app is moved
 
 /// A place perceived by both eyes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Perceived {
+pub struct StereoPerception {
     /// The middle of the shortest line between the two sight lines. Behind the eyes if the lines diverge.
     pub position: DVec3,
     /// The length of that line; where it is large, two images are seen.
@@ -31,39 +35,43 @@ pub struct Perceived {
 /// # Errors
 ///
 /// An input is not finite, the eyes are at one place, the source is seen at an eye, or the sight lines are parallel.
-pub fn perceived(eyes: [DVec3; 2], source: &Source, time: f64) -> Result<Perceived, PerceivedError> {
+pub fn perceived_place(
+    eyes: [DVec3; 2],
+    source: &PointSource,
+    time: f64,
+) -> Result<StereoPerception, StereoPerceptionError> {
     /// A sine that the rounding of two parallel unit vectors can make.
     const PARALLEL: f64 = 4.0 * f64::EPSILON;
     if !(eyes.iter().all(|eye| eye.is_finite()) && source.position.is_finite() && time.is_finite()) {
-        return Err(PerceivedError::NotFinite);
+        return Err(StereoPerceptionError::NotFinite);
     }
     let baseline = eyes[1] - eyes[0];
     if baseline == DVec3::ZERO {
-        return Err(PerceivedError::EyesCoincide { position: eyes[0] });
+        return Err(StereoPerceptionError::EyesCoincide { position: eyes[0] });
     }
     let [first, second] = [sight_line(eyes[0], source, time)?, sight_line(eyes[1], source, time)?];
     let normal = first.cross(second);
     let sine_squared = normal.length_squared();
     if sine_squared <= PARALLEL * PARALLEL {
-        return Err(PerceivedError::Parallel { direction: first });
+        return Err(StereoPerceptionError::Parallel { direction: first });
     }
     // Both feet of the common perpendicular.
     let along_first = baseline.cross(second).dot(normal) / sine_squared;
     let along_second = baseline.cross(first).dot(normal) / sine_squared;
     let feet = [eyes[0] + first * along_first, eyes[1] + second * along_second];
-    Ok(Perceived { position: feet[0].midpoint(feet[1]), gap: baseline.dot(normal).abs() / sine_squared.sqrt() })
+    Ok(StereoPerception { position: feet[0].midpoint(feet[1]), gap: baseline.dot(normal).abs() / sine_squared.sqrt() })
 }
 
 /// The direction in which an eye at rest sees the source.
-fn sight_line(eye: DVec3, source: &Source, time: f64) -> Result<DVec3, PerceivedError> {
+fn sight_line(eye: DVec3, source: &PointSource, time: f64) -> Result<DVec3, StereoPerceptionError> {
     let observer = Observer { event: Event { ct: time, position: eye }, celerity: Celerity::ZERO };
     let seen = apparent::moving(&observer, source);
-    unit_vector(seen.position).ok_or(PerceivedError::SourceAtEye { position: eye })
+    unit_vector(seen.position).ok_or(StereoPerceptionError::SourceAtEye { position: eye })
 }
 
 /// Why nothing is perceived at one place.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum PerceivedError {
+pub enum StereoPerceptionError {
     /// A place or the time is infinite or not a number.
     #[error("the places of eyes and source and the time must all be finite")]
     NotFinite,

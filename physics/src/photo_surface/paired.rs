@@ -11,11 +11,11 @@ use super::lanes::{AlignedLine, Lanes, WideLanes};
 
 /// Two registers that go through every operation together.
 #[derive(Clone, Copy)]
-pub(super) struct Twice<L>(L, L);
+pub(super) struct Paired<L>(L, L);
 
 macro_rules! operator {
     ($($operator:ident::$method:ident),*) => {$(
-        impl<L: $operator<Output = L>> $operator for Twice<L> {
+        impl<L: $operator<Output = L>> $operator for Paired<L> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -27,8 +27,8 @@ macro_rules! operator {
 
 operator!(Add::add, Sub::sub, Mul::mul, Div::div);
 
-impl<L: Lanes> Lanes for Twice<L> {
-    type Wide = Twice<L::Wide>;
+impl<L: Lanes> Lanes for Paired<L> {
+    type Wide = Paired<L::Wide>;
     const COUNT: usize = 2 * L::COUNT;
 
     #[inline(always)]
@@ -100,7 +100,7 @@ impl<L: Lanes> Lanes for Twice<L> {
 
     #[inline(always)]
     fn widen(self) -> Self::Wide {
-        Twice(self.0.widen(), self.1.widen())
+        Paired(self.0.widen(), self.1.widen())
     }
 
     #[inline(always)]
@@ -109,7 +109,7 @@ impl<L: Lanes> Lanes for Twice<L> {
     }
 }
 
-impl<W: WideLanes> WideLanes for Twice<W> {
+impl<W: WideLanes> WideLanes for Paired<W> {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self(W::splat(value), W::splat(value))

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
-use physics::bend::Bend;
+use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Event, Observer, apparent};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -39,7 +39,7 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
     for _ in 0..60_000 {
         let (motion, rapidity) = (unit(&mut random), random.random_range(0.0..14.5_f64));
         let celerity = Celerity::new(motion * rapidity.sinh()).unwrap();
-        let bend = Bend::new(celerity);
+        let interpolation = TriangleInterpolation::new(celerity);
         // Anywhere, or as near to astern as that is enlarged.
         let near = random.random_range(0..2) == 0;
         let scale = if near { (2.0 - rapidity).min(0.0).exp() } else { 1.0 };
@@ -49,8 +49,8 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
         let [a, b, c] = corners;
         let edges = [(a, b), (b, c), (c, a)];
         let (from, to) = edges.into_iter().max_by(|x, y| x.0.distance(x.1).total_cmp(&y.0.distance(y.1))).unwrap();
-        let bound = bend.bound(0.5 * (from + to), from.distance(to));
-        let anywhere = bend.bound_anywhere((0.5 * (from + to)).length(), from.distance(to));
+        let bound = interpolation.bound(0.5 * (from + to), from.distance(to));
+        let anywhere = interpolation.bound_anywhere((0.5 * (from + to)).length(), from.distance(to));
         assert!(bound.error_rad <= anywhere * (1.0 + ROUNDING), "{} > {anywhere}", bound.error_rad);
         let observer = Observer { event: Event::default(), celerity };
         for _ in 0..6 {
@@ -74,7 +74,8 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
             }
             let aside = if bound.direction == DVec3::ZERO { 0.0 } else { angle(seen, bound.direction) };
             assert!(aside <= bound.radius_rad + 1e-6, "{aside} > {} at rapidity {rapidity}", bound.radius_rad);
-            let said = bend.error(place, corners.into_iter().zip(shares).map(|(at, share)| at.length() * share).sum());
+            let said = interpolation
+                .error(place, corners.into_iter().zip(shares).map(|(at, share)| at.length() * share).sum());
             // At the highest speeds δ is the last digits of a distance.
             let lost = 1e-15 * bend_of_rounding(rapidity);
             assert!((said - error).abs() < 1e-3 * error + lost, "{said} is not {error} at rapidity {rapidity}");
@@ -86,14 +87,14 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
 
 #[test]
 fn at_rest_nothing_bends() {
-    let bend = Bend::new(Celerity::ZERO);
-    assert_eq!(bend.bound(DVec3::X, 0.1).error_rad, 0.0);
-    assert_eq!(bend.bound(DVec3::X, 100.0).error_rad, 0.0);
+    let interpolation = TriangleInterpolation::new(Celerity::ZERO);
+    assert_eq!(interpolation.bound(DVec3::X, 0.1).error_rad, 0.0);
+    assert_eq!(interpolation.bound(DVec3::X, 100.0).error_rad, 0.0);
 }
 
 #[test]
 fn around_a_moving_observer_nothing_is_claimed() {
-    let bend = Bend::new(Celerity::new(DVec3::X).unwrap());
-    assert_eq!(bend.bound(DVec3::ZERO, 1e-6).error_rad, f64::INFINITY);
-    assert_eq!(bend.bound(DVec3::Y, 2.0).error_rad, f64::INFINITY);
+    let interpolation = TriangleInterpolation::new(Celerity::new(DVec3::X).unwrap());
+    assert_eq!(interpolation.bound(DVec3::ZERO, 1e-6).error_rad, f64::INFINITY);
+    assert_eq!(interpolation.bound(DVec3::Y, 2.0).error_rad, f64::INFINITY);
 }

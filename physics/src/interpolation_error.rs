@@ -12,7 +12,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::Celerity;
+use crate::celerity::Celerity;
+use crate::light_cone::LightConeCoordinates;
+
+pub use self::{InterpolationBound as Bound, TriangleInterpolation as Bend}; // until app is moved
 
 /// Share of an edge's length within which of its middle every triangle lies that has no longer edge: √3/2.
 const REACH: f64 = 0.866_025_403_784_438_7;
@@ -25,7 +28,7 @@ const LARGEST_SHARE: f64 = 0.5;
 
 /// Bounds for an observer of one celerity.
 #[derive(Clone, Copy, Debug)]
-pub struct Bend {
+pub struct TriangleInterpolation {
     direction: DVec3,
     /// |u|.
     w: f64,
@@ -36,7 +39,7 @@ pub struct Bend {
 
 /// What is claimed of every triangle of which an edge is the longest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bound {
+pub struct InterpolationBound {
     /// The angle by which any of its places may be drawn wrongly, radians; infinite where nothing is claimed.
     pub error_rad: f64,
     /// Middle of a cone in which all its places are truly seen (unit vector, observer's axes).
@@ -45,31 +48,31 @@ pub struct Bound {
     pub radius_rad: f64,
 }
 
-impl Bound {
+impl InterpolationBound {
     /// Nothing is claimed.
     const NONE: Self = Self { error_rad: f64::INFINITY, direction: DVec3::ZERO, radius_rad: PI };
 }
 
-impl Bend {
+impl TriangleInterpolation {
     /// For an observer of this celerity.
     pub fn new(celerity: Celerity) -> Self {
         let (w, gamma) = (celerity.magnitude(), celerity.gamma());
         let direction = celerity.direction().unwrap_or(DVec3::NEG_Z);
-        let mut bend = Self { direction, w, kappa: gamma + w, worst: (PI, 0.0) };
+        let mut interpolation = Self { direction, w, kappa: celerity.kappa(), worst: (PI, 0.0) };
         if w > 0.0 {
             // dF/dθ = 0: w c² − γ c − 2w = 0, of whose roots the other one is no cosine.
             let cosine = (-4.0 * w / (gamma + (gamma * gamma + 8.0 * w * w).sqrt())).max(-1.0);
             // At high speeds the angle from astern is 1/(√3 γ), which this cosine is too coarse for.
             let astern = if gamma > 1e3 { 1.0 / (3.0_f64.sqrt() * gamma) } else { PI - cosine.acos() };
             let angle = PI - astern;
-            bend.worst = (angle, bend.sensitivity(angle));
+            interpolation.worst = (angle, interpolation.sensitivity(angle));
         }
-        bend
+        interpolation
     }
 
     /// Where a place at rest appears, relative to the observer, in his axes; `displacement` from him in the world.
     ///
-    /// *Equation:* the light-cone form of [`crate::photo_surface`].
+    /// *Equation:* the light-cone form of [`crate::light_cone`].
     ///
     /// *Accuracy:* ε/D ≤ 4e-16 γ rad, which is enough for pictures up to γ = 1e12 and ten times as fast as [`crate::apparent`].
     pub fn apparent(&self, displacement: DVec3) -> DVec3 {
@@ -78,11 +81,8 @@ impl Bend {
         }
         let along = self.direction.dot(displacement);
         let across = self.direction.cross(displacement.cross(self.direction));
-        let squared = across.length_squared();
-        let larger = (along * along + squared).sqrt() + along.abs();
-        let smaller = if larger > 0.0 { squared / larger } else { 0.0 };
-        let (ahead, behind) = if along >= 0.0 { (larger, smaller) } else { (smaller, larger) };
-        across + 0.5 * (self.kappa * ahead - behind / self.kappa) * self.direction
+        let seen = LightConeCoordinates::of(along, across.length_squared()).boosted(self.kappa);
+        across + seen.along() * self.direction
     }
 
     /// D at an angle from ahead, in the world.
@@ -111,13 +111,13 @@ impl Bend {
         2.0 * sine.atan2(self.kappa * cosine)
     }
 
-    /// What [`Bend::bound`] claims at most of an edge of such a length at such a distance, whichever way it lies; infinite where that is
+    /// What [`TriangleInterpolation::bound`] claims at most of an edge of such a length at such a distance, whichever way it lies; infinite where that is
     /// nothing. It takes no angle, and most edges of a scene are small enough for it.
     pub fn bound_anywhere(&self, distance: f64, length: f64) -> f64 {
         let nearest = distance - REACH * length;
-        let bend = INTERPOLATION * (length / nearest).powi(2);
-        let share = bend * self.w * self.kappa;
-        if nearest > 0.0 && share < LARGEST_SHARE { bend * self.worst.1 / (1.0 - share) } else { f64::INFINITY }
+        let excess = INTERPOLATION * (length / nearest).powi(2);
+        let share = excess * self.w * self.kappa;
+        if nearest > 0.0 && share < LARGEST_SHARE { excess * self.worst.1 / (1.0 - share) } else { f64::INFINITY }
     }
 
     /// What can be claimed of triangles of which an edge is the longest: `middle` is the displacement of its middle from the observer.
@@ -125,11 +125,15 @@ impl Bend {
     /// *Equation:* (δ/r) F / (1 − (δ/r) w/D), each at its worst in the ball of √3/2 L about the middle, which holds all such triangles. The
     /// denominator is for places astern, which are drawn nearer than they appear.
     ///
-    /// *Accuracy:* held against points of random triangles (`tests/bend.rs`).
-    pub fn bound(&self, middle: DVec3, length: f64) -> Bound {
+    /// *Accuracy:* held against points of random triangles (`tests/interpolation_error.rs`).
+    pub fn bound(&self, middle: DVec3, length: f64) -> InterpolationBound {
         let (distance, radius) = (middle.length(), REACH * length);
         if radius >= distance || !(radius / distance).is_finite() {
-            return if self.w == 0.0 { Bound { error_rad: 0.0, ..Bound::NONE } } else { Bound::NONE };
+            return if self.w == 0.0 {
+                InterpolationBound { error_rad: 0.0, ..InterpolationBound::NONE }
+            } else {
+                InterpolationBound::NONE
+            };
         }
         let along = self.direction.dot(middle);
         let across = middle - along * self.direction;
@@ -140,22 +144,22 @@ impl Bend {
         let (sine, cosine) = (0.5 * (low + high)).sin_cos();
         let direction = sine * across.normalize_or_zero() + cosine * self.direction;
         let direction = direction.normalize_or(self.direction * cosine.signum());
-        let bound = Bound { error_rad: 0.0, direction, radius_rad: 0.5 * (high - low) };
+        let bound = InterpolationBound { error_rad: 0.0, direction, radius_rad: 0.5 * (high - low) };
         if self.w == 0.0 {
             return bound;
         }
 
         let nearest = distance - radius;
-        let bend = INTERPOLATION * (length / nearest).powi(2);
+        let excess = INTERPOLATION * (length / nearest).powi(2);
         let (first, last) = ((angle - reach).max(0.0), (angle + reach).min(PI));
         let steepest = if (first..=last).contains(&self.worst.0) {
             self.worst.1
         } else {
             self.sensitivity(first).max(self.sensitivity(last))
         };
-        let share = bend * self.w / self.doppler(last);
-        let error_rad = if share < LARGEST_SHARE { bend * steepest / (1.0 - share) } else { f64::INFINITY };
-        Bound { error_rad, ..bound }
+        let share = excess * self.w / self.doppler(last);
+        let error_rad = if share < LARGEST_SHARE { excess * steepest / (1.0 - share) } else { f64::INFINITY };
+        InterpolationBound { error_rad, ..bound }
     }
 
     /// The angle by which a place is drawn wrongly if its distance is taken to be `interpolated` instead, radians.

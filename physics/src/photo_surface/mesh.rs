@@ -2,24 +2,26 @@
 
 use std::mem::MaybeUninit;
 
-use super::PhotoSurfaceError;
-use super::chunk::Chunk;
-use super::plan::{Eye, Plan};
+use super::chunk::KernelChunk;
+use super::error::PhotoSurfaceError;
+use super::eye::PhotoSurfaceEye;
+use super::line::{CHUNK, LINE};
+use super::plan::FramePlan;
 use super::simd;
-use super::vertices::{CHUNK, LINE, Vertices};
+use super::vertices::Vertices;
 
 /// One mesh and where to write its apparent positions and, if wanted, Doppler factors.
 ///
 /// The memory is the caller's and is only written. It may be part of a mapped GPU buffer; streams that begin
 /// at a multiple of 64 bytes are written fastest.
 #[derive(Debug)]
-pub struct Surface<'a> {
+pub struct PhotoSurfaceMesh<'a> {
     vertices: &'a Vertices,
     position: [&'a mut [MaybeUninit<f32>]; 3],
     doppler: &'a mut [MaybeUninit<f32>],
 }
 
-impl<'a> Surface<'a> {
+impl<'a> PhotoSurfaceMesh<'a> {
     /// The photo-surface of `vertices`, as streams of the x, y and z of the apparent positions in metres.
     ///
     /// # Errors
@@ -31,7 +33,7 @@ impl<'a> Surface<'a> {
     /// The same in memory that cannot be read, such as a mapped buffer.
     ///
     /// # Errors
-    /// As [`Surface::new`].
+    /// As [`PhotoSurfaceMesh::new`].
     pub fn in_write_only(
         vertices: &'a Vertices,
         position: [&'a mut [MaybeUninit<f32>]; 3],
@@ -53,7 +55,7 @@ impl<'a> Surface<'a> {
     /// The same in memory that cannot be read, such as a mapped buffer.
     ///
     /// # Errors
-    /// As [`Surface::with_doppler`].
+    /// As [`PhotoSurfaceMesh::with_doppler`].
     pub fn with_write_only_doppler(self, doppler: &'a mut [MaybeUninit<f32>]) -> Result<Self, PhotoSurfaceError> {
         check_length(self.vertices, "doppler", doppler)?;
         Ok(Self { doppler, ..self })
@@ -70,16 +72,20 @@ impl<'a> Surface<'a> {
     }
 
     /// Cuts the work into chunks, each with the formula it needs.
-    pub(super) fn into_chunks(self, eye: &Eye, streaming: bool) -> impl Iterator<Item = Chunk<'a>> + use<'a> {
+    pub(super) fn into_chunks(
+        self,
+        eye: &PhotoSurfaceEye,
+        streaming: bool,
+    ) -> impl Iterator<Item = KernelChunk<'a>> + use<'a> {
         let Self { vertices, position: [x, y, z], doppler } = self;
-        let plan = Plan::new(eye, vertices.origin());
+        let plan = FramePlan::new(eye, vertices.origin());
         let [in_x, in_y, in_z] = vertices.streams().map(|stream| stream.chunks(CHUNK / LINE));
         let position = x.chunks_mut(CHUNK).zip(y.chunks_mut(CHUNK)).zip(z.chunks_mut(CHUNK));
         // An iterator of Doppler chunks that goes on with empty ones if D is not wanted.
         let doppler = doppler.chunks_mut(CHUNK).chain(std::iter::repeat_with(<&mut [_]>::default));
         let input = in_x.zip(in_y).zip(in_z);
         vertices.spheres().iter().zip(input).zip(position).zip(doppler).map(
-            move |(((sphere, ((in_x, in_y), in_z)), ((x, y), z)), doppler)| Chunk {
+            move |(((sphere, ((in_x, in_y), in_z)), ((x, y), z)), doppler)| KernelChunk {
                 plan,
                 form: plan.form(sphere),
                 input: [in_x, in_y, in_z],

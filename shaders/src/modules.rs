@@ -1,0 +1,87 @@
+//! The shader modules: lists of files from `wgsl/`, concatenated behind the shared constants.
+
+use crate::declarations::declarations;
+
+/// A shader module: an entry of [`MODULES`].
+#[derive(Clone, Copy, Debug)]
+pub struct Module {
+    /// For labels and error messages.
+    pub name: &'static str,
+    files: &'static [&'static str],
+}
+
+impl Module {
+    /// The module's WGSL: the constants, then its files in order.
+    pub fn source(&self) -> String {
+        let mut source = declarations();
+        for file in self.files {
+            source.push_str(file);
+        }
+        source
+    }
+}
+
+const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
+const ENCODE: &str = include_str!("../wgsl/encode.wgsl");
+const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
+const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
+const SHARED: &str = include_str!("../wgsl/shared.wgsl");
+
+const PHOTO_SURFACE: &str = include_str!("../wgsl/photo_surface.wgsl");
+const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
+
+/// Triangles of the photo-surface (or of the plain world) under sun and sky.
+pub const SURFACE: Module = Module {
+    name: "surface",
+    files: &[SHARED, ABERRATION, SHIFT, PHOTO_SURFACE, include_str!("../wgsl/surface.wgsl")],
+};
+/// The sky behind everything, per pixel.
+pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
+/// From the map of the world around the eye to what the observer sees.
+pub const WARP: Module =
+    Module { name: "warp", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/warp.wgsl")] };
+/// The sun's depth map, in the world frame.
+pub const SHADOW: Module = Module { name: "shadow", files: &[SHARED, include_str!("../wgsl/shadow.wgsl")] };
+/// The mean of several samples.
+pub const ACCUMULATE: Module =
+    Module { name: "accumulate", files: &[FULLSCREEN, include_str!("../wgsl/accumulate.wgsl")] };
+/// Radiance as it is.
+pub const COPY: Module = Module { name: "copy", files: &[FULLSCREEN, include_str!("../wgsl/copy.wgsl")] };
+/// What the eye adapts to: exposure, white and the histogram's curve.
+pub const METER: Module = Module {
+    name: "meter",
+    files: &[
+        RADIANCE,
+        include_str!("../wgsl/meter.wgsl"),
+        include_str!("../wgsl/expose.wgsl"),
+        include_str!("../wgsl/equalise.wgsl"),
+    ],
+};
+/// Linear radiance to the screen's sRGB.
+pub const DISPLAY: Module = Module {
+    name: "display",
+    files: &[
+        FULLSCREEN,
+        RADIANCE,
+        include_str!("../wgsl/tone.wgsl"),
+        include_str!("../wgsl/gamut.wgsl"),
+        ENCODE,
+        include_str!("../wgsl/display.wgsl"),
+    ],
+};
+/// Both eyes' pictures on the same pixels.
+pub const COMBINE: Module =
+    Module { name: "combine", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/combine.wgsl")] };
+/// A room seen from anywhere.
+pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/room.wgsl")] };
+/// Linear light as a screen takes it.
+pub const ENCODED: Module =
+    Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
+/// From flat pictures to a surface that is not flat.
+pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
+/// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
+pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
+
+/// Every module, for validation.
+pub const MODULES: [Module; 13] =
+    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, PROBE];
