@@ -9,9 +9,9 @@ use glam::{DVec2, DVec3};
 use physics::Aberration;
 use physics::bend::Bend;
 
-use super::Shot;
 use scene::Scene;
 use scene::cut::{Chord, Cut, Sight};
+use view::Shot;
 
 /// Number of edges sampled.
 const SAMPLES: usize = 512;
@@ -31,7 +31,7 @@ const NOTICED_PX: f64 = 2.0;
 
 /// Way in which the directions of a picture are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Drawn {
+pub enum EdgesDrawn {
     /// Straight edges between vertices that the kernel has bent.
     ByKernel,
     /// Straight edges between vertices that were bent in f64.
@@ -127,7 +127,7 @@ impl Certainty {
         sight_of: impl Fn(Option<usize>) -> Sight,
         shot: &Shot,
         size: [u32; 2],
-        drawn: Drawn,
+        drawn: EdgesDrawn,
     ) -> Self {
         let tangents = shot.camera.tangents(size);
         let pixel_rad = 1.0 / tangents.focal_length(size).max_element();
@@ -136,12 +136,12 @@ impl Certainty {
             let at = eye.truncate() / -eye.z;
             eye.z < 0.0 && at.cmpgt(tangents.low).all() && at.cmplt(tangents.high).all()
         };
-        let kernel = if shot.celerity().gamma() <= KERNEL.1 { KERNEL.0 } else { KERNEL.2 };
+        let kernel = if shot.observer.celerity.gamma() <= KERNEL.1 { KERNEL.0 } else { KERNEL.2 };
         let mut certainty = Self { pixel_rad, ..Self::default() };
         match drawn {
-            Drawn::ByKernel => certainty.rounded_rad = kernel,
-            Drawn::InFull => certainty.rounded_rad = 2.0 * STEP,
-            Drawn::FromMap { texels_per_pixel } => {
+            EdgesDrawn::ByKernel => certainty.rounded_rad = kernel,
+            EdgesDrawn::InFull => certainty.rounded_rad = 2.0 * STEP,
+            EdgesDrawn::FromMap { texels_per_pixel } => {
                 certainty.drawn_rad = 0.5 * pixel_rad / texels_per_pixel.max(1e-3);
                 certainty.rounded_rad = 2.0 * STEP;
             }
@@ -167,7 +167,7 @@ impl Certainty {
                 continue;
             }
             seen_edges += 1;
-            if let Drawn::FromMap { .. } = drawn {
+            if let EdgesDrawn::FromMap { .. } = drawn {
                 let rounded = 2.0 * STEP * about / seen.length();
                 certainty.rounded_rad = certainty.rounded_rad.max(rounded);
             } else {
@@ -181,14 +181,14 @@ impl Certainty {
             }
         }
         // If hardly any edge is in the picture, estimate from the usual edges of the scene.
-        if seen_edges < FEW && drawn != Drawn::InFull && !edges.ends.is_empty() {
-            let aberration = Aberration::new(shot.celerity());
-            let bend = Bend::new(shot.celerity());
+        if seen_edges < FEW && drawn != EdgesDrawn::InFull && !edges.ends.is_empty() {
+            let aberration = Aberration::new(shot.observer.celerity);
+            let bend = Bend::new(shot.observer.celerity);
             let (length, about) = usual.median();
             for place in (0..81).map(|place| DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 4.0 - 1.0) {
                 let eye = (tangents.middle() + place * tangents.half()).extend(-1.0);
                 let (world, doppler) = aberration.world_from_observer(shot.camera.observer_from_eye * eye);
-                if let Drawn::FromMap { .. } = drawn {
+                if let EdgesDrawn::FromMap { .. } = drawn {
                     certainty.rounded_rad = certainty.rounded_rad.max((2.0 * STEP * about / doppler).min(1.0));
                 } else {
                     let error = length * length / 8.0 * bend.steepness(world);
@@ -261,17 +261,19 @@ mod tests {
     use built_in::lattice::Lattice;
     use scene::refine::refine;
     use view::Camera;
-    use physics::photo_surface::Eye;
+    use physics::{Celerity, Event, Observer};
 
-    fn of(scene: &Scene, speed: f64, look: DVec3, drawn: Drawn) -> Certainty {
+    fn of(scene: &Scene, speed: f64, look: DVec3, drawn: EdgesDrawn) -> Certainty {
         let shot = Shot {
             camera: Camera::looking(look, DVec3::Y, 1.2),
-            eye: Eye::new(DVec3::new(0.3, 0.1, 0.2), DVec3::NEG_Z * speed).unwrap(),
-            ct: 0.0,
+            observer: Observer {
+                event: Event { ct: 0.0, position: DVec3::new(0.3, 0.1, 0.2) },
+                celerity: Celerity::new(DVec3::NEG_Z * speed).unwrap(),
+            },
             effects: Effects::ALL,
             stored_scale: None,
         };
-        let sight = |motion| Sight::new(scene, &shot.observer(), motion);
+        let sight = |motion| Sight::new(scene, &shot.observer, motion);
         Certainty::of(&Edges::of(scene), sight, &shot, [1280, 720], drawn)
     }
 
@@ -279,7 +281,7 @@ mod tests {
     fn coarse_edges_are_told_and_fine_ones_are_not() {
         let coarse = Lattice { count: [4, 4, 4], ..Lattice::default() }.build();
         let fine = refine(&coarse, 0.05).unwrap();
-        let said = |scene, speed| of(scene, speed, DVec3::NEG_Z, Drawn::ByKernel);
+        let said = |scene, speed| of(scene, speed, DVec3::NEG_Z, EdgesDrawn::ByKernel);
         assert!(said(&coarse, 0.0).error_px() < 0.01);
         assert!(said(&coarse, 5.0).notice().is_some(), "{:?}", said(&coarse, 5.0));
         assert!(said(&fine, 0.75).notice().is_none(), "{:?}", said(&fine, 0.75));
@@ -289,7 +291,7 @@ mod tests {
     #[test]
     fn the_map_loses_directions_astern_and_says_so() {
         let scene = Lattice { count: [12, 12, 12], ..Lattice::default() }.build();
-        let map = Drawn::FromMap { texels_per_pixel: 4.0 };
+        let map = EdgesDrawn::FromMap { texels_per_pixel: 4.0 };
         let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 701.0, DVec3::Z, map));
         assert!(slow.notice().is_none() && slow.rounded_rad < 1e-4, "{slow:?}");
         // One rounding step of f32, enlarged 1400 times.
@@ -302,8 +304,8 @@ mod tests {
     #[test]
     fn edges_half_a_metre_long_do_not_do_astern_at_gamma_701() {
         let scene = refine(&Lattice::default().build(), 0.5).unwrap();
-        let fixed = of(&scene, 701.0, DVec3::Z, Drawn::ByKernel);
+        let fixed = of(&scene, 701.0, DVec3::Z, EdgesDrawn::ByKernel);
         assert!(fixed.notice().is_some(), "{fixed:?}");
-        assert!(of(&scene, 701.0, DVec3::Z, Drawn::InFull).notice().is_none());
+        assert!(of(&scene, 701.0, DVec3::Z, EdgesDrawn::InFull).notice().is_none());
     }
 }

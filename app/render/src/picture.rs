@@ -1,14 +1,16 @@
 //! Pictures without a window: several samples a pixel, exact to f32, read back as 8-bit sRGB or as linear light.
 
-use super::display::{self, Accumulator, Adaptation, Development, Display, Seen, Stored};
-use super::target::{Format, Radiance};
-use super::{SceneRenderer, Shot, Subject};
+use crate::display::{self, Accumulator, Adaptation, Developer, Development, Seen};
 use crate::gpu::{Gpu, GpuError};
-use view::sample_offset;
+use crate::pending::Pending;
+use crate::scene_renderer::SceneRenderer;
+use crate::subject::Subject;
+use crate::target::{Format, Radiance};
+use crate::textures::view_from_rows;
 use glam::{DVec3, Vec3};
 use half::f16;
 use image::{Rgb32FImage, RgbaImage};
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use view::{Shot, Stored, sample_offset};
 
 /// Texture format in which a picture is stored.
 pub const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -29,14 +31,14 @@ pub struct Shown {
 
 /// Develops radiance into pictures in memory.
 pub struct Darkroom {
-    display: Display,
+    developer: Developer,
     sheet: Sheet,
 }
 
 impl Darkroom {
     /// Darkroom for pictures of `size` pixels, from radiance of `format`.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
-        Self { display: Display::new(gpu, format, SCREEN_FORMAT), sheet: Sheet::new(gpu, size, SCREEN_FORMAT) }
+        Self { developer: Developer::new(gpu, format, SCREEN_FORMAT), sheet: Sheet::new(gpu, size, SCREEN_FORMAT) }
     }
 
     /// Develops `radiance` for an eye in the state `adaptation`, encodes it as 8-bit sRGB and fetches it.
@@ -51,7 +53,7 @@ impl Darkroom {
         development: &Development,
     ) -> Result<RgbaImage, GpuError> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.display.show(gpu, &mut encoder, radiance, adaptation, development, &self.sheet.view());
+        self.developer.show(gpu, &mut encoder, radiance, adaptation, development, &self.sheet.view());
         let pixels = self.sheet.fetch(gpu, encoder)?;
         Ok(RgbaImage::from_raw(self.sheet.texture.width(), self.sheet.texture.height(), pixels)
             .expect("the sheet has four bytes a pixel"))
@@ -139,7 +141,7 @@ impl Studio {
             size,
             samples,
             radiance: Radiance::new(gpu, size, format),
-            sum: darkroom.display.accumulator(gpu, size),
+            sum: darkroom.developer.accumulator(gpu, size),
             darkroom,
             adaptation: Adaptation::new(gpu),
         }
@@ -150,9 +152,10 @@ impl Studio {
         Format::exact(gpu)
     }
 
-    /// Takes a picture. If `renderer` needs a photo-surface, it must have been submitted before; it is received here.
+    /// Takes a picture.
     ///
     /// # Arguments
+    /// * `pending` — what [`SceneRenderer::submit`] gave for the shot's observer.
     /// * `elapsed_s` — the observer's proper time since the picture before, seconds, for the adaptation of the eye;
     ///   `None` adapts it at once.
     ///
@@ -163,14 +166,15 @@ impl Studio {
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         shot: &Shot,
+        pending: Pending,
         development: &Development,
         elapsed_s: Option<f64>,
     ) -> Result<RgbaImage, GpuError> {
-        let stored = self.draw(gpu, renderer, shot)?;
+        let stored = self.draw(gpu, renderer, shot, pending)?;
         let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let seen = Seen { radiance, stored, elapsed_s };
-        self.darkroom.display.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        self.darkroom.developer.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
         gpu.queue.submit([encoder.finish()]);
         self.darkroom.develop(gpu, radiance, &self.adaptation, development)
     }
@@ -180,8 +184,14 @@ impl Studio {
     ///
     /// # Errors
     /// Those of [`Studio::photograph`].
-    pub fn expose(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Rgb32FImage, GpuError> {
-        let stored = self.draw(gpu, renderer, shot)?;
+    pub fn expose(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        pending: Pending,
+    ) -> Result<Rgb32FImage, GpuError> {
+        let stored = self.draw(gpu, renderer, shot, pending)?;
         let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
         light(gpu, radiance, &stored)
     }
@@ -202,7 +212,7 @@ impl Studio {
         let radiance = upload(gpu, self.size, texels, self.radiance.format.colour);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let seen = Seen { radiance: &radiance, stored, elapsed_s };
-        self.darkroom.display.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        self.darkroom.developer.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
         gpu.queue.submit([encoder.finish()]);
         self.darkroom.develop(gpu, &radiance, &self.adaptation, development)
     }
@@ -217,9 +227,10 @@ impl Studio {
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         shot: &Shot,
+        pending: Pending,
     ) -> Result<Vec<Option<Shown>>, GpuError> {
         renderer.subject = Subject::Places;
-        let drawn = self.draw_samples(gpu, renderer, shot, 1);
+        let drawn = self.draw_samples(gpu, renderer, shot, pending, 1);
         renderer.subject = Subject::Light;
         drawn?;
         let sights = renderer.sights(shot);
@@ -232,8 +243,14 @@ impl Studio {
     }
 
     /// Draws all samples, and adds them up.
-    fn draw(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<Stored, GpuError> {
-        self.draw_samples(gpu, renderer, shot, self.samples)
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        pending: Pending,
+    ) -> Result<Stored, GpuError> {
+        self.draw_samples(gpu, renderer, shot, pending, self.samples)
     }
 
     fn draw_samples(
@@ -241,19 +258,17 @@ impl Studio {
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         shot: &Shot,
+        pending: Pending,
         samples: u32,
     ) -> Result<Stored, GpuError> {
-        if renderer.transforms(shot.effects) {
-            let transformed = renderer.receive()?;
-            renderer.show(gpu, transformed);
-        }
+        renderer.show(gpu, pending)?;
         renderer.prepare(gpu, shot, self.size);
         self.sum.restart();
         for sample in 0..samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, samples));
             if samples > 1 {
-                self.darkroom.display.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), samples);
+                self.darkroom.developer.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), samples);
             }
             gpu.queue.submit([encoder.finish()]);
         }
@@ -263,16 +278,6 @@ impl Studio {
 
 /// Uploads texels into a texture of one of the formats that renderers draw in.
 fn upload(gpu: &Gpu, size: [u32; 2], texels: &[[f32; 4]], format: wgpu::TextureFormat) -> wgpu::TextureView {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("radiance"),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
     let half = |value: f32| f16::from_f32(value.clamp(-shaders::HALF_LIMIT, shaders::HALF_LIMIT));
     let halves: Vec<[f16; 4]>;
     let bytes: &[u8] = if format == wgpu::TextureFormat::Rgba32Float {
@@ -281,9 +286,7 @@ fn upload(gpu: &Gpu, size: [u32; 2], texels: &[[f32; 4]], format: wgpu::TextureF
         halves = texels.iter().map(|texel| texel.map(half)).collect();
         bytemuck::cast_slice(&halves)
     };
-    gpu.device
-        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
-        .create_view(&wgpu::TextureViewDescriptor::default())
+    view_from_rows(gpu, "radiance", [size[0], size[1], 1], format, bytes)
 }
 
 /// Fetches radiance from the device: linear sRGB in cd/m².

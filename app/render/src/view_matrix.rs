@@ -19,7 +19,7 @@ pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celer
     let [width, height] = size.map(f64::from);
     let tangents = camera.tangents(size);
     let (middle, half) = (tangents.middle(), tangents.half());
-    let kappa_of_light = motion.gamma() + motion.magnitude();
+    let kappa_of_light = motion.kappa();
     let kappa = if geometry { kappa_of_light } else { 1.0 };
 
     // Reversed depth with an infinite far plane keeps f32's relative precision at every distance. Astern, the

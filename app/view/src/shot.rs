@@ -1,51 +1,46 @@
-//! One picture: who looks, through which camera, with which effects; and how its light is stored.
+//! One picture: its observer, its camera and its effects; and how its light is stored.
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Field};
 use crate::effects::Effects;
 use glam::{DQuat, DVec2};
-use physics::photo_surface::Eye;
-use physics::{Celerity, Event, Observer};
+use physics::Observer;
 
-/// Place, motion and direction of view of an eye.
+/// Observer and the direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaze {
-    /// Place and celerity of the eye, world axes.
-    pub eye: Eye,
-    /// World time of the view, metres of light travel.
-    pub ct: f64,
-    /// Rotation from the eye's axes (x right, y up, −z ahead) to the observer's.
+    /// Event and celerity of the eye in the world.
+    pub observer: Observer,
+    /// Rotation from the eye's axes (x right, y up, −z ahead) to the observer's, which a pure boost makes of the
+    /// world's.
     pub observer_from_eye: DQuat,
 }
 
-/// What one picture shows.
+/// One picture to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shot {
-    /// Where the eye points.
+    /// Direction of view, and the part of the plane ahead that the picture shows.
     pub camera: Camera,
-    /// Place and celerity of the eye, world axes.
-    pub eye: Eye,
-    /// World time of the view, metres of light travel.
-    pub ct: f64,
-    /// What relativity does to the picture.
+    /// Event and celerity of the eye in the world.
+    pub observer: Observer,
+    /// Effects of relativity on the picture.
     pub effects: Effects,
-    /// What radiance is multiplied by, instead of [`Shot::scale`]'s own choice: for pictures that are put together.
+    /// Factor of the stored radiance instead of the one that [`Shot::scale`] would choose: for pictures that are put
+    /// together to one.
     pub stored_scale: Option<f64>,
 }
 
+impl Gaze {
+    /// Picture straight ahead with square pixels and a vertical field of view of `fov_y_deg` degrees.
+    pub fn shot(&self, fov_y_deg: f64, effects: Effects) -> Shot {
+        let field = Field::Ahead { fov_y_rad: fov_y_deg.to_radians() };
+        let camera = Camera { observer_from_eye: self.observer_from_eye, field };
+        Shot { camera, observer: self.observer, effects, stored_scale: None }
+    }
+}
+
 impl Shot {
-    /// Who looks, when, and from where.
-    pub fn observer(&self) -> Observer {
-        let event = Event { ct: self.ct, position: self.eye.position() };
-        Observer { event, celerity: self.celerity() }
-    }
-
-    /// How the eye moves.
-    pub fn celerity(&self) -> Celerity {
-        Celerity::new(self.eye.celerity()).unwrap_or_default()
-    }
-
-    /// What radiance is multiplied by so that short floats can hold it: the searchlight effect undone, as it is in the mean of a picture of
-    /// usual shape.
+    /// Factor of the stored radiance, with which short floats can hold it: it undoes the searchlight effect as it is in
+    /// the mean of a picture of usual shape.
     pub fn scale(&self) -> f64 {
         if let Some(scale) = self.stored_scale {
             return scale;
@@ -55,7 +50,8 @@ impl Shot {
         }
         let steps = [-0.8, -0.4, 0.0, 0.4, 0.8];
         let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x, y)));
-        let logs = places.map(|place| self.camera.doppler_at(place, self.celerity(), self.effects.geometry).ln());
+        let (celerity, geometry) = (self.observer.celerity, self.effects.geometry);
+        let logs = places.map(|place| self.camera.doppler_at(place, celerity, geometry).ln());
         let mean = logs.sum::<f64>() / (steps.len() * steps.len()) as f64;
         (-4.0 * mean).exp().clamp(1e-30, 1e30)
     }

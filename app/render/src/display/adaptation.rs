@@ -8,6 +8,8 @@
 //! shift. A dark scene thus stays dark and a bright one bright; only the brightness added by Doppler shift and
 //! searchlight effect is taken back. If they add nothing, nothing is metered, and exposure is exactly 1.
 
+use view::Stored;
+
 use super::development::{Development, Exposure, Tone};
 use super::passes::{UNFILTERED, UNIFORM, WRITE, contents, group, layout, module, pipeline_layout};
 use crate::gpu::Gpu;

@@ -14,12 +14,16 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use rayon::prelude::*;
 
-use crate::gpu::Gpu;
-use view::Shot;
-use crate::certainty::Edges;
-use crate::world::{Prepared, World, stream_count, stream_stride};
 use scene::Scene;
 use scene::cut::{Cut, Fineness, Sight, Viewpoint};
+use view::{Occasion, Shot};
+
+use crate::certainty::{Certainty, Edges, EdgesDrawn};
+use crate::gpu::Gpu;
+use crate::method::{Method, Sample};
+use crate::moving_objects::Axes;
+use crate::stats::CutStats;
+use crate::world::{Prepared, World, stream_count, stream_stride};
 
 /// Largest number of triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;
@@ -42,35 +46,15 @@ const REST: u32 = 2;
 const CHUNK: usize = 4096;
 
 /// Accuracy and timing of a scene's cuts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+#[derive(Clone, Copy, Debug)]
+struct Tolerance {
     /// Largest distance of anything drawn from its exact place, pixels.
-    pub pixels: f64,
-    /// Timing: a picture waits for its cut, or takes the newest one.
-    pub pace: Pace,
+    pixels: f64,
+    /// A still waits for its cut; a frame of a ride takes the newest one.
+    occasion: Occasion,
 }
 
-/// Timing of a picture and its cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
-    /// The picture waits for its cut.
-    Still,
-    /// The picture is drawn with the newest cut there is.
-    Ride,
-}
-
-/// Size and accuracy of a cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CutStats {
-    /// Tolerance that was kept, pixels; larger than requested if that would have made too many triangles.
-    pub tolerance_px: f64,
-    /// Number of triangles.
-    pub triangles: usize,
-    /// Time that the cut took.
-    pub duration: Duration,
-}
-
-/// A scene with its newest cut.
+/// The `polygon` method for triangles that are cut for every picture: a scene with its newest cut.
 pub struct Adaptive {
     scene: Arc<Scene>,
     tolerance: Tolerance,
@@ -97,8 +81,10 @@ struct Made {
 }
 
 impl Adaptive {
-    /// Adaptive cuts of `scene`, whose surfaces must be those that the world shows.
-    pub fn new(scene: &Scene, tolerance: Tolerance) -> Self {
+    /// Adaptive cuts of `scene`, whose surfaces must be those that the world shows. `tolerance_px` is the largest
+    /// distance of anything drawn from its exact place, pixels.
+    pub fn new(scene: &Scene, tolerance_px: f64, occasion: Occasion) -> Self {
+        let tolerance = Tolerance { pixels: tolerance_px, occasion };
         let scene = Arc::new(Scene {
             origin: scene.origin,
             materials: scene.materials.clone(),
@@ -106,7 +92,7 @@ impl Adaptive {
             motions: scene.motions.clone(),
             ..Scene::default()
         });
-        let cutter = (tolerance.pace == Pace::Ride).then(|| Cutter::start(Arc::clone(&scene), tolerance));
+        let cutter = (occasion == Occasion::Ride).then(|| Cutter::start(Arc::clone(&scene), tolerance));
         Self { scene, tolerance, shown: None, cutter }
     }
 
@@ -114,7 +100,7 @@ impl Adaptive {
     pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
         let Some((first, _)) = shots.first() else { return };
         let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
-        let viewpoint = Viewpoint { observer: first.observer(), pictures };
+        let viewpoint = Viewpoint { observer: first.observer, pictures };
         let made = match (&mut self.cutter, &self.shown) {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
@@ -136,15 +122,6 @@ impl Adaptive {
         }
     }
 
-    /// Waits for the cut that is under way, if any. The next picture takes it.
-    pub fn settle(&self) {
-        if let Some(cutter) = &self.cutter {
-            while cutter.busy && cutter.made.is_empty() {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        }
-    }
-
     /// Apparent positions of the newest cut.
     pub fn streams(&self) -> Option<&wgpu::Buffer> {
         self.shown.as_ref().map(|shown| &shown.streams)
@@ -154,19 +131,52 @@ impl Adaptive {
     pub fn edges(&self) -> Option<&Edges> {
         self.shown.as_ref().map(|shown| &shown.edges)
     }
+}
 
-    /// Size and accuracy of the newest cut.
-    pub fn stats(&self) -> Option<CutStats> {
+impl Method for Adaptive {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn axes(&self) -> Axes {
+        Axes::Observer
+    }
+
+    fn prepare_eye(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
+        self.cut(gpu, world, shots);
+    }
+
+    fn is_ready(&self) -> bool {
+        self.shown.is_some()
+    }
+
+    fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sample: Sample<'_>) {
+        sample.draw_streams(gpu, encoder, self.streams(), false);
+    }
+
+    fn certainty(&self, edges: &Edges, estimate: &dyn Fn(&Edges, EdgesDrawn) -> Certainty) -> Certainty {
+        estimate(self.edges().unwrap_or(edges), EdgesDrawn::InFull)
+    }
+
+    fn cut_stats(&self) -> Option<CutStats> {
         self.shown.as_ref().map(|shown| shown.stats)
+    }
+
+    fn settle(&self) {
+        if let Some(cutter) = &self.cutter {
+            while cutter.busy && cutter.made.is_empty() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        }
     }
 }
 
 /// Cuts a scene for one viewpoint.
 fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Option<&Cut>) -> Made {
     let started = Instant::now();
-    let fineness = match tolerance.pace {
-        Pace::Still => Fineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
-        Pace::Ride => {
+    let fineness = match tolerance.occasion {
+        Occasion::Still => Fineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
+        Occasion::Ride => {
             Fineness { tolerance_px: RIDE_SHARE * tolerance.pixels, turn_rad: RIDE_TURN_RAD, triangles: RIDE_TRIANGLES }
         }
     };

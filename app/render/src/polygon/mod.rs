@@ -2,9 +2,8 @@
 //!
 //! Exact at the vertices. Between them edges are straight although they should bend, which is why scenes are refined.
 //! The transform runs beside the render thread (`photo_surface`). It does not depend on the direction in which the
-//! eye looks, so one [`PhotoSurface::submit`] serves any number of draws. Depth hides the right surfaces without
+//! eye looks, so one photo-surface serves any number of draws. Depth hides the right surfaces without
 //! further work: along one line of sight the nearer apparent position is the later emission (W 5.1.1).
-
 //!
 //! A scene is either refined to one edge length before it comes here, or cut for every picture by [`Adaptive`].
 
@@ -12,6 +11,6 @@ mod adaptive;
 mod photo_surface;
 mod vertex_stage;
 
-pub use adaptive::{Adaptive, CutStats, Pace, Tolerance};
-pub use photo_surface::{PhotoSurface, Transformed};
+pub use adaptive::Adaptive;
+pub use photo_surface::PhotoSurface;
 pub use vertex_stage::VertexStage;

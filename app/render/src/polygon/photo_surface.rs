@@ -4,56 +4,59 @@
 //! Three staging buffers circulate (W 6.4.1's flux buffers): one is filled by the `photo-surface` thread and its
 //! rayon workers, one is copied from and drawn, one is on its way back. A buffer's way is
 //! ```text
-//! free ─► submit: job ─► thread: kernel writes the mapped memory ─► receive ─► copy, draw ─► mapped again ─► free
+//! free ─► submit: job ─► thread: kernel writes the mapped memory ─► show: copy, draw ─► mapped again ─► free
 //! ```
 //!
-//! A photo-surface is handed over as a whole. Call [`PhotoSurface::submit`] for frame n + 1 before the draw of frame
-//! n from [`PhotoSurface::receive`], and the two overlap.
+//! A photo-surface is handed over as a whole, by a [`Pending`] that `show` takes. Submit frame n + 1 before frame n is
+//! shown, and the two overlap.
 //!
 //! The kernel does not handle animated bodies. The program solves for each of their vertices, and writes the result
 //! into the same streams and one of log2 D.
 
+use crate::certainty::{Certainty, Edges, EdgesDrawn};
 use crate::gpu::{Gpu, GpuError};
+use crate::method::{Method, Sample};
+use crate::moving_objects::Axes;
+use crate::pending::{Pending, Staging, Transformed};
 use crate::world::{stream_count, stream_stride};
-use scene::Scene;
-use scene::motion::{Animated, Course};
-use crossbeam_channel::{Receiver, Sender, bounded};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use glam::DVec3;
 use physics::Observer;
-use physics::photo_surface::{Eye, Kernel, PhotoSurfaceError, Stats, Surface, Vertices};
+use physics::photo_surface::{Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Vertices};
 use rayon::prelude::*;
+use scene::Scene;
+use scene::motion::{Animated, Course};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Number of staging buffers in circulation.
 const STAGING_BUFFERS: usize = 3;
 
-/// The transform's thread, its buffers, and the vertex buffer that draws read.
+/// The `polygon` method for triangles that were cut once: the transform's thread, its buffers, and the vertex buffer
+/// that draws read.
 pub struct PhotoSurface {
     jobs: Sender<Job>,
-    finished: Receiver<Transformed>,
     free: Receiver<wgpu::Buffer>,
     freed: Sender<wgpu::Buffer>,
-    pending: usize,
     /// Apparent positions drawn now: x, y and z streams, [`stream_stride`] bytes apart; if anything is animated, a
     /// fourth of log2 D.
-    pub streams: wgpu::Buffer,
+    streams: wgpu::Buffer,
 }
 
 struct Job {
-    staging: wgpu::Buffer,
-    /// Eyes in the frame of the resting scene, then in the frame of each motion.
-    eyes: Vec<Eye>,
-    observer: Observer,
+    staging: Staging,
+    /// The observer in the world, then in the frame of each motion.
+    observers: Vec<Observer>,
+    finish: Sender<Transformed>,
 }
 
-/// Successive vertices with the same eye.
+/// Successive vertices that move alike.
 enum Run {
     /// Vertices that rest in a frame.
     Still {
-        /// Index into a job's eyes.
-        eye: usize,
+        /// Index into a job's observers.
+        observer: usize,
         vertices: Vertices,
     },
     /// Vertices that keys move, with their places in the body's own frame.
@@ -62,15 +65,6 @@ enum Run {
 
 /// Number of animated vertices that a thread solves for at a time.
 const CHUNK: usize = 256;
-
-/// A photo-surface that is ready to draw.
-pub struct Transformed {
-    staging: wgpu::Buffer,
-    /// Counts of vertices and of results that are not finite.
-    pub stats: Stats,
-    /// Time that the transform took.
-    pub duration: Duration,
-}
 
 impl PhotoSurface {
     /// Starts the thread for the vertices of `scene`.
@@ -87,109 +81,102 @@ impl PhotoSurface {
                 let places = positions.map(|place| place.as_dvec3()).collect();
                 return Ok(Run::Animated { animated: Arc::clone(animated), places });
             }
-            let eye = motion.map_or(0, |motion| 1 + motion);
-            Ok(Run::Still { eye, vertices: Vertices::from_offsets(scene.origin, positions)? })
+            let observer = motion.map_or(0, |motion| 1 + motion);
+            Ok(Run::Still { observer, vertices: Vertices::from_offsets(scene.origin, positions)? })
         });
         let runs: Vec<Run> = runs.collect::<Result<_, PhotoSurfaceError>>()?;
-        let (freed, free) = bounded(STAGING_BUFFERS);
+        let (freed, free) = unbounded();
+        let size = stream_count(&scene.motions) * stride;
         for _ in 0..STAGING_BUFFERS {
-            let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("photo-surface staging"),
-                size: stream_count(&scene.motions) * stride,
-                usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: true,
-            });
-            freed.send(staging).expect("the channel holds every buffer");
+            freed.send(staging_buffer(gpu, size)).expect("this function holds the other end");
         }
         let (jobs, job_queue) = bounded::<Job>(STAGING_BUFFERS);
-        let (finish, finished) = bounded(STAGING_BUFFERS);
         std::thread::Builder::new()
             .name("photo-surface".to_owned())
             .spawn(move || {
-                for job in job_queue {
-                    if finish.send(transform(&runs, stride, job)).is_err() {
-                        return;
+                for Job { staging, observers, finish } in job_queue {
+                    if let Some(transformed) = transform(&runs, stride, staging, &observers) {
+                        // A caller that no longer waits drops the photo-surface, and its buffer returns.
+                        let _ = finish.send(transformed);
                     }
                 }
             })
             .expect("the system can start a thread");
         let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("photo-surface"),
-            size: stream_count(&scene.motions) * stride,
+            size,
             usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Ok(Self { jobs, finished, free, freed, pending: 0, streams })
-    }
-
-    /// Begins the transform for an observer. `eyes` are the eye in the frame of the resting scene, then in the frame
-    /// of each of the scene's motions. Waits if all buffers are under way.
-    ///
-    /// # Errors
-    /// [`GpuError::Lost`] if the device went away.
-    pub fn submit(&mut self, gpu: &Gpu, observer: Observer, eyes: Vec<Eye>) -> Result<(), GpuError> {
-        // Buffers come back by callbacks, which run when the device is polled.
-        let _ = gpu.device.poll(wgpu::PollType::Poll);
-        let staging = match self.free.try_recv() {
-            Ok(staging) => staging,
-            Err(_) => {
-                gpu.wait()?;
-                self.free.try_recv().map_err(|_| GpuError::Lost("a staging buffer did not come back".to_owned()))?
-            }
-        };
-        self.jobs
-            .send(Job { staging, eyes, observer })
-            .map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))?;
-        self.pending += 1;
-        Ok(())
-    }
-
-    /// Number of photo-surfaces submitted and not yet received.
-    pub fn pending(&self) -> usize {
-        self.pending
-    }
-
-    /// Waits for the oldest photo-surface under way.
-    ///
-    /// # Errors
-    /// [`GpuError::Lost`] if none is under way, or if its thread has ended.
-    pub fn receive(&mut self) -> Result<Transformed, GpuError> {
-        if self.pending == 0 {
-            return Err(GpuError::Lost("no photo-surface was asked for".to_owned()));
-        }
-        self.pending -= 1;
-        self.finished.recv().map_err(|_| GpuError::Lost("the photo-surface thread has ended".to_owned()))
-    }
-
-    /// Waits for the oldest photo-surface under way, and frees its buffer, which is still mapped.
-    ///
-    /// # Errors
-    /// Those of [`PhotoSurface::receive`].
-    pub fn discard(&mut self) -> Result<(), GpuError> {
-        let transformed = self.receive()?;
-        self.freed.send(transformed.staging).map_err(|_| GpuError::Lost("the buffers' channel is closed".to_owned()))
-    }
-
-    /// Copies a photo-surface to the buffer that draws read, and returns its staging buffer once the GPU is done with
-    /// it.
-    pub fn upload(&self, encoder: &mut wgpu::CommandEncoder, transformed: Transformed) {
-        let staging = transformed.staging;
-        staging.unmap();
-        encoder.copy_buffer_to_buffer(&staging, 0, &self.streams, 0, staging.size());
-        let (back, freed) = (staging.clone(), self.freed.clone());
-        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Write, .., move |mapped| {
-            if mapped.is_ok() {
-                // A closed channel means that the renderer is gone, and the buffer with it.
-                let _ = freed.send(back);
-            }
-        });
+        Ok(Self { jobs, free, freed, streams })
     }
 }
 
-/// Runs the kernel on the mapped memory of one buffer.
-fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
+impl Method for PhotoSurface {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn axes(&self) -> Axes {
+        Axes::Group
+    }
+
+    fn submit(&mut self, gpu: &Gpu, observers: Vec<Observer>) -> Result<Pending, GpuError> {
+        // Buffers come back by callbacks, which run when the device is polled.
+        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        let buffer = match self.free.try_recv() {
+            Ok(buffer) => buffer,
+            // All are under way, or in pictures that the device still draws.
+            Err(_) => {
+                gpu.wait()?;
+                self.free.try_recv().unwrap_or_else(|_| staging_buffer(gpu, self.streams.size()))
+            }
+        };
+        let staging = Staging::new(buffer, self.freed.clone());
+        let (finish, finished) = bounded(1);
+        let lost = |_| GpuError::Lost("the memory of a photo-surface is gone".to_owned());
+        self.jobs.send(Job { staging, observers, finish }).map_err(lost)?;
+        Ok(Pending::of(finished))
+    }
+
+    fn show(&mut self, gpu: &Gpu, transformed: Transformed) {
+        let (staging, home) = transformed.staging.into_parts();
+        staging.unmap();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(&staging, 0, &self.streams, 0, staging.size());
+        let back = staging.clone();
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Write, .., move |mapped| {
+            if mapped.is_ok() {
+                // A closed channel means that the renderer is gone, and the buffer with it.
+                let _ = home.send(back);
+            }
+        });
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sample: Sample<'_>) {
+        sample.draw_streams(gpu, encoder, Some(&self.streams), false);
+    }
+
+    fn certainty(&self, edges: &Edges, estimate: &dyn Fn(&Edges, EdgesDrawn) -> Certainty) -> Certainty {
+        estimate(edges, EdgesDrawn::ByKernel)
+    }
+}
+
+/// A buffer to be written by the CPU and copied from, mapped.
+fn staging_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("photo-surface staging"),
+        size,
+        usage: wgpu::BufferUsages::MAP_WRITE | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: true,
+    })
+}
+
+/// Runs the kernel on the mapped memory of one buffer; `None` if that memory went away with the device.
+fn transform(runs: &[Run], stride: u64, staging: Staging, observers: &[Observer]) -> Option<Transformed> {
     let started = Instant::now();
-    let mut mapped = job.staging.get_mapped_range_mut(..).expect("a free staging buffer is mapped");
+    let mut mapped = staging.buffer().get_mapped_range_mut(..).ok()?;
     let length = mapped.slice(..).len() / 4;
     let start = mapped.slice(..).as_raw_element_ptr().cast::<MaybeUninit<f32>>();
     // SAFETY: the mapping holds `length` floats, is aligned to at least 8 bytes (WebGPU's MAP_ALIGNMENT), and is
@@ -209,23 +196,24 @@ fn transform(runs: &[Run], stride: u64, job: Job) -> Transformed {
             .map(|stream| stream.split_off_mut(..count).expect("streams have room for all vertices"));
         // If nothing is animated, there is no stream of log2 D.
         let log2_doppler = log2_doppler.split_off_mut(..count).unwrap_or_default();
-        let (eye, vertices) = match run {
-            Run::Still { eye, vertices } => (eye, vertices),
+        let (observer, vertices) = match run {
+            Run::Still { observer, vertices } => (&observers[*observer], vertices),
             Run::Animated { animated, places } => {
                 stats.vertices += count;
-                stats.not_finite_results += solve(&Course::new(animated, &job.observer), places, streams, log2_doppler);
+                stats.not_finite_results += solve(&Course::new(animated, &observers[0]), places, streams, log2_doppler);
                 continue;
             }
         };
-        let surface = Surface::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
-        seen.push((job.eyes[*eye], surface));
+        let surface =
+            PhotoSurfaceMesh::in_write_only(vertices, streams).expect("streams are cut to the number of vertices");
+        seen.push((PhotoSurfaceEye::from(observer), surface));
     }
     let of_kernel = Kernel::default().transform_each(seen);
     stats.vertices += of_kernel.vertices;
     stats.not_finite_inputs += of_kernel.not_finite_inputs;
     stats.not_finite_results += of_kernel.not_finite_results;
     drop(mapped);
-    Transformed { staging: job.staging, stats, duration: started.elapsed() }
+    Some(Transformed { staging, stats, duration: started.elapsed() })
 }
 
 /// Writes the apparent positions of an animated body's vertices, and log2 D. Vertices without an apparent position

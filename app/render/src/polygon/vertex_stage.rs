@@ -5,25 +5,32 @@
 //! of vertices that reach into the rear cone are bent by the kernel on the CPU, in f64 where it matters, and
 //! uploaded. The streams hold those vertices; for all others they hold [`shaders::NOT_BENT`].
 
+use crate::certainty::{Certainty, Edges, EdgesDrawn};
 use crate::gpu::Gpu;
-use crate::world::stream_stride;
-use scene::Scene;
+use crate::method::{Method, Sample};
+use crate::moving_objects::{self, Axes};
+use crate::world::{World, stream_stride};
 use glam::{DVec3, Vec4};
-use physics::photo_surface::{CHUNK, Eye, Kernel, PhotoSurfaceError, Surface, Vertices};
+use physics::Observer;
+use physics::photo_surface::{CHUNK, Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
+use scene::Scene;
+use scene::motion::Motion;
+use view::Shot;
 
 /// A scene's vertices in chunks, and the streams that mark for the vertex stage the vertices that are already bent.
 pub struct VertexStage {
     chunks: Vec<Chunk>,
     origin: DVec3,
     /// Apparent positions of the vertices bent on the CPU: x, y and z streams, [`stream_stride`] bytes apart.
-    pub streams: wgpu::Buffer,
+    streams: wgpu::Buffer,
     stride: u64,
+    motions: Vec<Motion>,
 }
 
 /// Neighbouring vertices with the same motion.
 struct Chunk {
     /// Index into the eyes: 0 for what rests, then one for each motion.
-    eye: usize,
+    observer: usize,
     /// Index of the first vertex among all vertices of the scene.
     first: usize,
     vertices: Vertices,
@@ -43,7 +50,8 @@ impl VertexStage {
             for positions in mesh.positions.chunks(CHUNK) {
                 let vertices = Vertices::from_offsets(scene.origin, positions.iter().copied())?;
                 // Every chunk starts as bent, so that the first frame writes that it is not.
-                chunks.push(Chunk { eye: mesh.motion.map_or(0, |motion| 1 + motion), first, vertices, bent: true });
+                let observer = mesh.motion.map_or(0, |motion| 1 + motion);
+                chunks.push(Chunk { observer, first, vertices, bent: true });
                 first += positions.len();
             }
         }
@@ -54,12 +62,12 @@ impl VertexStage {
             usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Ok(Self { chunks, origin: scene.origin, streams, stride })
+        Ok(Self { chunks, origin: scene.origin, streams, stride, motions: scene.motions.clone() })
     }
 
-    /// Bends on the CPU the chunks that the vertex stage cannot bend. `eyes` are the eye in the frame of the resting
-    /// scene, then in the frame of each of the scene's motions.
-    pub fn bend(&mut self, gpu: &Gpu, eyes: &[Eye]) {
+    /// Bends on the CPU the chunks that the vertex stage cannot bend. `observers` are the observer in the world, then in
+    /// the frame of each of the scene's motions.
+    fn bend(&mut self, gpu: &Gpu, observers: &[Observer]) {
         let write = |first: usize, streams: [&[f32]; 3]| {
             for (axis, stream) in (0..).zip(streams) {
                 gpu.queue.write_buffer(
@@ -69,14 +77,15 @@ impl VertexStage {
                 );
             }
         };
-        for Chunk { eye, first, vertices, bent } in &mut self.chunks {
-            let astern = vertices.reach_astern(&eyes[*eye]);
+        for Chunk { observer, first, vertices, bent } in &mut self.chunks {
+            let eye = PhotoSurfaceEye::from(&observers[*observer]);
+            let astern = vertices.reach_astern(&eye);
             if astern {
                 let mut streams = [const { Vec::new() }; 3];
                 streams.iter_mut().for_each(|stream: &mut Vec<f32>| stream.resize(vertices.len(), 0.0));
                 let [x, y, z] = &mut streams;
-                let surface = Surface::new(vertices, [x, y, z]).expect("streams are as long as the chunk");
-                Kernel::default().transform(&eyes[*eye], vec![surface]);
+                let surface = PhotoSurfaceMesh::new(vertices, [x, y, z]).expect("streams are as long as the chunk");
+                Kernel::default().transform(&eye, vec![surface]);
                 write(*first, streams.each_ref().map(Vec::as_slice));
             } else if *bent {
                 let unbent = vec![shaders::NOT_BENT; vertices.len()];
@@ -91,12 +100,39 @@ impl VertexStage {
         (self.chunks.iter().filter(|chunk| chunk.bent).count(), self.chunks.len())
     }
 
-    /// View for the vertex stage: `view` with the place of this eye.
-    #[must_use]
-    pub fn view(&self, view: shaders::View, eye: &Eye) -> shaders::View {
-        let offset = eye.position() - self.origin;
+    /// View for the vertex stage: `view` with the place of this observer.
+    fn view(&self, view: shaders::View, observer: &Observer) -> shaders::View {
+        let offset = observer.event.position - self.origin;
         let rounded = offset.as_vec3();
         let rest = (offset - rounded.as_dvec3()).as_vec3();
         shaders::View { eye: Vec4::from((rounded, 0.0)), eye_rest: Vec4::from((rest, 0.0)), ..view }
+    }
+}
+
+impl Method for VertexStage {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn axes(&self) -> Axes {
+        Axes::Group
+    }
+
+    fn prepare_eye(&mut self, gpu: &Gpu, _world: &mut World, shots: &[(Shot, [u32; 2])]) {
+        if let Some((shot, _)) = shots.first() {
+            self.bend(gpu, &moving_objects::observers(&self.motions, &shot.observer));
+        }
+    }
+
+    fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, mut sample: Sample<'_>) {
+        let observers = moving_objects::observers(&self.motions, &sample.shot.observer);
+        for (view, observer) in sample.views.iter_mut().zip(&observers) {
+            *view = self.view(*view, observer);
+        }
+        sample.draw_streams(gpu, encoder, Some(&self.streams), true);
+    }
+
+    fn certainty(&self, edges: &Edges, estimate: &dyn Fn(&Edges, EdgesDrawn) -> Certainty) -> Certainty {
+        estimate(edges, EdgesDrawn::ByKernel)
     }
 }

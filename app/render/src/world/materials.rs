@@ -1,6 +1,6 @@
 //! Materials on the GPU: a uniform and two textures for each.
 
-use super::spectra::{Spectra, WHITE};
+use scene::carriers::{Spectra, WHITE};
 use crate::gpu::Gpu;
 use scene::mipmap::mipmap;
 use scene::{Alpha, Material, Scene, Texture, Wrap};

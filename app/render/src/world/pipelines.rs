@@ -5,7 +5,7 @@
 
 use super::geometry::Attributes;
 use super::materials::Materials;
-use super::spectra::{Spectra, WHITE};
+use scene::carriers::{Spectra, WHITE};
 use crate::gpu::Gpu;
 use view::Effects;
 use crate::target::{DEPTH_FORMAT, Format};

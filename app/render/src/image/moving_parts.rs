@@ -1,39 +1,38 @@
 //! Moving bodies, drawn over a bent map: a scene of their own, cut for every picture as finely as the map is drawn.
 
-use super::MapQuality;
-use crate::gpu::Gpu;
-use view::Shot;
+use super::map_quality::MapQuality;
 use crate::certainty::Edges;
-use crate::polygon::{Adaptive, Pace, Tolerance};
-use crate::target::Format;
-use crate::world::{Draws, Mode, Part, World};
-use scene::cut::Sight;
+use crate::gpu::Gpu;
+use crate::method::Sample;
+use crate::polygon::Adaptive;
+use crate::world::{Draws, TargetPart, World};
 use scene::{Mesh, Scene};
+use view::{Occasion, Shot};
 
 /// Tolerance of places, texels of the map: as much as the map's own error.
 const TOLERANCE_TEXELS: f64 = 0.5;
 
 /// The moving part of a scene.
-pub struct Movers {
+pub struct MovingParts {
     world: World,
     adaptive: Adaptive,
 }
 
-impl Movers {
+impl MovingParts {
     /// Moving part of a scene, to be drawn over a map of this quality; `None` if nothing moves in the scene.
     pub fn of(gpu: &Gpu, scene: &Scene, quality: MapQuality) -> Option<Self> {
         let moving = moving_part(scene)?;
         // Pictures that are kept use single texels, and wait for their cut. Windows interpolate texels, and do not
         // wait.
-        let pace = if quality.smooth { Pace::Ride } else { Pace::Still };
-        let tolerance = Tolerance { pixels: TOLERANCE_TEXELS / quality.texels_per_pixel, pace };
-        Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance) })
+        let occasion = if quality.smooth { Occasion::Ride } else { Occasion::Still };
+        let tolerance_px = TOLERANCE_TEXELS / quality.texels_per_pixel;
+        Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance_px, occasion) })
     }
 
     /// Cuts the moving part for all pictures of one eye, and computes the light that falls on it then.
     pub fn cut(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
-        self.world.light_animated(gpu, &shot.observer(), shot.effects.geometry);
+        self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
         self.adaptive.cut(gpu, &mut self.world, shots);
     }
 
@@ -42,28 +41,28 @@ impl Movers {
         self.adaptive.edges()
     }
 
-    /// Prepares the drawing. `views` are the view of the resting scene, then that of each motion.
-    pub fn prepare(&mut self, gpu: &Gpu, views: &[shaders::View], mode: Mode, format: Format) {
-        self.world.prepare(gpu, mode, false, format);
-        self.world.write_views(gpu, views);
+    /// Prepares the drawing of a sample.
+    pub fn prepare(&mut self, gpu: &Gpu, sample: &Sample<'_>) {
+        self.world.prepare(gpu, sample.mode(), false, sample.format);
+        self.world.write_views(gpu, &sample.views);
     }
 
-    /// Draws the moving part where nothing hides it. `sights` says how each motion is seen.
-    pub fn draw(
-        &self,
-        gpu: &Gpu,
-        pass: &mut wgpu::RenderPass<'_>,
-        shot: &Shot,
-        sights: &[Sight],
-        mode: Mode,
-        format: Format,
-    ) {
+    /// Draws the moving part where nothing hides it.
+    pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, sample: &Sample<'_>) {
         let streams = self.adaptive.streams();
         if streams.is_none() {
             return;
         }
-        let draws = Draws { streams, bends: false, mode, format, eye: shot.eye.position(), moving: sights, sky: false };
-        self.world.draw(gpu, pass, &draws, &[Part::WHOLE]);
+        let draws = Draws {
+            streams,
+            bends: false,
+            mode: sample.mode(),
+            format: sample.format,
+            eye: sample.shot.observer.event.position,
+            moving: sample.sights,
+            sky: false,
+        };
+        self.world.draw(gpu, pass, &draws, &[TargetPart::WHOLE]);
     }
 }
 

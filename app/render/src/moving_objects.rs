@@ -6,11 +6,10 @@
 //! since the program solves for each of their places, with its Doppler factor. All share the same depth: along one
 //! line of sight the nearer apparent position is the later emission.
 
-use scene::motion::{Animated, Motion, SeenBy};
 use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
-use physics::photo_surface::Eye;
-use physics::{Celerity, Observer};
+use physics::{Celerity, Event, Observer};
+use scene::motion::{Animated, Motion, SeenBy};
 
 /// Axes of the apparent positions of a moving body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,10 +20,16 @@ pub enum Axes {
     Group,
 }
 
-/// Eye of the observer in the frame of a body with this motion. `None` if the place or the celerity is not finite.
-pub fn eye(motion: &Motion, observer: &Observer) -> Option<Eye> {
+/// The observer in the world, then in the frame of each motion.
+pub fn observers(motions: &[Motion], observer: &Observer) -> Vec<Observer> {
+    std::iter::once(*observer).chain(motions.iter().map(|motion| in_frame_of(motion, observer))).collect()
+}
+
+/// The observer in the frame of a body with this motion. Its time stays the world's: what rests in that frame is seen
+/// alike at all times.
+fn in_frame_of(motion: &Motion, observer: &Observer) -> Observer {
     let seen = seen_by(motion, observer);
-    Eye::new(seen.position, seen.celerity.vector()).ok()
+    Observer { event: Event { position: seen.position, ..observer.event }, celerity: seen.celerity }
 }
 
 /// View of a moving body, for the picture whose view of the resting world is `at_rest`.
@@ -107,7 +112,7 @@ fn seen_by(motion: &Motion, observer: &Observer) -> SeenBy {
 /// Unit vector along a motion, and κ = γ + |u|.
 fn along(celerity: Celerity) -> Vec4 {
     let direction = celerity.vector().normalize_or(DVec3::NEG_Z);
-    direction.as_vec3().extend((celerity.gamma() + celerity.magnitude()) as f32)
+    direction.as_vec3().extend((celerity.kappa()) as f32)
 }
 
 fn turn(rotation: DQuat, vector: Vec4) -> Vec4 {

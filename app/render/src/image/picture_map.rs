@@ -1,4 +1,4 @@
-//! Sight of a picture: the directions of the world that it sees, and their size in it.
+//! PictureMap of a picture: the directions of the world that it sees, and their size in it.
 //!
 //! Directions are those of a cube around the eye, turned so that +z is along the motion. A boost then changes z
 //! alone, and x and y keep every digit near dead astern. A part of a face is judged by a cap around it. Aberration
@@ -7,14 +7,14 @@
 
 use view::Camera;
 use glam::{DMat3, DVec2, DVec3};
-use physics::Celerity;
+use physics::{Celerity, LightConeCoordinates};
 
 /// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;
 
-/// Sight of a flat picture by an observer in motion.
+/// PictureMap of a flat picture by an observer in motion.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight {
+pub struct PictureMap {
     /// Rotation from the axes of world and observer to those of the cube.
     pub cube_from_world: DMat3,
     /// Right, up and forward of the picture, cube's axes.
@@ -32,7 +32,7 @@ pub struct Sight {
 
 /// A square part of a cube's face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct CubePart {
     /// Index into [`FACES`].
     pub face: usize,
     /// Tangents of the middle of the part.
@@ -70,8 +70,8 @@ struct Cap {
     radius_rad: f64,
 }
 
-impl Sight {
-    /// Sight of `camera` with `size` pixels, moving with `celerity`.
+impl PictureMap {
+    /// PictureMap of `camera` with `size` pixels, moving with `celerity`.
     pub fn new(camera: &Camera, size: [u32; 2], celerity: Celerity) -> Self {
         let axis = |eye: DVec3| camera.observer_from_eye * eye;
         let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));
@@ -96,19 +96,19 @@ impl Sight {
             middle: tangents.middle(),
             half_size: 0.5 * DVec2::new(width, height),
             focal_length,
-            kappa: celerity.gamma() + celerity.magnitude(),
+            kappa: celerity.kappa(),
         }
     }
 
     /// True if any of a part may be in the picture.
-    pub fn sees(&self, part: &Part) -> bool {
+    pub fn sees(&self, part: &CubePart) -> bool {
         let cap = self.cap(part);
         let reach = cap.radius_rad.min(std::f64::consts::FRAC_PI_2).sin();
         self.edges.iter().all(|edge| edge.dot(cap.middle) >= -reach)
     }
 
     /// Cap around a part of the cube, in the observer's frame.
-    fn cap(&self, part: &Part) -> Cap {
+    fn cap(&self, part: &CubePart) -> Cap {
         let middle = part.direction(DVec2::ZERO);
         let corners = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
         let radius = corners.into_iter().map(|corner| angle(middle, part.direction(corner))).fold(0.0, f64::max);
@@ -126,18 +126,14 @@ impl Sight {
     /// Place of a world direction in the picture, pixels from the middle; `None` if it is behind the eye.
     pub fn pixel(&self, world: DVec3) -> Option<DVec2> {
         // The boost scales the two light-cone coordinates. Their computation has no cancellation.
-        let across = world.truncate().length_squared();
-        let length = (across + world.z * world.z).sqrt();
-        let big = length + world.z.abs();
-        let small = across / big;
-        let (ahead, behind) = if world.z >= 0.0 { (big, small) } else { (small, big) };
-        let observed = world.truncate().extend(0.5 * (ahead * self.kappa - behind / self.kappa));
+        let seen = LightConeCoordinates::of(world.z, world.truncate().length_squared()).boosted(self.kappa);
+        let observed = world.truncate().extend(seen.along());
         let [right, up, forward] = self.picture.map(|axis| axis.dot(observed));
         (forward > 0.0).then(|| (DVec2::new(right, up) / forward - self.middle) * self.focal_length)
     }
 
     /// Size of a part in the picture. `None` if a grid on the part cannot tell it.
-    pub fn extent(&self, part: &Part) -> Option<Extent> {
+    pub fn extent(&self, part: &CubePart) -> Option<Extent> {
         const STEPS: usize = 4;
         let at = |column: usize, row: usize| {
             let place = DVec2::new(column as f64, row as f64) * (2.0 / STEPS as f64) - 1.0;
@@ -174,7 +170,7 @@ impl Sight {
     }
 }
 
-impl Part {
+impl CubePart {
     /// Vector towards a place in the part; x from −1 left to 1 right, y from −1 below to 1 above. Not normalised.
     pub fn direction(&self, place: DVec2) -> DVec3 {
         let [right, up, forward] = FACES[self.face];

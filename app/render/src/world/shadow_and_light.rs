@@ -8,7 +8,7 @@
 
 use super::geometry::{Draw, Geometry};
 use super::pipelines::Pipelines;
-use super::spectra::Spectra;
+use scene::carriers::Spectra;
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, texture};
 use scene::Scene;

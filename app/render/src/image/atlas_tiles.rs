@@ -4,7 +4,7 @@
 //! the picture does not see are left out. Parts that aberration enlarges (by 1/D, astern up to 2γ) get as many texels
 //! as the picture has pixels for them. The result is windows of very different size on the faces, called panes.
 
-use super::sight::{Extent, FACES, Part, Sight};
+use super::picture_map::{CubePart, Extent, FACES, PictureMap};
 use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shaders::{Map, Pane, View};
@@ -99,9 +99,9 @@ impl Plan {
     }
 }
 
-impl Sight {
+impl PictureMap {
     /// Finds the cheapest panes for a part.
-    fn cut(&self, part: Part, fineness: Fineness, depth: u32) -> Tree {
+    fn cut(&self, part: CubePart, fineness: Fineness, depth: u32) -> Tree {
         let window = part.window();
         if !self.sees(&part) {
             return Tree { cost: 0.0, window, kind: Kind::Unseen };
@@ -144,7 +144,7 @@ impl Sight {
         let mut wanted = fineness;
         loop {
             let roots =
-                [0, 1, 2, 3, 4, 5].map(|face| self.cut(Part { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0));
+                [0, 1, 2, 3, 4, 5].map(|face| self.cut(CubePart { face, middle: DVec2::ZERO, half: 1.0 }, wanted, 0));
             let mut plan = Planner { placed: Vec::new(), cells: vec![NO_PANE; 4 * FACES.len()] };
             for (face, root) in roots.into_iter().enumerate() {
                 plan.fill_face(face, root);
@@ -170,7 +170,7 @@ impl Sight {
     }
 }
 
-impl Part {
+impl CubePart {
     fn window(&self) -> Window {
         Window { face: self.face, low: self.middle - self.half, high: self.middle + self.half }
     }
@@ -362,7 +362,7 @@ mod tests {
     const EXACT: Fineness = Fineness { texels_per_pixel: 2.0, exact: true, pane_cost: 2e3 };
 
     /// Place of a pixel on the cube, face and tangents, by the method of `warp.wgsl`.
-    fn on_cube(sight: &Sight, aberration: &Aberration, observed: DVec3) -> (usize, DVec2) {
+    fn on_cube(sight: &PictureMap, aberration: &Aberration, observed: DVec3) -> (usize, DVec2) {
         let (world, _) = aberration.world_from_observer(observed);
         let direction = sight.cube_from_world * world;
         let face = (0..6).max_by(|&a, &b| FACES[a][2].dot(direction).total_cmp(&FACES[b][2].dot(direction)));
@@ -411,7 +411,7 @@ mod tests {
             let aberration = Aberration::new(celerity);
             for look in looks() {
                 let camera = Camera::looking(look, DVec3::Y, 1.1);
-                let sight = Sight::new(&camera, SIZE, celerity);
+                let sight = PictureMap::new(&camera, SIZE, celerity);
                 let plan = sight.plan(EXACT, MANY, 1 << 20);
                 let (mut few, mut all) = (0, 0);
                 each_pixel(&camera, |here, neighbour| {
@@ -438,7 +438,7 @@ mod tests {
         for gamma in [1.0, 1.2, 1.7, 3.0, 10.0, 100.0, 1e4] {
             let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
             for look in looks() {
-                let plan = Sight::new(&Camera::looking(look, DVec3::Y, 1.1), SIZE, celerity).plan(mean, MANY, 1 << 20);
+                let plan = PictureMap::new(&Camera::looking(look, DVec3::Y, 1.1), SIZE, celerity).plan(mean, MANY, 1 << 20);
                 let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
                 assert!(texels < 3.0 * pixels, "{texels} texels for {pixels} pixels at γ = {gamma} looking to {look}");
             }
@@ -448,7 +448,7 @@ mod tests {
     #[test]
     fn a_plan_keeps_to_its_limits() {
         let celerity = Celerity::new(DVec3::NEG_Z * 2.0).expect("a finite celerity");
-        let sight = Sight::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.1), SIZE, celerity);
+        let sight = PictureMap::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.1), SIZE, celerity);
         let plan = sight.plan(EXACT, 50_000.0, 400);
         assert!(plan.placed.iter().map(Placed::texels).sum::<f64>() <= 50_000.0);
         assert!(plan.size.iter().all(|&side| side <= 400), "{:?}", plan.size);
@@ -463,7 +463,7 @@ mod tests {
                 let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
                 for look in looks() {
                     let plan =
-                        Sight::new(&Camera::looking(look, DVec3::Y, 1.1), size, celerity).plan(EXACT, MANY, 1 << 20);
+                        PictureMap::new(&Camera::looking(look, DVec3::Y, 1.1), size, celerity).plan(EXACT, MANY, 1 << 20);
                     let panes = plan.placed.len();
                     assert!((1..1000).contains(&panes), "{panes} panes for {size:?} pixels at γ = {gamma} to {look}");
                 }
@@ -474,7 +474,7 @@ mod tests {
     #[test]
     fn panes_do_not_overlap_in_the_atlas() {
         let celerity = Celerity::new(DVec3::new(1.0, 0.0, -2.0)).expect("a finite celerity");
-        let plan = Sight::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE, celerity).plan(EXACT, MANY, 1 << 20);
+        let plan = PictureMap::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE, celerity).plan(EXACT, MANY, 1 << 20);
         assert!(plan.placed.len() > 3);
         for (number, one) in plan.placed.iter().enumerate() {
             for other in &plan.placed[..number] {

@@ -1,0 +1,136 @@
+//! Interface of a method of drawing.
+//!
+//! A method draws a scene with relativity's geometry; everything else (the plain picture, light on what moves, the
+//! estimate of errors) is common, and is in [`SceneRenderer`](crate::SceneRenderer). A new method is a file that
+//! implements [`Method`], and a line in `scene_renderer.rs` that makes it.
+
+use crate::certainty::{Certainty, Edges, EdgesDrawn};
+use crate::gpu::{Gpu, GpuError};
+use crate::moving_objects::Axes;
+use crate::pending::{Pending, Transformed};
+use crate::stats::{CutStats, MapStats};
+use crate::subject::Subject;
+use crate::target::{Format, Radiance};
+use crate::world::{Draws, Mode, TargetPart, World};
+use physics::Observer;
+use scene::cut::Sight;
+use view::Shot;
+
+/// One way of drawing a scene as a moving observer sees it.
+///
+/// For a picture the functions are called in this order: [`submit`](Method::submit) and [`show`](Method::show), where
+/// other work may lie between them; [`prepare_eye`](Method::prepare_eye) once for all pictures of one eye;
+/// [`prepare_picture`](Method::prepare_picture) once for each of them; [`draw`](Method::draw) for each of its samples.
+pub trait Method {
+    /// Name on the command line.
+    fn name(&self) -> &'static str;
+
+    /// Axes of the apparent positions of moving objects.
+    fn axes(&self) -> Axes;
+
+    /// Begins the photo-surface for an observer, beside whatever is drawn meanwhile. `observers` are the observer in the
+    /// world, then in the frame of each motion.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    fn submit(&mut self, _gpu: &Gpu, _observers: Vec<Observer>) -> Result<Pending, GpuError> {
+        Ok(Pending::default())
+    }
+
+    /// Has the next pictures drawn from a photo-surface.
+    fn show(&mut self, _gpu: &Gpu, _transformed: Transformed) {}
+
+    /// Works out what all pictures of one eye at one moment share. Each has its size in pixels.
+    fn prepare_eye(&mut self, _gpu: &Gpu, _world: &mut World, _shots: &[(Shot, [u32; 2])]) {}
+
+    /// Works out what all samples of one picture of `size` pixels share.
+    fn prepare_picture(
+        &mut self,
+        _gpu: &Gpu,
+        _world: &mut World,
+        _shot: &Shot,
+        _size: [u32; 2],
+        _subject: Subject,
+    ) {
+    }
+
+    /// True if there is something to draw from. Before that the plain world is drawn.
+    fn is_ready(&self) -> bool {
+        true
+    }
+
+    /// Draws one sample.
+    fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sample: Sample<'_>);
+
+    /// Errors of the picture drawn last. `edges` are a sample of the edges of the scene as it was uploaded; `estimate`
+    /// tells the errors of a picture with these edges.
+    fn certainty(&self, edges: &Edges, estimate: &dyn Fn(&Edges, EdgesDrawn) -> Certainty) -> Certainty;
+
+    /// Cost of the newest map, if the method has one.
+    fn map_stats(&self) -> Option<MapStats> {
+        None
+    }
+
+    /// Size and accuracy of the newest cut, if the scene is cut for every picture.
+    fn cut_stats(&self) -> Option<CutStats> {
+        None
+    }
+
+    /// Waits for the work that goes on beside the drawing.
+    fn settle(&self) {}
+
+    /// Draws into targets of another format from now on. A map is then made anew with so many texels for each pixel.
+    fn draw_in(&mut self, _gpu: &Gpu, _format: Format, _map_scale: Option<f64>) {}
+}
+
+/// One sample of a picture that is drawn with relativity's geometry.
+pub struct Sample<'a> {
+    /// Scene on the device.
+    pub world: &'a mut World,
+    /// Target of the sample.
+    pub target: &'a Radiance,
+    /// Picture that the sample belongs to.
+    pub shot: &'a Shot,
+    /// View 0 is of the resting scene, view 1 + i of motion i.
+    pub views: Vec<shaders::View>,
+    /// View of each motion from the observer.
+    pub sights: &'a [Sight],
+    /// Content of the picture.
+    pub subject: Subject,
+    /// Format of the target.
+    pub format: Format,
+}
+
+impl Sample<'_> {
+    /// Mode in which surfaces are drawn.
+    pub fn mode(&self) -> Mode {
+        match self.subject {
+            Subject::Light => Mode::Light(self.shot.effects),
+            Subject::Places => Mode::Places,
+        }
+    }
+
+    /// Draws the scene with the apparent positions in `streams`; with the positions of the plain world if there are
+    /// none. `bends`: the vertex stage bends what the streams do not hold.
+    pub fn draw_streams(
+        self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        streams: Option<&wgpu::Buffer>,
+        bends: bool,
+    ) {
+        let mode = self.mode();
+        self.world.prepare(gpu, mode, bends, self.format);
+        self.world.write_views(gpu, &self.views);
+        let draws = Draws {
+            streams,
+            bends,
+            mode,
+            format: self.format,
+            eye: self.shot.observer.event.position,
+            moving: self.sights,
+            sky: true,
+        };
+        self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[TargetPart::WHOLE]);
+    }
+}
