@@ -1,0 +1,24 @@
+//! Samples in, observers out: the vehicle that a rider drives, the ticks of its simulation, replays, the scripted tour,
+//! and the log of a ride.
+
+mod frame;
+mod log;
+mod replay;
+mod route;
+mod setup;
+mod simulation;
+mod ticks;
+mod tour;
+pub mod vehicle;
+
+pub use frame::RideFrame;
+pub use log::{LogError, RideLog};
+pub use replay::{Replay, ReplayError, Replayed};
+pub use setup::{Setup, SetupError, RideStart};
+pub use simulation::{FASTEST_TIME_SCALE, Simulation};
+pub use ticks::TICKS_PER_SECOND;
+pub use tour::Tour;
+pub use vehicle::{
+    BicycleSettings, FlightSettings, IntegratorKind, LightSpeed, LightSpeedError, Nose, Notice, Odometer, RAPIDITY_CAP,
+    SettingsError, Vehicle, VehicleSettings,
+};

@@ -3,24 +3,35 @@
 //! A recording that starts in the middle could not be replayed, because later states depend on earlier input. Every
 //! entry is therefore kept in memory until a file is wanted, and is written to the file as well from then on.
 
-use crate::error::Error;
-use crate::simulation::Frame;
+use crate::frame::RideFrame;
 use input::Sample;
-use input::recording::{ControlsRecord, Entry, Header, Recorder};
+use input::recording::{ControlsRecord, Entry, Header, Recorder, RecordingError};
 use std::path::Path;
+use thiserror::Error;
 
 /// Largest number of entries kept in memory: about three quarters of an hour at sixty frames per second.
 const MOST_ENTRIES: usize = 500_000;
 
+/// Reason why a ride is not recorded.
+#[derive(Debug, Error)]
+pub enum LogError {
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// A ride too long to be recorded from its beginning.
+    #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
+    NotRemembered,
+}
+
 /// Log of the ride so far: in memory as long as it is short enough, and in a file if one is wanted.
-pub struct Log {
+pub struct RideLog {
     header: Header,
     /// Entries since the beginning; `None` once there were too many.
     kept: Option<Vec<Entry>>,
     file: Option<Recorder>,
 }
 
-impl Log {
+impl RideLog {
     /// Creates the log at the beginning of the ride.
     pub fn new(header: Header) -> Self {
         Self { header, kept: Some(Vec::new()), file: None }
@@ -34,9 +45,9 @@ impl Log {
     /// Adds the samples of one frame and the frame's result.
     ///
     /// # Errors
-    /// [`Error`] if the file cannot be written any further. Recording has stopped then, and the part already written
+    /// [`LogError`] if the file cannot be written any further. Recording has stopped then, and the part already written
     /// is kept.
-    pub fn frame(&mut self, samples: &[Sample], frame: &Frame) -> Result<(), Error> {
+    pub fn frame(&mut self, samples: &[Sample], frame: &RideFrame) -> Result<(), LogError> {
         let (number, at) = (frame.record.frame, frame.record.at);
         if let Some(entries) = &mut self.kept {
             entries.extend(samples.iter().cloned().map(Entry::Sample));
@@ -62,12 +73,12 @@ impl Log {
     /// Writes the ride so far into a new file, and from now on everything that follows.
     ///
     /// # Errors
-    /// [`Error`] if the file cannot be written, or the ride has become too long to be kept in memory.
-    pub fn record(&mut self, path: &Path) -> Result<(), Error> {
+    /// [`LogError`] if the file cannot be written, or the ride has become too long to be kept in memory.
+    pub fn record(&mut self, path: &Path) -> Result<(), LogError> {
         if self.file.is_some() {
             return Ok(());
         }
-        let entries = self.kept.as_ref().ok_or(Error::NotRemembered)?;
+        let entries = self.kept.as_ref().ok_or(LogError::NotRemembered)?;
         let mut recorder = Recorder::create(path, &self.header)?;
         recorder.past(entries.clone())?;
         self.file = Some(recorder);
@@ -77,8 +88,8 @@ impl Log {
     /// Completes the file, if one is being written.
     ///
     /// # Errors
-    /// [`Error`] if the rest cannot be written.
-    pub fn finish(&mut self) -> Result<(), Error> {
+    /// [`LogError`] if the rest cannot be written.
+    pub fn finish(&mut self) -> Result<(), LogError> {
         self.file.take().map_or(Ok(()), |recorder| Ok(recorder.finish()?))
     }
 }

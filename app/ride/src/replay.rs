@@ -6,13 +6,16 @@ use input::recording::{Difference, Entry, Recording, RecordingError};
 use input::{Controls, Sample};
 use thiserror::Error;
 
-use super::{Frame, Setup, SetupError, Simulation};
-use crate::vehicle::Surroundings;
+use scene::Surroundings;
+
+use crate::frame::RideFrame;
+use crate::setup::{Setup, SetupError};
+use crate::simulation::Simulation;
 
 /// Recorded ride that is simulated again, frame by frame.
 ///
 /// A recording holds for each frame, in this order: the samples handed to [`Simulation::frame`], the controls, and
-/// the [`Frame::record`].
+/// the [`RideFrame::record`].
 pub struct Replay<Entries = Recording> {
     simulation: Simulation,
     entries: Entries,
@@ -83,11 +86,11 @@ impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
     }
 }
 
-/// Frame that was simulated again.
+/// RideFrame that was simulated again.
 #[derive(Clone, Debug)]
 pub struct Replayed {
     /// Simulated frame.
-    pub frame: Frame,
+    pub frame: RideFrame,
     /// First difference from the recorded frame, if any.
     pub difference: Option<Difference>,
 }

@@ -11,28 +11,28 @@ use physics::{Celerity, CelerityError, Event};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::ticks::TICKS_PER_SECOND;
-use crate::vehicle::{SettingsError, VehicleSettings, World, WorldError};
+use crate::ticks::TICKS_PER_SECOND;
+use crate::vehicle::{SettingsError, VehicleSettings, LightSpeed, LightSpeedError};
 
-/// Initial data of a [`Simulation`](super::Simulation), except for the scene itself.
+/// Initial data of a [`Simulation`](crate::Simulation), except for the scene itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// World with its speed of light.
-    pub world: World,
+    /// LightSpeed with its speed of light.
+    pub light_speed: LightSpeed,
     /// Kind of vehicle: bicycle, drive or fly.
     pub kind: VehicleKind,
     /// Start of the ride, world axes.
-    pub start: Start,
+    pub start: RideStart,
     /// Settings of the vehicles.
     pub vehicle: VehicleSettings,
     /// Settings of the devices.
     pub desk: DeskConfig,
 }
 
-/// Start of a ride, at world time 0.
+/// RideStart of a ride, at world time 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Start {
+pub struct RideStart {
     /// Reference point, world axes, metres: on the ground for a bicycle and a car, the eye in flight.
     pub position: [f64; 3],
     /// Celerity, world axes.
@@ -41,8 +41,8 @@ pub struct Start {
     pub orientation: [f64; 4],
 }
 
-impl Start {
-    /// Start at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
+impl RideStart {
+    /// RideStart at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
     /// allows.
     pub fn at_rest(position: DVec3, look: DVec3) -> Self {
         let nose = look.normalize_or(DVec3::NEG_Z);
@@ -75,7 +75,7 @@ impl Start {
 
 /// Key of the header's setting that holds [`VehicleSettings`] as JSON.
 const VEHICLE: &str = "vehicle";
-/// Key of the header's setting that holds [`Start`] as JSON.
+/// Key of the header's setting that holds [`RideStart`] as JSON.
 const START: &str = "start";
 
 impl Setup {
@@ -85,7 +85,7 @@ impl Setup {
         Header {
             build: build.to_owned(),
             scene: scene.to_owned(),
-            speed_of_light_m_s: self.world.speed_of_light_m_s(),
+            speed_of_light_m_s: self.light_speed.speed_of_light_m_s(),
             vehicle: self.kind,
             integrator: self.vehicle.integrator.name().to_owned(),
             step_s: 1.0 / f64::from(TICKS_PER_SECOND),
@@ -109,7 +109,7 @@ impl Setup {
             return Err(SetupError::Steps { integrator: header.integrator.clone(), step_s: header.step_s });
         }
         Ok(Self {
-            world: World::new(header.speed_of_light_m_s)?,
+            light_speed: LightSpeed::new(header.speed_of_light_m_s)?,
             kind: header.vehicle,
             start: setting(header, START)?,
             vehicle,
@@ -134,7 +134,7 @@ pub enum SetupError {
     Vehicle(#[from] SettingsError),
     /// A speed of light out of range.
     #[error(transparent)]
-    World(#[from] WorldError),
+    LightSpeed(#[from] LightSpeedError),
     /// A celerity at the start that cannot be used.
     #[error("start: {0}")]
     Celerity(#[from] CelerityError),
@@ -184,9 +184,9 @@ mod tests {
 
     fn setup() -> Setup {
         Setup {
-            world: World::OLD_TOWN,
+            light_speed: LightSpeed::OLD_TOWN,
             kind: VehicleKind::Drive,
-            start: Start::at_rest(DVec3::new(0.1, 1.0 / 3.0, -7e6), DVec3::new(1.0, 0.2, 0.3)),
+            start: RideStart::at_rest(DVec3::new(0.1, 1.0 / 3.0, -7e6), DVec3::new(1.0, 0.2, 0.3)),
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         }
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn the_nose_points_where_one_looks() {
         for look in [DVec3::X, DVec3::NEG_Z, DVec3::Y, DVec3::NEG_Y, DVec3::new(3.0, -4.0, 0.5)] {
-            let state = Start::at_rest(DVec3::ZERO, look).state().unwrap();
+            let state = RideStart::at_rest(DVec3::ZERO, look).state().unwrap();
             assert!((state.orientation * DVec3::NEG_Z - look.normalize()).length() < 1e-15, "{look}");
         }
     }
@@ -221,10 +221,10 @@ mod tests {
     #[test]
     fn a_start_that_is_none_is_refused() {
         let good = setup().start;
-        assert!(Start { position: [f64::NAN, 0.0, 0.0], ..good }.state().is_err());
-        assert!(Start { celerity: [f64::INFINITY, 0.0, 0.0], ..good }.state().is_err());
+        assert!(RideStart { position: [f64::NAN, 0.0, 0.0], ..good }.state().is_err());
+        assert!(RideStart { celerity: [f64::INFINITY, 0.0, 0.0], ..good }.state().is_err());
         for orientation in [[0.0; 4], [1.0; 4], [f64::NAN; 4]] {
-            assert!(Start { orientation, ..good }.state().is_err());
+            assert!(RideStart { orientation, ..good }.state().is_err());
         }
     }
 }

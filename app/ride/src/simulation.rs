@@ -11,27 +11,20 @@
 //! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
 //! same bits, and a [`Replay`] proves it. The ticks do not depend on the frame times either, as long as every sample
 //! is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a longer frame
-//! the world waits ([`Frame::dropped_ticks`]).
-
-mod replay;
-mod setup;
-mod ticks;
-mod tour;
-mod way;
+//! the world waits ([`RideFrame::dropped_ticks`]).
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use input::recording::FrameRecord;
 use input::{Action, Controls, Desk, Nanos, Sample};
+use scene::Surroundings;
+use view::Gaze;
 
-pub use replay::{Replay, ReplayError, Replayed};
-pub use setup::{Setup, SetupError, Start};
-pub use ticks::TICKS_PER_SECOND;
-pub use tour::Tour;
-
-use crate::vehicle::{Eye, Notice, Surroundings, Vehicle, World};
-use ticks::Ticks;
+use crate::frame::RideFrame;
+use crate::setup::{Setup, SetupError};
+use crate::ticks::{TICKS_PER_SECOND, Ticks};
+use crate::vehicle::{Notice, Vehicle, LightSpeed};
 
 /// Largest ratio of own time to real time.
 pub const FASTEST_TIME_SCALE: f64 = 16.0;
@@ -54,28 +47,6 @@ pub struct Simulation {
     frames: u64,
 }
 
-/// One frame: what it shows, and what is recorded of it.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// Numbers that a replay has to reproduce to the bit.
-    pub record: FrameRecord,
-    /// Controls of the last tick, with all actions since the last frame. Actions that concern the ride itself have
-    /// been performed.
-    pub controls: Controls,
-    /// Eye that sees the frame.
-    pub eye: Eye,
-    /// Vehicle as it is shown.
-    pub vehicle: Vehicle,
-    /// True if the ride is paused.
-    pub paused: bool,
-    /// Ratio of own time to real time.
-    pub time_scale: f64,
-    /// Notices for the rider, each once.
-    pub notices: Vec<Notice>,
-    /// Number of ticks that were not simulated, because the frame came late.
-    pub dropped_ticks: u64,
-}
-
 impl Simulation {
     /// Creates a ride that has not begun.
     ///
@@ -83,7 +54,7 @@ impl Simulation {
     /// [`SetupError`] if a setting or the start cannot be used.
     pub fn new(setup: Setup, surroundings: Arc<dyn Surroundings>) -> Result<Self, SetupError> {
         let desk = Desk::new(setup.desk.clone())?;
-        let mut vehicle = Vehicle::new(setup.world, setup.kind, setup.start.state()?, setup.vehicle)?;
+        let mut vehicle = Vehicle::new(setup.light_speed, setup.kind, setup.start.state()?, setup.vehicle)?;
         vehicle.settle(&*surroundings);
         Ok(Self {
             setup,
@@ -117,7 +88,7 @@ impl Simulation {
 
     /// Simulates up to the real time `at`. `samples` are all samples since the frame before; those dated later than
     /// `at` wait.
-    pub fn frame(&mut self, at: Nanos, samples: &[Sample]) -> Frame {
+    pub fn frame(&mut self, at: Nanos, samples: &[Sample]) -> RideFrame {
         samples.iter().for_each(|sample| self.wait(sample));
         let (ticks, dropped_ticks) = self.ticks.due(at);
         let mut steps = 0;
@@ -134,10 +105,10 @@ impl Simulation {
         }
         let record = record(self.frames, at, steps, &shown);
         self.frames += 1;
-        Frame {
+        RideFrame {
             record,
             controls: Controls { actions, ..self.controls.clone() },
-            eye: shown.eye(),
+            gaze: shown.gaze(),
             vehicle: shown,
             paused: self.paused,
             time_scale: self.time_scale,
@@ -185,8 +156,8 @@ impl Simulation {
             Action::TogglePause => self.paused = !self.paused,
             Action::TimeScale(scale) => self.time_scale = scale.clamp(0.0, FASTEST_TIME_SCALE),
             Action::ScaleTime(factor) => self.time_scale = (self.time_scale * factor).clamp(0.0, FASTEST_TIME_SCALE),
-            Action::SpeedOfLight(speed) => match World::new(speed) {
-                Ok(world) => self.vehicle.set_world(world),
+            Action::SpeedOfLight(speed) => match LightSpeed::new(speed) {
+                Ok(light_speed) => self.vehicle.set_light_speed(light_speed),
                 Err(_) => tell(notices, Notice::SpeedOfLightRefused),
             },
             Action::Vehicle(kind) => self.vehicle.set_kind(kind, &*self.surroundings),
@@ -197,9 +168,9 @@ impl Simulation {
 
     /// Puts the vehicle back to the start. Its kind and the speed of light stay as they are.
     fn restart(&mut self) {
-        let (world, kind) = (self.vehicle.world(), self.vehicle.kind());
+        let (light_speed, kind) = (self.vehicle.light_speed(), self.vehicle.kind());
         self.vehicle = self.first.clone();
-        self.vehicle.set_world(world);
+        self.vehicle.set_light_speed(light_speed);
         self.vehicle.set_kind(kind, &*self.surroundings);
     }
 }
@@ -212,7 +183,7 @@ fn tell(notices: &mut Vec<Notice>, notice: Notice) {
 
 /// Recorded numbers of a frame.
 fn record(frame: u64, at: Nanos, steps: u64, vehicle: &Vehicle) -> FrameRecord {
-    let Eye { observer, orientation } = vehicle.eye();
+    let Gaze { observer, observer_from_eye: orientation } = vehicle.gaze();
     let celerity = observer.celerity;
     FrameRecord {
         frame,
@@ -224,7 +195,7 @@ fn record(frame: u64, at: Nanos, steps: u64, vehicle: &Vehicle) -> FrameRecord {
         celerity: celerity.vector().to_array(),
         orientation: orientation.to_array(),
         rapidity: celerity.rapidity(),
-        doppler_ahead: celerity.gamma() + celerity.magnitude(),
+        doppler_ahead: celerity.kappa(),
         road: vehicle.odometer().road_m,
         odometer: vehicle.odometer().own_m,
     }

@@ -11,7 +11,7 @@ use glam::{DQuat, DVec3};
 use input::line::sealed;
 use input::{BicycleConfig, Nanos, SECOND, Sample, Source};
 
-use super::way::Way;
+use crate::route::Route;
 use crate::vehicle::Vehicle;
 
 /// Number of sensor lines per second.
@@ -32,7 +32,7 @@ const AIM_M: f64 = 1.8;
 /// Pull of the brake lever per m/s of excess speed, and its largest pull, which stays within the first stage.
 const LEVER_PER_M_S: f64 = 0.3;
 const FARTHEST_LEVER: f64 = 0.45;
-/// Way per turn of the crank, metres.
+/// Route per turn of the crank, metres.
 const DEVELOPMENT_M: f64 = 5.5;
 /// Largest angle of the handlebar, radians.
 const FARTHEST_STEER_RAD: f64 = 0.8;
@@ -40,7 +40,7 @@ const FARTHEST_STEER_RAD: f64 = 0.8;
 /// Simulated rider who follows a way.
 #[derive(Clone, Debug)]
 pub struct Tour {
-    way: Way,
+    way: Route,
     bicycle: BicycleConfig,
     /// Number of lines produced so far.
     lines: u64,
@@ -62,7 +62,7 @@ impl Tour {
     pub fn new(circuit: &[DVec3]) -> Option<Self> {
         let bicycle = BicycleConfig::default();
         Some(Self {
-            way: Way::new(circuit)?,
+            way: Route::new(circuit)?,
             lines: 0,
             wheel_m_s: 0.0,
             wheel: Magnet::new(bicycle.metres_per_pulse()),
@@ -95,7 +95,7 @@ impl Tour {
     /// Handlebar angle (radians), brake lever (0 to 1) and wanted speed (m/s).
     fn decide(&mut self, vehicle: &Vehicle) -> (f64, f64, f64) {
         let state = vehicle.state();
-        let speed = vehicle.world().metres_per_own_second(state.celerity.magnitude());
+        let speed = vehicle.light_speed().metres_per_own_second(state.celerity.magnitude());
         self.along_m = self.way.nearest(state.position, self.along_m);
 
         // The rider steers towards a point ahead.
@@ -150,9 +150,9 @@ fn in_plane(orientation: DQuat, displacement: DVec3) -> (f64, f64) {
 /// Magnet on a wheel, and the sensor that counts its passes.
 #[derive(Clone, Debug)]
 struct Magnet {
-    /// Way between two pulses, metres.
+    /// Route between two pulses, metres.
     spacing_m: f64,
-    /// Way since the last pulse, metres.
+    /// Route since the last pulse, metres.
     since_m: f64,
     pulses: u32,
     last_us: u32,

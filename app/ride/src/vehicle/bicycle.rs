@@ -18,10 +18,10 @@ use glam::DVec3;
 use physics::Celerity;
 use physics::worldline::{Control, State, Thrust};
 
-use super::ground::{Course, upright};
+use super::ground::{GroundCourse, upright};
 use super::settings::BicycleSettings;
-use super::wishes::Wishes;
-use super::world::World;
+use super::safe_controls::SafeControls;
+use super::light_speed::LightSpeed;
 
 /// Speed below which a held brake decelerates in proportion to it, as a tyre deforms before it slips, m/s. The
 /// bicycle then comes to rest smoothly.
@@ -34,12 +34,12 @@ const FASTEST_YAW_RAD_S: f64 = 20.0;
 const WALK_M_S: f64 = 1.5;
 
 /// Controls of a bicycle during one step.
-pub(super) struct Bicycle<'a> {
+pub(super) struct BicycleControl<'a> {
     settings: &'a BicycleSettings,
-    world: World,
-    wishes: &'a Wishes,
-    /// Course of the ground ahead.
-    course: Course,
+    light_speed: LightSpeed,
+    controls: &'a SafeControls,
+    /// GroundCourse of the ground ahead.
+    course: GroundCourse,
     /// True if a wall blocks the way ahead.
     blocked: bool,
     /// Time constant of the answer to the pedals, seconds. It is chosen once per step: a change within a step would
@@ -47,46 +47,46 @@ pub(super) struct Bicycle<'a> {
     response_s: f64,
 }
 
-impl<'a> Bicycle<'a> {
+impl<'a> BicycleControl<'a> {
     /// Creates the controls of a step that begins with the forward celerity `u`.
     pub(super) fn new(
         settings: &'a BicycleSettings,
-        world: World,
-        wishes: &'a Wishes,
-        course: Course,
+        light_speed: LightSpeed,
+        controls: &'a SafeControls,
+        course: GroundCourse,
         blocked: bool,
         u: f64,
     ) -> Self {
-        let wanted = world.celerity(wishes.wheel_speed_m_s);
+        let wanted = light_speed.celerity(controls.wheel_speed_m_s);
         let driving = (wanted - u) * wanted > 0.0;
         let response_s = if driving { settings.pedal_response_s } else { settings.coast_response_s };
-        Self { settings, world, wishes, course, blocked, response_s }
+        Self { settings, light_speed, controls, course, blocked, response_s }
     }
 
     /// Forward proper acceleration at the forward celerity `u`, as rapidity per second of own time.
     fn forward_per_s(&self, u: f64) -> f64 {
         let gamma = u.hypot(1.0);
-        let lever = self.wishes.brake;
+        let lever = self.controls.brake;
         // Pedals have no effect during the brake's second stage.
         let pedals = self.pedals_per_s(u) * (1.0 - 2.0 * lever).max(0.0);
-        let rolling = if self.wishes.wheel_speed_m_s == 0.0 { ROLLING_M_S2 } else { 0.0 };
-        let deceleration = self.world.celerity(brake_m_s2(self.settings, lever) + rolling);
-        let stiction = self.world.celerity(STICTION_M_S);
+        let rolling = if self.controls.wheel_speed_m_s == 0.0 { ROLLING_M_S2 } else { 0.0 };
+        let deceleration = self.light_speed.celerity(brake_m_s2(self.settings, lever) + rolling);
+        let stiction = self.light_speed.celerity(STICTION_M_S);
         pedals / gamma - deceleration * (u / stiction).clamp(-1.0, 1.0)
     }
 
     /// Rate du/dτ that the pedals ask for, per second.
     fn pedals_per_s(&self, u: f64) -> f64 {
-        (self.world.celerity(self.wishes.wheel_speed_m_s) - u) / self.response_s
+        (self.light_speed.celerity(self.controls.wheel_speed_m_s) - u) / self.response_s
     }
 
     /// Turn rate dψ/dτ, radians per second.
     fn yaw_rad_s(&self, u: f64) -> f64 {
-        let speed = self.world.metres_per_own_second(u);
-        let wheel = self.wishes.wheel_speed_m_s;
+        let speed = self.light_speed.metres_per_own_second(u);
+        let wheel = self.controls.wheel_speed_m_s;
         // A rider who stands against a wall lifts the front wheel round.
         let speed = if self.blocked && wheel.abs() > speed.abs() { wheel.clamp(-WALK_M_S, WALK_M_S) } else { speed };
-        let rate = speed * self.wishes.steer_rad.tan() / self.settings.wheelbase_m;
+        let rate = speed * self.controls.steer_rad.tan() / self.settings.wheelbase_m;
         rate.clamp(-FASTEST_YAW_RAD_S, FASTEST_YAW_RAD_S)
     }
 
@@ -98,9 +98,9 @@ impl<'a> Bicycle<'a> {
         const WALL: f64 = 0.6;
         /// Acceleration that is felt as a full load, m/s².
         const HEAVY_M_S2: f64 = 8.0;
-        let lever = brake_m_s2(self.settings, self.wishes.brake) / self.settings.stop_m_s2;
-        let inertia = self.world.metres_per_own_second(self.pedals_per_s(u) / u.hypot(1.0)).abs() / HEAVY_M_S2;
-        let pedalled = if self.wishes.wheel_speed_m_s.abs() > self.world.metres_per_own_second(u).abs() {
+        let lever = brake_m_s2(self.settings, self.controls.brake) / self.settings.stop_m_s2;
+        let inertia = self.light_speed.metres_per_own_second(self.pedals_per_s(u) / u.hypot(1.0)).abs() / HEAVY_M_S2;
+        let pedalled = if self.controls.wheel_speed_m_s.abs() > self.light_speed.metres_per_own_second(u).abs() {
             if self.blocked { WALL } else { inertia.min(WALL) }
         } else {
             0.0
@@ -109,18 +109,18 @@ impl<'a> Bicycle<'a> {
     }
 }
 
-impl Control for Bicycle<'_> {
+impl Control for BicycleControl<'_> {
     fn thrust(&self, state: &State) -> Thrust {
         let nose = state.orientation * DVec3::NEG_Z;
         let u = state.orientation.inverse() * state.celerity.vector();
-        let speed = self.world.metres_per_own_second(u.z.abs());
+        let speed = self.light_speed.metres_per_own_second(u.z.abs());
         let pitch = self.course.pitch_rate_rad_s(nose.y.clamp(-1.0, 1.0).asin(), speed);
         let turn = DVec3::new(pitch, self.yaw_rad_s(-u.z), 0.0);
         // The motion is turned with the frame, about the same axis and by the same celerity. Otherwise the two would
         // drift apart at large γ.
         let acceleration = DVec3::NEG_Z * self.forward_per_s(-u.z) + turn.cross(u);
         let thomas = acceleration.cross(u) / (1.0 + state.celerity.gamma());
-        let c = self.world.speed_of_light_m_s();
+        let c = self.light_speed.speed_of_light_m_s();
         Thrust { acceleration: acceleration / c, turn_rate: (turn - thomas) / c }
     }
 }

@@ -10,10 +10,10 @@
 use glam::DVec3;
 use physics::worldline::{Control, FacingMotion, State, Thrust, Transport};
 
-use super::ground::{Course, heading, upright};
+use super::ground::{GroundCourse, heading, upright};
 use super::settings::{FlightSettings, Nose};
-use super::wishes::Wishes;
-use super::world::World;
+use super::safe_controls::SafeControls;
+use super::light_speed::LightSpeed;
 
 /// Celerity below which the nose no longer follows the motion.
 const SOFTENING: f64 = 0.05;
@@ -25,23 +25,23 @@ const BRAKE_THRUSTS: f64 = 2.0;
 const STICTION: f64 = 0.02;
 
 /// Controls of a driven or flown vehicle during one step.
-pub(super) struct Flight<'a> {
+pub(super) struct FlightControl<'a> {
     settings: &'a FlightSettings,
-    world: World,
-    wishes: &'a Wishes,
+    light_speed: LightSpeed,
+    controls: &'a SafeControls,
     transport: Transport,
-    /// Course of the ground ahead; `None` in flight.
-    course: Option<Course>,
+    /// GroundCourse of the ground ahead; `None` in flight.
+    course: Option<GroundCourse>,
 }
 
-impl<'a> Flight<'a> {
-    pub(super) fn new(settings: &'a FlightSettings, world: World, wishes: &'a Wishes, course: Option<Course>) -> Self {
-        let alignment = ALIGNMENT_PER_S / world.speed_of_light_m_s();
+impl<'a> FlightControl<'a> {
+    pub(super) fn new(settings: &'a FlightSettings, light_speed: LightSpeed, controls: &'a SafeControls, course: Option<GroundCourse>) -> Self {
+        let alignment = ALIGNMENT_PER_S / light_speed.speed_of_light_m_s();
         let transport = match settings.nose {
             Nose::FacesMotion => Transport::FacingMotion(FacingMotion { softening: SOFTENING, alignment }),
             Nose::Gyroscopic => Transport::Gyroscopic,
         };
-        Self { settings, world, wishes, transport, course }
+        Self { settings, light_speed, controls, transport, course }
     }
 
     /// Acceleration that turns the motion with the rudder, pilot's axes, per second of own time.
@@ -52,28 +52,28 @@ impl<'a> Flight<'a> {
     }
 
     /// Acceleration that keeps a driven vehicle on the ground, world axes, per second of own time.
-    fn ground_per_s(&self, course: &Course, state: &State) -> DVec3 {
+    fn ground_per_s(&self, course: &GroundCourse, state: &State) -> DVec3 {
         let Some(direction) = state.celerity.direction() else { return DVec3::ZERO };
         let u = state.celerity.magnitude();
         let slope = direction.y.clamp(-1.0, 1.0).asin();
-        let rate = course.pitch_rate_rad_s(slope, self.world.metres_per_own_second(u));
+        let rate = course.pitch_rate_rad_s(slope, self.light_speed.metres_per_own_second(u));
         (DVec3::Y - direction * direction.y) * (rate * u)
     }
 }
 
-impl Control for Flight<'_> {
+impl Control for FlightControl<'_> {
     fn thrust(&self, state: &State) -> Thrust {
-        let c = self.world.speed_of_light_m_s();
+        let c = self.light_speed.speed_of_light_m_s();
         let pilot_from_world = state.orientation.inverse();
         let u = pilot_from_world * state.celerity.vector();
-        let turn = self.wishes.turn * self.settings.turn_rad_s;
-        let mut thrust = self.wishes.thrust * self.settings.thrust_per_s;
+        let turn = self.controls.turn * self.settings.turn_rad_s;
+        let mut thrust = self.controls.thrust * self.settings.thrust_per_s;
         if self.course.is_some() {
             thrust.y = 0.0;
         }
 
         // Brake against the motion.
-        thrust -= u * (BRAKE_THRUSTS * self.settings.thrust_per_s * self.wishes.brake / u.length().max(STICTION));
+        thrust -= u * (BRAKE_THRUSTS * self.settings.thrust_per_s * self.controls.brake / u.length().max(STICTION));
 
         let on_the_spot = match self.settings.nose {
             Nose::Gyroscopic => turn,

@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::surroundings::Surroundings;
+use scene::Surroundings;
 
 /// Look-ahead distance, metres: about a wheelbase.
 const LOOK_M: f64 = 0.8;
@@ -22,15 +22,15 @@ const FASTEST_PITCH_RAD_S: f64 = 20.0;
 
 /// Direction in which the ground lets the motion go.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Course {
+pub(super) struct GroundCourse {
     /// Angle above the horizon that leads back to the ground, radians.
     slope_rad: f64,
     /// Look-ahead distance, metres.
     look_m: f64,
 }
 
-impl Course {
-    /// Course from the ground ahead. `direction` is the unit vector of the motion, not vertical; `way_m` is the
+impl GroundCourse {
+    /// GroundCourse from the ground ahead. `direction` is the unit vector of the motion, not vertical; `way_m` is the
     /// distance until the next look, metres. Where there is no ground, the course is level.
     pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, way_m: f64) -> Self {
         let look_m = LOOK_M.max(LOOK_PER_STEP * way_m);
@@ -41,7 +41,7 @@ impl Course {
         Self { slope_rad: slope_rad.clamp(-STEEPEST_RAD, STEEPEST_RAD), look_m }
     }
 
-    /// Course for a nose that points backward.
+    /// GroundCourse for a nose that points backward.
     pub(super) fn reversed(self) -> Self {
         Self { slope_rad: -self.slope_rad, ..self }
     }

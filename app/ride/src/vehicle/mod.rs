@@ -2,7 +2,7 @@
 //!
 //! # How it works
 //!
-//! There is one controller with three ways to drive ([`VehicleKind`]). Each turns the rider's [`Controls`] into a
+//! There is one controller with three ways to drive ([`input::VehicleKind`]). Each turns the rider's [`input::Controls`] into a
 //! thrust and a turn rate in the pilot's own axes. An integrator of [`physics::worldline`] makes a worldline of them,
 //! in proper time, which is the user's own time (B 2.7, 5.6.1):
 //!
@@ -13,345 +13,43 @@
 //! | fly | three thrusts, roll, rudder, brake (`flight`) | nothing |
 //!
 //! The celerity is never set directly, except by named constraints: wheels do not slip (`bicycle::roll`), walls hold
-//! (`walls`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion therefore never jumps, at rest, in reverse or at
+//! (`walls`), the rapidity is capped at [`vehicle::RAPIDITY_CAP`](crate::RAPIDITY_CAP). Motion therefore never jumps, at rest, in reverse or at
 //! extreme speed; only a change of kind and a restart may make it jump.
 //!
-//! A step depends only on the vehicle, the controls and the [`Surroundings`]; the same calls give the same bits.
+//! A step depends only on the vehicle, the controls and the [`scene::Surroundings`]; the same calls give the same bits.
 //!
 //! # Example
 //!
 //! ```
 //! use input::{Controls, VehicleKind};
-//! use rapidity::vehicle::{OpenPlane, Vehicle, VehicleSettings, World};
+//! use ride::{LightSpeed, Vehicle, VehicleSettings};
+//! use scene::OpenPlane;
 //!
 //! let mut bicycle =
-//!     Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, Default::default(), VehicleSettings::default())?;
+//!     Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, Default::default(), VehicleSettings::default())?;
 //! let pedalling = Controls { wheel_speed: Some(25.0 / 3.0), ..Default::default() };
 //! for _ in 0..20 * 240 {
 //!     bicycle.step(1.0 / 240.0, &pedalling, &OpenPlane);
 //! }
 //! // A wheel at the speed of light on the rider's clock is a celerity of 1: 0.71 of the speed of light.
 //! assert!((bicycle.state().celerity.magnitude() - 1.0).abs() < 1e-9);
-//! # Ok::<(), rapidity::vehicle::SettingsError>(())
+//! # Ok::<(), ride::SettingsError>(())
 //! ```
 
 mod bicycle;
-mod eye;
 mod flight;
 mod ground;
+mod light_speed;
 mod notice;
 mod odometer;
+mod safe_controls;
 mod settings;
-mod surroundings;
+#[expect(clippy::module_inception, reason = "the type that the folder is named after")]
+mod vehicle;
 mod walls;
-mod wishes;
-mod world;
 
-use glam::DVec3;
-use input::{Controls, VehicleKind};
-use physics::Celerity;
-use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, State};
-
-pub use eye::Eye;
-pub use notice::Notice;
+pub use light_speed::{LightSpeed, LightSpeedError};
+pub use notice::{Notice, RAPIDITY_CAP};
 pub use odometer::Odometer;
 pub use settings::{BicycleSettings, FlightSettings, IntegratorKind, Nose, SettingsError, VehicleSettings};
-pub use surroundings::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};
-pub use world::{World, WorldError};
-
-use bicycle::{Bicycle, roll};
-use flight::{Flight, level};
-use ground::{Course, heading, placed, upright};
-use wishes::Wishes;
-
-/// Largest rapidity of a vehicle, γ = 2.7e11. There, a boost and its inverse in f64 are off by |δu| ≈ εγ = 6e-5
-/// (NUMERICS).
-pub const RAPIDITY_CAP: f64 = 27.0;
-
-/// Longest piece that a step is cut into, seconds of own time.
-const LONGEST_STEP_S: f64 = 1.0 / 240.0;
-/// Largest number of pieces of one step.
-const MOST_PIECES: f64 = 64.0;
-/// Sine of a slope steeper than any road.
-const STEEPEST_ROAD: f64 = 0.9;
-/// Largest number of strides between walls for one piece of a step.
-const MOST_STRIDES: usize = 64;
-
-/// Bicycle, car or spaceship, at the present end of its worldline.
-#[derive(Clone, Debug)]
-pub struct Vehicle {
-    world: World,
-    kind: VehicleKind,
-    settings: VehicleSettings,
-    state: State,
-    odometer: Odometer,
-    /// True if a wall blocks the way ahead.
-    blocked: bool,
-    resistance: f64,
-    notices: Vec<Notice>,
-}
-
-impl Vehicle {
-    /// Creates a vehicle in the given state, with its odometer at zero.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for a setting that cannot be used.
-    pub fn new(
-        world: World,
-        kind: VehicleKind,
-        state: State,
-        settings: VehicleSettings,
-    ) -> Result<Self, SettingsError> {
-        settings.check()?;
-        let odometer = Odometer::default();
-        Ok(Self { world, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
-    }
-
-    /// State of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
-    /// pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
-    pub fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// Way in which the vehicle is driven.
-    pub fn kind(&self) -> VehicleKind {
-        self.kind
-    }
-
-    /// World with its speed of light.
-    pub fn world(&self) -> World {
-        self.world
-    }
-
-    /// Settings of the vehicle's response.
-    pub fn settings(&self) -> &VehicleSettings {
-        &self.settings
-    }
-
-    /// Distances and times since the start.
-    pub fn odometer(&self) -> &Odometer {
-        &self.odometer
-    }
-
-    /// Notices for the rider about the last step.
-    pub fn notices(&self) -> &[Notice] {
-        &self.notices
-    }
-
-    /// Resistance for the ergometer's brake, 0 to 1, from the lever and from the load on the bicycle (B 5.6.1).
-    pub fn resistance(&self) -> f64 {
-        self.resistance
-    }
-
-    /// Eye of the rider, driver or pilot.
-    pub fn eye(&self) -> Eye {
-        Eye::at_rest_in(&self.state, self.eye_offset())
-    }
-
-    /// Changes the speed of light. Celerity and place stay unchanged.
-    pub fn set_world(&mut self, world: World) {
-        self.world = world;
-    }
-
-    /// Changes the way of driving. At take-off the eye stays in place. A bicycle and a car are set upright on the
-    /// ground below, where there is any, and keep the part of their celerity that their constraints allow.
-    pub fn set_kind(&mut self, kind: VehicleKind, surroundings: &dyn Surroundings) {
-        if kind == self.kind {
-            return;
-        }
-        if kind == VehicleKind::Fly {
-            let event = self.eye().observer.event;
-            (self.state.ct, self.state.position) = (event.ct, event.position);
-        }
-        self.kind = kind;
-        self.settle(surroundings);
-    }
-
-    /// Puts a bicycle or a car upright on the ground.
-    pub fn settle(&mut self, surroundings: &dyn Surroundings) {
-        self.blocked = false;
-        if self.kind == VehicleKind::Fly {
-            return;
-        }
-        self.state.position = placed(surroundings, self.state.position);
-        self.state.orientation = upright(heading(self.state.orientation));
-        self.constrain();
-    }
-
-    /// Moves on by `own_s` seconds of the vehicle's own time.
-    ///
-    /// The state stays finite for any controls: a control that is not a number counts as released, and a step that
-    /// cannot be integrated is not taken ([`Vehicle::notices`]). A step longer than 1/240 s is cut into pieces of at
-    /// most that length; at most 64 pieces are taken.
-    pub fn step(&mut self, own_s: f64, controls: &Controls, surroundings: &dyn Surroundings) {
-        self.notices.clear();
-        let wishes = Wishes::new(controls);
-        if wishes.contained || !(own_s.is_finite() && own_s >= 0.0) {
-            self.tell(Notice::ControlsNotFinite);
-        }
-        if !(own_s.is_finite() && own_s > 0.0) {
-            return;
-        }
-        /// Excess over a whole number that counts as rounding.
-        const ROUNDING: f64 = 1e-9;
-        let own_s = own_s.min(MOST_PIECES * LONGEST_STEP_S);
-        let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().max(1.0);
-        for _ in 0..pieces as usize {
-            match self.kind {
-                VehicleKind::Fly => self.fly(own_s / pieces, &wishes),
-                VehicleKind::Bicycle | VehicleKind::Drive => self.ride(own_s / pieces, &wishes, surroundings),
-            }
-        }
-    }
-
-    /// Takes one piece of a step through free space.
-    fn fly(&mut self, own_s: f64, wishes: &Wishes) {
-        self.resistance = 0.0;
-        let settings = self.settings;
-        self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, None));
-    }
-
-    /// Takes one piece of a step on the ground, in strides shorter than any wall is thick.
-    fn ride(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
-        let mut left_s = own_s;
-        let mut wall = walls::nearest(surroundings, self.state.position, self.way_m(own_s));
-        for stride in 1.. {
-            self.keep_clear(wall, left_s);
-            // The stride goes as far as the way is free, or to the end of the step.
-            let free_m = walls::stride_m(wall, self.way_m(left_s));
-            if stride == MOST_STRIDES && self.way_m(left_s) > free_m {
-                self.state.celerity = walls::slowed(self.state.celerity, free_m, left_s, self.world);
-                self.tell(Notice::HeldByWalls);
-            }
-            let way_m = self.way_m(left_s);
-            let span_s = if way_m > free_m { left_s * (free_m / way_m) } else { left_s };
-
-            let before = self.state.position;
-            self.drive_on(span_s, wishes, surroundings);
-            match walls::settled(surroundings, wall, self.state.position, self.way_m(left_s)) {
-                Some((position, wall_there)) => {
-                    self.state.position = position;
-                    wall = wall_there;
-                }
-                None => {
-                    self.state.position = before;
-                    self.state.celerity = Celerity::ZERO;
-                }
-            }
-            if span_s >= left_s || stride == MOST_STRIDES {
-                return;
-            }
-            left_s -= span_s;
-        }
-    }
-
-    /// Takes one stride on the ground, without regard to walls.
-    fn drive_on(&mut self, own_s: f64, wishes: &Wishes, surroundings: &dyn Surroundings) {
-        let (direction, backward) = self.road_direction();
-        let course = Course::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
-        let settings = self.settings;
-        if self.kind == VehicleKind::Drive {
-            self.resistance = 0.0;
-            self.integrate(own_s, &Flight::new(&settings.flight, self.world, wishes, Some(course)));
-        } else {
-            let course = if backward { course.reversed() } else { course };
-            let forward = self.forward();
-            let control = Bicycle::new(&settings.bicycle, self.world, wishes, course, self.blocked, forward);
-            self.resistance = control.resistance(forward);
-            self.integrate(own_s, &control);
-        }
-        self.constrain();
-    }
-
-    /// Integrates the worldline, caps the rapidity, and advances the odometer.
-    fn integrate(&mut self, own_s: f64, control: &dyn Control) {
-        let before = self.state.celerity;
-        let step = self.world.metres(own_s);
-        let taken = match self.settings.integrator {
-            IntegratorKind::Rk4 => Rk4.step(&self.state, step, control),
-            IntegratorKind::Exact => Exact.step(&self.state, step, control),
-            IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
-        };
-        let taken = taken.or_else(|_| {
-            self.tell(Notice::TakenByRk4);
-            Rk4.step(&self.state, step, control)
-        });
-        match taken {
-            Ok(state) => self.state = state,
-            Err(_) => return self.tell(Notice::NotIntegrated),
-        }
-        let capped = self.state.celerity.capped(RAPIDITY_CAP);
-        if capped != self.state.celerity {
-            self.state.celerity = capped;
-            self.tell(Notice::RapidityCapped);
-        }
-        self.odometer.count(self.world, own_s, before, self.state.celerity);
-    }
-
-    /// Removes motions that are impossible on the ground: slipping sideways, leaning, tilting.
-    fn constrain(&mut self) {
-        match self.kind {
-            VehicleKind::Bicycle => roll(&mut self.state),
-            VehicleKind::Drive => level(&mut self.state),
-            VehicleKind::Fly => {}
-        }
-    }
-
-    /// Removes the excess of celerity into the wall. A car slides along the wall. A bicycle's frame has to be turned
-    /// first, and it turns while the bicycle rolls.
-    fn keep_clear(&mut self, wall: Option<Wall>, own_s: f64) {
-        let celerity = self.state.celerity.vector();
-        let wall = wall.filter(|wall| walls::excess(wall, celerity, self.world) > 0.0);
-        self.blocked = wall.is_some();
-        let Some(wall) = wall else { return };
-        let slid = walls::slid(&wall, celerity, self.world);
-        let kept = if self.kind == VehicleKind::Bicycle {
-            let rolled_m = self.world.metres_per_own_second(slid.length()) * own_s;
-            let angle_rad = (rolled_m / walls::DEFLECTION_RADIUS_M).min(walls::FASTEST_DEFLECTION_RAD_S * own_s);
-            let motion = turned_towards(celerity, slid, angle_rad);
-            self.state.orientation = upright(if self.forward() < 0.0 { -motion } else { motion });
-            motion * walls::limited_along(&wall, motion, slid.length(), self.world)
-        } else {
-            slid
-        };
-        self.state.celerity = Celerity::new(kept).unwrap_or(Celerity::ZERO);
-    }
-
-    /// Celerity along the nose.
-    fn forward(&self) -> f64 {
-        self.state.celerity.vector().dot(self.state.orientation * DVec3::NEG_Z)
-    }
-
-    /// Unit vector of the motion, or of the nose at rest or on a slope steeper than any road; and true if the motion
-    /// is backward.
-    fn road_direction(&self) -> (DVec3, bool) {
-        let backward = self.forward() < 0.0;
-        let nose = heading(self.state.orientation);
-        let motion = self.state.celerity.direction().unwrap_or(nose);
-        (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
-    }
-
-    /// Distance covered in a time at the present celerity, metres of road.
-    fn way_m(&self, own_s: f64) -> f64 {
-        self.world.metres(own_s) * self.state.celerity.magnitude()
-    }
-
-    fn eye_offset(&self) -> DVec3 {
-        if self.kind == VehicleKind::Fly { DVec3::ZERO } else { DVec3::from_array(self.settings.eye_m) }
-    }
-
-    fn tell(&mut self, notice: Notice) {
-        if !self.notices.contains(&notice) {
-            self.notices.push(notice);
-        }
-    }
-}
-
-/// Unit vector along `from`, turned towards `to` by `angle_rad`, but not beyond it.
-fn turned_towards(from: DVec3, to: DVec3, angle_rad: f64) -> DVec3 {
-    let from = from.normalize_or_zero();
-    let Some(to) = to.try_normalize() else { return from };
-    let Some(across) = (to - from * from.dot(to)).try_normalize() else { return from };
-    let angle_rad = angle_rad.min(from.angle_between(to));
-    from * angle_rad.cos() + across * angle_rad.sin()
-}
+pub use vehicle::Vehicle;

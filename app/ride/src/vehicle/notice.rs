@@ -2,7 +2,10 @@
 
 use std::fmt;
 
-use super::RAPIDITY_CAP;
+
+/// Largest rapidity of a vehicle, γ = 2.7e11. There, a boost and its inverse in f64 are off by |δu| ≈ εγ = 6e-5
+/// (NUMERICS).
+pub const RAPIDITY_CAP: f64 = 27.0;
 
 /// Deviation of the last step from what was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use physics::Celerity;
 
-use super::world::World;
+use super::light_speed::LightSpeed;
 
 /// Sums since the start of the ride.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,9 +20,9 @@ pub struct Odometer {
 impl Odometer {
     /// Adds a step by the trapezoidal rule. Differences of places and times would not do: far from the start, they no
     /// longer resolve a single step.
-    pub(super) fn count(&mut self, world: World, own_s: f64, from: Celerity, to: Celerity) {
+    pub(super) fn count(&mut self, light_speed: LightSpeed, own_s: f64, from: Celerity, to: Celerity) {
         let mean = |value: fn(Celerity) -> f64| 0.5 * (value(from) + value(to));
-        let own_m = world.metres(own_s);
+        let own_m = light_speed.metres(own_s);
         self.road_m += own_m * mean(Celerity::magnitude);
         self.own_m += own_m * mean(|celerity| celerity.magnitude() / celerity.gamma());
         self.own_s += own_s;

@@ -11,8 +11,8 @@
 use glam::DVec3;
 use physics::Celerity;
 
-use super::surroundings::{Surroundings, Wall};
-use super::world::World;
+use scene::{Surroundings, Wall};
+use super::light_speed::LightSpeed;
 
 /// Half the width of a rider with elbows, metres.
 const BODY_RADIUS_M: f64 = 0.4;
@@ -44,24 +44,24 @@ pub(super) fn stride_m(wall: Option<Wall>, way_m: f64) -> f64 {
 }
 
 /// Excess of the celerity into the wall over the allowed one; 0 if there is none.
-pub(super) fn excess(wall: &Wall, celerity: DVec3, world: World) -> f64 {
-    (-celerity.dot(wall.normal) - allowed(wall, world)).max(0.0)
+pub(super) fn excess(wall: &Wall, celerity: DVec3, light_speed: LightSpeed) -> f64 {
+    (-celerity.dot(wall.normal) - allowed(wall, light_speed)).max(0.0)
 }
 
 /// Largest celerity allowed into this wall.
-fn allowed(wall: &Wall, world: World) -> f64 {
-    world.celerity((wall.distance - BODY_RADIUS_M).max(0.0) / YIELD_S)
+fn allowed(wall: &Wall, light_speed: LightSpeed) -> f64 {
+    light_speed.celerity((wall.distance - BODY_RADIUS_M).max(0.0) / YIELD_S)
 }
 
 /// Celerity without its excess into the wall.
-pub(super) fn slid(wall: &Wall, celerity: DVec3, world: World) -> DVec3 {
-    celerity + wall.normal * excess(wall, celerity, world)
+pub(super) fn slid(wall: &Wall, celerity: DVec3, light_speed: LightSpeed) -> DVec3 {
+    celerity + wall.normal * excess(wall, celerity, light_speed)
 }
 
 /// Celerity along the unit vector `direction`, reduced until its part into the wall is allowed.
-pub(super) fn limited_along(wall: &Wall, direction: DVec3, celerity: f64, world: World) -> f64 {
+pub(super) fn limited_along(wall: &Wall, direction: DVec3, celerity: f64, light_speed: LightSpeed) -> f64 {
     let into = -direction.dot(wall.normal);
-    if into <= 0.0 { celerity } else { celerity.min(allowed(wall, world) / into) }
+    if into <= 0.0 { celerity } else { celerity.min(allowed(wall, light_speed) / into) }
 }
 
 /// End of a way to `to`, moved so that it is not nearer to a wall than the body's radius, or than the start was; and
@@ -90,6 +90,6 @@ pub(super) fn settled(
 }
 
 /// Celerity with which at most `way_m` metres are covered in `own_s` seconds.
-pub(super) fn slowed(celerity: Celerity, way_m: f64, own_s: f64, world: World) -> Celerity {
-    celerity.capped(world.celerity(way_m / own_s).asinh())
+pub(super) fn slowed(celerity: Celerity, way_m: f64, own_s: f64, light_speed: LightSpeed) -> Celerity {
+    celerity.capped(light_speed.celerity(way_m / own_s).asinh())
 }

@@ -10,7 +10,7 @@ const FASTEST_WHEEL_M_S: f64 = 100.0;
 
 /// Rider's controls after the checks; see [`Controls`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Wishes {
+pub(super) struct SafeControls {
     pub(super) wheel_speed_m_s: f64,
     pub(super) steer_rad: f64,
     pub(super) brake: f64,
@@ -20,7 +20,7 @@ pub(super) struct Wishes {
     pub(super) contained: bool,
 }
 
-impl Wishes {
+impl SafeControls {
     pub(super) fn new(controls: &Controls) -> Self {
         let mut contained = false;
         let mut safe = |value: f64, least: f64, most: f64| {

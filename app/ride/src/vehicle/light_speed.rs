@@ -6,14 +6,14 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// World, as far as its speed of light is concerned.
+/// LightSpeed, as far as its speed of light is concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
-pub struct World {
+pub struct LightSpeed {
     speed_of_light_m_s: f64,
 }
 
-impl World {
+impl LightSpeed {
     /// Slowest light, m/s. A thousandth of a snail's pace keeps every conversion finite.
     pub const SLOWEST_M_S: f64 = 1e-6;
     /// Fastest light, m/s. Beyond it no relativistic effect can be seen.
@@ -24,12 +24,12 @@ impl World {
     /// Creates a world whose light has this speed.
     ///
     /// # Errors
-    /// [`WorldError`] if the speed lies outside [`World::SLOWEST_M_S`] to [`World::FASTEST_M_S`], or is not a number.
-    pub fn new(speed_of_light_m_s: f64) -> Result<Self, WorldError> {
+    /// [`LightSpeedError`] if the speed lies outside [`LightSpeed::SLOWEST_M_S`] to [`LightSpeed::FASTEST_M_S`], or is not a number.
+    pub fn new(speed_of_light_m_s: f64) -> Result<Self, LightSpeedError> {
         if (Self::SLOWEST_M_S..=Self::FASTEST_M_S).contains(&speed_of_light_m_s) {
             Ok(Self { speed_of_light_m_s })
         } else {
-            Err(WorldError { speed_of_light_m_s })
+            Err(LightSpeedError { speed_of_light_m_s })
         }
     }
 
@@ -59,16 +59,16 @@ impl World {
     }
 }
 
-impl TryFrom<f64> for World {
-    type Error = WorldError;
-    fn try_from(speed_of_light_m_s: f64) -> Result<Self, WorldError> {
+impl TryFrom<f64> for LightSpeed {
+    type Error = LightSpeedError;
+    fn try_from(speed_of_light_m_s: f64) -> Result<Self, LightSpeedError> {
         Self::new(speed_of_light_m_s)
     }
 }
 
-impl From<World> for f64 {
-    fn from(world: World) -> Self {
-        world.speed_of_light_m_s
+impl From<LightSpeed> for f64 {
+    fn from(light_speed: LightSpeed) -> Self {
+        light_speed.speed_of_light_m_s
     }
 }
 
@@ -76,10 +76,10 @@ impl From<World> for f64 {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error(
     "the speed of light is {speed_of_light_m_s} m/s: expected {:e} to {:e} m/s",
-    World::SLOWEST_M_S,
-    World::FASTEST_M_S
+    LightSpeed::SLOWEST_M_S,
+    LightSpeed::FASTEST_M_S
 )]
-pub struct WorldError {
+pub struct LightSpeedError {
     /// Speed that was given, m/s.
     pub speed_of_light_m_s: f64,
 }
@@ -90,18 +90,18 @@ mod tests {
 
     #[test]
     fn seconds_become_metres_and_metres_per_second_celerities() {
-        let world = World::new(8.0).unwrap();
-        assert_eq!((world.metres(2.5), world.seconds(20.0)), (20.0, 2.5));
-        assert_eq!((world.celerity(6.0), world.metres_per_own_second(0.75)), (0.75, 6.0));
+        let light_speed = LightSpeed::new(8.0).unwrap();
+        assert_eq!((light_speed.metres(2.5), light_speed.seconds(20.0)), (20.0, 2.5));
+        assert_eq!((light_speed.celerity(6.0), light_speed.metres_per_own_second(0.75)), (0.75, 6.0));
         // This is 30 km/h.
-        assert!((World::OLD_TOWN.metres(3600.0) - 30_000.0).abs() < 1e-9);
+        assert!((LightSpeed::OLD_TOWN.metres(3600.0) - 30_000.0).abs() < 1e-9);
     }
 
     #[test]
     fn light_that_stands_still_or_is_no_number_is_refused() {
         for speed in [0.0, -1.0, 1e-7, 1e13, f64::NAN, f64::INFINITY] {
-            assert!(World::new(speed).is_err(), "{speed}");
+            assert!(LightSpeed::new(speed).is_err(), "{speed}");
         }
-        assert!(serde_json::from_str::<World>("0.0").is_err());
+        assert!(serde_json::from_str::<LightSpeed>("0.0").is_err());
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Closed polyline, measured along its length.
 #[derive(Clone, Debug)]
-pub(super) struct Way {
+pub(super) struct Route {
     /// Corners, level; the first one is repeated at the end.
     points: Vec<DVec3>,
     /// Length of the way up to each corner, metres.
@@ -14,7 +14,7 @@ pub(super) struct Way {
 /// Distance from the expected place beyond which the whole way is searched, metres.
 const LOST_M: f64 = 8.0;
 
-impl Way {
+impl Route {
     /// Closes the polyline. `None` if it has fewer than three different corners, or one that is not finite.
     pub(super) fn new(corners: &[DVec3]) -> Option<Self> {
         let mut points: Vec<DVec3> = corners.iter().map(|corner| DVec3 { y: 0.0, ..*corner }).collect();
@@ -84,14 +84,14 @@ impl Way {
 mod tests {
     use super::*;
 
-    fn circle(radius: f64) -> Way {
+    fn circle(radius: f64) -> Route {
         let corners: Vec<DVec3> = (0..720)
             .map(|n| {
                 let (sine, cosine) = (f64::from(n) / 2.0).to_radians().sin_cos();
                 DVec3::new(radius * sine, f64::from(n), radius * cosine)
             })
             .collect();
-        Way::new(&corners).unwrap()
+        Route::new(&corners).unwrap()
     }
 
     #[test]
@@ -117,7 +117,7 @@ mod tests {
         // A figure of eight: at the crossing both branches are equally near.
         let corners = [(-10.0, -10.0), (10.0, 10.0), (20.0, 0.0), (10.0, -10.0), (-10.0, 10.0), (-20.0, 0.0)];
         let corners = corners.map(|(x, z)| DVec3::new(x, 0.0, z));
-        let way = Way::new(&corners).unwrap();
+        let way = Route::new(&corners).unwrap();
         let first = 200f64.sqrt();
         let second = 3.0 * first + 2.0 * first;
         for expected in [first, second] {
@@ -132,9 +132,9 @@ mod tests {
     #[test]
     fn a_way_that_leads_nowhere_is_none() {
         let (a, b) = (DVec3::X, DVec3::Z);
-        assert!(Way::new(&[]).is_none());
-        assert!(Way::new(&[a, b]).is_none());
-        assert!(Way::new(&[a, a, b, b]).is_none());
-        assert!(Way::new(&[a, b, DVec3::NAN]).is_none());
+        assert!(Route::new(&[]).is_none());
+        assert!(Route::new(&[a, b]).is_none());
+        assert!(Route::new(&[a, a, b, b]).is_none());
+        assert!(Route::new(&[a, b, DVec3::NAN]).is_none());
     }
 }
