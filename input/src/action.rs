@@ -6,9 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::sample::Nanos;
-
 /// How the controls drive the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -55,70 +52,11 @@ impl Action {
     }
 
     /// Whether the numbers are of use.
-    fn is_sound(self) -> bool {
+    pub(crate) fn is_sound(self) -> bool {
         match self {
             Self::TimeScale(scale) => scale.is_finite() && scale >= 0.0,
             Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && factor > 0.0,
             _ => true,
-        }
-    }
-}
-
-/// Decoder of [`Source::Settings`](crate::Source::Settings): one JSON action a sample.
-#[derive(Debug, Default)]
-pub struct Settings {
-    faults: Faults,
-}
-
-impl Decoder for Settings {
-    fn reset(&mut self, _at: Nanos) {}
-
-    fn bytes(&mut self, _at: Nanos, bytes: &[u8], actions: &mut Actions) {
-        match serde_json::from_slice::<Action>(bytes) {
-            Ok(action) if action.is_sound() => actions.push(action),
-            Ok(action) => self.faults.count(format!("{action:?} is out of range")),
-            Err(error) => self.faults.count(format!("not an action: {error}")),
-        }
-    }
-
-    fn faults(&self) -> &Faults {
-        &self.faults
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    //! An action must survive its own text, and a text that is none must not act.
-    use super::*;
-
-    fn decode(bytes: &[u8]) -> (Vec<Action>, u64) {
-        let mut actions = Actions::default();
-        let mut settings = Settings::default();
-        settings.bytes(0, bytes, &mut actions);
-        (actions.take(), settings.faults().number())
-    }
-
-    #[test]
-    fn actions_survive_their_text() {
-        for action in [
-            Action::TogglePause,
-            Action::Step,
-            Action::TimeScale(0.1),
-            Action::ScaleTime(0.5),
-            Action::SpeedOfLight(30.0 / 3.6),
-            Action::Vehicle(VehicleKind::Fly),
-            Action::Restart,
-        ] {
-            assert_eq!(decode(&action.to_bytes()), (vec![action], 0));
-        }
-    }
-
-    #[test]
-    fn texts_that_are_no_action_are_counted_and_do_nothing() {
-        let bad: [&[u8]; 6] =
-            [b"", b"\"fly\"", b"{\"time_scale\":-1}", b"{\"scale_time\":0}", b"{\"time_scale\":1e999}", b"\xff\xfe"];
-        for bytes in bad {
-            assert_eq!(decode(bytes), (vec![], 1), "{bytes:?}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::head::HeadState;
+use crate::head::state::HeadState;
 
 /// The state of all controls at one moment, and what was pressed since the moment before.
 ///

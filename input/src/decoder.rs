@@ -4,7 +4,8 @@
 //! they say; time enters only through the samples and through the moment at which the desk asks.
 
 use crate::action::Action;
-use crate::sample::Nanos;
+use crate::clock::Nanos;
+use crate::faults::Faults;
 
 /// A device's bytes turned into state.
 pub trait Decoder {
@@ -16,31 +17,6 @@ pub trait Decoder {
 
     /// What could not be understood so far.
     fn faults(&self) -> &Faults;
-}
-
-/// Messages that were skipped because they made no sense.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Faults {
-    number: u64,
-    last: Option<String>,
-}
-
-impl Faults {
-    /// Counts one more.
-    pub(crate) fn count(&mut self, what: impl Into<String>) {
-        self.number += 1;
-        self.last = Some(what.into());
-    }
-
-    /// How many there were.
-    pub fn number(&self) -> u64 {
-        self.number
-    }
-
-    /// What was wrong with the last one.
-    pub fn last(&self) -> Option<&str> {
-        self.last.as_deref()
-    }
 }
 
 /// Actions waiting for the next frame, in the order in which they happened.

@@ -10,19 +10,27 @@
 //!
 //! A tracker's poses go to the one [`Head`], if one is configured.
 
-use crate::action::Settings;
-use crate::bicycle::Bicycle;
-use crate::config::{ConfigError, DeskConfig};
+use crate::bicycle::decoder::Bicycle;
+use crate::clock::Nanos;
+use crate::config::DeskConfig;
+use crate::config_error::ConfigError;
 use crate::controls::Controls;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::decoder::{Actions, Decoder};
 use crate::dtrack::Dtrack;
+use crate::faults::Faults;
 use crate::gamepad::Gamepad;
-use crate::head::{Head, HeadConfig, HeadState, Mouse, TrackedPose, TrackerUrl};
+use crate::head::config::HeadConfig;
+use crate::head::mouse::Mouse;
+use crate::head::state::HeadState;
+use crate::head::tracked_head::Head;
+use crate::head::tracked_pose::TrackedPose;
+use crate::head::url::TrackerUrl;
 use crate::keyboard::Keyboard;
-use crate::sample::{Nanos, Sample, Signal, Source};
+use crate::sample::{Sample, Signal, Source};
+use crate::settings::Settings;
 use crate::spacemouse::SpaceMouse;
 use crate::spacenavd::Spacenavd;
-use crate::vrpn::Vrpn;
+use crate::vrpn::decoder::Vrpn;
 use glam::DVec3;
 
 /// All decoders.
@@ -185,8 +193,8 @@ mod tests {
     //! Devices used together must add up to one rider, not fight; what one lets go of must go.
     use super::*;
     use crate::action::{Action, VehicleKind};
-    use crate::keyboard::Key;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
+    use crate::key::Key;
 
     fn desk() -> Desk {
         Desk::new(DeskConfig::default()).unwrap()

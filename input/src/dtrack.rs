@@ -22,9 +22,10 @@
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
 
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::head::TrackedPose;
-use crate::sample::Nanos;
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
+use crate::head::tracked_pose::TrackedPose;
 
 /// The port that DTrack sends to, unless it is told another.
 pub const PORT: u16 = 5000;

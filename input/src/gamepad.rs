@@ -20,9 +20,10 @@
 //! the left one takes a picture.
 
 use crate::action::Action;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::filters::with_dead_zone;
-use crate::sample::Nanos;
 
 /// Part of the way within which a stick counts as centred: worn ones rest off centre.
 const STICK_DEAD_ZONE: f64 = 0.12;

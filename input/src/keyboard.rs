@@ -1,8 +1,7 @@
 //! Keys of the window: riding, driving and flying without any device.
 //!
-//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
-//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample. What keys
-//! want moves on ramps, as legs and hands do.
+//! A sample holds key events of two bytes each, as [`Key::to_bytes`] writes them. What keys want
+//! moves on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
 //! |---|---|---|
@@ -18,99 +17,17 @@
 //! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
-use crate::config::RiderConfig;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
+use crate::key::Key;
 use crate::ramp::Ramp;
-use crate::sample::Nanos;
+use crate::rider_config::RiderConfig;
 
 /// Full deflections a second that a pressed key moves a control by.
 const PRESS_RATE: f64 = 3.0;
 /// The same for a released key.
 const RELEASE_RATE: f64 = 5.0;
-
-macro_rules! keys {
-    ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
-        /// A key that means something, by its place on the USB keyboard.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[repr(u8)]
-        pub enum Key {
-            $($(#[$doc])* $name = $code),*
-        }
-
-        impl Key {
-            /// Every key.
-            pub const ALL: &[Self] = &[$(Self::$name),*];
-
-            /// The key with this number on the USB.
-            pub fn from_code(code: u8) -> Option<Self> {
-                match code {
-                    $($code => Some(Self::$name),)*
-                    _ => None,
-                }
-            }
-        }
-    };
-}
-
-keys! {
-    /// A.
-    A = 0x04,
-    /// C.
-    C = 0x06,
-    /// D.
-    D = 0x07,
-    /// E.
-    E = 0x08,
-    /// F.
-    F = 0x09,
-    /// H.
-    H = 0x0b,
-    /// P.
-    P = 0x13,
-    /// Q.
-    Q = 0x14,
-    /// R.
-    R = 0x15,
-    /// S.
-    S = 0x16,
-    /// V.
-    V = 0x19,
-    /// W.
-    W = 0x1a,
-    /// 1 above the letters.
-    One = 0x1e,
-    /// 2 above the letters.
-    Two = 0x1f,
-    /// 3 above the letters.
-    Three = 0x20,
-    /// Backspace.
-    Backspace = 0x2a,
-    /// The space bar.
-    Space = 0x2c,
-    /// − above the letters.
-    Minus = 0x2d,
-    /// = above the letters.
-    Equal = 0x2e,
-    /// The full stop.
-    Period = 0x37,
-    /// F1.
-    F1 = 0x3a,
-    /// Arrow to the right.
-    Right = 0x4f,
-    /// Arrow to the left.
-    Left = 0x50,
-    /// Arrow down.
-    Down = 0x51,
-    /// Arrow up.
-    Up = 0x52,
-    /// Either shift key.
-    Shift = 0xe1,
-}
-
-/// The bytes of a key event.
-pub fn encode(key: Key, pressed: bool) -> [u8; 2] {
-    [key as u8, u8::from(pressed)]
-}
 
 /// What a key does once when pressed.
 fn action(key: Key) -> Option<Action> {
@@ -276,28 +193,21 @@ mod tests {
     //! A key that is held must lead smoothly to its control and a released one back; the order of
     //! asking may not matter.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
     fn keyboard() -> (Keyboard, Actions) {
         (Keyboard::new(RiderConfig::default()), Actions::default())
     }
 
     #[test]
-    fn every_key_survives_its_bytes() {
-        for &key in Key::ALL {
-            assert_eq!(Key::from_code(encode(key, true)[0]), Some(key));
-        }
-    }
-
-    #[test]
     fn pedalling_rises_to_the_cruise_and_coasts_down() {
         let (mut keys, mut actions) = keyboard();
         assert_eq!(keys.wheel_speed(0), None);
-        keys.bytes(SECOND, &encode(Key::W, true), &mut actions);
+        keys.bytes(SECOND, &Key::W.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(SECOND), Some(0.0));
         assert_eq!(keys.wheel_speed(2 * SECOND), Some(2.0));
         assert_eq!(keys.wheel_speed(60 * SECOND), Some(10.0));
-        keys.bytes(60 * SECOND, &encode(Key::W, false), &mut actions);
+        keys.bytes(60 * SECOND, &Key::W.to_bytes(false), &mut actions);
         assert_eq!(keys.wheel_speed(64 * SECOND), Some(8.0));
         assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
     }
@@ -305,8 +215,8 @@ mod tests {
     #[test]
     fn braking_wins_over_pedalling() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &encode(Key::Up, true), &mut actions);
-        keys.bytes(10 * SECOND, &encode(Key::Space, true), &mut actions);
+        keys.bytes(0, &Key::Up.to_bytes(true), &mut actions);
+        keys.bytes(10 * SECOND, &Key::Space.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(11 * SECOND), Some(4.0));
         assert_eq!(keys.brake(11 * SECOND), 1.0);
         assert_eq!(keys.wheel_speed(12 * SECOND), Some(0.0));
@@ -315,9 +225,9 @@ mod tests {
     #[test]
     fn opposite_keys_cancel() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &encode(Key::A, true), &mut actions);
+        keys.bytes(0, &Key::A.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
-        keys.bytes(SECOND, &encode(Key::D, true), &mut actions);
+        keys.bytes(SECOND, &Key::D.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
     }
 
@@ -325,7 +235,7 @@ mod tests {
     fn losing_the_focus_lets_everything_go() {
         let (mut keys, mut actions) = keyboard();
         for key in [Key::W, Key::A, Key::Space, Key::Q] {
-            keys.bytes(0, &encode(key, true), &mut actions);
+            keys.bytes(0, &key.to_bytes(true), &mut actions);
         }
         keys.reset(SECOND);
         let later = 30 * SECOND;
@@ -337,7 +247,7 @@ mod tests {
     fn a_repeated_press_acts_once() {
         let (mut keys, mut actions) = keyboard();
         for state in [true, true, false, true] {
-            keys.bytes(0, &encode(Key::P, state), &mut actions);
+            keys.bytes(0, &Key::P.to_bytes(state), &mut actions);
         }
         assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause]);
     }

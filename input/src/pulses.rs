@@ -5,8 +5,8 @@
 //! still allows (had it turned faster, the next pulse would be here already), so it decays by
 //! itself, and after a while of silence it is zero.
 
+use crate::clock::{Nanos, seconds_between};
 use crate::filters::{MedianOfThree, OneEuro};
-use crate::sample::{Nanos, seconds_between};
 
 /// Cutoff at a steady pace, Hz: a rider's pace changes within a second.
 const STEADY_CUTOFF_HZ: f64 = 1.0;
@@ -86,7 +86,7 @@ mod tests {
     //! A steady wheel must read its exact rate, a stopped one must come to rest without a last
     //! jerk, and neither a bouncing contact nor a clock that wrapped may show as speed.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
     /// Rounding of a few operations.
     const ROUNDING: f64 = 1e-12;

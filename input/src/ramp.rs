@@ -3,7 +3,7 @@
 //! A key is down or up, a leg is not. The value between is a function of the time of the last
 //! change and the time of asking only, so it does not matter how often one asks.
 
-use crate::sample::{Nanos, seconds_between};
+use crate::clock::{Nanos, seconds_between};
 
 /// A ramp from where it was when its target was last changed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,7 +31,7 @@ impl Ramp {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
     #[test]
     fn a_ramp_reaches_its_target_and_stays() {

@@ -6,41 +6,13 @@
 //! interface pass as samples ([`Source::Settings`]).
 
 use std::fmt;
-use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::head::MouseEvent;
-use crate::keyboard::{self, Key};
-
-/// Nanoseconds since the ride began, on one monotonic clock for devices and frames alike.
-pub type Nanos = u64;
-
-/// One second in [`Nanos`].
-pub const SECOND: Nanos = 1_000_000_000;
-
-/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two
-/// threads may be.
-pub fn seconds_between(earlier: Nanos, later: Nanos) -> f64 {
-    later.saturating_sub(earlier) as f64 * 1e-9
-}
-
-/// The ride's clock: monotonic, zero at the start. Copies agree.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock(Instant);
-
-impl Clock {
-    /// Starts a clock at zero.
-    pub fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    /// The time now. It fits for 584 years.
-    pub fn now(self) -> Nanos {
-        Nanos::try_from(self.0.elapsed().as_nanos()).unwrap_or(Nanos::MAX)
-    }
-}
+use crate::clock::Nanos;
+use crate::head::mouse_event::MouseEvent;
+use crate::key::Key;
 
 /// Which device a sample comes from, and so which decoder reads its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -62,7 +34,7 @@ pub enum Source {
     Dtrack,
     /// The mouse in the window, where it moves the head: [`crate::head::Mouse`].
     Mouse,
-    /// The program's own interface: [`crate::action`].
+    /// The program's own interface: [`crate::settings`].
     Settings,
 }
 
@@ -142,7 +114,7 @@ impl Sample {
 
     /// A key of the window pressed or released.
     pub fn key(at: Nanos, key: Key, pressed: bool) -> Self {
-        Self::bytes(at, Source::Keyboard, keyboard::encode(key, pressed))
+        Self::bytes(at, Source::Keyboard, key.to_bytes(pressed))
     }
 
     /// The mouse of the window, where it moves the head.
@@ -159,12 +131,6 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn time_that_runs_backwards_counts_as_none() {
-        assert_eq!(seconds_between(5 * SECOND, 3 * SECOND), 0.0);
-        assert_eq!(seconds_between(3 * SECOND, 5 * SECOND), 2.0);
-    }
 
     #[test]
     fn names_are_the_serialised_names() {

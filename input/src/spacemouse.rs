@@ -9,10 +9,11 @@
 //! lost, flight must not go on for ever: after half a second of silence the cap counts as released.
 
 use crate::action::Action;
-use crate::config::AxisTable;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::axis_table::AxisTable;
+use crate::clock::{Nanos, seconds_between};
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::filters::with_dead_zone;
-use crate::sample::{Nanos, seconds_between};
 
 /// Nominal full deflection; a hard push exceeds it.
 const FULL_DEFLECTION: f64 = 350.0;
@@ -103,7 +104,7 @@ impl Decoder for SpaceMouse {
 mod tests {
     //! Reports captured from real devices must give their push; a lost zero must not fly on.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
     fn decoder() -> (SpaceMouse, Actions) {
         (SpaceMouse::new(AxisTable::RAW), Actions::default())

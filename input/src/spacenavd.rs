@@ -8,9 +8,10 @@
 //! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent
 //! for seconds: silence means nothing here.
 
-use crate::config::AxisTable;
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::sample::Nanos;
+use crate::axis_table::AxisTable;
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::spacemouse::{button, deflection};
 
 /// Length of an event, bytes.

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
 
-use crate::sample::{Clock, Nanos, SECOND, Sample, Source, seconds_between};
+use crate::clock::{Clock, Nanos, SECOND, seconds_between};
+use crate::sample::{Sample, Source};
 
 /// Pause before a device is looked for again, at first.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);

@@ -12,10 +12,11 @@ use std::time::{Duration, Instant};
 use super::feed::{Connection, Place, Port};
 use super::serial::passing;
 use crate::sample::Source;
+use crate::vrpn::numbers::Numbers;
+use crate::vrpn::types::{PING, PONG};
 use crate::vrpn::wire::{
     COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError, description,
 };
-use crate::vrpn::{Numbers, PING, PONG};
 
 /// How long a server may take to answer at first.
 const CONNECT_WAIT: Duration = Duration::from_secs(1);

@@ -14,11 +14,13 @@
 //! # assert_eq!(config.room_from_tracker.yaw, 90.0);
 //! ```
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::placement::{HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
-use super::{Placement, TrackerUrl};
-use crate::config::{ConfigError, positive};
+use super::placement::{HEAD_FROM_SENSOR, Placement, ROOM_FROM_TRACKER, within};
+use super::state::HeadState;
+use super::url::TrackerUrl;
+use crate::config_error::{ConfigError, positive};
 
 /// How the head is tracked.
 ///
@@ -72,6 +74,17 @@ pub enum TrackingMode {
     Position,
     /// Nothing.
     None,
+}
+
+impl TrackingMode {
+    /// What of a head this mode uses.
+    pub fn of(self, state: HeadState) -> Option<HeadState> {
+        match self {
+            Self::PositionAndVelocity => Some(state),
+            Self::Position => Some(HeadState { velocity_m_s: DVec3::ZERO, ..state }),
+            Self::None => None,
+        }
+    }
 }
 
 /// How a velocity is made from poses. What each costs in latency and leaves of the noise is measured
@@ -224,7 +237,7 @@ impl HeadConfig {
 mod tests {
     //! A table must mean what it says, and one that cannot be used must be told by key and reason.
     use super::*;
-    use crate::head::Rigid;
+    use crate::head::rigid::Rigid;
     use glam::DQuat;
 
     fn parse(text: &str) -> Result<HeadConfig, String> {

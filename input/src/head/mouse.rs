@@ -10,9 +10,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::{HeadState, Tracking};
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::sample::{Nanos, seconds_between};
+use super::mouse_event::{MouseButton, MouseEvent};
+use super::state::{HeadState, Tracking};
+use crate::clock::{Nanos, seconds_between};
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 
 /// Turn for a drag by one pixel, radians: 0.15 degrees.
 const TURN_PER_PIXEL: f64 = 0.15 * std::f64::consts::PI / 180.0;
@@ -24,110 +26,8 @@ const METRES_PER_NOTCH: f64 = 0.1;
 const STEEPEST: f64 = FRAC_PI_2 * 0.95;
 /// How far from its beginning the head may be, along each axis, metres.
 const REACH_M: f64 = 5.0;
-/// No event moves the mouse further, pixels, or its wheel, notches.
-const FARTHEST: f32 = 1e5;
 /// How hard the head is drawn to where the mouse wants it: a tenth of a second, 1/s.
 const EAGERNESS: f64 = 10.0;
-
-/// A button of the mouse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MouseButton {
-    /// Turns.
-    Left,
-    /// Moves.
-    Right,
-    /// Goes back to the beginning.
-    Middle,
-}
-
-impl MouseButton {
-    const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Middle];
-}
-
-/// Something that the mouse does in the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MouseEvent {
-    /// It moves, by pixels.
-    Moved {
-        /// To the right.
-        right: f32,
-        /// Down.
-        down: f32,
-    },
-    /// A button is pressed or released.
-    Button {
-        /// Which one.
-        button: MouseButton,
-        /// Whether it is down.
-        pressed: bool,
-    },
-    /// The shift key is pressed or released.
-    Shift(bool),
-    /// The wheel is turned, by notches away from the user.
-    Wheel(f32),
-    /// Back to the beginning.
-    Reset,
-}
-
-const MOVED: u8 = 0;
-const BUTTON: u8 = 1;
-const SHIFT: u8 = 2;
-const WHEEL: u8 = 3;
-const RESET: u8 = 4;
-
-impl MouseEvent {
-    /// The bytes that the decoder reads; numbers little-endian. Several events may follow one another.
-    pub fn to_bytes(self) -> Vec<u8> {
-        match self {
-            Self::Moved { right, down } => [&[MOVED][..], &right.to_le_bytes(), &down.to_le_bytes()].concat(),
-            Self::Button { button, pressed } => vec![BUTTON, button as u8, u8::from(pressed)],
-            Self::Shift(held) => vec![SHIFT, u8::from(held)],
-            Self::Wheel(ahead) => [&[WHEEL][..], &ahead.to_le_bytes()].concat(),
-            Self::Reset => vec![RESET],
-        }
-    }
-
-    /// The event at the beginning, and what follows it; `None` if there is none.
-    fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
-        let (&kind, rest) = bytes.split_first()?;
-        Some(match kind {
-            MOVED => {
-                let (right, rest) = number(rest)?;
-                let (down, rest) = number(rest)?;
-                (Self::Moved { right, down }, rest)
-            }
-            BUTTON => {
-                let (&button, rest) = rest.split_first()?;
-                let (pressed, rest) = switch(rest)?;
-                (Self::Button { button: *MouseButton::ALL.get(usize::from(button))?, pressed }, rest)
-            }
-            SHIFT => {
-                let (held, rest) = switch(rest)?;
-                (Self::Shift(held), rest)
-            }
-            WHEEL => {
-                let (ahead, rest) = number(rest)?;
-                (Self::Wheel(ahead), rest)
-            }
-            RESET => (Self::Reset, rest),
-            _ => return None,
-        })
-    }
-}
-
-fn number(bytes: &[u8]) -> Option<(f32, &[u8])> {
-    let (number, rest) = bytes.split_first_chunk()?;
-    let number = f32::from_le_bytes(*number);
-    (number.abs() <= FARTHEST).then_some((number, rest))
-}
-
-fn switch(bytes: &[u8]) -> Option<(bool, &[u8])> {
-    match bytes.split_first()? {
-        (0, rest) => Some((false, rest)),
-        (1, rest) => Some((true, rest)),
-        _ => None,
-    }
-}
 
 /// A place that follows another like a critically damped spring.
 ///
@@ -261,7 +161,8 @@ mod tests {
     //! The head must go where the mouse wants it, without a jump of place or velocity, and its
     //! velocity must be that of its place.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
+    use crate::head::mouse_event::{BUTTON, MOVED, SHIFT, WHEEL};
 
     const HOME: DVec3 = DVec3::new(0.0, 1.7, 0.5);
     const RIGHT: MouseEvent = MouseEvent::Moved { right: 100.0, down: 0.0 };
@@ -281,26 +182,6 @@ mod tests {
 
     fn near(found: DVec3, expected: DVec3) {
         assert!((found - expected).length() < 1e-9, "{found} for {expected}");
-    }
-
-    #[test]
-    fn events_survive_their_bytes() {
-        let events = [
-            RIGHT,
-            button(MouseButton::Middle, true),
-            button(MouseButton::Left, false),
-            MouseEvent::Shift(true),
-            MouseEvent::Wheel(-2.5),
-            MouseEvent::Reset,
-        ];
-        let bytes: Vec<u8> = events.iter().flat_map(|event| event.to_bytes()).collect();
-        let mut rest = &bytes[..];
-        for event in events {
-            let (found, behind) = MouseEvent::from_bytes(rest).unwrap();
-            assert_eq!(found, event);
-            rest = behind;
-        }
-        assert!(rest.is_empty());
     }
 
     #[test]

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use glam::{DQuat, DVec3, EulerRot};
 use serde::{Deserialize, Serialize};
 
-use super::Rigid;
-use crate::config::ConfigError;
+use super::rigid::Rigid;
+use crate::config_error::ConfigError;
 
 /// How far from the room's origin anything is, metres.
 pub(super) const FARTHEST_M: f64 = 1000.0;

@@ -1,9 +1,16 @@
 //! The head must be where the tracker's axes and the sensor's mounting put it, move as the eyes do,
 //! and take no nonsense; a head that is lost must neither jump nor run on.
 
-use super::*;
-use crate::sample::SECOND;
 use std::f64::consts::FRAC_PI_2;
+
+use glam::{DQuat, DVec3};
+
+use super::config::{HeadConfig, TrackingMode, VelocityFilter};
+use super::placement::Placement;
+use super::state::{HeadState, Tracking};
+use super::tracked_head::Head;
+use super::tracked_pose::TrackedPose;
+use crate::clock::{Nanos, SECOND};
 
 /// Differences of places a few metres from the origin, over a hundredth of a second.
 const ROUNDING: f64 = 1e-9;

@@ -7,9 +7,9 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::dtrack;
 use crate::sample::Source;
-use crate::vrpn::wire::LONGEST_NAME;
-use crate::{dtrack, vrpn};
+use crate::vrpn::wire::{self, LONGEST_NAME};
 
 /// A tracker's place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -92,7 +92,7 @@ impl FromStr for TrackerUrl {
             // VRPN's own name for its way over TCP alone.
             Some(("vrpn" | "tcp", rest)) => {
                 let (place, device) = rest.split_once('/').unwrap_or((rest, ""));
-                let (host, port) = host_and_port(url, place, vrpn::wire::PORT)?;
+                let (host, port) = host_and_port(url, place, wire::PORT)?;
                 if host.is_empty() || host.contains('@') {
                     return Err(TrackerUrlError::Host(url.to_owned()));
                 }

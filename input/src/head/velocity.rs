@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::VelocityFilter;
+use super::config::VelocityFilter;
 
 /// A place closer in time to the last than this, seconds, is passed over: the difference would be
 /// noise alone.

@@ -10,10 +10,11 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
+use super::error::RecordingError;
+use super::header::Header;
 use super::record::{Entry, SampleRecord, Topic};
 use super::records::{Record, Records};
 use super::wire::{Fields, opcode};
-use super::{Header, RecordingError};
 
 /// A recording that is being read: its header, and an iterator over its entries in the order in
 /// which they were made.

@@ -4,8 +4,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Nanos, Sample, Signal, Source};
+use crate::sample::{Sample, Signal, Source};
 
 /// The observer after a frame's steps.
 ///

@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use super::error::RecordingError;
+use super::header::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
 use super::wire::{Fields, MAGIC, RECORD_HEADER, opcode, record_header};
-use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
 
 /// No record of ours comes near; a length beyond this is damage.
 const LONGEST_RECORD: u64 = 64 << 20;

@@ -18,10 +18,12 @@ use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
+use super::error::RecordingError;
+use super::header::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
 use super::record::{ControlsRecord, Entry, FrameRecord, SampleRecord, Topic};
-use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
+use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Nanos, Sample};
+use crate::sample::Sample;
 
 /// How often a chunk is closed and handed to the disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(500);

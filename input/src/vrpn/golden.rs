@@ -25,6 +25,9 @@ pub const TURNED: &str = concat!(
     "00000000000000000000000000000000",
     "3fef4502a6de9c4e3fcb313bc05f50e8",
 );
+/// Sender 2 is "Spin0"; written by hand, without time and sequence number.
+const SPIN: &str =
+    concat!("00000022000000000000000000000002ffffffff00000000", "00000006", "5370696e3000", "000000000000",);
 
 pub fn bytes(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
@@ -32,6 +35,5 @@ pub fn bytes(hex: &str) -> Vec<u8> {
 
 /// Cookie, both descriptions, both poses, the description of sender 2, its pose again.
 pub fn session() -> Vec<u8> {
-    let spin = super::wire::description(super::wire::DESCRIBES_SENDER, 2, "Spin0");
-    [bytes(COOKIE), bytes(SENDER), bytes(TYPE), bytes(IDENTITY), bytes(TURNED), spin, bytes(TURNED)].concat()
+    [COOKIE, SENDER, TYPE, IDENTITY, TURNED, SPIN, TURNED].map(bytes).concat()
 }

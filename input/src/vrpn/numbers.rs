@@ -1,7 +1,7 @@
 //! Which numbers stand for which names, on one connection.
 
+use super::types::{PING, PONG, POSE, VELOCITY};
 use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, Message, WireError};
-use super::{PING, PONG, POSE, VELOCITY};
 
 /// Senders that are remembered by name, for those who have mistaken it.
 pub(super) const MOST_SENDERS: usize = 16;

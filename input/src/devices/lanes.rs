@@ -1,0 +1,135 @@
+//! All devices that are looked for, each with its thread and its queue.
+
+use std::sync::Arc;
+use std::thread::{self, JoinHandle};
+
+use crossbeam_channel::{Receiver, Sender, bounded};
+use thiserror::Error;
+
+use super::config::DevicesConfig;
+use super::dtrack::DtrackPort;
+use super::feed::{Feed, Port, Shared, Status, status};
+use super::puck::PuckPort;
+use super::serial::{BrakeSlot, SerialPort};
+use super::vrpn::VrpnPort;
+use crate::clock::Clock;
+use crate::head::url::TrackerUrl;
+use crate::sample::{Sample, Source};
+
+/// Samples of one device that wait for the frame loop: several seconds of the fastest.
+const QUEUE: usize = 4096;
+/// Samples of a tracker that wait: they are longer.
+const TRACKER_QUEUE: usize = 1024;
+
+/// Why devices cannot be read at all.
+#[derive(Debug, Error)]
+pub enum DevicesError {
+    /// The system gives us no thread.
+    #[error("cannot start the thread that reads the {source_device}: {cause}")]
+    Thread {
+        /// Which device.
+        source_device: Source,
+        /// Why not.
+        cause: std::io::Error,
+    },
+}
+
+/// One device's thread and its queue.
+#[derive(Debug)]
+struct Lane {
+    samples: Receiver<Sample>,
+    live: Shared,
+    thread: JoinHandle<()>,
+}
+
+/// All devices that are looked for.
+#[derive(Debug)]
+pub struct Devices {
+    clock: Clock,
+    lanes: Vec<Lane>,
+    brake: Arc<BrakeSlot>,
+    /// Closed to end the threads.
+    stop: Option<Sender<()>>,
+}
+
+impl Devices {
+    /// Starts to look for the devices.
+    ///
+    /// # Errors
+    /// If a thread cannot be started. A device that is missing is no error.
+    pub fn open(config: &DevicesConfig, clock: Clock) -> Result<Self, DevicesError> {
+        let (stop, stopped) = bounded(0);
+        let brake = Arc::new(BrakeSlot::default());
+        let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
+        if let Some(path) = &config.bicycle {
+            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), QUEUE, &stopped)?;
+        }
+        if config.space_mouse {
+            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), QUEUE, &stopped)?;
+        }
+        #[cfg(target_os = "linux")]
+        if config.gamepad {
+            devices.start(Source::Gamepad, super::pad::PadPort, QUEUE, &stopped)?;
+        }
+        match &config.tracker {
+            Some(TrackerUrl::Vrpn { host, port, device }) => {
+                devices.start(Source::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Dtrack { address, port }) => {
+                devices.start(Source::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Mouse) | None => {}
+        }
+        Ok(devices)
+    }
+
+    fn start(
+        &mut self,
+        source: Source,
+        port: impl Port + 'static,
+        queue: usize,
+        stopped: &Receiver<()>,
+    ) -> Result<(), DevicesError> {
+        let (feed, samples, live) = Feed::new(source, self.clock, queue, stopped.clone());
+        let thread = thread::Builder::new()
+            .name(source.name().to_owned())
+            .spawn(move || feed.run(port))
+            .map_err(|cause| DevicesError::Thread { source_device: source, cause })?;
+        self.lanes.push(Lane { samples, live, thread });
+        Ok(())
+    }
+
+    /// Everything that has arrived since the last call, in the order of arrival.
+    pub fn drain(&self) -> Vec<Sample> {
+        let mut samples: Vec<Sample> = Vec::new();
+        for lane in &self.lanes {
+            // No more than fit at once, or a flood would keep us here.
+            samples.extend(lane.samples.try_iter().take(QUEUE));
+        }
+        samples.sort_by_key(|sample| sample.at);
+        samples
+    }
+
+    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest
+    /// is sent, and at most fifty a second.
+    pub fn brake(&self, brake: f64) {
+        self.brake.set(brake);
+    }
+
+    /// How the devices are.
+    pub fn status(&self) -> Vec<Status> {
+        let now = self.clock.now();
+        self.lanes.iter().map(|lane| status(&lane.live, now)).collect()
+    }
+}
+
+impl Drop for Devices {
+    /// Ends the threads; each looks up from its device at least ten times a second, and from waiting for a server
+    /// after a second.
+    fn drop(&mut self) {
+        self.stop = None;
+        for lane in self.lanes.drain(..) {
+            let _ = lane.thread.join();
+        }
+    }
+}
