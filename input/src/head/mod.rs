@@ -17,7 +17,6 @@
 //! to the origin.
 
 pub(crate) mod config;
-mod limit;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
 mod placement;
@@ -32,7 +31,6 @@ pub(crate) mod url;
 mod velocity;
 
 pub use config::{HeadConfig, TrackingMode, VelocityFilter};
-pub use limit::{celerity, limited};
 pub use mouse::Mouse;
 pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::Placement;

@@ -27,8 +27,8 @@ pub struct HeadState {
     pub position_m: DVec3,
     /// `room_from_head`: the head looks along its −z, its right ear is at +x.
     pub orientation: DQuat,
-    /// How fast it goes in the vehicle, in metres for a second of the user's own time: c times the
-    /// celerity, [`celerity`].
+    /// Velocity in the room, metres per second of the user's own clock. Way in the vehicle's frame over proper time is
+    /// c times the celerity; the crate that knows c divides by it.
     pub velocity_m_s: DVec3,
     /// How far this is to be believed.
     pub tracked: Tracking,
