@@ -117,6 +117,16 @@ fn short_ride() -> (Vec<u8>, Vec<Entry>) {
     (fs::read(&path).unwrap(), entries)
 }
 
+/// Compares entries; the numbers of frames by their bits.
+fn assert_same_bits(found: &[Entry], expected: &[Entry]) {
+    assert_eq!(found, expected);
+    for (found, expected) in found.iter().zip(expected) {
+        if let (Entry::Frame(found), Entry::Frame(expected)) = (found, expected) {
+            assert_eq!(found.first_difference(expected), None);
+        }
+    }
+}
+
 #[test]
 fn what_is_written_is_read_to_the_last_bit() {
     let (_directory, path) = place();
@@ -125,11 +135,40 @@ fn what_is_written_is_read_to_the_last_bit() {
     assert_eq!(Recording::open(&path).unwrap().header(), &header());
     let (found, error) = read(&path);
     assert!(error.is_none(), "{error:?}");
-    assert_eq!(found, entries);
-    for (found, entry) in found.iter().zip(&entries) {
-        if let (Entry::Frame(found), Entry::Frame(entry)) = (found, entry) {
-            assert_eq!(found.first_difference(entry), None);
+    assert_same_bits(&found, &entries);
+}
+
+/// A recording of the first format, made when it was read by hand.
+#[test]
+fn old_recordings_read_to_the_same_bits() {
+    let (found, error) = read_bytes(include_bytes!("recordings/format_1.bin"));
+    assert!(error.is_none(), "{error:?}");
+    assert_same_bits(&found, &ride(3));
+}
+
+/// Other programs cut a recording into other chunks, or none, and need not write checksums.
+#[test]
+fn a_recording_copied_by_another_program_is_the_same() {
+    let (bytes, entries) = short_ride();
+    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
+    let metadata = mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).unwrap();
+    let options = || mcap::WriteOptions::new().profile("rapidity").compression(None);
+    for options in [
+        options().use_chunks(false),
+        options().chunk_size(Some(300)),
+        options().calculate_chunk_crcs(false).calculate_data_section_crc(false),
+        options().repeat_channels(false).emit_statistics(false).emit_message_indexes(false),
+    ] {
+        let mut copy = options.create(std::io::Cursor::new(Vec::new())).unwrap();
+        copy.write_metadata(&metadata).unwrap();
+        for message in mcap::MessageStream::new(&bytes).unwrap() {
+            copy.write(&message.unwrap()).unwrap();
         }
+        copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
+        copy.finish().unwrap();
+        let (found, error) = read_bytes(&copy.into_inner().into_inner());
+        assert!(error.is_none(), "{error:?}");
+        assert_same_bits(&found, &entries);
     }
 }
 

@@ -16,12 +16,12 @@
 //! chunks of at most half a second, each whole and with its own checksum. A crash therefore loses
 //! at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
 
+mod chunk;
 mod error;
 mod header;
+mod outer_records;
 mod reader;
 mod record;
-mod records;
-mod wire;
 mod writer;
 
 pub use error::RecordingError;

@@ -4,6 +4,9 @@
 //! and writes. Every half second it closes the chunk and hands it to the disk. A queue that is full
 //! means that the disk has stalled for many seconds: since a recording with a gap would not replay,
 //! recording then stops with an error instead of losing something or of stopping the ride.
+//!
+//! The bytes are those of the `mcap` crate's writer. It puts a chunk together in memory and writes it whole; only when a
+//! chunk ends stands here ([`FLUSH_EVERY`]), for that decides how much a crash costs.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
