@@ -313,6 +313,19 @@ fn a_flipped_bit_anywhere_in_the_data_is_found_and_nothing_false_is_read() {
     }
 }
 
+/// Lengths and counts of four gigabytes, wherever they stand.
+#[test]
+fn a_length_of_gigabytes_anywhere_ends_in_a_sentence() {
+    let (bytes, entries) = short_ride();
+    for index in 0..data_end(&bytes) - 4 {
+        let mut hostile = bytes.clone();
+        hostile[index..index + 4].fill(0xff);
+        let (found, error) = read_bytes(&hostile);
+        assert_eq!(found, entries[..found.len()], "byte {index}");
+        assert!(error.is_some(), "byte {index}");
+    }
+}
+
 /// Every byte of the data, and some of the index behind it.
 fn places(bytes: &[u8]) -> impl Iterator<Item = usize> {
     let data_end = data_end(bytes);

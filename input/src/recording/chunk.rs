@@ -12,6 +12,7 @@ use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::outer_records::LONGEST_RECORD;
+use super::parse::parsed;
 
 /// Length of a chunk's fields before its content, without the name of the compression, bytes: start, end, uncompressed
 /// length, checksum, length of the name, length of the content.
@@ -25,8 +26,8 @@ pub(super) fn records_of_chunk(
     body: &[u8],
     mut each: impl FnMut(u8, &[u8]) -> Result<(), String>,
 ) -> Result<(), String> {
-    let content_end = match mcap::parse_record(op::CHUNK, body) {
-        Ok(Record::Chunk { header, data }) => FIELDS + header.compression.len() + data.len(),
+    let content_end = match parsed(op::CHUNK, body) {
+        Some(Record::Chunk { header, data }) => FIELDS + header.compression.len() + data.len(),
         _ => return Err("the chunk is shorter than it says".to_owned()),
     };
     let body = &body[..content_end];

@@ -20,6 +20,7 @@ mod chunk;
 mod error;
 mod header;
 mod outer_records;
+mod parse;
 mod reader;
 mod record;
 mod writer;

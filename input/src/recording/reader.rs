@@ -9,7 +9,6 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
-use mcap::parse_record;
 use mcap::records::{MessageHeader, Record, op};
 use serde::de::DeserializeOwned;
 
@@ -17,6 +16,7 @@ use super::chunk::records_of_chunk;
 use super::error::RecordingError;
 use super::header::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
 use super::outer_records::OuterRecords;
+use super::parse::parsed;
 use super::record::{Entry, SampleRecord, Topic};
 
 /// Length of the record that ends the data, bytes: its checksum.
@@ -70,8 +70,7 @@ impl Recording {
 /// Checks that the file is MCAP and of this program.
 fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
     let record = records.next()?;
-    let parsed = if record.opcode == op::HEADER { parse_record(op::HEADER, &record.body).ok() } else { None };
-    match parsed {
+    match parsed(record.opcode, &record.body) {
         Some(Record::Header(header)) if header.profile == PROFILE => Ok(()),
         Some(Record::Header(header)) => Err(records.foreign(header.profile)),
         _ => Err(records.damaged(record.offset, "the MCAP header cannot be read")),
@@ -82,8 +81,7 @@ fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
 fn read_header(records: &mut OuterRecords) -> Result<Header, RecordingError> {
     let record = records.next()?;
     let damaged = |what: String| records.damaged(record.offset, what);
-    let parsed = if record.opcode == op::METADATA { parse_record(op::METADATA, &record.body).ok() } else { None };
-    let values = match parsed {
+    let values = match parsed(record.opcode, &record.body) {
         Some(Record::Metadata(metadata)) if metadata.name == METADATA => metadata.metadata,
         _ => return Err(damaged("the description of the ride is missing".to_owned())),
     };
@@ -113,16 +111,16 @@ impl Messages {
     /// Takes a channel or a message; other records are passed over.
     fn take(&mut self, opcode: u8, body: &[u8]) -> Result<(), String> {
         match opcode {
-            op::CHANNEL => match parse_record(opcode, body) {
-                Ok(Record::Channel(channel)) => {
+            op::CHANNEL => match parsed(opcode, body) {
+                Some(Record::Channel(channel)) => {
                     let topic = Topic::ALL.into_iter().find(|topic| topic.name() == channel.topic);
                     self.channels.insert(channel.id, topic);
                     Ok(())
                 }
                 _ => Err("a channel is shorter than it says".to_owned()),
             },
-            op::MESSAGE => match parse_record(opcode, body) {
-                Ok(Record::Message { header, data }) => self.message(header, &data),
+            op::MESSAGE => match parsed(opcode, body) {
+                Some(Record::Message { header, data }) => self.message(header, &data),
                 _ => Err("a message is shorter than its header".to_owned()),
             },
             _ => Ok(()),
