@@ -8,7 +8,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::devices::State;
 use input::{BrakeCommand, DevicesConfig, SECOND, Source};
 use serialport::{SerialPort, TTYPort};

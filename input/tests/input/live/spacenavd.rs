@@ -9,7 +9,7 @@ use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
 use std::time::Duration;
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::devices::State;
 use input::{Action, Controls, DevicesConfig, SECOND, Source};
 

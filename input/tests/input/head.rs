@@ -1,7 +1,6 @@
 //! A ride with a tracked head: a recording of it must give the same head to the last bit, whatever
 //! the tracker sent; what it sent must never make a head that no replay could read back; and
 //! recordings of before there was a head must open.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -3,7 +3,6 @@
 //!
 //! A wrong program would replay a ride that never was, refuse a ride because its last second is
 //! missing, or fall over a hostile file.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -9,7 +9,7 @@ use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::time::Duration;
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::Source;
 use input::devices::State;
 use input::head::Tracking;

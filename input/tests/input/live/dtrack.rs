@@ -7,7 +7,7 @@
 use std::net::UdpSocket;
 use std::time::Duration;
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::Source;
 use input::devices::State;
 use input::head::Tracking;

@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::DevicesConfig;
 use input::devices::{State, plugged_in};
 
