@@ -4,7 +4,7 @@
 //!     cargo run --release -p input --example head_filters
 //!
 //! A synthetic head walks to and fro (0.6 m, 0.4 Hz: up to 1.5 m/s) and sways and bobs as walkers do. A tracker sees
-//! it with half a millimetre of noise along each axis. Its poses go through [`Head`] as in a ride, and what comes out
+//! it with half a millimetre of noise along each axis. Its poses go through [`TrackedHead`] as in a ride, and what comes out
 //! is compared with the true velocity:
 //!
 //! - *latency*: the delay of the true velocity that fits best;
@@ -15,7 +15,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
-use input::head::{Head, VelocityFilter};
+use input::head::{TrackedHead, VelocityFilter};
 use input::{HeadConfig, Nanos, SECOND, TrackedPose, TrackerUrl};
 
 /// Noise of the tracker along each axis, metres.
@@ -58,7 +58,7 @@ impl Noise {
 /// Time and filtered velocity after each frame of the tracker.
 fn filtered(filter: VelocityFilter, rate_hz: f64, noise_m: f64, walk: fn(f64) -> DVec3) -> Vec<(f64, DVec3)> {
     let config = HeadConfig { velocity: filter, ..HeadConfig::new(TrackerUrl::Mouse) };
-    let mut head = Head::new(config).expect("the settings are sound");
+    let mut head = TrackedHead::new(config).expect("the settings are sound");
     let mut noise = Noise(1905);
     let mut track = Vec::new();
     for frame in 0..(WALK_S * rate_hz) as u64 {

@@ -11,9 +11,9 @@
 //!
 //! ```
 //! use input::decoder::{Actions, Decoder};
-//! use input::dtrack::Dtrack;
+//! use input::dtrack::DtrackDecoder;
 //!
-//! let mut decoder = Dtrack::default();
+//! let mut decoder = DtrackDecoder::default();
 //! let frame = b"fr 1\r\n6d 1 [0 1.000][100.0 200.0 300.0 0 0 0][1 0 0 0 1 0 0 0 1]\r\n";
 //! decoder.bytes(0, frame, &mut Actions::default());
 //! assert_eq!(decoder.take_poses()[0].position_m.to_array(), [0.1, 0.2, 0.3]);
@@ -61,19 +61,19 @@ pub enum DtrackError {
 
 /// When a frame was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Stamp {
+struct DtrackStamp {
     measured_s: Option<f64>,
     latency_s: Option<f64>,
 }
 
-/// Decoder of [`Source::Dtrack`](crate::Source::Dtrack): a datagram a sample.
+/// Decoder of [`SampleSource::Dtrack`](crate::SampleSource::Dtrack): a datagram a sample.
 #[derive(Debug, Default)]
-pub struct Dtrack {
+pub struct DtrackDecoder {
     poses: Vec<TrackedPose>,
     faults: Faults,
 }
 
-impl Dtrack {
+impl DtrackDecoder {
     /// The poses of the datagram fed last: the bodies that were seen.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
@@ -103,7 +103,7 @@ fn lines<'a>(text: &'a str, name: &'static str) -> impl Iterator<Item = &'a str>
     text.split(['\r', '\n']).filter_map(move |line| line.strip_prefix(name)?.strip_prefix(' '))
 }
 
-fn stamp(text: &str) -> Result<Stamp, DtrackError> {
+fn stamp(text: &str) -> Result<DtrackStamp, DtrackError> {
     let bad = |line, expected| DtrackError::Line { line, expected };
     if let Some(line) = lines(text, "ts2").next() {
         let mut fields = line.split_ascii_whitespace().map(str::parse::<u32>);
@@ -113,26 +113,26 @@ fn stamp(text: &str) -> Result<Stamp, DtrackError> {
             return Err(bad("ts2", "seconds, microseconds, microseconds of latency"));
         };
         let measured_s = f64::from(seconds) + 1e-6 * f64::from(microseconds);
-        return Ok(Stamp { measured_s: Some(measured_s), latency_s: Some(1e-6 * f64::from(latency)) });
+        return Ok(DtrackStamp { measured_s: Some(measured_s), latency_s: Some(1e-6 * f64::from(latency)) });
     }
     let Some(line) = lines(text, "ts").next() else {
-        return Ok(Stamp::default());
+        return Ok(DtrackStamp::default());
     };
     let seconds = line.trim().parse().ok().filter(|seconds: &f64| seconds.is_finite());
     let seconds = seconds.ok_or(bad("ts", "seconds since midnight"))?;
-    Ok(Stamp { measured_s: Some(seconds), latency_s: None })
+    Ok(DtrackStamp { measured_s: Some(seconds), latency_s: None })
 }
 
 /// A body in a `6d` line.
-struct Body {
+struct DtrackBody {
     id: i32,
     quality: f64,
     position_mm: DVec3,
     rotation: DMat3,
 }
 
-impl Body {
-    fn pose(&self, at: Nanos, stamp: Stamp) -> Result<TrackedPose, DtrackError> {
+impl DtrackBody {
+    fn pose(&self, at: Nanos, stamp: DtrackStamp) -> Result<TrackedPose, DtrackError> {
         let error = self.rotation.transpose() * self.rotation - DMat3::IDENTITY;
         let largest = error.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
         if largest.is_nan() || largest > ORTHONORMAL || self.rotation.determinant() < 0.0 {
@@ -151,7 +151,7 @@ impl Body {
 }
 
 /// The bodies of a `6d` line that were seen.
-fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
+fn bodies(line: &str) -> Result<Vec<DtrackBody>, DtrackError> {
     const BAD: DtrackError =
         DtrackError::Line { line: "6d", expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]" };
     let (count, mut rest) = line.trim().split_once(' ').unwrap_or((line.trim(), ""));
@@ -166,7 +166,7 @@ fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
         let rotation = block(&mut rest).and_then(numbers::<9>).ok_or(BAD)?;
         found += 1;
         let rotation = DMat3::from_cols_array(&rotation);
-        let body = Body { id, quality, position_mm: DVec3::new(x, y, z), rotation };
+        let body = DtrackBody { id, quality, position_mm: DVec3::new(x, y, z), rotation };
         if body.quality >= 0.0 {
             bodies.push(body);
         }
@@ -191,7 +191,7 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     fields.next().is_none().then_some(numbers)
 }
 
-impl Decoder for Dtrack {
+impl Decoder for DtrackDecoder {
     fn reset(&mut self, _at: Nanos) {}
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
@@ -222,7 +222,7 @@ mod tests {
     const PRINTED: f64 = 1e-6;
 
     fn decode(datagram: &[u8]) -> (Vec<TrackedPose>, u64) {
-        let mut decoder = Dtrack::default();
+        let mut decoder = DtrackDecoder::default();
         decoder.bytes(7, datagram, &mut Actions::default());
         (decoder.take_poses(), decoder.faults().number())
     }

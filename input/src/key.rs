@@ -8,11 +8,11 @@ macro_rules! keys {
         /// A key that means something, by its place on the USB keyboard.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u8)]
-        pub enum Key {
+        pub enum KeyboardKey {
             $($(#[$doc])* $name = $code),*
         }
 
-        impl Key {
+        impl KeyboardKey {
             /// Every key.
             pub const ALL: &[Self] = &[$(Self::$name),*];
 
@@ -93,8 +93,8 @@ mod tests {
 
     #[test]
     fn every_key_survives_its_bytes() {
-        for &key in Key::ALL {
-            assert_eq!(Key::from_code(key.to_bytes(true)[0]), Some(key));
+        for &key in KeyboardKey::ALL {
+            assert_eq!(KeyboardKey::from_code(key.to_bytes(true)[0]), Some(key));
         }
     }
 }

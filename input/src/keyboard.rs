@@ -1,6 +1,6 @@
 //! Keys of the window: riding, driving and flying without any device.
 //!
-//! A sample holds key events of two bytes each, as [`Key::to_bytes`] writes them. What keys want
+//! A sample holds key events of two bytes each, as [`KeyboardKey::to_bytes`] writes them. What keys want
 //! moves on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
@@ -20,7 +20,7 @@ use crate::action::{Action, VehicleKind};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
-use crate::key::Key;
+use crate::key::KeyboardKey;
 use crate::ramp::Ramp;
 use crate::rider_config::RiderConfig;
 
@@ -30,43 +30,43 @@ const PRESS_RATE: f64 = 3.0;
 const RELEASE_RATE: f64 = 5.0;
 
 /// What a key does once when pressed.
-fn action(key: Key) -> Option<Action> {
+fn action(key: KeyboardKey) -> Option<Action> {
     Some(match key {
-        Key::P => Action::TogglePause,
-        Key::Period => Action::Step,
-        Key::Minus => Action::ScaleTime(0.5),
-        Key::Equal => Action::ScaleTime(2.0),
-        Key::One => Action::Vehicle(VehicleKind::Bicycle),
-        Key::Two => Action::Vehicle(VehicleKind::Drive),
-        Key::Three => Action::Vehicle(VehicleKind::Fly),
-        Key::Backspace => Action::Restart,
-        Key::C => Action::Photo,
-        Key::V => Action::ToggleRecording,
-        Key::H | Key::F1 => Action::ToggleHelp,
+        KeyboardKey::P => Action::TogglePause,
+        KeyboardKey::Period => Action::Step,
+        KeyboardKey::Minus => Action::ScaleTime(0.5),
+        KeyboardKey::Equal => Action::ScaleTime(2.0),
+        KeyboardKey::One => Action::Vehicle(VehicleKind::Bicycle),
+        KeyboardKey::Two => Action::Vehicle(VehicleKind::Drive),
+        KeyboardKey::Three => Action::Vehicle(VehicleKind::Fly),
+        KeyboardKey::Backspace => Action::Restart,
+        KeyboardKey::C => Action::Photo,
+        KeyboardKey::V => Action::ToggleRecording,
+        KeyboardKey::H | KeyboardKey::F1 => Action::ToggleHelp,
         _ => return None,
     })
 }
 
 /// The keys that are down.
 #[derive(Clone, Copy, Debug)]
-struct Held([bool; 256]);
+struct HeldKeys([bool; 256]);
 
-impl Held {
-    fn any(&self, keys: &[Key]) -> bool {
+impl HeldKeys {
+    fn any(&self, keys: &[KeyboardKey]) -> bool {
         keys.iter().any(|&key| self.0[usize::from(key as u8)])
     }
 
     /// −1, 0 or 1 for a pair of opposite keys.
-    fn between(&self, negative: &[Key], positive: &[Key]) -> f64 {
+    fn between(&self, negative: &[KeyboardKey], positive: &[KeyboardKey]) -> f64 {
         f64::from(i8::from(self.any(positive)) - i8::from(self.any(negative)))
     }
 }
 
-/// Decoder of [`Source::Keyboard`](crate::Source::Keyboard).
+/// Decoder of [`SampleSource::Keyboard`](crate::SampleSource::Keyboard).
 #[derive(Debug)]
-pub struct Keyboard {
+pub struct KeyboardDecoder {
     rider: RiderConfig,
-    held: Held,
+    held: HeldKeys,
     pedalled: bool,
     wheel: Ramp,
     steer: Ramp,
@@ -76,12 +76,12 @@ pub struct Keyboard {
     faults: Faults,
 }
 
-impl Keyboard {
+impl KeyboardDecoder {
     /// A keyboard that nobody touches.
     pub fn new(rider: RiderConfig) -> Self {
         Self {
             rider,
-            held: Held([false; 256]),
+            held: HeldKeys([false; 256]),
             pedalled: false,
             wheel: Ramp::default(),
             steer: Ramp::default(),
@@ -123,27 +123,30 @@ impl Keyboard {
 
         // Fly and drive.
         let thrust = [
-            held.between(&[Key::A], &[Key::D]),
-            held.between(&[Key::F], &[Key::R]),
-            held.between(&[Key::W], &[Key::S]),
+            held.between(&[KeyboardKey::A], &[KeyboardKey::D]),
+            held.between(&[KeyboardKey::F], &[KeyboardKey::R]),
+            held.between(&[KeyboardKey::W], &[KeyboardKey::S]),
         ];
         let turn = [
-            held.between(&[Key::Down], &[Key::Up]),
-            held.between(&[Key::Right], &[Key::Left]),
-            held.between(&[Key::E], &[Key::Q]),
+            held.between(&[KeyboardKey::Down], &[KeyboardKey::Up]),
+            held.between(&[KeyboardKey::Right], &[KeyboardKey::Left]),
+            held.between(&[KeyboardKey::E], &[KeyboardKey::Q]),
         ];
         self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
         self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
 
         // Ride.
-        lean(&mut self.steer, held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]));
-        lean(&mut self.brake, held.between(&[], &[Key::Space]));
+        lean(
+            &mut self.steer,
+            held.between(&[KeyboardKey::D, KeyboardKey::Right], &[KeyboardKey::A, KeyboardKey::Left]),
+        );
+        lean(&mut self.brake, held.between(&[], &[KeyboardKey::Space]));
         let rider = &self.rider;
-        let forward = held.between(&[Key::S, Key::Down], &[Key::W, Key::Up]);
-        let (speed, rate) = if held.any(&[Key::Space]) {
+        let forward = held.between(&[KeyboardKey::S, KeyboardKey::Down], &[KeyboardKey::W, KeyboardKey::Up]);
+        let (speed, rate) = if held.any(&[KeyboardKey::Space]) {
             (0.0, rider.brake_m_s2)
         } else if forward > 0.0 {
-            (if held.any(&[Key::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
+            (if held.any(&[KeyboardKey::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
         } else if forward < 0.0 {
             // First to a stop, then backward.
             (-rider.reverse_m_s, rider.pedal_m_s2)
@@ -155,17 +158,17 @@ impl Keyboard {
     }
 }
 
-impl Decoder for Keyboard {
+impl Decoder for KeyboardDecoder {
     /// The window lost the focus: every key is let go, the bicycle coasts.
     fn reset(&mut self, at: Nanos) {
-        self.held = Held([false; 256]);
+        self.held = HeldKeys([false; 256]);
         self.aim(at);
     }
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions) {
         let (events, rest) = bytes.as_chunks::<2>();
         for &[code, state] in events {
-            match (Key::from_code(code), state) {
+            match (KeyboardKey::from_code(code), state) {
                 (Some(key), 0 | 1) => {
                     let held = &mut self.held.0[usize::from(code)];
                     let pressed = state == 1 && !*held;
@@ -195,19 +198,19 @@ mod tests {
     use super::*;
     use crate::clock::SECOND;
 
-    fn keyboard() -> (Keyboard, Actions) {
-        (Keyboard::new(RiderConfig::default()), Actions::default())
+    fn keyboard() -> (KeyboardDecoder, Actions) {
+        (KeyboardDecoder::new(RiderConfig::default()), Actions::default())
     }
 
     #[test]
     fn pedalling_rises_to_the_cruise_and_coasts_down() {
         let (mut keys, mut actions) = keyboard();
         assert_eq!(keys.wheel_speed(0), None);
-        keys.bytes(SECOND, &Key::W.to_bytes(true), &mut actions);
+        keys.bytes(SECOND, &KeyboardKey::W.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(SECOND), Some(0.0));
         assert_eq!(keys.wheel_speed(2 * SECOND), Some(2.0));
         assert_eq!(keys.wheel_speed(60 * SECOND), Some(10.0));
-        keys.bytes(60 * SECOND, &Key::W.to_bytes(false), &mut actions);
+        keys.bytes(60 * SECOND, &KeyboardKey::W.to_bytes(false), &mut actions);
         assert_eq!(keys.wheel_speed(64 * SECOND), Some(8.0));
         assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
     }
@@ -215,8 +218,8 @@ mod tests {
     #[test]
     fn braking_wins_over_pedalling() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &Key::Up.to_bytes(true), &mut actions);
-        keys.bytes(10 * SECOND, &Key::Space.to_bytes(true), &mut actions);
+        keys.bytes(0, &KeyboardKey::Up.to_bytes(true), &mut actions);
+        keys.bytes(10 * SECOND, &KeyboardKey::Space.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(11 * SECOND), Some(4.0));
         assert_eq!(keys.brake(11 * SECOND), 1.0);
         assert_eq!(keys.wheel_speed(12 * SECOND), Some(0.0));
@@ -225,16 +228,16 @@ mod tests {
     #[test]
     fn opposite_keys_cancel() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &Key::A.to_bytes(true), &mut actions);
+        keys.bytes(0, &KeyboardKey::A.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
-        keys.bytes(SECOND, &Key::D.to_bytes(true), &mut actions);
+        keys.bytes(SECOND, &KeyboardKey::D.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
     }
 
     #[test]
     fn losing_the_focus_lets_everything_go() {
         let (mut keys, mut actions) = keyboard();
-        for key in [Key::W, Key::A, Key::Space, Key::Q] {
+        for key in [KeyboardKey::W, KeyboardKey::A, KeyboardKey::Space, KeyboardKey::Q] {
             keys.bytes(0, &key.to_bytes(true), &mut actions);
         }
         keys.reset(SECOND);
@@ -247,7 +250,7 @@ mod tests {
     fn a_repeated_press_acts_once() {
         let (mut keys, mut actions) = keyboard();
         for state in [true, true, false, true] {
-            keys.bytes(0, &Key::P.to_bytes(state), &mut actions);
+            keys.bytes(0, &KeyboardKey::P.to_bytes(state), &mut actions);
         }
         assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause]);
     }

@@ -7,16 +7,18 @@
 //! replays make them without any hardware.
 //!
 //! ```
-//! use input::{Desk, DeskConfig, Key, SECOND, Sample};
+//! use input::{Desk, DeskConfig, KeyboardKey, SECOND, Sample};
 //!
 //! let mut desk = Desk::new(DeskConfig::default())?;
-//! desk.feed(&Sample::key(0, Key::W, true));
+//! desk.feed(&Sample::key(0, KeyboardKey::W, true));
 //! assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
 //! # Ok::<(), input::ConfigError>(())
 //! ```
 //!
 //! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on
 //! the wall.
+
+#![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
 
 pub mod action;
 mod axis_table;
@@ -59,6 +61,8 @@ pub use desk::Desk;
 pub use devices::{Devices, DevicesConfig};
 pub use faults::Faults;
 pub use head::{HeadConfig, HeadState, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
-pub use key::Key;
+pub use key::KeyboardKey;
+pub use key::KeyboardKey as Key; // until app is moved
 pub use rider_config::RiderConfig;
-pub use sample::{Sample, Signal, Source};
+pub use sample::SampleSource as Source; // until app is moved
+pub use sample::{Sample, SampleSource, Signal};

@@ -3,7 +3,7 @@
 //! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp,
 //! and which device spoke. Whatever is decoded from samples is a pure function of them, so a
 //! recording of samples and frame times replays to the same bits. Even the switches of the
-//! interface pass as samples ([`Source::Settings`]).
+//! interface pass as samples ([`SampleSource::Settings`]).
 
 use std::fmt;
 
@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 use crate::action::Action;
 use crate::clock::Nanos;
 use crate::head::mouse_event::MouseEvent;
-use crate::key::Key;
+use crate::key::KeyboardKey;
 
 /// Which device a sample comes from, and so which decoder reads its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Source {
+pub enum SampleSource {
     /// Keys of the window: [`crate::keyboard`].
     Keyboard,
     /// A gamepad or joystick: [`crate::gamepad`].
@@ -32,13 +32,13 @@ pub enum Source {
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
     Dtrack,
-    /// The mouse in the window, where it moves the head: [`crate::head::Mouse`].
+    /// The mouse in the window, where it moves the head: [`crate::head::MouseDecoder`].
     Mouse,
     /// The program's own interface: [`crate::settings`].
     Settings,
 }
 
-impl Source {
+impl SampleSource {
     /// Every source, in the order of the listing.
     pub const ALL: [Self; 9] = [
         Self::Keyboard,
@@ -68,7 +68,7 @@ impl Source {
     }
 }
 
-impl fmt::Display for Source {
+impl fmt::Display for SampleSource {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
     }
@@ -91,40 +91,40 @@ pub struct Sample {
     /// When it arrived at this machine.
     pub at: Nanos,
     /// Who said it.
-    pub source: Source,
+    pub source: SampleSource,
     /// What it said.
     pub signal: Signal,
 }
 
 impl Sample {
     /// A device that has just been opened.
-    pub fn opened(at: Nanos, source: Source) -> Self {
+    pub fn opened(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Opened }
     }
 
     /// Bytes from a device.
-    pub fn bytes(at: Nanos, source: Source, bytes: impl Into<Box<[u8]>>) -> Self {
+    pub fn bytes(at: Nanos, source: SampleSource, bytes: impl Into<Box<[u8]>>) -> Self {
         Self { at, source, signal: Signal::Bytes(bytes.into()) }
     }
 
     /// A device that has gone. For the keyboard: the window lost the focus.
-    pub fn closed(at: Nanos, source: Source) -> Self {
+    pub fn closed(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Closed }
     }
 
     /// A key of the window pressed or released.
-    pub fn key(at: Nanos, key: Key, pressed: bool) -> Self {
-        Self::bytes(at, Source::Keyboard, key.to_bytes(pressed))
+    pub fn key(at: Nanos, key: KeyboardKey, pressed: bool) -> Self {
+        Self::bytes(at, SampleSource::Keyboard, key.to_bytes(pressed))
     }
 
     /// The mouse of the window, where it moves the head.
     pub fn mouse(at: Nanos, event: MouseEvent) -> Self {
-        Self::bytes(at, Source::Mouse, event.to_bytes())
+        Self::bytes(at, SampleSource::Mouse, event.to_bytes())
     }
 
     /// A switch of the interface.
     pub fn action(at: Nanos, action: &Action) -> Self {
-        Self::bytes(at, Source::Settings, action.to_bytes())
+        Self::bytes(at, SampleSource::Settings, action.to_bytes())
     }
 }
 
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn names_are_the_serialised_names() {
-        for source in Source::ALL {
+        for source in SampleSource::ALL {
             assert_eq!(serde_json::to_value(source).unwrap(), source.name());
         }
     }

@@ -5,13 +5,13 @@ use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 
-/// Decoder of [`Source::Settings`](crate::Source::Settings): one JSON action a sample.
+/// Decoder of [`SampleSource::Settings`](crate::SampleSource::Settings): one JSON action a sample.
 #[derive(Debug, Default)]
-pub struct Settings {
+pub struct ActionDecoder {
     faults: Faults,
 }
 
-impl Decoder for Settings {
+impl Decoder for ActionDecoder {
     fn reset(&mut self, _at: Nanos) {}
 
     fn bytes(&mut self, _at: Nanos, bytes: &[u8], actions: &mut Actions) {
@@ -35,7 +35,7 @@ mod tests {
 
     fn decode(bytes: &[u8]) -> (Vec<Action>, u64) {
         let mut actions = Actions::default();
-        let mut settings = Settings::default();
+        let mut settings = ActionDecoder::default();
         settings.bytes(0, bytes, &mut actions);
         (actions.take(), settings.faults().number())
     }

@@ -35,9 +35,9 @@ pub(crate) fn deflection(table: AxisTable, axes: [i32; 6], full: f64) -> [f64; 6
     table.controls(axes.map(|axis| with_dead_zone(f64::from(axis) / full, DEAD_ZONE)))
 }
 
-/// Decoder of [`Source::SpaceMouse`](crate::Source::SpaceMouse): one report a sample.
+/// Decoder of [`SampleSource::SpaceMouse`](crate::SampleSource::SpaceMouse): one report a sample.
 #[derive(Debug)]
-pub struct SpaceMouse {
+pub struct SpaceMouseDecoder {
     table: AxisTable,
     axes: [i32; 6],
     last_motion: Nanos,
@@ -45,7 +45,7 @@ pub struct SpaceMouse {
     faults: Faults,
 }
 
-impl SpaceMouse {
+impl SpaceMouseDecoder {
     /// A decoder at rest.
     pub fn new(table: AxisTable) -> Self {
         Self { table, axes: [0; 6], last_motion: 0, buttons: 0, faults: Faults::default() }
@@ -74,7 +74,7 @@ impl SpaceMouse {
     }
 }
 
-impl Decoder for SpaceMouse {
+impl Decoder for SpaceMouseDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.axes = [0; 6];
         self.buttons = 0;
@@ -106,8 +106,8 @@ mod tests {
     use super::*;
     use crate::clock::SECOND;
 
-    fn decoder() -> (SpaceMouse, Actions) {
-        (SpaceMouse::new(AxisTable::RAW), Actions::default())
+    fn decoder() -> (SpaceMouseDecoder, Actions) {
+        (SpaceMouseDecoder::new(AxisTable::RAW), Actions::default())
     }
 
     fn hex(text: &str) -> Vec<u8> {

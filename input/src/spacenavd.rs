@@ -26,16 +26,16 @@ const PASSED_OVER: std::ops::RangeInclusive<i32> = 2..=6;
 /// Upper half of word 0 in replies of the daemon's newer protocol, which interleave with events.
 const REPLY: i32 = 0x7faa;
 
-/// Decoder of [`Source::Spacenavd`](crate::Source::Spacenavd).
+/// Decoder of [`SampleSource::Spacenavd`](crate::SampleSource::Spacenavd).
 #[derive(Debug)]
-pub struct Spacenavd {
+pub struct SpacenavdDecoder {
     table: AxisTable,
     partial: Vec<u8>,
     axes: [i32; 6],
     faults: Faults,
 }
 
-impl Spacenavd {
+impl SpacenavdDecoder {
     /// A decoder at rest.
     pub fn new(table: AxisTable) -> Self {
         Self { table, partial: Vec::new(), axes: [0; 6], faults: Faults::default() }
@@ -60,7 +60,7 @@ impl Spacenavd {
     }
 }
 
-impl Decoder for Spacenavd {
+impl Decoder for SpacenavdDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.partial.clear();
         self.axes = [0; 6];
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn captured_events_give_their_push() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes, [100, -50, -25, 7, -8, -300]);
         let expected = [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn events_do_not_depend_on_the_cut() {
         for size in 1..=70 {
-            let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+            let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
             let mut seen = Vec::new();
             for chunk in captured().chunks(size) {
                 daemon.bytes(0, chunk, &mut actions);
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_push_ends_with_the_connection() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..40], &mut actions);
         daemon.reset(0);
         assert_eq!(daemon.deflection(), [0.0; 6]);
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn unknown_events_are_counted_and_replies_passed_over() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         let mut reply = [0_u8; EVENT_LENGTH];
         reply[..4].copy_from_slice(&0x7faa_2000_i32.to_le_bytes());
         daemon.bytes(0, &reply, &mut actions);

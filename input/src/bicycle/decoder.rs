@@ -1,7 +1,7 @@
 //! Decoder of the bicycle's lines.
 
 use super::config::{BareNumber, BicycleConfig};
-use super::protocol::{Count, Line};
+use super::protocol::{BicycleLine, PulseCount};
 use crate::clock::{Nanos, seconds_between};
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
@@ -17,12 +17,12 @@ const BARE_SPEED_HOLDS_S: f64 = 0.5;
 
 /// A cumulative counter and the rate it gives.
 #[derive(Debug)]
-struct Counter {
+struct PulseCounter {
     rate: PulseRate,
-    last: Option<Count>,
+    last: Option<PulseCount>,
 }
 
-impl Counter {
+impl PulseCounter {
     fn new(shortest_interval_s: f64, stop_after_s: f64) -> Self {
         Self { rate: PulseRate::new(shortest_interval_s, stop_after_s), last: None }
     }
@@ -33,7 +33,7 @@ impl Counter {
     }
 
     /// Takes a count that arrived at `at`, when the box's clock showed `now_us`.
-    fn update(&mut self, at: Nanos, now_us: u32, count: Count) {
+    fn update(&mut self, at: Nanos, now_us: u32, count: PulseCount) {
         let Some(last) = self.last.replace(count) else {
             return;
         };
@@ -56,38 +56,38 @@ impl Counter {
         let interval_s = f64::from(count.last_us.wrapping_sub(last.last_us)) * 1e-6;
         if !self.rate.pulses(pulse_at, pulses, interval_s) {
             // A bounce counts, but the next interval starts at the pulse before it.
-            self.last = Some(Count { last_us: last.last_us, ..count });
+            self.last = Some(PulseCount { last_us: last.last_us, ..count });
         }
     }
 }
 
 /// Where the wheel speed comes from, by the kind of line that came last.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Speed {
+enum WheelSpeed {
     Unknown,
     Pulses,
     Bare { metres_per_second: f64, at: Nanos },
 }
 
-/// Decoder of [`Source::Bicycle`](crate::Source::Bicycle).
+/// Decoder of [`SampleSource::Bicycle`](crate::SampleSource::Bicycle).
 #[derive(Debug)]
-pub struct Bicycle {
+pub struct BicycleDecoder {
     config: BicycleConfig,
     lines: Lines,
     faults: Faults,
-    wheel: Counter,
-    crank: Counter,
+    wheel: PulseCounter,
+    crank: PulseCounter,
     has_crank: bool,
-    speed: Speed,
+    speed: WheelSpeed,
     steer_rad: f64,
     brake: f64,
 }
 
-impl Bicycle {
+impl BicycleDecoder {
     /// A decoder that has seen nothing yet.
     pub fn new(config: BicycleConfig) -> Self {
-        let wheel = Counter::new(config.metres_per_pulse() / config.fastest_m_s, config.stop_after_s);
-        let crank = Counter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), config.stop_after_s);
+        let wheel = PulseCounter::new(config.metres_per_pulse() / config.fastest_m_s, config.stop_after_s);
+        let crank = PulseCounter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), config.stop_after_s);
         Self {
             config,
             lines: Lines::default(),
@@ -95,7 +95,7 @@ impl Bicycle {
             wheel,
             crank,
             has_crank: false,
-            speed: Speed::Unknown,
+            speed: WheelSpeed::Unknown,
             steer_rad: 0.0,
             brake: 0.0,
         }
@@ -104,9 +104,9 @@ impl Bicycle {
     /// Speed of the wheel, m/s; `None` until a first good line.
     pub fn wheel_speed(&self, at: Nanos) -> Option<f64> {
         match self.speed {
-            Speed::Unknown => None,
-            Speed::Pulses => Some(self.wheel.rate.rate_hz(at) * self.config.metres_per_pulse()),
-            Speed::Bare { metres_per_second, at: said_at } => {
+            WheelSpeed::Unknown => None,
+            WheelSpeed::Pulses => Some(self.wheel.rate.rate_hz(at) * self.config.metres_per_pulse()),
+            WheelSpeed::Bare { metres_per_second, at: said_at } => {
                 let fading_s = (self.config.stop_after_s - BARE_SPEED_HOLDS_S).max(f64::MIN_POSITIVE);
                 let left_s = self.config.stop_after_s - seconds_between(said_at, at);
                 Some(metres_per_second * (left_s / fading_s).clamp(0.0, 1.0))
@@ -130,19 +130,19 @@ impl Bicycle {
     }
 
     /// Takes a line that arrived at `at`.
-    fn line(&mut self, at: Nanos, line: Line) -> Result<(), LineError> {
+    fn line(&mut self, at: Nanos, line: BicycleLine) -> Result<(), LineError> {
         match line {
-            Line::Pulses { now_us, wheel, crank, steer, brake } => {
+            BicycleLine::Pulses { now_us, wheel, crank, steer, brake } => {
                 self.wheel.update(at, now_us, wheel);
                 self.crank.update(at, now_us, crank);
                 self.has_crank |= self.crank.rate.last_pulse().is_some();
-                self.speed = Speed::Pulses;
+                self.speed = WheelSpeed::Pulses;
                 let config = &self.config;
                 self.turn_handlebar((steer - config.steer_straight) * config.steer_rad_per_unit);
                 let config = &self.config;
                 self.pull_brake((brake - config.brake_released) / (config.brake_full - config.brake_released));
             }
-            Line::Interval { interval_us, age_us, steer, brake } => {
+            BicycleLine::Interval { interval_us, age_us, steer, brake } => {
                 let pulse_at = at.saturating_sub(u64::from(age_us) * 1000);
                 let interval_s = f64::from(interval_us) * 1e-6;
                 // The line repeats the last pulse until there is a new one, which comes a whole
@@ -155,11 +155,11 @@ impl Bicycle {
                 if is_new {
                     self.wheel.rate.pulses(pulse_at, 1, interval_s);
                 }
-                self.speed = Speed::Pulses;
+                self.speed = WheelSpeed::Pulses;
                 self.turn_handlebar(steer * self.config.four_field_steer_rad);
                 self.pull_brake(brake / self.config.four_field_brake_full);
             }
-            Line::Bare(number) => {
+            BicycleLine::Bare(number) => {
                 let metres_per_second = match self.config.bare_number {
                     BareNumber::KilometresPerHour => number / 3.6,
                     BareNumber::WheelTurnsPerMinute => number / 60.0 * self.config.wheel_circumference_m,
@@ -171,7 +171,7 @@ impl Bicycle {
                         expected: "a speed from 0 to the fastest that can be ridden",
                     });
                 }
-                self.speed = Speed::Bare { metres_per_second, at };
+                self.speed = WheelSpeed::Bare { metres_per_second, at };
             }
         }
         Ok(())
@@ -187,13 +187,13 @@ impl Bicycle {
     }
 }
 
-impl Decoder for Bicycle {
+impl Decoder for BicycleDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.lines.reset();
         self.wheel.reset();
         self.crank.reset();
         self.has_crank = false;
-        self.speed = Speed::Unknown;
+        self.speed = WheelSpeed::Unknown;
         self.steer_rad = 0.0;
         self.brake = 0.0;
     }
@@ -201,7 +201,7 @@ impl Decoder for Bicycle {
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
         let mut lines = std::mem::take(&mut self.lines);
         lines.push(bytes, |line| {
-            let outcome = line.and_then(Line::parse).and_then(|line| self.line(at, line));
+            let outcome = line.and_then(BicycleLine::parse).and_then(|line| self.line(at, line));
             if let Err(error) = outcome {
                 self.faults.count(error.to_string());
             }
@@ -225,11 +225,11 @@ mod tests {
     /// Rounding of a few operations.
     const ROUNDING: f64 = 1e-9;
 
-    fn bicycle() -> Bicycle {
-        Bicycle::new(BicycleConfig::default())
+    fn bicycle() -> BicycleDecoder {
+        BicycleDecoder::new(BicycleConfig::default())
     }
 
-    fn feed(bicycle: &mut Bicycle, at: Nanos, text: &str) {
+    fn feed(bicycle: &mut BicycleDecoder, at: Nanos, text: &str) {
         bicycle.bytes(at, text.as_bytes(), &mut Actions::default());
     }
 
@@ -240,7 +240,7 @@ mod tests {
     /// Rides for four seconds at four turns a second (8.4 m/s) and one of the crank, a line every
     /// 20 ms, beginning at these readings of the box's clock and counter. Lines for which `lose`
     /// says so are lost.
-    fn ride(first_us: u32, first_count: u32, lose: impl Fn(u32) -> bool) -> Bicycle {
+    fn ride(first_us: u32, first_count: u32, lose: impl Fn(u32) -> bool) -> BicycleDecoder {
         let mut bicycle = bicycle();
         for n in (0..=200_u32).filter(|&n| !lose(n)) {
             let elapsed_us = n * 20_000;
@@ -362,7 +362,7 @@ mod tests {
     #[test]
     fn a_bare_number_may_be_turns_a_minute() {
         let config = BicycleConfig { bare_number: BareNumber::WheelTurnsPerMinute, ..Default::default() };
-        let mut bicycle = Bicycle::new(config);
+        let mut bicycle = BicycleDecoder::new(config);
         feed(&mut bicycle, 0, "120\n");
         assert_eq!(bicycle.wheel_speed(0), Some(4.2));
     }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `B1,seq,t_us,wheel_count,wheel_t_us,crank_count,crank_t_us,steer,brake*HH` | our own boxes |
 //! | `interval_us,age_us,steer,brake` | simple sketches |
-//! | `23.4` | anything that knows its speed ([`BareNumber`]) |
+//! | `23.4` | anything that knows its speed ([`BareNumber`](crate::BareNumber)) |
 //!
 //! A `B1` line gives counts and times of the last pulses on the box's clock, the readings of the
 //! converters as they are, and a checksum. Four fields give the last interval, how long ago it
@@ -21,5 +21,5 @@ pub(crate) mod config;
 pub(crate) mod decoder;
 mod protocol;
 
-pub use decoder::Bicycle;
-pub use protocol::{Count, Line};
+pub use decoder::BicycleDecoder;
+pub use protocol::{BicycleLine, PulseCount};

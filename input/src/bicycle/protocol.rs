@@ -4,15 +4,15 @@ use crate::line::{LineError, unseal};
 
 /// A line that has been understood.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Line {
+pub enum BicycleLine {
     /// A `B1` line.
     Pulses {
         /// The box's clock when it was sent, µs.
         now_us: u32,
         /// Pulses of the wheel so far, and when the last one was.
-        wheel: Count,
+        wheel: PulseCount,
         /// Pulses of the crank so far, and when the last one was.
-        crank: Count,
+        crank: PulseCount,
         /// Reading of the steering sensor.
         steer: f64,
         /// Reading of the brake sensor.
@@ -35,14 +35,14 @@ pub enum Line {
 
 /// Pulses counted so far, and when the last one was, on the box's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Count {
+pub struct PulseCount {
     /// Number of pulses; wraps.
     pub pulses: u32,
     /// Time of the last one, µs; wraps.
     pub last_us: u32,
 }
 
-impl Line {
+impl BicycleLine {
     /// Reads a line without its end.
     ///
     /// # Errors
@@ -77,8 +77,8 @@ impl Line {
         whole("seq", sequence)?;
         Ok(Self::Pulses {
             now_us: whole("t_us", now)?,
-            wheel: Count { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
-            crank: Count { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
+            wheel: PulseCount { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
+            crank: PulseCount { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
             steer: finite("steer_raw", steer)?,
             brake: finite("brake_raw", brake)?,
         })

@@ -8,13 +8,13 @@ use thiserror::Error;
 
 use super::config::DevicesConfig;
 use super::dtrack::DtrackPort;
-use super::feed::{Feed, Port, Shared, Status, status};
+use super::feed::{DeviceFeed, DevicePort, DeviceStatus, SharedNews, status};
 use super::puck::PuckPort;
 use super::serial::{BrakeSlot, SerialPort};
 use super::vrpn::VrpnPort;
 use crate::clock::Clock;
 use crate::head::url::TrackerUrl;
-use crate::sample::{Sample, Source};
+use crate::sample::{Sample, SampleSource};
 
 /// Samples of one device that wait for the frame loop: several seconds of the fastest.
 const QUEUE: usize = 4096;
@@ -28,7 +28,7 @@ pub enum DevicesError {
     #[error("cannot start the thread that reads the {source_device}: {cause}")]
     Thread {
         /// Which device.
-        source_device: Source,
+        source_device: SampleSource,
         /// Why not.
         cause: std::io::Error,
     },
@@ -36,9 +36,9 @@ pub enum DevicesError {
 
 /// One device's thread and its queue.
 #[derive(Debug)]
-struct Lane {
+struct DeviceLane {
     samples: Receiver<Sample>,
-    live: Shared,
+    live: SharedNews,
     thread: JoinHandle<()>,
 }
 
@@ -46,7 +46,7 @@ struct Lane {
 #[derive(Debug)]
 pub struct Devices {
     clock: Clock,
-    lanes: Vec<Lane>,
+    lanes: Vec<DeviceLane>,
     brake: Arc<BrakeSlot>,
     /// Closed to end the threads.
     stop: Option<Sender<()>>,
@@ -62,21 +62,21 @@ impl Devices {
         let brake = Arc::new(BrakeSlot::default());
         let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
         if let Some(path) = &config.bicycle {
-            devices.start(Source::Bicycle, SerialPort::new(path, config.baud, brake), QUEUE, &stopped)?;
+            devices.start(SampleSource::Bicycle, SerialPort::new(path, config.baud, brake), QUEUE, &stopped)?;
         }
         if config.space_mouse {
-            devices.start(Source::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), QUEUE, &stopped)?;
+            devices.start(SampleSource::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), QUEUE, &stopped)?;
         }
         #[cfg(target_os = "linux")]
         if config.gamepad {
-            devices.start(Source::Gamepad, super::pad::PadPort, QUEUE, &stopped)?;
+            devices.start(SampleSource::Gamepad, super::pad::PadPort, QUEUE, &stopped)?;
         }
         match &config.tracker {
             Some(TrackerUrl::Vrpn { host, port, device }) => {
-                devices.start(Source::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
+                devices.start(SampleSource::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
             }
             Some(TrackerUrl::Dtrack { address, port }) => {
-                devices.start(Source::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+                devices.start(SampleSource::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
             }
             Some(TrackerUrl::Mouse) | None => {}
         }
@@ -85,17 +85,17 @@ impl Devices {
 
     fn start(
         &mut self,
-        source: Source,
-        port: impl Port + 'static,
+        source: SampleSource,
+        port: impl DevicePort + 'static,
         queue: usize,
         stopped: &Receiver<()>,
     ) -> Result<(), DevicesError> {
-        let (feed, samples, live) = Feed::new(source, self.clock, queue, stopped.clone());
+        let (feed, samples, live) = DeviceFeed::new(source, self.clock, queue, stopped.clone());
         let thread = thread::Builder::new()
             .name(source.name().to_owned())
             .spawn(move || feed.run(port))
             .map_err(|cause| DevicesError::Thread { source_device: source, cause })?;
-        self.lanes.push(Lane { samples, live, thread });
+        self.lanes.push(DeviceLane { samples, live, thread });
         Ok(())
     }
 
@@ -117,7 +117,7 @@ impl Devices {
     }
 
     /// How the devices are.
-    pub fn status(&self) -> Vec<Status> {
+    pub fn status(&self) -> Vec<DeviceStatus> {
         let now = self.clock.now();
         self.lanes.iter().map(|lane| status(&lane.live, now)).collect()
     }

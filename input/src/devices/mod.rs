@@ -24,6 +24,9 @@ mod socket;
 mod vrpn;
 
 pub use config::DevicesConfig;
-pub use feed::{State, Status};
+pub use feed::{DeviceState, DeviceStatus};
 pub use lanes::{Devices, DevicesError};
-pub use plugged::{Plugged, plugged_in};
+pub use plugged::{PluggedDevice, plugged_in};
+
+pub use feed::{DeviceState as State, DeviceStatus as Status}; // until app is moved
+pub use plugged::PluggedDevice as Plugged; // until app is moved

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use hidapi::{HidApi, HidDevice};
 
-use super::feed::{Connection, Place, Port};
-use crate::sample::Source;
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+use crate::sample::SampleSource;
 
 /// Vendor number of the older devices.
 const LOGITECH: u16 = 0x046d;
@@ -28,12 +28,12 @@ const UDEV_RULE: &str = "as root, put `KERNEL==\"hidraw*\", ATTRS{idVendor}==\"0
                          /etc/udev/rules.d/70-spacemouse.rules and plug it in again";
 
 /// An interface that may be that of a SpaceMouse.
-pub(super) struct Candidate {
+pub(super) struct SpaceMouseInterface {
     pub(super) name: String,
     pub(super) path: CString,
 }
 
-impl Candidate {
+impl SpaceMouseInterface {
     /// Opens the interface.
     ///
     /// # Errors
@@ -46,7 +46,7 @@ impl Candidate {
 }
 
 /// Every interface that may be that of a SpaceMouse.
-pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
+pub(super) fn candidates(api: &HidApi) -> Vec<SpaceMouseInterface> {
     api.device_list()
         .filter(|device| [LOGITECH, CONNEXION].contains(&device.vendor_id()))
         .filter(|device| (device.usage_page(), device.usage()) == MULTI_AXIS)
@@ -55,7 +55,7 @@ pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
             let ids = (device.vendor_id(), device.product_id());
             let nameless = || format!("SpaceMouse {:04x}:{:04x}", ids.0, ids.1);
             let name = device.product_string().filter(|name| !name.is_empty()).map_or_else(nameless, str::to_owned);
-            Candidate { name, path: device.path().to_owned() }
+            SpaceMouseInterface { name, path: device.path().to_owned() }
         })
         .collect()
 }
@@ -71,25 +71,25 @@ impl PuckPort {
     }
 
     #[cfg(unix)]
-    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
-        super::socket::Daemon::connect(&self.socket)
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+        super::socket::SpacenavdLink::connect(&self.socket)
     }
 
     #[cfg(not(unix))]
-    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         Err(format!("there is no spacenavd here ({})", self.socket.display()))
     }
 }
 
-impl Port for PuckPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for PuckPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| format!("{raw}; {daemon}")))
     }
 }
 
 /// Opens every interface that may be it: a wireless receiver has several, and only time tells which
 /// one it is.
-fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
+fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
     let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
     let mut interfaces = Vec::new();
     let mut found = None;
@@ -103,19 +103,19 @@ fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
             Err(error) => why = error,
         }
     }
-    let Some(Candidate { name, path }) = found else {
+    let Some(SpaceMouseInterface { name, path }) = found else {
         return Err(why);
     };
-    let place = Place { source: Source::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
-    Ok((place, Box::new(Raw { interfaces })))
+    let place = OpenedDevice { source: SampleSource::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
+    Ok((place, Box::new(HidInterfaces { interfaces })))
 }
 
 /// The interfaces that are left; one, as soon as it has spoken.
-struct Raw {
+struct HidInterfaces {
     interfaces: Vec<HidDevice>,
 }
 
-impl Connection for Raw {
+impl DeviceConnection for HidInterfaces {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         let wait_ms = READ_WAIT_MS / i32::try_from(self.interfaces.len().max(1)).unwrap_or(READ_WAIT_MS);
         let mut buffer = [0; BUFFER];

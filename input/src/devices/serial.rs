@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use super::feed::{Connection, Place, Port};
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::brake::BrakeCommand;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 
 /// How long a read waits, and so how late a brake command may be on a silent line.
 const READ_WAIT: Duration = Duration::from_millis(20);
@@ -53,8 +53,8 @@ impl SerialPort {
     }
 }
 
-impl Port for SerialPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for SerialPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         // The control lines are left alone: pseudo-terminals have none, and touching DTR resets
         // many a board.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
@@ -69,21 +69,21 @@ impl Port for SerialPort {
                 _ => format!("{path} cannot be opened as a serial port: {error}"),
             }
         })?;
-        let place = Place { source: Source::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
-        let wire = Wire { port, brake: self.brake.clone(), sequence: 0, last_command: None };
+        let place = OpenedDevice { source: SampleSource::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
+        let wire = SerialLink { port, brake: self.brake.clone(), sequence: 0, last_command: None };
         Ok((place, Box::new(wire)))
     }
 }
 
 /// An open serial port.
-struct Wire {
+struct SerialLink {
     port: Box<dyn serialport::SerialPort>,
     brake: Arc<BrakeSlot>,
     sequence: u32,
     last_command: Option<Instant>,
 }
 
-impl Wire {
+impl SerialLink {
     /// Sends the newest brake command, unless one has just been sent.
     fn command(&mut self) -> io::Result<()> {
         if self.last_command.is_some_and(|last| last.elapsed() < COMMAND_EVERY) {
@@ -104,7 +104,7 @@ impl Wire {
     }
 }
 
-impl Drop for Wire {
+impl Drop for SerialLink {
     /// Nobody is left to brake for.
     fn drop(&mut self) {
         if self.last_command.is_some() {
@@ -113,7 +113,7 @@ impl Drop for Wire {
     }
 }
 
-impl Connection for Wire {
+impl DeviceConnection for SerialLink {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         self.command()?;
         let mut buffer = [0; BUFFER];

@@ -9,13 +9,13 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-use super::feed::{Connection, Place, Port};
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::serial::passing;
-use crate::sample::Source;
-use crate::vrpn::numbers::Numbers;
+use crate::sample::SampleSource;
+use crate::vrpn::numbers::VrpnNumbers;
 use crate::vrpn::types::{PING, PONG};
 use crate::vrpn::wire::{
-    COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError, description,
+    COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage, VrpnPiece, VrpnPieces, description,
 };
 
 /// How long a server may take to answer at first.
@@ -69,21 +69,21 @@ impl VrpnPort {
     }
 }
 
-impl Port for VrpnPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for VrpnPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let path = format!("{}:{}", self.host, self.port);
         let stream = self.connect()?;
-        let link = Link::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
-        let place = Place { source: Source::Vrpn, name: self.device.clone(), path };
+        let link = VrpnLink::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
+        let place = OpenedDevice { source: SampleSource::Vrpn, name: self.device.clone(), path };
         Ok((place, Box::new(link)))
     }
 }
 
 /// An open connection.
-struct Link {
+struct VrpnLink {
     stream: TcpStream,
-    pieces: Pieces,
-    numbers: Numbers,
+    pieces: VrpnPieces,
+    numbers: VrpnNumbers,
     /// The server's cookie, then its descriptions, as they came.
     descriptions: Vec<Vec<u8>>,
     /// What the next sample begins with.
@@ -92,7 +92,7 @@ struct Link {
     last_heard: Instant,
 }
 
-impl Link {
+impl VrpnLink {
     /// Exchanges the cookies and names our device.
     fn begin(mut stream: TcpStream, device: &str) -> io::Result<Self> {
         stream.set_nodelay(true)?;
@@ -107,7 +107,7 @@ impl Link {
             }
             _ => error,
         })?;
-        let mut pieces = Pieces::default();
+        let mut pieces = VrpnPieces::default();
         let mut outcome = Ok(());
         pieces.push(&cookie, |piece| outcome = piece.map(|_| ()));
         outcome.map_err(invalid)?;
@@ -122,7 +122,7 @@ impl Link {
         Ok(Self {
             stream,
             pieces,
-            numbers: Numbers::new(device),
+            numbers: VrpnNumbers::new(device),
             descriptions: vec![cookie.to_vec()],
             first: cookie.to_vec(),
             last_ping: None,
@@ -131,7 +131,7 @@ impl Link {
     }
 
     fn say(&mut self, kind: i32) -> io::Result<()> {
-        let message = Message { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
+        let message = VrpnMessage { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
         self.stream.write_all(&message.to_bytes())
     }
 
@@ -158,10 +158,10 @@ impl Link {
         let mut asked = false;
         let (numbers, descriptions) = (&mut self.numbers, &mut self.descriptions);
         self.pieces.push(received, |piece| match piece {
-            Ok(Piece::Cookie(_)) if outcome.is_ok() => {
-                outcome = Err(invalid(WireError::NotVrpn("a second cookie".to_owned())));
+            Ok(VrpnPiece::Cookie(_)) if outcome.is_ok() => {
+                outcome = Err(invalid(VrpnError::NotVrpn("a second cookie".to_owned())));
             }
-            Ok(Piece::Message(message, raw)) if outcome.is_ok() => {
+            Ok(VrpnPiece::Message(message, raw)) if outcome.is_ok() => {
                 bytes.extend_from_slice(raw);
                 // The decoder counts those that cannot be read.
                 if numbers.describe(&message) == Ok(true) {
@@ -191,11 +191,11 @@ fn keep(descriptions: &mut Vec<Vec<u8>>, raw: &[u8]) {
     }
 }
 
-fn invalid(error: WireError) -> io::Error {
+fn invalid(error: VrpnError) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, error)
 }
 
-impl Connection for Link {
+impl DeviceConnection for VrpnLink {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         self.ping()?;
         let mut buffer = [0; BUFFER];
@@ -230,12 +230,12 @@ mod tests {
     use crate::vrpn::golden;
 
     /// Our end and the server's, after the cookies.
-    fn link() -> (Link, TcpStream) {
+    fn link() -> (VrpnLink, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let mut server = listener.accept().unwrap().0;
         server.write_all(&COOKIE).unwrap();
-        (Link::begin(stream, "Tail").unwrap(), server)
+        (VrpnLink::begin(stream, "Tail").unwrap(), server)
     }
 
     #[test]

@@ -17,7 +17,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::placement::{HEAD_FROM_SENSOR, Placement, ROOM_FROM_TRACKER, within};
+use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
 use super::state::HeadState;
 use super::url::TrackerUrl;
 use crate::config_error::{ConfigError, positive};
@@ -36,10 +36,10 @@ pub struct HeadConfig {
     pub sensor: i32,
     /// How the tracker's axes stand in the room.
     #[serde(default)]
-    pub room_from_tracker: Placement,
+    pub room_from_tracker: AxesPlacement,
     /// How the sensor's axes stand in the head's, whose origin is midway between the eyes.
     #[serde(default)]
-    pub head_from_sensor: Placement,
+    pub head_from_sensor: AxesPlacement,
     /// What of it is used.
     #[serde(default)]
     pub mode: TrackingMode,
@@ -203,8 +203,8 @@ impl HeadConfig {
         Self {
             url,
             sensor: 0,
-            room_from_tracker: Placement::default(),
-            head_from_sensor: Placement::default(),
+            room_from_tracker: AxesPlacement::default(),
+            head_from_sensor: AxesPlacement::default(),
             mode: TrackingMode::default(),
             velocity: VelocityFilter::default(),
             fade_s: fade_s(),
@@ -221,7 +221,7 @@ impl HeadConfig {
         self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
         let placements = [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
         for (keys, placement) in placements {
-            if self.url == TrackerUrl::Mouse && placement != Placement::default() {
+            if self.url == TrackerUrl::Mouse && placement != AxesPlacement::default() {
                 let value = format!("{:?}", placement.position);
                 let expected = "nothing with url = \"mouse\", which moves the head itself from `home`";
                 return Err(ConfigError { key: keys.position, value, expected });

@@ -31,13 +31,15 @@ pub(crate) mod url;
 mod velocity;
 
 pub use config::{HeadConfig, TrackingMode, VelocityFilter};
-pub use mouse::Mouse;
+pub use mouse::MouseDecoder;
 pub use mouse_event::{MouseButton, MouseEvent};
-pub use placement::Placement;
+pub use placement::AxesPlacement;
 pub use rigid::Rigid;
 pub use seen::PoseError;
 pub use state::{HeadState, Tracking};
-pub use tracked_head::Head;
+pub use tracked_head::TrackedHead;
 pub use tracked_pose::TrackedPose;
 pub use url::{TrackerUrl, TrackerUrlError};
-pub use velocity::Velocity;
+pub use velocity::TrackVelocity;
+
+pub use tracked_head::TrackedHead as Head; // until app is moved

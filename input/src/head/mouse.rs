@@ -62,9 +62,9 @@ impl Glide {
     }
 }
 
-/// Decoder of [`Source::Mouse`](crate::Source::Mouse).
+/// Decoder of [`SampleSource::Mouse`](crate::SampleSource::Mouse).
 #[derive(Debug)]
-pub struct Mouse {
+pub struct MouseDecoder {
     home: DVec3,
     held: [bool; 3],
     shift: bool,
@@ -74,7 +74,7 @@ pub struct Mouse {
     faults: Faults,
 }
 
-impl Mouse {
+impl MouseDecoder {
     /// A head that rests here, in the room's axes, and looks ahead.
     pub fn new(home: DVec3) -> Self {
         Self {
@@ -134,7 +134,7 @@ impl Mouse {
     }
 }
 
-impl Decoder for Mouse {
+impl Decoder for MouseDecoder {
     /// The window lost the focus: buttons are let go, the head stays where it is.
     fn reset(&mut self, _at: Nanos) {
         (self.held, self.shift) = ([false; 3], false);
@@ -171,8 +171,8 @@ mod tests {
         MouseEvent::Button { button, pressed }
     }
 
-    fn mouse(events: &[(Nanos, MouseEvent)]) -> Mouse {
-        let mut mouse = Mouse::new(HOME);
+    fn mouse(events: &[(Nanos, MouseEvent)]) -> MouseDecoder {
+        let mut mouse = MouseDecoder::new(HOME);
         for (at, event) in events {
             mouse.bytes(*at, &event.to_bytes(), &mut Actions::default());
         }
@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn place_and_velocity_are_continuous_and_belong_together() {
-        let mut head = Mouse::new(HOME);
+        let mut head = MouseDecoder::new(HOME);
         let mut at = 0;
         let step = SECOND / 1000;
         let mut last = head.state(0);
@@ -267,10 +267,10 @@ mod tests {
     fn nonsense_is_counted_and_moves_nothing() {
         let nan = [&[WHEEL][..], &f32::NAN.to_le_bytes()].concat();
         for bytes in [&[9][..], &[BUTTON, 3, 1], &[BUTTON, 0, 2], &[MOVED, 0], &nan, &[SHIFT]] {
-            let mut head = Mouse::new(HOME);
+            let mut head = MouseDecoder::new(HOME);
             head.bytes(0, bytes, &mut Actions::default());
             assert_eq!(head.faults().number(), 1, "{bytes:?}");
-            assert_eq!(head.state(SECOND), Mouse::new(HOME).state(SECOND));
+            assert_eq!(head.state(SECOND), MouseDecoder::new(HOME).state(SECOND));
         }
     }
 }

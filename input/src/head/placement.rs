@@ -16,7 +16,7 @@ pub(super) const UNIT_LENGTHS: RangeInclusive<f64> = 1.0 - 1e-2..=1.0 + 1e-2;
 /// How one body's axes stand in another's: turned, then shifted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Placement {
+pub struct AxesPlacement {
     /// Its origin in the other's axes, metres.
     pub position: [f64; 3],
     /// Turn about y, to the left, degrees; the last to be done.
@@ -30,7 +30,7 @@ pub struct Placement {
     pub quaternion: Option<[f64; 4]>,
 }
 
-impl Placement {
+impl AxesPlacement {
     /// The transform.
     pub fn rigid(&self) -> Rigid {
         let angles = [self.yaw, self.pitch, self.roll].map(f64::to_radians);
@@ -107,15 +107,15 @@ mod tests {
 
     #[test]
     fn yaw_is_to_the_left_pitch_nose_up_roll_to_the_left() {
-        let forward = |placement: Placement| placement.rigid().orientation * DVec3::NEG_Z;
+        let forward = |placement: AxesPlacement| placement.rigid().orientation * DVec3::NEG_Z;
         let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 1e-15, "{a} for {b}");
-        near(forward(Placement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
-        near(forward(Placement { pitch: 90.0, ..Default::default() }), DVec3::Y);
-        let rolled = Placement { roll: 90.0, ..Default::default() }.rigid().orientation;
+        near(forward(AxesPlacement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
+        near(forward(AxesPlacement { pitch: 90.0, ..Default::default() }), DVec3::Y);
+        let rolled = AxesPlacement { roll: 90.0, ..Default::default() }.rigid().orientation;
         near(rolled * DVec3::Y, DVec3::NEG_X);
         // Yaw comes last.
         near(
-            forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
+            forward(AxesPlacement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
             DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt(),
         );
     }

@@ -39,7 +39,7 @@ pub enum PoseError {
 
 /// A pose of the head, and its times.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
+pub(super) struct SeenPose {
     pub(super) at: Nanos,
     pub(super) measured_s: Option<f64>,
     pub(super) room_from_head: Rigid,
@@ -47,14 +47,14 @@ pub(super) struct Seen {
 
 /// The time from one pose to the next, seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Interval {
+pub(super) enum PoseInterval {
     /// They belong to one track.
     Steady(f64),
     /// There was a gap, or the tracker's clock was set.
     Gap(f64),
 }
 
-impl Interval {
+impl PoseInterval {
     pub(super) fn seconds(self) -> f64 {
         match self {
             Self::Steady(seconds) | Self::Gap(seconds) => seconds,
@@ -62,21 +62,21 @@ impl Interval {
     }
 }
 
-impl Seen {
+impl SeenPose {
     /// The time since then; `None` if the next pose is no newer.
-    pub(super) fn until(&self, next: &Self) -> Option<Interval> {
+    pub(super) fn until(&self, next: &Self) -> Option<PoseInterval> {
         let arrived_s = seconds_between(self.at, next.at);
         let measured_s = self.measured_s.zip(next.measured_s).map(|(earlier, later)| later - earlier);
         match measured_s {
             Some(measured_s) if measured_s > -CLOCK_SET_S && measured_s <= 0.0 => None,
-            Some(measured_s) if measured_s > 0.0 && measured_s <= GAP_S => Some(Interval::Steady(measured_s)),
-            None if arrived_s <= GAP_S => Some(Interval::Steady(arrived_s)),
-            _ => Some(Interval::Gap(arrived_s)),
+            Some(measured_s) if measured_s > 0.0 && measured_s <= GAP_S => Some(PoseInterval::Steady(measured_s)),
+            None if arrived_s <= GAP_S => Some(PoseInterval::Steady(arrived_s)),
+            _ => Some(PoseInterval::Gap(arrived_s)),
         }
     }
 
     /// Whether a head may have gone there in this time; if not, how far it would be.
-    pub(super) fn reaches(&self, next: &Self, interval: Interval) -> Result<(), PoseError> {
+    pub(super) fn reaches(&self, next: &Self, interval: PoseInterval) -> Result<(), PoseError> {
         let way_m = self.room_from_head.position.distance(next.room_from_head.position);
         let interval_s = interval.seconds();
         if way_m <= FASTEST_M_S * interval_s + NOISE_M { Ok(()) } else { Err(PoseError::Leap { way_m, interval_s }) }

@@ -6,9 +6,9 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DQuat, DVec3};
 
 use super::config::{HeadConfig, TrackingMode, VelocityFilter};
-use super::placement::Placement;
+use super::placement::AxesPlacement;
 use super::state::{HeadState, Tracking};
-use super::tracked_head::Head;
+use super::tracked_head::TrackedHead;
 use super::tracked_pose::TrackedPose;
 use crate::clock::{Nanos, SECOND};
 
@@ -22,8 +22,8 @@ fn config() -> HeadConfig {
     HeadConfig::new("dtrack://".parse().unwrap())
 }
 
-fn head() -> Head {
-    Head::new(HeadConfig { velocity: VelocityFilter::Off, ..config() }).unwrap()
+fn head() -> TrackedHead {
+    TrackedHead::new(HeadConfig { velocity: VelocityFilter::Off, ..config() }).unwrap()
 }
 
 /// The pose of frame `number`, measured at its arrival.
@@ -44,7 +44,7 @@ fn near(found: DVec3, expected: DVec3, tolerance: f64) {
 }
 
 /// A head that walks ahead at 1 m/s, seen ten times.
-fn walking() -> Head {
+fn walking() -> TrackedHead {
     let mut head = head();
     (0..10).for_each(|number| head.pose(&pose(number, DVec3::new(0.0, 1.7, -0.01 * number as f64))));
     assert_eq!(head.rejected().number(), 0);
@@ -66,9 +66,9 @@ fn a_head_not_seen_yet_is_at_home() {
 #[test]
 fn the_transforms_apply_in_their_order() {
     // The tracker hangs 2 m up, turned to the left; the sensor sits 10 cm above the eyes and 5 cm behind, upside down.
-    let room_from_tracker = Placement { position: [0.0, 2.0, 0.0], yaw: 90.0, ..Default::default() };
-    let head_from_sensor = Placement { position: [0.0, 0.1, 0.05], roll: 180.0, ..Default::default() };
-    let mut head = Head::new(HeadConfig { room_from_tracker, head_from_sensor, ..config() }).unwrap();
+    let room_from_tracker = AxesPlacement { position: [0.0, 2.0, 0.0], yaw: 90.0, ..Default::default() };
+    let head_from_sensor = AxesPlacement { position: [0.0, 0.1, 0.05], roll: 180.0, ..Default::default() };
+    let mut head = TrackedHead::new(HeadConfig { room_from_tracker, head_from_sensor, ..config() }).unwrap();
     // A metre ahead of the tracker, 30 cm below it, turned upside down as it is mounted.
     let upside_down = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     head.pose(&TrackedPose { orientation: upside_down, ..pose(0, DVec3::new(0.0, -0.3, -1.0)) });
@@ -82,9 +82,9 @@ fn the_transforms_apply_in_their_order() {
 fn the_velocity_is_that_of_the_eyes() {
     // The sensor stays where it is while the head, whose eyes are 20 cm ahead of it, turns at 2 rad/s
     // to the left.
-    let head_from_sensor = Placement { position: [0.0, 0.0, 0.2], ..Default::default() };
+    let head_from_sensor = AxesPlacement { position: [0.0, 0.0, 0.2], ..Default::default() };
     let velocity = VelocityFilter::Off;
-    let mut head = Head::new(HeadConfig { head_from_sensor, velocity, ..config() }).unwrap();
+    let mut head = TrackedHead::new(HeadConfig { head_from_sensor, velocity, ..config() }).unwrap();
     for number in 0..50 {
         let orientation = DQuat::from_rotation_y(0.02 * number as f64);
         head.pose(&TrackedPose { orientation, ..pose(number, DVec3::Y) });

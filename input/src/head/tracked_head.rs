@@ -5,10 +5,10 @@ use glam::{DQuat, DVec3};
 use super::config::HeadConfig;
 use super::placement::{FARTHEST_M, UNIT_LENGTHS};
 use super::rigid::Rigid;
-use super::seen::{Interval, PoseError, Seen};
+use super::seen::{PoseError, PoseInterval, SeenPose};
 use super::state::{HeadState, Tracking};
 use super::tracked_pose::TrackedPose;
-use super::velocity::Velocity;
+use super::velocity::TrackVelocity;
 use crate::clock::{Nanos, seconds_between};
 use crate::config_error::ConfigError;
 use crate::faults::Faults;
@@ -19,14 +19,14 @@ const GRACE_S: f64 = 0.05;
 const GRACE_FRAMES: f64 = 1.5;
 /// A tracked head: fed poses in the order in which they came, asked once a frame.
 #[derive(Debug)]
-pub struct Head {
+pub struct TrackedHead {
     config: HeadConfig,
     room_from_tracker: Rigid,
     sensor_from_head: Rigid,
-    last: Option<Seen>,
+    last: Option<SeenPose>,
     /// A pose that leapt away, which the next may confirm.
-    leapt: Option<Seen>,
-    velocity: Velocity,
+    leapt: Option<SeenPose>,
+    velocity: TrackVelocity,
     /// The last interval between poses of one track, seconds.
     rhythm_s: f64,
     /// When the tracker went.
@@ -34,7 +34,7 @@ pub struct Head {
     rejected: Faults,
 }
 
-impl Head {
+impl TrackedHead {
     /// A head that has not been seen.
     ///
     /// # Errors
@@ -46,7 +46,7 @@ impl Head {
             sensor_from_head: config.head_from_sensor.rigid().inverse(),
             last: None,
             leapt: None,
-            velocity: Velocity::new(config.velocity),
+            velocity: TrackVelocity::new(config.velocity),
             rhythm_s: 0.0,
             gone: None,
             rejected: Faults::default(),
@@ -111,11 +111,11 @@ impl Head {
         }
 
         match interval {
-            Interval::Steady(interval_s) => {
+            PoseInterval::Steady(interval_s) => {
                 self.velocity.push(interval_s, seen.room_from_head.position);
                 self.rhythm_s = interval_s;
             }
-            Interval::Gap(_) => {
+            PoseInterval::Gap(_) => {
                 let (_, share) = self.belief(&last, seen.at);
                 self.velocity.restart(seen.room_from_head.position, self.velocity.value() * share);
             }
@@ -123,13 +123,13 @@ impl Head {
         self.see(seen)
     }
 
-    fn see(&mut self, seen: Seen) -> Result<(), PoseError> {
+    fn see(&mut self, seen: SeenPose) -> Result<(), PoseError> {
         (self.last, self.leapt, self.gone) = (Some(seen), None, None);
         Ok(())
     }
 
     /// The head's pose, if the sensor's makes sense.
-    fn sound(&self, pose: &TrackedPose) -> Result<Seen, PoseError> {
+    fn sound(&self, pose: &TrackedPose) -> Result<SeenPose, PoseError> {
         let length = pose.orientation.length();
         if !UNIT_LENGTHS.contains(&length) {
             return Err(PoseError::Quaternion(length));
@@ -140,11 +140,11 @@ impl Head {
         let tracker_from_sensor = Rigid { position: pose.position_m, orientation: pose.orientation.normalize() };
         let room_from_head = self.room_from_tracker * tracker_from_sensor * self.sensor_from_head;
         let measured_s = pose.measured_s.filter(|seconds| seconds.is_finite());
-        Ok(Seen { at: pose.at, measured_s, room_from_head })
+        Ok(SeenPose { at: pose.at, measured_s, room_from_head })
     }
 
     /// How far a pose is to be believed at the time `at`, and the share of its velocity.
-    fn belief(&self, last: &Seen, at: Nanos) -> (Tracking, f64) {
+    fn belief(&self, last: &SeenPose, at: Nanos) -> (Tracking, f64) {
         let unseen_s = seconds_between(last.at, at) - GRACE_S.max(GRACE_FRAMES * self.rhythm_s);
         let gone_s = self.gone.map_or(f64::NEG_INFINITY, |gone| seconds_between(gone, at));
         let fading_s = unseen_s.max(gone_s);

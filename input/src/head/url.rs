@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::dtrack;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 use crate::vrpn::wire::{self, LONGEST_NAME};
 
 /// A tracker's place.
@@ -71,11 +71,11 @@ pub enum TrackerUrlError {
 
 impl TrackerUrl {
     /// Which decoder reads it.
-    pub fn source(&self) -> Source {
+    pub fn source(&self) -> SampleSource {
         match self {
-            Self::Vrpn { .. } => Source::Vrpn,
-            Self::Dtrack { .. } => Source::Dtrack,
-            Self::Mouse => Source::Mouse,
+            Self::Vrpn { .. } => SampleSource::Vrpn,
+            Self::Dtrack { .. } => SampleSource::Dtrack,
+            Self::Mouse => SampleSource::Mouse,
         }
     }
 }

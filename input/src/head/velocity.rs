@@ -16,14 +16,14 @@ use super::config::VelocityFilter;
 const SHORTEST_S: f64 = 5e-4;
 
 /// A place and its time, seconds before now.
-type Place = (f64, DVec3);
+type TimedPlace = (f64, DVec3);
 
 /// The velocity of a track.
 #[derive(Clone, Debug)]
-pub struct Velocity {
+pub struct TrackVelocity {
     filter: VelocityFilter,
     /// The newest last.
-    track: VecDeque<Place>,
+    track: VecDeque<TimedPlace>,
     /// For the One Euro filter: acceleration, low-passed.
     acceleration: DVec3,
     /// Whether `value` has come from differences of this track.
@@ -31,7 +31,7 @@ pub struct Velocity {
     value: DVec3,
 }
 
-impl Velocity {
+impl TrackVelocity {
     /// A track without places.
     pub fn new(filter: VelocityFilter) -> Self {
         Self { filter, track: VecDeque::new(), acceleration: DVec3::ZERO, begun: false, value: DVec3::ZERO }
@@ -147,7 +147,7 @@ mod tests {
     fn steady_motion_has_its_exact_velocity() {
         let expected = DVec3::new(1.2, -0.1, -0.7);
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             let mut position = DVec3::new(100.0, 2.0, -300.0);
             velocity.restart(position, DVec3::ZERO);
             for interval_s in intervals() {
@@ -162,7 +162,7 @@ mod tests {
     fn a_turned_track_has_the_turned_velocity() {
         let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.3, -1.1, 2.0);
         for filter in every_filter() {
-            let (mut plain, mut turned) = (Velocity::new(filter), Velocity::new(filter));
+            let (mut plain, mut turned) = (TrackVelocity::new(filter), TrackVelocity::new(filter));
             let mut time: f64 = 0.0;
             for interval_s in intervals() {
                 time += interval_s;
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_mean_is_over_its_frames_and_not_over_more() {
-        let mut velocity = Velocity::new(VelocityFilter::Mean { frames: 4 });
+        let mut velocity = TrackVelocity::new(VelocityFilter::Mean { frames: 4 });
         velocity.restart(DVec3::ZERO, DVec3::ZERO);
         let mut x = 0.0;
         // Speeds 0, 0, 4, 8, 12, 16 m/s at 100 Hz.
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn the_slope_has_the_velocity_of_the_middle_of_its_window() {
-        let mut velocity = Velocity::new(VelocityFilter::LeastSquares { window_s: 0.1 });
+        let mut velocity = TrackVelocity::new(VelocityFilter::LeastSquares { window_s: 0.1 });
         for step in 0..100 {
             // A fall: x = t².
             let time = 0.005 * f64::from(step);
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn one_euro_is_that_of_the_authors_on_the_differences() {
-        let mut velocity = Velocity::new(VelocityFilter::OneEuro {
+        let mut velocity = TrackVelocity::new(VelocityFilter::OneEuro {
             minimum_cutoff_hz: 1.0,
             acceleration_coefficient: 0.1,
             acceleration_cutoff_hz: 1.0,
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn two_places_at_one_time_are_one() {
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             for step in 0..50 {
                 let x = 0.01 * f64::from(step);
                 velocity.push(0.01, DVec3::X * x);
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn a_track_holds_no_more_than_it_needs() {
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             for _ in 0..10_000 {
                 velocity.push(1e-3, DVec3::ZERO);
                 assert!(velocity.track.len() <= 52, "{filter:?}: {}", velocity.track.len());

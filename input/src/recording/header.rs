@@ -23,7 +23,7 @@ pub(super) const KEY_CHECKSUM: &str = "header_crc32";
 /// What a ride depends on besides its samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Header {
+pub struct RideHeader {
     /// Version of the program that recorded.
     pub build: String,
     /// The scene: a file or the name of a built-in one.

@@ -12,7 +12,7 @@
 //! nanoseconds since the ride began. Messages of all channels are numbered as one sequence, so that
 //! a lost one shows.
 //!
-//! The first record is a metadata record that holds the [`Header`] with a checksum; then follow
+//! The first record is a metadata record that holds the [`RideHeader`] with a checksum; then follow
 //! chunks of at most half a second, each whole and with its own checksum. A crash therefore loses
 //! at most the last one. [`Recorder`] writes on a thread of its own, [`Recording`] reads.
 
@@ -26,7 +26,10 @@ mod record;
 mod writer;
 
 pub use error::RecordingError;
-pub use header::Header;
+pub use header::RideHeader;
 pub use reader::Recording;
-pub use record::{ControlsRecord, Difference, Entry, FrameRecord};
+pub use record::{ControlsRecord, FrameDifference, FrameRecord, RecordingEntry};
 pub use writer::Recorder;
+
+pub use header::RideHeader as Header; // until app is moved
+pub use record::{FrameDifference as Difference, RecordingEntry as Entry}; // until app is moved

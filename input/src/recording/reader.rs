@@ -14,10 +14,10 @@ use serde::de::DeserializeOwned;
 
 use super::chunk::records_of_chunk;
 use super::error::RecordingError;
-use super::header::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
+use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
 use super::outer_records::OuterRecords;
 use super::parse::parsed;
-use super::record::{Entry, SampleRecord, Topic};
+use super::record::{RecordingEntry, RecordingTopic, SampleRecord};
 
 /// Length of the record that ends the data, bytes: its checksum.
 const DATA_END_LENGTH: usize = 4;
@@ -28,7 +28,7 @@ const DATA_END_LENGTH: usize = 4;
 #[derive(Debug)]
 pub struct Recording {
     records: OuterRecords,
-    header: Header,
+    header: RideHeader,
     messages: Messages,
     /// Outcome to be told after the entries, once no more is read.
     end: Option<Result<(), RecordingError>>,
@@ -48,7 +48,7 @@ impl Recording {
     }
 
     /// What the ride depends on besides its samples.
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &RideHeader {
         &self.header
     }
 
@@ -78,7 +78,7 @@ fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
 }
 
 /// Reads the metadata record that describes the ride.
-fn read_header(records: &mut OuterRecords) -> Result<Header, RecordingError> {
+fn read_header(records: &mut OuterRecords) -> Result<RideHeader, RecordingError> {
     let record = records.next()?;
     let damaged = |what: String| records.damaged(record.offset, what);
     let values = match parsed(record.opcode, &record.body) {
@@ -101,10 +101,10 @@ fn read_header(records: &mut OuterRecords) -> Result<Header, RecordingError> {
 #[derive(Debug, Default)]
 struct Messages {
     /// Topic of each channel; `None` for one that a later program has added.
-    channels: BTreeMap<u16, Option<Topic>>,
+    channels: BTreeMap<u16, Option<RecordingTopic>>,
     /// Number that the next message must have.
     sequence: u32,
-    entries: VecDeque<Entry>,
+    entries: VecDeque<RecordingEntry>,
 }
 
 impl Messages {
@@ -113,7 +113,7 @@ impl Messages {
         match opcode {
             op::CHANNEL => match parsed(opcode, body) {
                 Some(Record::Channel(channel)) => {
-                    let topic = Topic::ALL.into_iter().find(|topic| topic.name() == channel.topic);
+                    let topic = RecordingTopic::ALL.into_iter().find(|topic| topic.name() == channel.topic);
                     self.channels.insert(channel.id, topic);
                     Ok(())
                 }
@@ -137,12 +137,12 @@ impl Messages {
 
         let topic = self.channels.get(&channel_id).ok_or_else(|| format!("message {sequence} is of no channel"))?;
         self.entries.push_back(match topic {
-            Some(Topic::Samples) => {
+            Some(RecordingTopic::Samples) => {
                 let record: SampleRecord = parse(sequence, text)?;
-                Entry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
+                RecordingEntry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
             }
-            Some(Topic::Controls) => Entry::Controls(parse(sequence, text)?),
-            Some(Topic::Frames) => Entry::Frame(parse(sequence, text)?),
+            Some(RecordingTopic::Controls) => RecordingEntry::Controls(parse(sequence, text)?),
+            Some(RecordingTopic::Frames) => RecordingEntry::Frame(parse(sequence, text)?),
             None => return Ok(()),
         });
         Ok(())
@@ -154,7 +154,7 @@ fn parse<T: DeserializeOwned>(sequence: u32, text: &[u8]) -> Result<T, String> {
 }
 
 impl Iterator for Recording {
-    type Item = Result<Entry, RecordingError>;
+    type Item = Result<RecordingEntry, RecordingError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Sample, Signal, Source};
+use crate::sample::{Sample, SampleSource, Signal};
 
 /// The observer after a frame's steps.
 ///
@@ -46,7 +46,7 @@ pub struct FrameRecord {
 
 /// Where two frame records differ first.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct FrameDifference {
     /// The field, with its index.
     pub field: String,
     /// What was recorded.
@@ -57,7 +57,7 @@ pub struct Difference {
 
 impl FrameRecord {
     /// Every real number, with its place.
-    fn numbers(&self) -> impl Iterator<Item = (Place, f64)> {
+    fn numbers(&self) -> impl Iterator<Item = (FieldPlace, f64)> {
         let vectors: [(&str, &[f64]); 9] = [
             ("proper_time", std::slice::from_ref(&self.proper_time)),
             ("ct", std::slice::from_ref(&self.ct)),
@@ -70,7 +70,7 @@ impl FrameRecord {
             ("odometer", std::slice::from_ref(&self.odometer)),
         ];
         vectors.into_iter().flat_map(|(field, vector)| {
-            let place = move |index| Place { field, index: (vector.len() > 1).then_some(index) };
+            let place = move |index| FieldPlace { field, index: (vector.len() > 1).then_some(index) };
             vector.iter().enumerate().map(move |(index, &number)| (place(index), number))
         })
     }
@@ -82,7 +82,7 @@ impl FrameRecord {
     }
 
     /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
-    pub fn first_difference(&self, replayed: &Self) -> Option<Difference> {
+    pub fn first_difference(&self, replayed: &Self) -> Option<FrameDifference> {
         let counts = [
             ("frame", self.frame, replayed.frame),
             ("at", self.at, replayed.at),
@@ -90,12 +90,12 @@ impl FrameRecord {
         ];
         if let Some((field, ours, theirs)) = counts.into_iter().find(|(_, ours, theirs)| ours != theirs) {
             let (recorded, replayed) = (ours.to_string(), theirs.to_string());
-            return Some(Difference { field: field.to_owned(), recorded, replayed });
+            return Some(FrameDifference { field: field.to_owned(), recorded, replayed });
         }
         self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
             |((place, ours), (_, theirs))| {
                 let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
-                Difference { field: place.to_string(), recorded, replayed }
+                FrameDifference { field: place.to_string(), recorded, replayed }
             },
         )
     }
@@ -103,12 +103,12 @@ impl FrameRecord {
 
 /// A number's place in a frame record.
 #[derive(Clone, Copy)]
-struct Place {
+struct FieldPlace {
     field: &'static str,
     index: Option<usize>,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FieldPlace {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.index {
             Some(index) => write!(formatter, "{}[{index}]", self.field),
@@ -131,7 +131,7 @@ pub struct ControlsRecord {
 
 /// One message of a recording.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Entry {
+pub enum RecordingEntry {
     /// A device said something.
     Sample(Sample),
     /// What the desk made of it.
@@ -143,7 +143,7 @@ pub enum Entry {
 /// What happened, as it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Kind {
+enum SignalKind {
     Opened,
     Bytes,
     Closed,
@@ -154,17 +154,17 @@ enum Kind {
 #[serde(deny_unknown_fields)]
 pub(super) struct SampleRecord {
     at: Nanos,
-    source: Source,
-    kind: Kind,
+    source: SampleSource,
+    kind: SignalKind,
     bytes: String,
 }
 
 impl From<&Sample> for SampleRecord {
     fn from(sample: &Sample) -> Self {
         let (kind, bytes): (_, &[u8]) = match &sample.signal {
-            Signal::Opened => (Kind::Opened, &[]),
-            Signal::Bytes(bytes) => (Kind::Bytes, bytes),
-            Signal::Closed => (Kind::Closed, &[]),
+            Signal::Opened => (SignalKind::Opened, &[]),
+            Signal::Bytes(bytes) => (SignalKind::Bytes, bytes),
+            Signal::Closed => (SignalKind::Closed, &[]),
         };
         Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
     }
@@ -175,9 +175,9 @@ impl TryFrom<SampleRecord> for Sample {
 
     fn try_from(record: SampleRecord) -> Result<Self, String> {
         let signal = match record.kind {
-            Kind::Opened => Signal::Opened,
-            Kind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
-            Kind::Closed => Signal::Closed,
+            SignalKind::Opened => Signal::Opened,
+            SignalKind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
+            SignalKind::Closed => Signal::Closed,
         };
         Ok(Self { at: record.at, source: record.source, signal })
     }
@@ -201,13 +201,13 @@ fn unhex(text: &str) -> Result<Box<[u8]>, String> {
 
 /// A channel of the recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Topic {
+pub(super) enum RecordingTopic {
     Samples,
     Controls,
     Frames,
 }
 
-impl Topic {
+impl RecordingTopic {
     pub(super) const ALL: [Self; 3] = [Self::Samples, Self::Controls, Self::Frames];
 
     /// Its name in the file.
@@ -297,10 +297,10 @@ mod tests {
     #[test]
     fn samples_survive_their_text() {
         for sample in [
-            Sample::opened(1, Source::Bicycle),
-            Sample::bytes(u64::MAX, Source::SpaceMouse, [0, 0xff, 0x7f]),
-            Sample::bytes(3, Source::Settings, []),
-            Sample::closed(4, Source::Keyboard),
+            Sample::opened(1, SampleSource::Bicycle),
+            Sample::bytes(u64::MAX, SampleSource::SpaceMouse, [0, 0xff, 0x7f]),
+            Sample::bytes(3, SampleSource::Settings, []),
+            Sample::closed(4, SampleSource::Keyboard),
         ] {
             let text = serde_json::to_string(&SampleRecord::from(&sample)).unwrap();
             let record: SampleRecord = serde_json::from_str(&text).unwrap();
@@ -317,13 +317,13 @@ mod tests {
 
     #[test]
     fn schemas_describe_exactly_what_is_written() {
-        let sample = SampleRecord::from(&Sample::opened(0, Source::Gamepad));
+        let sample = SampleRecord::from(&Sample::opened(0, SampleSource::Gamepad));
         let written = [
             serde_json::to_value(sample).unwrap(),
             serde_json::to_value(ControlsRecord::default()).unwrap(),
             serde_json::to_value(FrameRecord::default()).unwrap(),
         ];
-        for (topic, written) in Topic::ALL.into_iter().zip(written) {
+        for (topic, written) in RecordingTopic::ALL.into_iter().zip(written) {
             let schema: Value = serde_json::from_str(topic.schema().1).unwrap();
             let described: Vec<_> = schema["properties"].as_object().unwrap().keys().collect();
             let written: Vec<_> = written.as_object().unwrap().keys().collect();

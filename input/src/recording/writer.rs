@@ -22,8 +22,8 @@ use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
 use super::error::RecordingError;
-use super::header::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
-use super::record::{ControlsRecord, Entry, FrameRecord, SampleRecord, Topic};
+use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
+use super::record::{ControlsRecord, FrameRecord, RecordingEntry, RecordingTopic, SampleRecord};
 use crate::clock::Nanos;
 use crate::controls::Controls;
 use crate::sample::Sample;
@@ -34,9 +34,9 @@ const FLUSH_EVERY: Duration = Duration::from_millis(500);
 const QUEUE: usize = 32_768;
 
 /// What is put into the queue.
-enum Message {
-    One(Entry),
-    Many(Vec<Entry>),
+enum Queued {
+    One(RecordingEntry),
+    Many(Vec<RecordingEntry>),
 }
 
 /// A recording that is being made.
@@ -46,7 +46,7 @@ enum Message {
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
-    queue: Option<Sender<Message>>,
+    queue: Option<Sender<Queued>>,
     thread: Option<JoinHandle<Result<(), McapError>>>,
 }
 
@@ -55,14 +55,14 @@ impl Recorder {
     ///
     /// # Errors
     /// If the file exists already, or the system does not let us create or write it.
-    pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
+    pub fn create(path: &Path, header: &RideHeader) -> Result<Self, RecordingError> {
         let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
             io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
             io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
             _ => RecordingError::io(path, "create", cause),
         })?;
-        let mut writer = Writer::new(file, header).map_err(|error| failure(path, error))?;
+        let mut writer = RecordingWriter::new(file, header).map_err(|error| failure(path, error))?;
         let (queue, messages) = bounded(QUEUE);
         let thread = thread::Builder::new()
             .name("recorder".to_owned())
@@ -76,7 +76,7 @@ impl Recorder {
     /// # Errors
     /// If writing has failed, or does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Message::One(Entry::Sample(sample.clone())))
+        self.push(Queued::One(RecordingEntry::Sample(sample.clone())))
     }
 
     /// Records what the desk said for a frame.
@@ -84,7 +84,7 @@ impl Recorder {
     /// # Errors
     /// As for [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Message::One(Entry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
+        self.push(Queued::One(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
     }
 
     /// Records the observer after a frame.
@@ -93,20 +93,20 @@ impl Recorder {
     /// If a number is not finite; else as for [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
         check(record)?;
-        self.push(Message::One(Entry::Frame(record.clone())))
+        self.push(Queued::One(RecordingEntry::Frame(record.clone())))
     }
 
     /// Records what happened before the file was created, however much; to be called first.
     ///
     /// # Errors
     /// As for [`frame`](Self::frame).
-    pub fn past(&mut self, entries: Vec<Entry>) -> Result<(), RecordingError> {
+    pub fn past(&mut self, entries: Vec<RecordingEntry>) -> Result<(), RecordingError> {
         for entry in &entries {
-            if let Entry::Frame(record) = entry {
+            if let RecordingEntry::Frame(record) = entry {
                 check(record)?;
             }
         }
-        self.push(Message::Many(entries))
+        self.push(Queued::Many(entries))
     }
 
     /// Writes what still waits, the index and the end of the file.
@@ -117,7 +117,7 @@ impl Recorder {
         self.close()
     }
 
-    fn push(&mut self, message: Message) -> Result<(), RecordingError> {
+    fn push(&mut self, message: Queued) -> Result<(), RecordingError> {
         let Some(queue) = &self.queue else {
             return Err(RecordingError::Stopped { path: self.path.clone() });
         };
@@ -158,9 +158,9 @@ impl Drop for Recorder {
 }
 
 /// The header as JSON. A number that is not finite is written as none, so it is read back to see.
-fn text(header: &Header) -> Result<String, serde_json::Error> {
+fn text(header: &RideHeader) -> Result<String, serde_json::Error> {
     let text = serde_json::to_string(header)?;
-    serde_json::from_str::<Header>(&text)?;
+    serde_json::from_str::<RideHeader>(&text)?;
     Ok(text)
 }
 
@@ -181,11 +181,11 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
 }
 
 /// Writes the messages until the queue is closed, and flushes now and then.
-fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer) -> Result<(), McapError> {
+fn write_until_closed(messages: &Receiver<Queued>, writer: &mut RecordingWriter) -> Result<(), McapError> {
     loop {
         match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
-            Ok(Message::One(entry)) => writer.write(&entry)?,
-            Ok(Message::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
+            Ok(Queued::One(entry)) => writer.write(&entry)?,
+            Ok(Queued::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
             Err(RecvTimeoutError::Timeout) => writer.flush()?,
             Err(RecvTimeoutError::Disconnected) => return writer.finish(),
         }
@@ -193,17 +193,17 @@ fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer) -> Resu
 }
 
 /// The file, and the numbers of its channels.
-struct Writer {
+struct RecordingWriter {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
     /// The same file, to see it onto the disk.
     file: File,
-    channels: [u16; Topic::ALL.len()],
+    channels: [u16; RecordingTopic::ALL.len()],
     sequence: u32,
     flushed: Instant,
     is_flushed: bool,
 }
 
-impl Writer {
+impl RecordingWriter {
     /// Writes everything that comes before the first message. Chunks are put together in memory and
     /// written whole, so that the file never holds half of one that looks complete.
     fn new(file: File, header: String) -> Result<Self, McapError> {
@@ -221,8 +221,8 @@ impl Writer {
         ]);
         mcap.write_metadata(&Metadata { name: METADATA.to_owned(), metadata })?;
 
-        let mut channels = [0; Topic::ALL.len()];
-        for (channel, topic) in channels.iter_mut().zip(Topic::ALL) {
+        let mut channels = [0; RecordingTopic::ALL.len()];
+        for (channel, topic) in channels.iter_mut().zip(RecordingTopic::ALL) {
             let (name, schema) = topic.schema();
             let schema = mcap.add_schema(name, "jsonschema", schema.as_bytes())?;
             *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
@@ -232,11 +232,11 @@ impl Writer {
     }
 
     /// Writes an entry, and hands the chunk to the disk if it is time.
-    fn write(&mut self, entry: &Entry) -> Result<(), McapError> {
+    fn write(&mut self, entry: &RecordingEntry) -> Result<(), McapError> {
         match entry {
-            Entry::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
-            Entry::Controls(record) => self.put(Topic::Controls, record.at, record),
-            Entry::Frame(record) => self.put(Topic::Frames, record.at, record),
+            RecordingEntry::Sample(sample) => self.put(RecordingTopic::Samples, sample.at, &SampleRecord::from(sample)),
+            RecordingEntry::Controls(record) => self.put(RecordingTopic::Controls, record.at, record),
+            RecordingEntry::Frame(record) => self.put(RecordingTopic::Frames, record.at, record),
         }?;
         self.is_flushed = false;
         if self.flushed.elapsed() < FLUSH_EVERY { Ok(()) } else { self.flush() }
@@ -259,7 +259,7 @@ impl Writer {
         Ok(())
     }
 
-    fn put(&mut self, topic: Topic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
+    fn put(&mut self, topic: RecordingTopic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
         let text = serde_json::to_vec(record).map_err(io::Error::other)?;
         let channel_id = self.channels[topic as usize];
         let header = MessageHeader { channel_id, sequence: self.sequence, log_time: at, publish_time: at };
@@ -273,9 +273,9 @@ impl Writer {
 mod tests {
     //! A recorder that cannot write must say so once, with the cause, and must never stop the ride.
     use super::*;
-    use crate::sample::Source;
+    use crate::sample::SampleSource;
 
-    fn recorder(queue: Sender<Message>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
+    fn recorder(queue: Sender<Queued>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
         Recorder { path: PathBuf::from("ride.mcap"), queue: Some(queue), thread }
     }
 
@@ -283,7 +283,7 @@ mod tests {
     fn a_stalled_disk_ends_the_recording_not_the_ride() {
         let (queue, _never_read) = bounded(1);
         let mut recorder = recorder(queue, None);
-        let sample = Sample::opened(0, Source::Bicycle);
+        let sample = Sample::opened(0, SampleSource::Bicycle);
         recorder.sample(&sample).unwrap();
         assert!(matches!(recorder.sample(&sample), Err(RecordingError::TooSlow { .. })));
         assert!(matches!(recorder.sample(&sample), Err(RecordingError::Stopped { .. })));
@@ -295,7 +295,7 @@ mod tests {
         drop(messages);
         let thread = thread::spawn(|| Err(McapError::Io(io::Error::other("no space left"))));
         let mut recorder = recorder(queue, Some(thread));
-        let error = recorder.sample(&Sample::opened(0, Source::Bicycle)).unwrap_err();
+        let error = recorder.sample(&Sample::opened(0, SampleSource::Bicycle)).unwrap_err();
         assert_eq!(error.to_string(), "cannot write ride.mcap: no space left");
         assert!(recorder.finish().is_ok());
     }

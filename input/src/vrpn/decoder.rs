@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::numbers::Numbers;
+use super::numbers::VrpnNumbers;
 use super::types::{POSE, VELOCITY};
-use super::wire::{Message, Piece, Pieces};
+use super::wire::{VrpnMessage, VrpnPiece, VrpnPieces};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
@@ -15,22 +15,22 @@ const VELOCITY_LENGTH: usize = 72;
 /// Sensors whose velocities are remembered.
 const MOST_SENSORS: usize = 64;
 
-/// Decoder of [`Source::Vrpn`](crate::Source::Vrpn): the server's side of a direct connection.
+/// Decoder of [`SampleSource::Vrpn`](crate::SampleSource::Vrpn): the server's side of a direct connection.
 #[derive(Debug)]
-pub struct Vrpn {
-    pieces: Pieces,
-    numbers: Numbers,
+pub struct VrpnDecoder {
+    pieces: VrpnPieces,
+    numbers: VrpnNumbers,
     velocities: Vec<(i32, DVec3)>,
     poses: Vec<TrackedPose>,
     faults: Faults,
 }
 
-impl Vrpn {
+impl VrpnDecoder {
     /// A decoder of what this device of the server says.
     pub fn new(device: &str) -> Self {
         Self {
-            pieces: Pieces::default(),
-            numbers: Numbers::new(device),
+            pieces: VrpnPieces::default(),
+            numbers: VrpnNumbers::new(device),
             velocities: Vec::new(),
             poses: Vec::new(),
             faults: Faults::default(),
@@ -38,7 +38,7 @@ impl Vrpn {
     }
 
     /// What the server has described.
-    pub fn numbers(&self) -> &Numbers {
+    pub fn numbers(&self) -> &VrpnNumbers {
         &self.numbers
     }
 
@@ -52,7 +52,7 @@ impl Vrpn {
         self.velocities.clear();
     }
 
-    fn message(&mut self, at: Nanos, message: &Message<'_>) {
+    fn message(&mut self, at: Nanos, message: &VrpnMessage<'_>) {
         match self.numbers.describe(message) {
             Ok(true) => return,
             Ok(false) => {}
@@ -82,13 +82,13 @@ impl Vrpn {
         }
     }
 
-    fn bad_length(&mut self, kind: &str, message: &Message<'_>) {
+    fn bad_length(&mut self, kind: &str, message: &VrpnMessage<'_>) {
         self.faults.count(format!("a `{kind}` of {} bytes", message.payload.len()));
     }
 }
 
 /// A pose; `None` if the payload is none.
-fn pose(at: Nanos, message: &Message<'_>) -> Option<TrackedPose> {
+fn pose(at: Nanos, message: &VrpnMessage<'_>) -> Option<TrackedPose> {
     let payload: &[u8; POSE_LENGTH] = message.payload.try_into().ok()?;
     let [x, y, z, qx, qy, qz, qw] = numbers(&payload[8..])?;
     // A server without a clock stamps nothing.
@@ -105,7 +105,7 @@ fn pose(at: Nanos, message: &Message<'_>) -> Option<TrackedPose> {
 }
 
 /// A sensor and its velocity; `None` if the payload is none.
-fn velocity(message: &Message<'_>) -> Option<(i32, DVec3)> {
+fn velocity(message: &VrpnMessage<'_>) -> Option<(i32, DVec3)> {
     let payload: &[u8; VELOCITY_LENGTH] = message.payload.try_into().ok()?;
     let velocity = DVec3::from_array(numbers(&payload[8..])?);
     Some((sensor(payload)?, velocity))
@@ -124,7 +124,7 @@ fn numbers<const N: usize>(bytes: &[u8]) -> Option<[f64; N]> {
     Some(numbers)
 }
 
-impl Decoder for Vrpn {
+impl Decoder for VrpnDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.pieces.reset();
         self.forget();
@@ -133,8 +133,8 @@ impl Decoder for Vrpn {
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
         let mut pieces = std::mem::take(&mut self.pieces);
         pieces.push(bytes, |piece| match piece {
-            Ok(Piece::Cookie(_)) => self.forget(),
-            Ok(Piece::Message(message, _)) => self.message(at, &message),
+            Ok(VrpnPiece::Cookie(_)) => self.forget(),
+            Ok(VrpnPiece::Message(message, _)) => self.message(at, &message),
             Err(error) => self.faults.count(error.to_string()),
         });
         self.pieces = pieces;
@@ -156,7 +156,7 @@ mod tests {
     use crate::vrpn::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, description};
 
     fn decode(device: &str, chunks: &[&[u8]]) -> (Vec<TrackedPose>, u64) {
-        let (mut decoder, mut actions) = (Vrpn::new(device), Actions::default());
+        let (mut decoder, mut actions) = (VrpnDecoder::new(device), Actions::default());
         let mut poses = Vec::new();
         for chunk in chunks {
             decoder.bytes(SECOND, chunk, &mut actions);
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn numbers_are_the_servers_and_may_change() {
-        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         decoder.bytes(0, &golden::session(), &mut actions);
         assert_eq!(decoder.take_poses().len(), 1);
         // Number 1 goes to another device; the next connection's numbers are its own.
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_new_connection_begins_anew() {
-        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         let stream = golden::session();
         for half in 0..stream.len() {
             decoder.bytes(0, &stream[..half], &mut actions);
@@ -231,11 +231,11 @@ mod tests {
 
     #[test]
     fn a_velocity_goes_with_the_poses_of_its_sensor() {
-        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         let mut payload = [0; VELOCITY_LENGTH];
         payload[8..16].copy_from_slice(&1.25_f64.to_be_bytes());
         payload[64..].copy_from_slice(&golden::bytes("3ffccccccccccccd"));
-        let velocity = Message { seconds: 1, microseconds: 0, sender: 1, kind: 9, payload: &payload }.to_bytes();
+        let velocity = VrpnMessage { seconds: 1, microseconds: 0, sender: 1, kind: 9, payload: &payload }.to_bytes();
         assert_eq!(velocity[..4], golden::bytes("00000060"));
         let stream =
             [golden::session(), description(DESCRIBES_TYPE, 9, VELOCITY), velocity, golden::bytes(golden::IDENTITY)];
@@ -248,7 +248,7 @@ mod tests {
     fn poses_of_a_wrong_length_are_counted() {
         for length in [0, 8, 63, 65, 72] {
             let payload = vec![0; length];
-            let short = Message { seconds: 0, microseconds: 0, sender: 1, kind: 4, payload: &payload }.to_bytes();
+            let short = VrpnMessage { seconds: 0, microseconds: 0, sender: 1, kind: 4, payload: &payload }.to_bytes();
             let (poses, faults) = decode("Head", &[&golden::session(), &short, &golden::bytes(golden::IDENTITY)]);
             assert_eq!((poses.len(), faults), (2, 1), "{length}");
         }
@@ -256,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_flood_of_descriptions_costs_no_memory() {
-        let (mut decoder, mut actions) = (Vrpn::new("Head"), Actions::default());
+        let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         decoder.bytes(0, &golden::session(), &mut actions);
         for number in 0..100_000 {
             let bytes = description(DESCRIBES_SENDER, 10 + number, &format!("device {number}"));

@@ -19,6 +19,6 @@ pub(crate) mod numbers;
 pub(crate) mod types;
 pub mod wire;
 
-pub use decoder::Vrpn;
-pub use numbers::Numbers;
+pub use decoder::VrpnDecoder;
+pub use numbers::VrpnNumbers;
 pub use types::{PING, PONG, POSE, VELOCITY};

@@ -1,14 +1,14 @@
 //! Which numbers stand for which names, on one connection.
 
 use super::types::{PING, PONG, POSE, VELOCITY};
-use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, Message, WireError};
+use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage};
 
 /// Senders that are remembered by name, for those who have mistaken it.
 pub(super) const MOST_SENDERS: usize = 16;
 
 /// The numbers that the other side has given to the names that matter.
 #[derive(Clone, Debug, Default)]
-pub struct Numbers {
+pub struct VrpnNumbers {
     /// Name of the device that we listen to.
     device: String,
     sender: Option<i32>,
@@ -17,7 +17,7 @@ pub struct Numbers {
     senders: Vec<String>,
 }
 
-impl Numbers {
+impl VrpnNumbers {
     const TYPES: [&str; 4] = [POSE, VELOCITY, PING, PONG];
 
     /// Nothing described yet.
@@ -34,7 +34,7 @@ impl Numbers {
     ///
     /// # Errors
     /// If its name cannot be read.
-    pub fn describe(&mut self, message: &Message<'_>) -> Result<bool, WireError> {
+    pub fn describe(&mut self, message: &VrpnMessage<'_>) -> Result<bool, VrpnError> {
         match message.kind {
             DESCRIBES_SENDER => {
                 let name = message.name()?;
@@ -55,7 +55,7 @@ impl Numbers {
     }
 
     /// Which of the types that matter this message of our device is; `None` for all others.
-    pub fn of_device(&self, message: &Message<'_>) -> Option<&'static str> {
+    pub fn of_device(&self, message: &VrpnMessage<'_>) -> Option<&'static str> {
         if self.sender != Some(message.sender) {
             return None;
         }

@@ -41,7 +41,7 @@ const HEADER_LENGTH: usize = 24;
 
 /// Why the stream makes no sense.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum WireError {
+pub enum VrpnError {
     /// It does not begin as VRPN does.
     #[error("the other side does not speak VRPN: it begins with {0:?}")]
     NotVrpn(String),
@@ -58,7 +58,7 @@ pub enum WireError {
 
 /// A message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Message<'a> {
+pub struct VrpnMessage<'a> {
     /// Seconds since 1970 on the sender's clock.
     pub seconds: u32,
     /// And microseconds.
@@ -71,7 +71,9 @@ pub struct Message<'a> {
     pub payload: &'a [u8],
 }
 
-impl Message<'_> {
+pub use VrpnMessage as Message; // until app is moved
+
+impl VrpnMessage<'_> {
     /// The message's bytes, padding included; the sequence number is zero.
     pub fn to_bytes(&self) -> Vec<u8> {
         let length = u32::try_from(HEADER_LENGTH + self.payload.len()).expect("payloads are short");
@@ -91,14 +93,14 @@ impl Message<'_> {
     ///
     /// # Errors
     /// If it is no such payload.
-    pub fn name(&self) -> Result<&str, WireError> {
-        let (length, text) = self.payload.split_first_chunk().ok_or(WireError::Name)?;
-        let length = usize::try_from(u32::from_be_bytes(*length)).map_err(|_| WireError::Name)?;
+    pub fn name(&self) -> Result<&str, VrpnError> {
+        let (length, text) = self.payload.split_first_chunk().ok_or(VrpnError::Name)?;
+        let length = usize::try_from(u32::from_be_bytes(*length)).map_err(|_| VrpnError::Name)?;
         if length > LONGEST_NAME {
-            return Err(WireError::Name);
+            return Err(VrpnError::Name);
         }
-        let text = text.get(..length).and_then(|text| text.strip_suffix(&[0])).ok_or(WireError::Name)?;
-        std::str::from_utf8(text).map_err(|_| WireError::Name)
+        let text = text.get(..length).and_then(|text| text.strip_suffix(&[0])).ok_or(VrpnError::Name)?;
+        std::str::from_utf8(text).map_err(|_| VrpnError::Name)
     }
 }
 
@@ -106,7 +108,7 @@ impl Message<'_> {
 pub fn description(kind: i32, number: i32, name: &str) -> Vec<u8> {
     let length = u32::try_from(name.len() + 1).expect("names are short");
     let payload = [&length.to_be_bytes(), name.as_bytes(), &[0]].concat();
-    Message { seconds: 0, microseconds: 0, sender: number, kind, payload: &payload }.to_bytes()
+    VrpnMessage { seconds: 0, microseconds: 0, sender: number, kind, payload: &payload }.to_bytes()
 }
 
 /// The length with its padding.
@@ -116,23 +118,23 @@ fn padded(length: usize) -> usize {
 
 /// What a stream consists of, with its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Piece<'a> {
+pub enum VrpnPiece<'a> {
     /// The other side begins: whatever it has described is forgotten.
     Cookie(&'a [u8]),
     /// A message, and its bytes as they came.
-    Message(Message<'a>, &'a [u8]),
+    Message(VrpnMessage<'a>, &'a [u8]),
 }
 
 /// Cuts a stream into its pieces. Holds one unfinished message at most.
 #[derive(Debug, Default)]
-pub struct Pieces {
+pub struct VrpnPieces {
     partial: Vec<u8>,
-    place: Place,
+    place: StreamPlace,
 }
 
 /// Where in the stream we are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Place {
+enum StreamPlace {
     /// Before the cookie.
     #[default]
     Start,
@@ -142,7 +144,7 @@ enum Place {
     Lost,
 }
 
-impl Pieces {
+impl VrpnPieces {
     /// Forgets the unfinished piece; the next is a cookie.
     pub fn reset(&mut self) {
         *self = Self::default();
@@ -150,26 +152,26 @@ impl Pieces {
 
     /// Takes the next bytes and calls `each` for every piece that ends in them. Nonsense is told
     /// once, then everything up to the next cookie is passed over.
-    pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<Piece<'_>, WireError>)) {
+    pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<VrpnPiece<'_>, VrpnError>)) {
         let mut stream = std::mem::take(&mut self.partial);
         stream.extend_from_slice(bytes);
         let mut rest = &stream[..];
         loop {
-            if self.place == Place::Lost {
+            if self.place == StreamPlace::Lost {
                 rest = &rest[cookie_or_end(rest)..];
             }
             match next(rest, self.place) {
                 Ok(Some((piece, length))) => {
-                    self.place = Place::Messages;
+                    self.place = StreamPlace::Messages;
                     each(Ok(piece));
                     rest = &rest[length..];
                 }
                 Ok(None) => break,
                 Err(error) => {
-                    if self.place != Place::Lost {
+                    if self.place != StreamPlace::Lost {
                         each(Err(error));
                     }
-                    self.place = Place::Lost;
+                    self.place = StreamPlace::Lost;
                     // Past what cannot be a beginning.
                     rest = &rest[1..];
                 }
@@ -191,33 +193,33 @@ fn cookie_or_end(bytes: &[u8]) -> usize {
 }
 
 /// The piece at the beginning and its length, or `None` if there is not enough yet.
-fn next(bytes: &[u8], place: Place) -> Result<Option<(Piece<'_>, usize)>, WireError> {
+fn next(bytes: &[u8], place: StreamPlace) -> Result<Option<(VrpnPiece<'_>, usize)>, VrpnError> {
     let known = bytes.len().min(MAGIC.len());
     let like_a_cookie = known > 0 && bytes[..known] == MAGIC[..known];
     if like_a_cookie {
         return match bytes.get(..COOKIE_LENGTH) {
             None => Ok(None),
             Some(cookie) if cookie[MAGIC.len()..].starts_with(MAJOR) => {
-                Ok(Some((Piece::Cookie(cookie), COOKIE_LENGTH)))
+                Ok(Some((VrpnPiece::Cookie(cookie), COOKIE_LENGTH)))
             }
-            Some(cookie) => Err(WireError::Version(shown(&cookie[MAGIC.len()..]))),
+            Some(cookie) => Err(VrpnError::Version(shown(&cookie[MAGIC.len()..]))),
         };
     }
     match place {
         _ if bytes.is_empty() => Ok(None),
-        Place::Messages => message(bytes),
-        Place::Start | Place::Lost => Err(WireError::NotVrpn(shown(bytes))),
+        StreamPlace::Messages => message(bytes),
+        StreamPlace::Start | StreamPlace::Lost => Err(VrpnError::NotVrpn(shown(bytes))),
     }
 }
 
-fn message(bytes: &[u8]) -> Result<Option<(Piece<'_>, usize)>, WireError> {
+fn message(bytes: &[u8]) -> Result<Option<(VrpnPiece<'_>, usize)>, VrpnError> {
     let Some(first) = bytes.first_chunk() else {
         return Ok(None);
     };
     // The length is checked before anything is waited for.
     let length = u32::from_be_bytes(*first);
     let payload_length = usize::try_from(length).ok().and_then(|length| length.checked_sub(HEADER_LENGTH));
-    let payload_length = payload_length.filter(|&length| length <= LONGEST_PAYLOAD).ok_or(WireError::Length(length))?;
+    let payload_length = payload_length.filter(|&length| length <= LONGEST_PAYLOAD).ok_or(VrpnError::Length(length))?;
     let whole = HEADER_LENGTH + padded(payload_length);
     let Some(raw) = bytes.get(..whole) else {
         return Ok(None);
@@ -228,8 +230,9 @@ fn message(bytes: &[u8]) -> Result<Option<(Piece<'_>, usize)>, WireError> {
     }
     let [_, seconds, microseconds, sender, kind, _] = words;
     let payload = &raw[HEADER_LENGTH..HEADER_LENGTH + payload_length];
-    let message = Message { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
-    Ok(Some((Piece::Message(message, raw), whole)))
+    let message =
+        VrpnMessage { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
+    Ok(Some((VrpnPiece::Message(message, raw), whole)))
 }
 
 /// The beginning of what cannot be read, for a sentence.
@@ -246,15 +249,15 @@ mod tests {
     use crate::vrpn::golden;
 
     /// Sender, type and payload of a message, none of a cookie; and the bytes.
-    type Cut = (Option<(i32, i32, Vec<u8>)>, Vec<u8>);
+    type CutPiece = (Option<(i32, i32, Vec<u8>)>, Vec<u8>);
 
-    fn pieces(chunks: &[&[u8]]) -> Vec<Result<Cut, WireError>> {
-        let (mut cut, mut pieces) = (Vec::new(), Pieces::default());
+    fn pieces(chunks: &[&[u8]]) -> Vec<Result<CutPiece, VrpnError>> {
+        let (mut cut, mut pieces) = (Vec::new(), VrpnPieces::default());
         for chunk in chunks {
             pieces.push(chunk, |piece| {
                 cut.push(piece.map(|piece| match piece {
-                    Piece::Cookie(raw) => (None, raw.to_vec()),
-                    Piece::Message(message, raw) => {
+                    VrpnPiece::Cookie(raw) => (None, raw.to_vec()),
+                    VrpnPiece::Message(message, raw) => {
                         (Some((message.sender, message.kind, message.payload.to_vec())), raw.to_vec())
                     }
                 }));
@@ -285,9 +288,9 @@ mod tests {
     fn a_message_survives_its_bytes() {
         let raw = golden::bytes(golden::IDENTITY);
         let stream = [&COOKIE[..], &raw].concat();
-        let mut pieces = Pieces::default();
+        let mut pieces = VrpnPieces::default();
         pieces.push(&stream, |piece| {
-            if let Piece::Message(message, found) = piece.unwrap() {
+            if let VrpnPiece::Message(message, found) = piece.unwrap() {
                 assert_eq!(found, raw);
                 assert_eq!((message.seconds, message.microseconds), (0x6b02_7c89, 0x0009_d21f));
                 let mut again = message.to_bytes();
@@ -313,7 +316,7 @@ mod tests {
     #[test]
     fn names_are_read_or_refused() {
         let name = |payload: &[u8]| {
-            let message = Message { seconds: 0, microseconds: 0, sender: 0, kind: -1, payload };
+            let message = VrpnMessage { seconds: 0, microseconds: 0, sender: 0, kind: -1, payload };
             message.name().map(str::to_owned)
         };
         assert_eq!(name(b"\0\0\0\x05Head\0"), Ok("Head".to_owned()));
@@ -321,7 +324,7 @@ mod tests {
         for bad in
             [&b""[..], b"\0\0\0", b"\0\0\0\0", b"\0\0\0\x06Head\0", b"\0\0\0\x04Head", b"\xff\xff\xff\xffH\0", &long]
         {
-            assert_eq!(name(bad), Err(WireError::Name), "{bad:?}");
+            assert_eq!(name(bad), Err(VrpnError::Name), "{bad:?}");
         }
     }
 
@@ -347,9 +350,9 @@ mod tests {
     fn a_length_that_is_none_is_refused_before_it_costs_memory() {
         for length in [0, 23, 25 + LONGEST_PAYLOAD as u32, u32::MAX] {
             let stream = [&COOKIE[..], &length.to_be_bytes()].concat();
-            assert_eq!(pieces(&[&stream])[1], Err(WireError::Length(length)));
+            assert_eq!(pieces(&[&stream])[1], Err(VrpnError::Length(length)));
         }
-        let mut cut = Pieces::default();
+        let mut cut = VrpnPieces::default();
         cut.push(&COOKIE, |_| {});
         for _ in 0..1000 {
             cut.push(&[0xee; 1000], |_| {});

@@ -9,12 +9,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use input::recording::{ControlsRecord, Entry, FrameRecord, Header, Recorder, Recording, RecordingError};
-use input::{Controls, Desk, DeskConfig, Key, SECOND, Sample, Source, VehicleKind};
+use input::recording::{ControlsRecord, FrameRecord, Recorder, Recording, RecordingEntry, RecordingError, RideHeader};
+use input::{Controls, Desk, DeskConfig, KeyboardKey, SECOND, Sample, SampleSource, VehicleKind};
 use proptest::prelude::*;
 
-fn header() -> Header {
-    Header {
+fn header() -> RideHeader {
+    RideHeader {
         build: "0.1.0 (test)".to_owned(),
         scene: "town".to_owned(),
         speed_of_light_m_s: 30.0 / 3.6,
@@ -27,22 +27,22 @@ fn header() -> Header {
 }
 
 /// A ride of this many frames, and what it records.
-fn ride(frames: u64) -> Vec<Entry> {
+fn ride(frames: u64) -> Vec<RecordingEntry> {
     let mut desk = Desk::new(DeskConfig::default()).unwrap();
     let mut entries = Vec::new();
     for frame in 0..frames {
         let at = frame * SECOND / 60;
         let sample = match frame {
-            0 => Sample::key(at, Key::W, true),
-            1 => Sample::opened(at, Source::Bicycle),
-            _ => Sample::bytes(at, Source::Bicycle, format!("{frame}\n").into_bytes()),
+            0 => Sample::key(at, KeyboardKey::W, true),
+            1 => Sample::opened(at, SampleSource::Bicycle),
+            _ => Sample::bytes(at, SampleSource::Bicycle, format!("{frame}\n").into_bytes()),
         };
         desk.feed(&sample);
-        entries.push(Entry::Sample(sample));
+        entries.push(RecordingEntry::Sample(sample));
         let controls = desk.controls(at);
         let third = 1.0 / (3.0 + frame as f64);
-        entries.push(Entry::Controls(ControlsRecord { frame, at, controls }));
-        entries.push(Entry::Frame(FrameRecord {
+        entries.push(RecordingEntry::Controls(ControlsRecord { frame, at, controls }));
+        entries.push(RecordingEntry::Frame(FrameRecord {
             frame,
             at,
             steps: 4,
@@ -56,23 +56,23 @@ fn ride(frames: u64) -> Vec<Entry> {
     entries
 }
 
-fn put(recorder: &mut Recorder, entry: &Entry) {
+fn put(recorder: &mut Recorder, entry: &RecordingEntry) {
     match entry {
-        Entry::Sample(sample) => recorder.sample(sample),
-        Entry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls),
-        Entry::Frame(record) => recorder.frame(record),
+        RecordingEntry::Sample(sample) => recorder.sample(sample),
+        RecordingEntry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls),
+        RecordingEntry::Frame(record) => recorder.frame(record),
     }
     .unwrap();
 }
 
-fn record(path: &Path, entries: &[Entry]) {
+fn record(path: &Path, entries: &[RecordingEntry]) {
     let mut recorder = Recorder::create(path, &header()).unwrap();
     entries.iter().for_each(|entry| put(&mut recorder, entry));
     recorder.finish().unwrap();
 }
 
 /// Everything that can be read, and how it ended.
-fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
+fn read(path: &Path) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let mut recording = match Recording::open(path) {
         Ok(recording) => recording,
         Err(error) => return (Vec::new(), Some(error)),
@@ -93,7 +93,7 @@ fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
 
 /// Everything that can be read of these bytes. The tests do this thousands of times: in memory,
 /// where the system offers it.
-fn read_bytes(bytes: &[u8]) -> (Vec<Entry>, Option<RecordingError>) {
+fn read_bytes(bytes: &[u8]) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let memory = Path::new("/dev/shm");
     let directory = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }.unwrap();
     let path = directory.path().join("ride.mcap");
@@ -109,7 +109,7 @@ fn place() -> (tempfile::TempDir, PathBuf) {
 }
 
 /// The bytes of a short ride, and its entries.
-fn short_ride() -> (Vec<u8>, Vec<Entry>) {
+fn short_ride() -> (Vec<u8>, Vec<RecordingEntry>) {
     let (_directory, path) = place();
     let entries = ride(3);
     record(&path, &entries);
@@ -117,10 +117,10 @@ fn short_ride() -> (Vec<u8>, Vec<Entry>) {
 }
 
 /// Compares entries; the numbers of frames by their bits.
-fn assert_same_bits(found: &[Entry], expected: &[Entry]) {
+fn assert_same_bits(found: &[RecordingEntry], expected: &[RecordingEntry]) {
     assert_eq!(found, expected);
     for (found, expected) in found.iter().zip(expected) {
-        if let (Entry::Frame(found), Entry::Frame(expected)) = (found, expected) {
+        if let (RecordingEntry::Frame(found), RecordingEntry::Frame(expected)) = (found, expected) {
             assert_eq!(found.first_difference(expected), None);
         }
     }
@@ -182,7 +182,7 @@ fn a_recording_of_nothing_is_a_recording() {
 #[test]
 fn samples_out_of_order_stay_in_the_order_of_the_desk() {
     let (_directory, path) = place();
-    let entries = [3, 1, 2].map(|at| Entry::Sample(Sample::key(at, Key::A, true)));
+    let entries = [3, 1, 2].map(|at| RecordingEntry::Sample(Sample::key(at, KeyboardKey::A, true)));
     record(&path, &entries);
     assert_eq!(read(&path).0, entries);
 }
@@ -191,7 +191,7 @@ fn samples_out_of_order_stay_in_the_order_of_the_desk() {
 #[test]
 fn what_came_before_the_file_is_written_first_however_much() {
     let (_directory, path) = place();
-    let press = |at| Entry::Sample(Sample::key(at, Key::W, at % 2 == 0));
+    let press = |at| RecordingEntry::Sample(Sample::key(at, KeyboardKey::W, at % 2 == 0));
     let past: Vec<_> = (0..50_000).map(press).collect();
     let mut recorder = Recorder::create(&path, &header()).unwrap();
     recorder.past(past.clone()).unwrap();
@@ -237,9 +237,11 @@ fn the_desk_says_the_same_again() {
     let mut frames = 0;
     for entry in &mut recording {
         match entry.unwrap() {
-            Entry::Sample(sample) => desk.feed(&sample),
-            Entry::Controls(record) => assert_eq!(desk.controls(record.at), record.controls, "frame {}", record.frame),
-            Entry::Frame(_) => frames += 1,
+            RecordingEntry::Sample(sample) => desk.feed(&sample),
+            RecordingEntry::Controls(record) => {
+                assert_eq!(desk.controls(record.at), record.controls, "frame {}", record.frame);
+            }
+            RecordingEntry::Frame(_) => frames += 1,
         }
     }
     assert_eq!(frames, 200);
@@ -353,7 +355,7 @@ fn data_end(bytes: &[u8]) -> usize {
 fn a_chunk_that_is_missing_is_noticed() {
     let (_directory, path) = place();
     // Three megabytes, in chunks of about one.
-    let loud = |at| Entry::Sample(Sample::bytes(at, Source::Bicycle, vec![0; 4000]));
+    let loud = |at| RecordingEntry::Sample(Sample::bytes(at, SampleSource::Bicycle, vec![0; 4000]));
     let entries: Vec<_> = (0..375).map(loud).collect();
     record(&path, &entries);
     let bytes = fs::read(&path).unwrap();
@@ -433,7 +435,7 @@ fn a_later_format_is_named() {
 #[test]
 fn a_header_that_cannot_be_read_back_is_refused_before_the_ride() {
     let (_directory, path) = place();
-    let nonsense = Header { step_s: f64::NAN, ..header() };
+    let nonsense = RideHeader { step_s: f64::NAN, ..header() };
     let text = Recorder::create(&path, &nonsense).unwrap_err().to_string();
     assert!(text.starts_with("cannot write") && text.contains("null"), "{text}");
     assert!(!path.exists(), "the name must stay free");
@@ -463,7 +465,7 @@ fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
 }
 
 fn any_sample() -> impl Strategy<Value = Sample> {
-    let source = proptest::sample::select(Source::ALL.to_vec());
+    let source = proptest::sample::select(SampleSource::ALL.to_vec());
     (any::<u64>(), source, any_bytes(), 0..20_u8).prop_map(|(at, source, bytes, kind)| {
         let at = at % (100 * SECOND);
         match kind {
@@ -505,9 +507,9 @@ proptest! {
         let mut again = Desk::new(DeskConfig::default()).unwrap();
         for entry in Recording::open(&path).unwrap() {
             match entry.unwrap() {
-                Entry::Sample(sample) => again.feed(&sample),
-                Entry::Controls(record) => prop_assert_eq!(again.controls(record.at), record.controls),
-                Entry::Frame(_) => prop_assert!(false, "there was no frame"),
+                RecordingEntry::Sample(sample) => again.feed(&sample),
+                RecordingEntry::Controls(record) => prop_assert_eq!(again.controls(record.at), record.controls),
+                RecordingEntry::Frame(_) => prop_assert!(false, "there was no frame"),
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use input::devices::State;
+use input::devices::DeviceState;
 use input::{Clock, Desk, DeskConfig, Devices, DevicesConfig, HeadConfig, HeadState};
 
 /// Longer than any pause before a device is looked for again, on a busy machine.
@@ -60,7 +60,7 @@ impl Loop {
     /// Draws frames until the only device is open, or is not.
     pub fn until_open(&mut self, open: bool) {
         self.until(if open { "opening" } else { "closing" }, |it| {
-            (it.devices.status()[0].state == State::Open) == open
+            (it.devices.status()[0].state == DeviceState::Open) == open
         });
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::frames::Loop;
 use input::DevicesConfig;
-use input::devices::{State, plugged_in};
+use input::devices::{DeviceState, plugged_in};
 
 #[test]
 fn a_machine_without_devices_is_no_error() {
@@ -17,8 +17,8 @@ fn a_machine_without_devices_is_no_error() {
     });
     looking.until("a word about every device", |it| {
         it.devices.status().iter().all(|status| match &status.state {
-            State::Open => !status.path.is_empty(),
-            State::Absent(why) => why != "being looked for" && why.contains(' '),
+            DeviceState::Open => !status.path.is_empty(),
+            DeviceState::Absent(why) => why != "being looked for" && why.contains(' '),
         })
     });
 }

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::frames::Loop;
-use input::devices::State;
-use input::{BrakeCommand, DevicesConfig, SECOND, Source};
+use input::devices::DeviceState;
+use input::{BrakeCommand, DevicesConfig, SECOND, SampleSource};
 use serialport::{SerialPort, TTYPort};
 
 /// A terminal under a name that stays when the terminal changes, as a device's name does.
@@ -79,7 +79,7 @@ fn a_ride_through_a_terminal() {
         plug.say(tail);
         plug.say("\u{7f}noise\n");
     }
-    ride.until("the last line", |it| it.desk.faults(Source::Bicycle).number() == 6);
+    ride.until("the last line", |it| it.desk.faults(SampleSource::Bicycle).number() == 6);
     let controls = ride.desk.controls(ride.clock.now());
     // The box's clock says 21 m/s; ours caps it by the age of the last pulse, on a busy machine a
     // third of a second.
@@ -96,7 +96,7 @@ fn a_ride_through_a_terminal() {
     assert_eq!(speeds[29], 0.0);
 
     let status = &ride.devices.status()[0];
-    assert_eq!((status.state.clone(), status.dropped), (State::Open, 0));
+    assert_eq!((status.state.clone(), status.dropped), (DeviceState::Open, 0));
     assert!(status.samples >= 6 && !status.last.is_empty());
 }
 
@@ -117,7 +117,7 @@ fn a_pulled_plug_stops_and_may_be_put_back() {
         plug.insert();
     }
     ride.until_open(true);
-    assert_eq!(ride.desk.faults(Source::Bicycle).number(), 0);
+    assert_eq!(ride.desk.faults(SampleSource::Bicycle).number(), 0);
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn a_flood_does_not_stop_the_ride() {
     }
     plug.say("\n36\n");
     ride.until("the good line", |it| wheel_speed(it).is_some_and(|speed| speed > 9.0));
-    assert!(ride.desk.faults(Source::Bicycle).number() > 0);
+    assert!(ride.desk.faults(SampleSource::Bicycle).number() > 0);
 }
 
 #[test]
@@ -192,8 +192,8 @@ fn what_is_missing_is_said_in_a_sentence() {
         let mut ride =
             Loop::start(&DevicesConfig { bicycle, space_mouse: false, gamepad: false, ..Default::default() });
         ride.until(expected, |it| match &it.devices.status()[0].state {
-            State::Absent(why) => why.contains(expected),
-            State::Open => false,
+            DeviceState::Absent(why) => why.contains(expected),
+            DeviceState::Open => false,
         });
     }
 }

@@ -10,8 +10,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::frames::Loop;
-use input::devices::State;
-use input::{Action, Controls, DevicesConfig, SECOND, Source};
+use input::devices::DeviceState;
+use input::{Action, Controls, DevicesConfig, SECOND, SampleSource};
 
 /// Captured: motion 100 −50 −25 7 −8 −300, rest, press and release of button 0.
 const MOTION: [i32; 8] = [0, 100, -50, -25, 7, -8, -300, 0];
@@ -68,7 +68,7 @@ fn a_push_arrives_is_held_and_ends() {
         controls.thrust == [0.0; 3] && controls.turn == [0.0; 3]
     });
     assert_eq!(actions, [Action::TogglePause]);
-    assert_eq!(flight.devices.status()[0].source, Source::Spacenavd);
+    assert_eq!(flight.devices.status()[0].source, SampleSource::Spacenavd);
 }
 
 #[test]
@@ -77,8 +77,8 @@ fn a_daemon_that_dies_lets_go_and_may_come_back() {
     let socket = directory.path().join("spnav.sock");
     let mut flight = Loop::start(&config(&socket));
     flight.until("a word about the daemon", |it| match &it.devices.status()[0].state {
-        State::Absent(why) => why.contains("spacenavd does not run"),
-        State::Open => false,
+        DeviceState::Absent(why) => why.contains("spacenavd does not run"),
+        DeviceState::Open => false,
     });
     for _ in 0..2 {
         let listener = UnixListener::bind(&socket).unwrap();
@@ -91,7 +91,7 @@ fn a_daemon_that_dies_lets_go_and_may_come_back() {
         flight.until_open(false);
         flight.until("letting go", |it| controls(it).thrust == [0.0; 3]);
     }
-    assert_eq!(flight.desk.faults(Source::Spacenavd).number(), 0);
+    assert_eq!(flight.desk.faults(SampleSource::Spacenavd).number(), 0);
 }
 
 #[test]
@@ -108,5 +108,5 @@ fn a_flood_keeps_the_newest_event() {
     }
     daemon.write_all(&bytes(MOTION)).unwrap();
     flight.until("the push", |it| is_pushed(&controls(it)));
-    assert_eq!(flight.desk.faults(Source::Spacenavd).number(), 0);
+    assert_eq!(flight.desk.faults(SampleSource::Spacenavd).number(), 0);
 }

@@ -10,8 +10,8 @@ use std::net::{TcpListener, TcpStream};
 use std::time::Duration;
 
 use super::frames::Loop;
-use input::Source;
-use input::devices::State;
+use input::SampleSource;
+use input::devices::DeviceState;
 use input::head::Tracking;
 
 /// Captured from the stock server, version 7.38.
@@ -126,8 +126,8 @@ fn until_at(tracking: &mut Loop, x: f64) {
 
 fn until_absent(tracking: &mut Loop, expected: &str) {
     tracking.until(expected, |it| match &it.devices.status()[0].state {
-        State::Absent(why) => why.contains(expected),
-        State::Open => false,
+        DeviceState::Absent(why) => why.contains(expected),
+        DeviceState::Open => false,
     });
 }
 
@@ -155,8 +155,8 @@ fn both_sides_speak_vrpn_to_the_byte() {
     }
     assert_eq!(heard.to_vec(), unhex(OUR_PONG));
     let status = &tracking.devices.status()[0];
-    assert_eq!((status.source, status.name.as_str(), &status.state), (Source::Vrpn, "Head", &State::Open));
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!((status.source, status.name.as_str(), &status.state), (SampleSource::Vrpn, "Head", &DeviceState::Open));
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn the_stream_may_be_cut_anywhere_and_what_is_not_described_is_passed_over() {
         }
     }
     until_at(&mut tracking, 0.25);
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
     assert_eq!(tracking.desk.head().unwrap().rejected().number(), 0);
 }
 
@@ -200,7 +200,7 @@ fn a_server_that_dies_leaves_the_head_where_it_is_and_may_come_back() {
         let head = tracking.head();
         assert_eq!((head.position_m.x, head.velocity_m_s.to_array()), (x, [0.0; 3]));
     }
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }
 
 #[test]
@@ -246,5 +246,5 @@ fn of_a_flood_the_newest_pose_survives() {
         std::thread::sleep(Duration::from_millis(1));
     }
     until_at(&mut tracking, 0.099);
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }
