@@ -8,13 +8,12 @@ pub type Nanos = u64;
 /// One second in [`Nanos`].
 pub const SECOND: Nanos = 1_000_000_000;
 
-/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two
-/// threads may be.
+/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two threads may be.
 pub fn seconds_between(earlier: Nanos, later: Nanos) -> f64 {
     later.saturating_sub(earlier) as f64 * 1e-9
 }
 
-/// The ride's clock: monotonic, zero at the start. Copies agree.
+/// Monotonic clock of the ride, zero at the start. Copies agree.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(Instant);
 
@@ -24,7 +23,7 @@ impl Clock {
         Self(Instant::now())
     }
 
-    /// The time now. It fits for 584 years.
+    /// Time since the start. The range is 584 years.
     pub fn now(self) -> Nanos {
         Nanos::try_from(self.0.elapsed().as_nanos()).unwrap_or(Nanos::MAX)
     }

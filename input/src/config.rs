@@ -1,6 +1,6 @@
-//! What can be set about the devices, checked once when the desk is built.
+//! Settings of the devices, checked once when the desk is built.
 //!
-//! All of it decides how bytes become controls, so all of it goes into a recording's header.
+//! Every setting decides how bytes become controls, so every setting goes into a recording's header.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,19 +10,19 @@ use crate::config_error::ConfigError;
 use crate::head::config::HeadConfig;
 use crate::rider_config::RiderConfig;
 
-/// How all devices are read.
+/// Settings of all decoders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeskConfig {
-    /// The instrumented bicycle.
+    /// Settings of the instrumented bicycle.
     pub bicycle: BicycleConfig,
-    /// Riding the bicycle with keys or a gamepad.
+    /// Settings for riding the bicycle with keys or a gamepad.
     pub rider: RiderConfig,
-    /// A SpaceMouse as raw HID.
+    /// Axes of a SpaceMouse read as raw HID.
     pub space_mouse: AxisTable,
-    /// A SpaceMouse through spacenavd.
+    /// Axes of a SpaceMouse read through spacenavd.
     pub spacenavd: AxisTable,
-    /// The tracked head; none in recordings of before there was one.
+    /// Settings of the tracked head; `None` without a tracker, and in recordings made before heads were tracked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub head: Option<HeadConfig>,
 }
@@ -43,7 +43,7 @@ impl DeskConfig {
     /// Checks every setting.
     ///
     /// # Errors
-    /// Names the first one that cannot be used.
+    /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.bicycle.check()?;
         self.rider.check()?;
@@ -55,7 +55,7 @@ impl DeskConfig {
 
 #[cfg(test)]
 mod tests {
-    //! No setting may smuggle in a division by zero.
+    //! Settings that would lead to a division by zero must be refused.
     use super::*;
 
     #[test]

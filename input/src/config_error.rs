@@ -1,20 +1,20 @@
-//! A setting that cannot be used, and the checks that find it.
+//! Error of a setting that cannot be used, and the checks that find it.
 
 use thiserror::Error;
 
-/// A setting that cannot be used.
+/// Setting that cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{key} is {value}: expected {expected}")]
 pub struct ConfigError {
-    /// The setting's full name.
+    /// Full name of the setting.
     pub key: &'static str,
-    /// What it is set to.
+    /// Value of the setting.
     pub value: String,
-    /// What would do.
+    /// Description of the values that can be used.
     pub expected: &'static str,
 }
 
-/// Fails unless the value is positive and of a size that leaves room for arithmetic.
+/// Checks that the value is positive and of a size that leaves room for arithmetic.
 pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if (1e-6..=1e6).contains(&value) {
         Ok(())
@@ -23,7 +23,7 @@ pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), ConfigError>
     }
 }
 
-/// Fails unless the value is finite and not zero.
+/// Checks that the value is finite and not zero.
 pub(crate) fn not_zero(key: &'static str, value: f64) -> Result<(), ConfigError> {
     if value.is_finite() && value != 0.0 {
         Ok(())

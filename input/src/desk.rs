@@ -1,12 +1,11 @@
 //! The desk: all devices' decoders, and the one set of controls that they make.
 //!
-//! Feed it samples in the order in which they were drained, ask it for the controls once a frame.
-//! What it answers depends on nothing else, so feeding a recording's samples and asking at its
-//! frame times gives the same bits.
+//! Samples are fed in the order in which they were drained, and the controls are read once a frame. The result
+//! depends on nothing else, so the samples and frame times of a recording give the same bits.
 //!
-//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake
-//! wins; the wheel is the faster of the ridden and the pretended one. Keys and sticks turn the
-//! handlebar only as far as a rider would lean: at the speed v no further than tan δ = a L / v².
+//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake wins; the wheel speed
+//! is the faster of the measured and the simulated one. Keys and sticks turn the handlebar only as far as a rider
+//! would lean: at the speed v no further than tan δ = a L / v².
 //!
 //! A tracker's poses go to the one [`TrackedHead`], if one is configured.
 
@@ -33,7 +32,7 @@ use crate::spacenavd::SpacenavdDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
 use glam::DVec3;
 
-/// All decoders.
+/// Decoders of all devices, and the state that they share.
 #[derive(Debug)]
 pub struct Desk {
     config: DeskConfig,
@@ -51,10 +50,10 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// A desk at which nobody sits yet.
+    /// Desk without any sample yet.
     ///
     /// # Errors
-    /// Names a setting that cannot be used.
+    /// A setting that cannot be used.
     pub fn new(config: DeskConfig) -> Result<Self, ConfigError> {
         config.check()?;
         let device = match config.head.as_ref().map(|head| &head.url) {
@@ -78,7 +77,7 @@ impl Desk {
         })
     }
 
-    /// How the devices are read; belongs into a recording's header.
+    /// Settings of all decoders, as they belong into a recording's header.
     pub fn config(&self) -> &DeskConfig {
         &self.config
     }
@@ -103,7 +102,7 @@ impl Desk {
         self.track(sample);
     }
 
-    /// Hands what a tracker has said to the head, if the head listens to that tracker.
+    /// Passes a tracker's poses to the head, if the head listens to that tracker.
     fn track(&mut self, sample: &Sample) {
         let poses: Vec<TrackedPose> = match sample.source {
             SampleSource::Vrpn => self.vrpn.take_poses(),
@@ -119,24 +118,24 @@ impl Desk {
         }
     }
 
-    /// The tracked head, if one is configured: what it rejects.
+    /// Tracked head, if one is configured.
     pub fn head(&self) -> Option<&TrackedHead> {
         self.head.as_ref()
     }
 
-    /// What the VRPN server has described of itself.
+    /// Decoder of the VRPN server, with the server's descriptions.
     pub fn vrpn(&self) -> &VrpnDecoder {
         &self.vrpn
     }
 
-    /// The head at the time `at`, as far as it is used.
+    /// Head at the time `at`, reduced to the parts that its mode uses.
     fn head_state(&self, at: Nanos) -> Option<HeadState> {
         let head = self.head.as_ref()?;
         let HeadConfig { url, mode, .. } = head.config();
         mode.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
     }
 
-    /// What is wanted at the time `at`, and what was pressed since the last time this was asked.
+    /// Controls at the time `at`, with the actions since the last call.
     pub fn controls(&mut self, at: Nanos) -> Controls {
         let rider = &self.config.rider;
         let wheel_speed = [
@@ -172,7 +171,7 @@ impl Desk {
         }
     }
 
-    /// What could not be understood of a device's bytes so far.
+    /// Messages of a device that could not be understood so far.
     pub fn faults(&self, source: SampleSource) -> &Faults {
         match source {
             SampleSource::Keyboard => self.keyboard.faults(),
@@ -190,7 +189,7 @@ impl Desk {
 
 #[cfg(test)]
 mod tests {
-    //! Devices used together must add up to one rider, not fight; what one lets go of must go.
+    //! Devices used together must add up to one rider; a device that goes must release what it held.
     use super::*;
     use crate::action::{Action, VehicleKind};
     use crate::clock::SECOND;

@@ -2,12 +2,12 @@
 //!
 //! | line | holds |
 //! |---|---|
-//! | `ts2 S US LATENCY` | seconds since 1970 and microseconds at which the cameras looked, and the latency until sending, µs |
+//! | `ts2 S US LATENCY` | seconds since 1970 and microseconds of the measurement, and latency until sending, µs |
 //! | `ts S` | the same by older controllers: seconds since midnight |
-//! | `6d N [id q][x y z a b c][r0 … r8] …` | N bodies: number and quality, position in mm and angles, rotation matrix column after column |
+//! | `6d N [id q][x y z a b c][r0 … r8] …` | N bodies: number, quality, position in mm, angles, matrix by columns |
 //!
-//! All other lines (`fr`, `6dcal`, `6df2`, `3d`, …) are passed over. A body that the cameras do not
-//! see is not in the `6d` line, or has quality −1. The matrix is used, not the angles.
+//! All other lines (`fr`, `6dcal`, `6df2`, `3d`, …) are passed over. A body that the cameras do not see is not in the
+//! `6d` line, or has quality −1. The matrix is used, not the angles.
 //!
 //! ```
 //! use input::decoder::{Actions, Decoder};
@@ -27,17 +27,17 @@ use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 use crate::head::tracked_pose::TrackedPose;
 
-/// The port that DTrack sends to, unless it is told another.
+/// Usual port of DTrack.
 pub const PORT: u16 = 5000;
-/// The longest datagram that is believed: a hundred bodies.
+/// Length of the longest datagram that is accepted, bytes: about a hundred bodies.
 pub const LONGEST_DATAGRAM: usize = 32 * 1024;
-/// How far columns of a rotation matrix may be from orthonormal; six decimals are sent.
+/// Largest deviation of a rotation matrix's columns from orthonormal; six decimals are sent.
 const ORTHONORMAL: f64 = 1e-2;
 
-/// Why a datagram, or a line of it, was skipped.
+/// Reason for skipping a datagram, or a line of it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DtrackError {
-    /// Longer than any.
+    /// A datagram that is too long.
     #[error("a datagram of more than {LONGEST_DATAGRAM} bytes")]
     TooLong,
     /// Bytes outside ASCII.
@@ -46,12 +46,12 @@ pub enum DtrackError {
     /// A line that cannot be read.
     #[error("a `{line}` line: expected {expected}")]
     Line {
-        /// Which line.
+        /// Name of the line.
         line: &'static str,
-        /// What belongs there.
+        /// Description of a correct line.
         expected: &'static str,
     },
-    /// A matrix that does not turn.
+    /// A matrix that is no rotation.
     #[error("body {body}: its matrix is no rotation")]
     Matrix {
         /// Number of the body.
@@ -59,7 +59,7 @@ pub enum DtrackError {
     },
 }
 
-/// When a frame was measured.
+/// Time at which a frame was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct DtrackStamp {
     measured_s: Option<f64>,
@@ -74,7 +74,7 @@ pub struct DtrackDecoder {
 }
 
 impl DtrackDecoder {
-    /// The poses of the datagram fed last: the bodies that were seen.
+    /// Poses of the datagram fed last: the bodies that were seen.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
     }
@@ -98,7 +98,7 @@ impl DtrackDecoder {
     }
 }
 
-/// What follows this name in the lines that begin with it.
+/// Rest of each line that begins with this name.
 fn lines<'a>(text: &'a str, name: &'static str) -> impl Iterator<Item = &'a str> {
     text.split(['\r', '\n']).filter_map(move |line| line.strip_prefix(name)?.strip_prefix(' '))
 }
@@ -123,7 +123,7 @@ fn stamp(text: &str) -> Result<DtrackStamp, DtrackError> {
     Ok(DtrackStamp { measured_s: Some(seconds), latency_s: None })
 }
 
-/// A body in a `6d` line.
+/// Body in a `6d` line.
 struct DtrackBody {
     id: i32,
     quality: f64,
@@ -150,7 +150,7 @@ impl DtrackBody {
     }
 }
 
-/// The bodies of a `6d` line that were seen.
+/// Bodies of a `6d` line that were seen.
 fn bodies(line: &str) -> Result<Vec<DtrackBody>, DtrackError> {
     const BAD: DtrackError =
         DtrackError::Line { line: "6d", expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]" };
@@ -174,14 +174,14 @@ fn bodies(line: &str) -> Result<Vec<DtrackBody>, DtrackError> {
     if found == count { Ok(bodies) } else { Err(BAD) }
 }
 
-/// What stands between the next pair of brackets, which must come at once.
+/// Text between the next pair of brackets, which must come at once.
 fn block<'a>(rest: &mut &'a str) -> Option<&'a str> {
     let (block, behind) = rest.trim_start().strip_prefix('[')?.split_once(']')?;
     *rest = behind;
     Some(block.trim())
 }
 
-/// Exactly as many finite numbers.
+/// Exactly `N` finite numbers.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let mut numbers = [0.0; N];
     let mut fields = text.split_ascii_whitespace();
@@ -207,18 +207,18 @@ impl Decoder for DtrackDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! A frame as ART's controllers send it must give what the stock VRPN server made of it; a
-    //! transposed matrix would turn the head the other way. What cannot be read is skipped whole.
+    //! A frame as ART's controllers send it must give the poses that the stock VRPN server made of it; a transposed
+    //! matrix would turn the head the other way. A line that cannot be read is skipped whole.
     use super::*;
 
-    /// As it came out of the stock server: position 0.1 0.2 0.3, quaternion 0 0 0.258819 0.965926.
+    /// Frame that gave position 0.1 0.2 0.3 and quaternion 0 0 0.258819 0.965926 in the stock server.
     const FRAME: &str = concat!(
         "fr 21753\r\nts2 1795325065 643615 4200\r\n6dcal 2\r\n",
         "6d 1 [0 1.000][100.000 200.000 300.000 0.0 0.0 30.0]",
         "[0.866025 0.500000 0.000000 -0.500000 0.866025 0.000000 0.000000 0.000000 1.000000]\r\n",
         "6df2 0 0 \r\n3d 1 [1 1.000][210.730 -90.669 -108.554]\r\n",
     );
-    /// Six decimals are printed.
+    /// Tolerance of six printed decimals.
     const PRINTED: f64 = 1e-6;
 
     fn decode(datagram: &[u8]) -> (Vec<TrackedPose>, u64) {

@@ -8,18 +8,18 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Counts one more.
+    /// Counts one more fault.
     pub(crate) fn count(&mut self, what: impl Into<String>) {
         self.number += 1;
         self.last = Some(what.into());
     }
 
-    /// How many there were.
+    /// Number of faults so far.
     pub fn number(&self) -> u64 {
         self.number
     }
 
-    /// What was wrong with the last one.
+    /// Description of the last fault.
     pub fn last(&self) -> Option<&str> {
         self.last.as_deref()
     }

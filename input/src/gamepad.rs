@@ -1,7 +1,7 @@
-//! A gamepad or joystick.
+//! Decoder of a gamepad or joystick.
 //!
-//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not
-//! depend on the system:
+//! The bytes are a plain encoding of Linux's evdev events, made here, so that a recording does not depend on the
+//! system:
 //!
 //! | first byte | then, little-endian | meaning |
 //! |---|---|---|
@@ -16,8 +16,8 @@
 //! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
 //! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
 //!
-//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and
-//! the left one takes a picture.
+//! On a gamepad Start pauses, Select shows the help, the upper button returns to the start and the left one takes a
+//! picture.
 
 use crate::action::Action;
 use crate::clock::Nanos;
@@ -25,14 +25,14 @@ use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 use crate::filters::with_dead_zone;
 
-/// Part of the way within which a stick counts as centred: worn ones rest off centre.
+/// Part of the range within which a stick counts as centred: worn ones rest off centre.
 const STICK_DEAD_ZONE: f64 = 0.12;
-/// The same for triggers.
+/// Part of the range within which a trigger counts as released.
 const TRIGGER_DEAD_ZONE: f64 = 0.04;
-/// Axes of the absolute kind that evdev numbers.
+/// Number of absolute axes in evdev.
 const AXES: usize = 64;
 
-/// Numbers of Linux's `input-event-codes.h`.
+/// Codes of Linux's `input-event-codes.h`.
 pub mod codes {
     /// Event type: a button.
     pub const KEY: u16 = 1;
@@ -59,37 +59,37 @@ pub mod codes {
     pub(super) const START: u16 = 0x13b;
 }
 
-/// One item of a gamepad's bytes.
+/// Item of a gamepad's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GamepadItem {
-    /// It is laid out as a gamepad.
+    /// Layout of a gamepad.
     Gamepad,
-    /// It is laid out as a joystick.
+    /// Layout of a joystick.
     Joystick,
-    /// An axis: number, where it is, how far it goes.
+    /// Axis with its number, value and range.
     Axis {
-        /// evdev's number.
+        /// Number of the axis in evdev.
         code: u16,
-        /// Where it is.
+        /// Value of the axis.
         value: i32,
-        /// Its least value.
+        /// Smallest value of the axis.
         least: i32,
-        /// Its greatest value.
+        /// Largest value of the axis.
         most: i32,
     },
-    /// An event of evdev.
+    /// Event of evdev.
     Event {
-        /// Its type: [`codes::KEY`], [`codes::ABSOLUTE`] or another.
+        /// Type of the event: [`codes::KEY`], [`codes::ABSOLUTE`] or another.
         kind: u16,
-        /// Which button or axis.
+        /// Number of the button or axis.
         code: u16,
-        /// The new value.
+        /// New value of the button or axis.
         value: i32,
     },
 }
 
 impl GamepadItem {
-    /// Writes the item behind the bytes.
+    /// Appends the item to the bytes.
     pub fn encode(self, bytes: &mut Vec<u8>) {
         match self {
             Self::Gamepad => bytes.push(b'G'),
@@ -108,7 +108,7 @@ impl GamepadItem {
         }
     }
 
-    /// Reads the first item and gives what follows it.
+    /// First item of the bytes, and the rest.
     fn split(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let (&kind, rest) = bytes.split_first()?;
         match kind {
@@ -143,7 +143,7 @@ impl GamepadItem {
     }
 }
 
-/// An axis that has been announced.
+/// Axis that has been announced.
 #[derive(Clone, Copy, Debug)]
 struct GamepadAxis {
     value: f64,
@@ -152,12 +152,12 @@ struct GamepadAxis {
 }
 
 impl GamepadAxis {
-    /// −1 to 1 about the middle of its way.
+    /// Deflection of a stick, −1 to 1 about the middle of its range.
     fn stick(self) -> f64 {
         with_dead_zone((2.0 * self.value - self.least - self.most) / (self.most - self.least), STICK_DEAD_ZONE)
     }
 
-    /// 0 to 1 from its lower end.
+    /// Deflection of a trigger, 0 to 1 from its lower end.
     fn trigger(self) -> f64 {
         with_dead_zone(((self.value - self.least) / (self.most - self.least)).max(0.0), TRIGGER_DEAD_ZONE)
     }
@@ -180,10 +180,10 @@ impl Default for GamepadDecoder {
 }
 
 impl GamepadDecoder {
-    /// No pad has more buttons; more are not remembered.
+    /// Most buttons remembered, more than any pad has.
     const MOST_HELD: usize = 64;
 
-    /// How strongly it pedals, 0 to 1; `None` until it has.
+    /// Strength of pedalling, 0 to 1; `None` before the first.
     pub fn pedal(&self) -> Option<f64> {
         self.pedalled.then(|| self.forward())
     }
@@ -193,7 +193,7 @@ impl GamepadDecoder {
         if self.is_joystick { self.button(codes::THUMB) } else { self.trigger(codes::Z) }
     }
 
-    /// Handlebar, −1 right to 1 left.
+    /// Turn of the handlebar, −1 right to 1 left.
     pub fn steer(&self) -> f64 {
         -self.stick(codes::X)
     }
@@ -246,7 +246,7 @@ impl GamepadDecoder {
 
     fn item(&mut self, item: GamepadItem, actions: &mut Actions) {
         match item {
-            // A description begins: what is held is said next.
+            // A description begins: the held buttons follow.
             GamepadItem::Gamepad | GamepadItem::Joystick => {
                 self.is_joystick = item == GamepadItem::Joystick;
                 self.held.clear();
@@ -262,7 +262,7 @@ impl GamepadDecoder {
                 Some(Some(axis)) => axis.value = f64::from(value),
                 _ => self.faults.count(format!("axis {code}, which was not announced")),
             },
-            // A value of 2 is a repetition.
+            // The value 2 is a repetition.
             GamepadItem::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
             GamepadItem::Event { .. } => {}
         }
@@ -292,8 +292,7 @@ impl Decoder for GamepadDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go
-    //! with it.
+    //! A stick must read zero at rest and one at its end; a pad that is unplugged must release everything it held.
     use super::*;
 
     fn pad(items: &[GamepadItem]) -> (GamepadDecoder, Vec<Action>) {

@@ -1,11 +1,11 @@
-//! The keys that mean something, and the bytes of a key event.
+//! Keys with a meaning, and the bytes of a key event.
 //!
-//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
-//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample.
+//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every system) and 1 for
+//! pressed, 0 for released. Several may follow one another in a sample.
 
 macro_rules! keys {
     ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
-        /// A key that means something, by its place on the USB keyboard.
+        /// Key with a meaning, by its place on the USB keyboard.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u8)]
         pub enum KeyboardKey {
@@ -13,15 +13,15 @@ macro_rules! keys {
         }
 
         impl KeyboardKey {
-            /// Every key.
+            /// All keys with a meaning.
             pub const ALL: &[Self] = &[$(Self::$name),*];
 
-            /// The bytes of a key event.
+            /// Bytes of a key event.
             pub fn to_bytes(self, pressed: bool) -> [u8; 2] {
                 [self as u8, u8::from(pressed)]
             }
 
-            /// The key with this number on the USB.
+            /// Key with this number on the USB.
             pub fn from_code(code: u8) -> Option<Self> {
                 match code {
                     $($code => Some(Self::$name),)*
@@ -33,55 +33,55 @@ macro_rules! keys {
 }
 
 keys! {
-    /// A.
+    /// The key A.
     A = 0x04,
-    /// C.
+    /// The key C.
     C = 0x06,
-    /// D.
+    /// The key D.
     D = 0x07,
-    /// E.
+    /// The key E.
     E = 0x08,
-    /// F.
+    /// The key F.
     F = 0x09,
-    /// H.
+    /// The key H.
     H = 0x0b,
-    /// P.
+    /// The key P.
     P = 0x13,
-    /// Q.
+    /// The key Q.
     Q = 0x14,
-    /// R.
+    /// The key R.
     R = 0x15,
-    /// S.
+    /// The key S.
     S = 0x16,
-    /// V.
+    /// The key V.
     V = 0x19,
-    /// W.
+    /// The key W.
     W = 0x1a,
-    /// 1 above the letters.
+    /// The key 1 above the letters.
     One = 0x1e,
-    /// 2 above the letters.
+    /// The key 2 above the letters.
     Two = 0x1f,
-    /// 3 above the letters.
+    /// The key 3 above the letters.
     Three = 0x20,
-    /// Backspace.
+    /// The backspace key.
     Backspace = 0x2a,
     /// The space bar.
     Space = 0x2c,
-    /// − above the letters.
+    /// The key − above the letters.
     Minus = 0x2d,
-    /// = above the letters.
+    /// The key = above the letters.
     Equal = 0x2e,
-    /// The full stop.
+    /// The key of the full stop.
     Period = 0x37,
-    /// F1.
+    /// The key F1.
     F1 = 0x3a,
-    /// Arrow to the right.
+    /// The arrow to the right.
     Right = 0x4f,
-    /// Arrow to the left.
+    /// The arrow to the left.
     Left = 0x50,
-    /// Arrow down.
+    /// The arrow downward.
     Down = 0x51,
-    /// Arrow up.
+    /// The arrow upward.
     Up = 0x52,
     /// Either shift key.
     Shift = 0xe1,

@@ -1,7 +1,7 @@
-//! Keys of the window: riding, driving and flying without any device.
+//! Decoder of the window's keys: riding, driving and flying without any device.
 //!
-//! A sample holds key events of two bytes each, as [`KeyboardKey::to_bytes`] writes them. What keys want
-//! moves on ramps, as legs and hands do.
+//! A sample holds key events of two bytes each, as [`KeyboardKey::to_bytes`] writes them. Controls move to the goals
+//! of the held keys on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
 //! |---|---|---|
@@ -13,8 +13,8 @@
 //! | R, F | | thrust up, down |
 //! | Q, E | | roll left, right |
 //!
-//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the
-//! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
+//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
+//! returns to the start, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::clock::Nanos;
@@ -24,12 +24,12 @@ use crate::key::KeyboardKey;
 use crate::ramp::Ramp;
 use crate::rider_config::RiderConfig;
 
-/// Full deflections a second that a pressed key moves a control by.
+/// Rate of a control whose key is pressed, full deflections a second.
 const PRESS_RATE: f64 = 3.0;
-/// The same for a released key.
+/// Rate of a control whose key is released, full deflections a second.
 const RELEASE_RATE: f64 = 5.0;
 
-/// What a key does once when pressed.
+/// Action of a key when pressed; `None` for keys that are held.
 fn action(key: KeyboardKey) -> Option<Action> {
     Some(match key {
         KeyboardKey::P => Action::TogglePause,
@@ -47,7 +47,7 @@ fn action(key: KeyboardKey) -> Option<Action> {
     })
 }
 
-/// The keys that are down.
+/// Keys that are down.
 #[derive(Clone, Copy, Debug)]
 struct HeldKeys([bool; 256]);
 
@@ -56,7 +56,7 @@ impl HeldKeys {
         keys.iter().any(|&key| self.0[usize::from(key as u8)])
     }
 
-    /// −1, 0 or 1 for a pair of opposite keys.
+    /// Direction of a pair of opposite keys: −1, 0 or 1.
     fn between(&self, negative: &[KeyboardKey], positive: &[KeyboardKey]) -> f64 {
         f64::from(i8::from(self.any(positive)) - i8::from(self.any(negative)))
     }
@@ -77,7 +77,7 @@ pub struct KeyboardDecoder {
 }
 
 impl KeyboardDecoder {
-    /// A keyboard that nobody touches.
+    /// Keyboard without a pressed key.
     pub fn new(rider: RiderConfig) -> Self {
         Self {
             rider,
@@ -92,12 +92,12 @@ impl KeyboardDecoder {
         }
     }
 
-    /// Speed that the keys pedal, m/s; `None` until somebody has.
+    /// Speed that the keys pedal, m/s; `None` before the first pedalling.
     pub fn wheel_speed(&self, at: Nanos) -> Option<f64> {
         self.pedalled.then(|| self.wheel.value(at))
     }
 
-    /// Handlebar, −1 right to 1 left.
+    /// Turn of the handlebar, −1 right to 1 left.
     pub fn steer(&self, at: Nanos) -> f64 {
         self.steer.value(at)
     }
@@ -114,14 +114,14 @@ impl KeyboardDecoder {
         [right, up, back, nose_up, nose_left, roll_left]
     }
 
-    /// Aims every ramp at what the held keys want.
+    /// Aims every ramp at the goal of the held keys.
     fn aim(&mut self, at: Nanos) {
         let held = self.held;
         let lean = |ramp: &mut Ramp, target: f64| {
             ramp.aim(at, target, if target == 0.0 { RELEASE_RATE } else { PRESS_RATE });
         };
 
-        // Fly and drive.
+        // Aim the controls of drive and fly.
         let thrust = [
             held.between(&[KeyboardKey::A], &[KeyboardKey::D]),
             held.between(&[KeyboardKey::F], &[KeyboardKey::R]),
@@ -135,7 +135,7 @@ impl KeyboardDecoder {
         self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
         self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
 
-        // Ride.
+        // Aim the controls of the bicycle.
         lean(
             &mut self.steer,
             held.between(&[KeyboardKey::D, KeyboardKey::Right], &[KeyboardKey::A, KeyboardKey::Left]),
@@ -148,7 +148,7 @@ impl KeyboardDecoder {
         } else if forward > 0.0 {
             (if held.any(&[KeyboardKey::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
         } else if forward < 0.0 {
-            // First to a stop, then backward.
+            // The wheel slows to a stop first, then turns backward.
             (-rider.reverse_m_s, rider.pedal_m_s2)
         } else {
             (0.0, rider.coast_m_s2)
@@ -159,7 +159,7 @@ impl KeyboardDecoder {
 }
 
 impl Decoder for KeyboardDecoder {
-    /// The window lost the focus: every key is let go, the bicycle coasts.
+    /// Releases every key: the window lost the focus. The bicycle coasts.
     fn reset(&mut self, at: Nanos) {
         self.held = HeldKeys([false; 256]);
         self.aim(at);
@@ -193,8 +193,8 @@ impl Decoder for KeyboardDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! A key that is held must lead smoothly to its control and a released one back; the order of
-    //! asking may not matter.
+    //! A held key must move its control smoothly to its end and a released one back; the order of asking may not
+    //! matter.
     use super::*;
     use crate::clock::SECOND;
 

@@ -1,10 +1,9 @@
-//! Devices to controls.
+//! Devices to controls, and recordings of both.
 //!
-//! Whatever a rider touches ends as a stream of [`Sample`]s: raw bytes, a time stamp, the device's
-//! name. A [`Desk`] decodes them and says, once a frame, what the rider wants ([`Controls`]).
-//! Decoding is a pure function, so a [`recording`] of samples and frame times replays to the same
-//! bits. Live samples come from [`devices`], where each device has a thread of its own; tests and
-//! replays make them without any hardware.
+//! Every device ends as a stream of [`Sample`]s: raw bytes, a time stamp, the device's name. A [`Desk`] decodes them
+//! into the rider's [`Controls`], once a frame. Decoding is a pure function, so a [`recording`] of samples and frame
+//! times replays to the same bits. Live samples come from [`devices`], where each device has a thread of its own;
+//! tests and replays make them without any hardware.
 //!
 //! ```
 //! use input::{Desk, DeskConfig, KeyboardKey, SECOND, Sample};
@@ -15,8 +14,7 @@
 //! # Ok::<(), input::ConfigError>(())
 //! ```
 //!
-//! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on
-//! the wall.
+//! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on the wall.
 
 #![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
 

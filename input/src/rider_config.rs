@@ -1,30 +1,30 @@
-//! What can be set about the rider that keys and triggers make.
+//! Settings of the rider that keys and triggers simulate.
 
 use serde::{Deserialize, Serialize};
 
 use crate::config_error::{ConfigError, positive};
 
-/// A rider made of keys and triggers, for those without the bicycle.
+/// Rider simulated by keys and triggers, used without the bicycle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RiderConfig {
-    /// Speed he pedals up to, m/s.
+    /// Speed reached by pedalling, m/s.
     pub cruise_m_s: f64,
     /// Speed with the sprint key, m/s.
     pub sprint_m_s: f64,
-    /// How hard he starts, m/s².
+    /// Acceleration while pedalling, m/s².
     pub pedal_m_s2: f64,
-    /// How the bicycle slows down by itself, m/s².
+    /// Deceleration without pedalling, m/s².
     pub coast_m_s2: f64,
-    /// How it slows down with the brake pulled through, m/s².
+    /// Deceleration with the brake pulled through, m/s².
     pub brake_m_s2: f64,
-    /// How fast he pushes it backward, m/s.
+    /// Speed backward, m/s.
     pub reverse_m_s: f64,
-    /// Angle that the handlebar is turned to at walking pace, radians.
+    /// Angle of the handlebar at walking pace, radians.
     pub steer_rad: f64,
-    /// How far he leans: lateral acceleration beyond which he does not steer, m/s².
+    /// Largest lateral acceleration by steering, m/s².
     pub lateral_m_s2: f64,
-    /// Distance of the axles, metres, which says how sharp a bend an angle is.
+    /// Distance of the axles, metres, which relates the angle to the sharpness of a bend.
     pub wheelbase_m: f64,
 }
 

@@ -1,9 +1,8 @@
-//! What a device said, and when.
+//! Samples: the bytes of a device, with their time.
 //!
-//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp,
-//! and which device spoke. Whatever is decoded from samples is a pure function of them, so a
-//! recording of samples and frame times replays to the same bits. Even the switches of the
-//! interface pass as samples ([`SampleSource::Settings`]).
+//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp, and the device.
+//! All that is decoded from samples is a pure function of them, so a recording of samples and frame times replays to
+//! the same bits. The switches of the interface pass as samples, too ([`SampleSource::Settings`]).
 
 use std::fmt;
 
@@ -14,7 +13,7 @@ use crate::clock::Nanos;
 use crate::head::mouse_event::MouseEvent;
 use crate::key::KeyboardKey;
 
-/// Which device a sample comes from, and so which decoder reads its bytes.
+/// Device of a sample, which decides the decoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SampleSource {
@@ -39,7 +38,7 @@ pub enum SampleSource {
 }
 
 impl SampleSource {
-    /// Every source, in the order of the listing.
+    /// All sources, in the order of the listing.
     pub const ALL: [Self; 9] = [
         Self::Keyboard,
         Self::Gamepad,
@@ -52,7 +51,7 @@ impl SampleSource {
         Self::Settings,
     ];
 
-    /// The name in recordings and messages.
+    /// Name in recordings and messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Keyboard => "keyboard",
@@ -74,55 +73,55 @@ impl fmt::Display for SampleSource {
     }
 }
 
-/// What happened on a device.
+/// Signal of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Signal {
-    /// It was plugged in, or the connection stands again: nothing earlier holds any more.
+    /// The device was plugged in, or the connection stands again: nothing earlier holds any more.
     Opened,
-    /// Bytes arrived, in the device's own format, cut wherever the transport cut them.
+    /// Bytes in the device's own format, cut wherever the transport cut them.
     Bytes(Box<[u8]>),
-    /// It is gone: everything it held is released.
+    /// The device is gone: everything that it held is released.
     Closed,
 }
 
-/// One thing one device said at one time.
+/// Signal of one device at one time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// When it arrived at this machine.
+    /// Time of arrival at this machine.
     pub at: Nanos,
-    /// Who said it.
+    /// Device that sent the signal.
     pub source: SampleSource,
-    /// What it said.
+    /// Signal of the device.
     pub signal: Signal,
 }
 
 impl Sample {
-    /// A device that has just been opened.
+    /// Sample of a device that has just been opened.
     pub fn opened(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Opened }
     }
 
-    /// Bytes from a device.
+    /// Sample of bytes from a device.
     pub fn bytes(at: Nanos, source: SampleSource, bytes: impl Into<Box<[u8]>>) -> Self {
         Self { at, source, signal: Signal::Bytes(bytes.into()) }
     }
 
-    /// A device that has gone. For the keyboard: the window lost the focus.
+    /// Sample of a device that has gone. For the keyboard: the window lost the focus.
     pub fn closed(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Closed }
     }
 
-    /// A key of the window pressed or released.
+    /// Sample of a key of the window, pressed or released.
     pub fn key(at: Nanos, key: KeyboardKey, pressed: bool) -> Self {
         Self::bytes(at, SampleSource::Keyboard, key.to_bytes(pressed))
     }
 
-    /// The mouse of the window, where it moves the head.
+    /// Sample of the window's mouse, where it moves the head.
     pub fn mouse(at: Nanos, event: MouseEvent) -> Self {
         Self::bytes(at, SampleSource::Mouse, event.to_bytes())
     }
 
-    /// A switch of the interface.
+    /// Sample of an action of the interface.
     pub fn action(at: Nanos, action: &Action) -> Self {
         Self::bytes(at, SampleSource::Settings, action.to_bytes())
     }

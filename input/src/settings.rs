@@ -29,7 +29,7 @@ impl Decoder for ActionDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! An action must survive its own text, and a text that is none must not act.
+    //! An action must survive its own text, and a text that is no action must have no effect.
     use super::*;
     use crate::action::VehicleKind;
 

@@ -1,12 +1,11 @@
-//! A SpaceMouse through the spacenavd daemon's socket.
+//! Decoder of a SpaceMouse through the spacenavd daemon's socket.
 //!
-//! Events are eight 32-bit integers in the machine's order (every machine we run on is
-//! little-endian): word 0 says what it is (0 motion, 1 press, 2 release, others passed over); a
-//! motion's words 1 to 6 are three shifts and three turns, ±500 at full deflection; a button's word
-//! 1 is its number. The stream may be cut anywhere.
+//! Events are eight 32-bit integers in the machine's order (all supported machines are little-endian). Word 0 is the
+//! kind (0 motion, 1 press, 2 release, others passed over); words 1 to 6 of a motion are three shifts and three
+//! turns, ±500 at full deflection; word 1 of a button is its number. The stream may be cut anywhere.
 //!
-//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent
-//! for seconds: silence means nothing here.
+//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent for seconds:
+//! silence has no meaning here.
 
 use crate::axis_table::AxisTable;
 use crate::clock::Nanos;
@@ -21,7 +20,7 @@ const FULL_DEFLECTION: f64 = 500.0;
 
 const MOTION: i32 = 0;
 const PRESS: i32 = 1;
-/// Release, device, configuration, raw axis, raw button: nothing to do for them.
+/// Kinds without an effect: release, device, configuration, raw axis, raw button.
 const PASSED_OVER: std::ops::RangeInclusive<i32> = 2..=6;
 /// Upper half of word 0 in replies of the daemon's newer protocol, which interleave with events.
 const REPLY: i32 = 0x7faa;
@@ -36,7 +35,7 @@ pub struct SpacenavdDecoder {
 }
 
 impl SpacenavdDecoder {
-    /// A decoder at rest.
+    /// SpaceMouse at rest.
     pub fn new(table: AxisTable) -> Self {
         Self { table, partial: Vec::new(), axes: [0; 6], faults: Faults::default() }
     }
@@ -87,7 +86,7 @@ impl Decoder for SpacenavdDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! Events captured from the real daemon, however cut, must give their push.
+    //! Events captured from the real daemon must give their push, however they are cut.
     use super::*;
     use crate::action::Action;
 
@@ -140,7 +139,7 @@ mod tests {
         daemon.bytes(0, &captured()[..40], &mut actions);
         daemon.reset(0);
         assert_eq!(daemon.deflection(), [0.0; 6]);
-        // The half event of before must not shift what follows.
+        // The half event from before must not shift the next one.
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes[0], 100);
     }

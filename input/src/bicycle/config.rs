@@ -1,10 +1,10 @@
-//! What can be set about the instrumented bicycle.
+//! Settings of the instrumented bicycle.
 
 use serde::{Deserialize, Serialize};
 
 use crate::config_error::{ConfigError, not_zero, positive};
 
-/// What a line with a single number means.
+/// Meaning of a line with a single number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BareNumber {
@@ -19,20 +19,19 @@ pub enum BareNumber {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BicycleConfig {
-    /// Way of the bicycle for one turn of the wheel, metres.
+    /// Distance that the bicycle covers in one turn of the wheel, metres.
     pub wheel_circumference_m: f64,
-    /// Magnets on the wheel.
+    /// Number of magnets on the wheel.
     pub pulses_per_wheel_turn: f64,
-    /// Magnets on the crank.
+    /// Number of magnets on the crank.
     pub pulses_per_crank_turn: f64,
-    /// Faster cannot be ridden: such pulses are bounces, such numbers are faults. m/s.
+    /// Highest speed that can be ridden, m/s. Faster pulses are bounces, larger numbers are faults.
     pub fastest_m_s: f64,
-    /// After this long without a pulse, or a number, the wheel stands still. Seconds.
+    /// Time without a pulse or a number after which the wheel counts as standing, seconds.
     pub stop_after_s: f64,
     /// Reading of the steering sensor straight ahead.
     pub steer_straight: f64,
-    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the
-    /// right.
+    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
     pub steer_rad_per_unit: f64,
     /// Reading of the brake sensor with the lever released.
     pub brake_released: f64,
@@ -42,13 +41,13 @@ pub struct BicycleConfig {
     pub four_field_steer_rad: f64,
     /// Brake in a four-field line with the lever pulled through.
     pub four_field_brake_full: f64,
-    /// What a line with a single number means.
+    /// Meaning of a line with a single number.
     pub bare_number: BareNumber,
 }
 
 impl Default for BicycleConfig {
-    /// A 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees
-    /// of travel.
+    /// Settings for a 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees of
+    /// travel.
     fn default() -> Self {
         Self {
             wheel_circumference_m: 2.1,
@@ -68,7 +67,7 @@ impl Default for BicycleConfig {
 }
 
 impl BicycleConfig {
-    /// Way of the bicycle between two pulses, metres.
+    /// Distance that the bicycle covers between two pulses, metres.
     pub fn metres_per_pulse(&self) -> f64 {
         self.wheel_circumference_m / self.pulses_per_wheel_turn
     }

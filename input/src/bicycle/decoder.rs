@@ -8,14 +8,14 @@ use crate::faults::Faults;
 use crate::line::{LineError, Lines};
 use crate::pulses::PulseRate;
 
-/// Nobody pedals at 300 turns a minute.
+/// Fastest possible turns of the crank, Hz: 300 a minute.
 const FASTEST_CADENCE_HZ: f64 = 5.0;
-/// A jump of the counter beyond this is a box that has restarted, not a ride.
+/// Largest possible jump of the counter; beyond it the box has restarted.
 const MOST_PULSES_AT_ONCE: u32 = 1000;
-/// A bare speed holds for this long before it begins to fade, seconds.
+/// Time for which a bare speed holds before it begins to fade, seconds.
 const BARE_SPEED_HOLDS_S: f64 = 0.5;
 
-/// A cumulative counter and the rate it gives.
+/// Cumulative counter and the rate that it gives.
 #[derive(Debug)]
 struct PulseCounter {
     rate: PulseRate,
@@ -46,8 +46,7 @@ impl PulseCounter {
             self.rate.reset();
             return;
         }
-        // A pulse between reading the clock and sending the line has a negative age: take it for
-        // new.
+        // A pulse between reading the clock and sending the line has a negative age: count it as new.
         let age_us = match now_us.wrapping_sub(count.last_us) {
             age_us if age_us > u32::MAX / 2 => 0,
             age_us => age_us,
@@ -61,7 +60,7 @@ impl PulseCounter {
     }
 }
 
-/// Where the wheel speed comes from, by the kind of line that came last.
+/// Source of the wheel speed, by the kind of the last line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum WheelSpeed {
     Unknown,
@@ -84,7 +83,7 @@ pub struct BicycleDecoder {
 }
 
 impl BicycleDecoder {
-    /// A decoder that has seen nothing yet.
+    /// Decoder without any line yet.
     pub fn new(config: BicycleConfig) -> Self {
         let wheel = PulseCounter::new(config.metres_per_pulse() / config.fastest_m_s, config.stop_after_s);
         let crank = PulseCounter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), config.stop_after_s);
@@ -114,7 +113,7 @@ impl BicycleDecoder {
         }
     }
 
-    /// Turns of the crank a second; `None` until a crank has been seen to turn.
+    /// Turns of the crank a second; `None` until the crank has turned.
     pub fn cadence_hz(&self, at: Nanos) -> Option<f64> {
         self.has_crank.then(|| self.crank.rate.rate_hz(at) / self.config.pulses_per_crank_turn)
     }
@@ -145,8 +144,8 @@ impl BicycleDecoder {
             BicycleLine::Interval { interval_us, age_us, steer, brake } => {
                 let pulse_at = at.saturating_sub(u64::from(age_us) * 1000);
                 let interval_s = f64::from(interval_us) * 1e-6;
-                // The line repeats the last pulse until there is a new one, which comes a whole
-                // interval later; lines are late by much less.
+                // The line repeats the last pulse until there is a new one, a whole interval later; lines are late by
+                // much less.
                 let is_new = self
                     .wheel
                     .rate
@@ -177,7 +176,7 @@ impl BicycleDecoder {
         Ok(())
     }
 
-    /// No handlebar turns further than a right angle.
+    /// Sets the angle of the handlebar, radians, limited to a right angle.
     fn turn_handlebar(&mut self, steer_rad: f64) {
         self.steer_rad = steer_rad.clamp(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2);
     }
@@ -216,13 +215,13 @@ impl Decoder for BicycleDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! A wheel of known speed must read that speed in each of the three languages, across wrapping
-    //! counters and lost lines; a broken line must leave no trace but its count.
+    //! A wheel of known speed must read that speed in each of the three formats, across wrapping counters and lost
+    //! lines; a broken line must change nothing but the count of faults.
     use super::*;
     use crate::clock::SECOND;
     use crate::line::sealed;
 
-    /// Rounding of a few operations.
+    /// Rounding of a few operations, m/s.
     const ROUNDING: f64 = 1e-9;
 
     fn bicycle() -> BicycleDecoder {
@@ -237,9 +236,8 @@ mod tests {
         sealed(&format!("B1,{sequence},{now_us},{},{},{},{},{steer},{brake}", wheel.0, wheel.1, crank.0, crank.1))
     }
 
-    /// Rides for four seconds at four turns a second (8.4 m/s) and one of the crank, a line every
-    /// 20 ms, beginning at these readings of the box's clock and counter. Lines for which `lose`
-    /// says so are lost.
+    /// Bicycle after four seconds at four turns a second (8.4 m/s) and one of the crank, with a line every 20 ms. The
+    /// box's clock and counter begin at the given readings. Lines for which `lose` is true are lost.
     fn ride(first_us: u32, first_count: u32, lose: impl Fn(u32) -> bool) -> BicycleDecoder {
         let mut bicycle = bicycle();
         for n in (0..=200_u32).filter(|&n| !lose(n)) {
@@ -319,7 +317,7 @@ mod tests {
     #[test]
     fn four_fields_read_the_same_speed() {
         let mut bicycle = bicycle();
-        // A line every 60 ms, each up to 8 ms late, of a wheel that turns four times a second.
+        // A line every 60 ms, each up to 8 ms late, for a wheel that turns four times a second.
         for n in 0..=66_u64 {
             let at_us = n * 60_000;
             let late_us = n * 7919 % 8000;
@@ -338,7 +336,7 @@ mod tests {
         for pulse in 0..8_u64 {
             feed(&mut bicycle, pulse * SECOND / 4, "250000,0,0,0\n");
         }
-        // One false pulse, told five times, each time later; once, it is an outlier.
+        // One false pulse, repeated in five lines, each later. Counted once, it is an outlier.
         for line in 0..5_u64 {
             let age_us = line * 20_000;
             let at = 7 * SECOND / 4 + (100_000 + age_us + 1500 * line) * 1000;

@@ -1,23 +1,23 @@
-//! Which devices are looked for, and where.
+//! Settings of the devices to look for.
 
 use std::path::PathBuf;
 
 use crate::head::url::TrackerUrl;
 
-/// Which devices to look for.
+/// Devices to look for, and their places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DevicesConfig {
     /// Serial port of the bicycle, as `/dev/ttyACM0` or `COM3`.
     pub bicycle: Option<String>,
-    /// Its speed, baud.
+    /// Speed of the serial port, baud.
     pub baud: u32,
-    /// Look for a SpaceMouse.
+    /// True if a SpaceMouse is looked for.
     pub space_mouse: bool,
-    /// Where spacenavd listens, for a SpaceMouse that may not be read directly.
+    /// Socket of spacenavd, for a SpaceMouse that may not be read directly.
     pub spacenavd_socket: PathBuf,
-    /// Look for a gamepad or joystick.
+    /// True if a gamepad or joystick is looked for.
     pub gamepad: bool,
-    /// The tracker of the head.
+    /// Tracker of the head.
     pub tracker: Option<TrackerUrl>,
 }
 

@@ -1,4 +1,4 @@
-//! The datagrams of an ART controller. Nothing is sent to it: the controller is told where to send.
+//! Datagrams of an ART controller. Nothing is sent to it; the controller is configured to send here.
 
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
@@ -9,10 +9,10 @@ use super::serial::passing;
 use crate::dtrack::LONGEST_DATAGRAM;
 use crate::sample::SampleSource;
 
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
 
-/// Where the controller sends to.
+/// Address and port that the controller sends to.
 pub(super) struct DtrackPort {
     address: IpAddr,
     port: u16,
@@ -62,10 +62,10 @@ impl DevicePort for DtrackPort {
     }
 }
 
-/// A socket that is listened to.
+/// Open socket of the controller's datagrams.
 struct DtrackSocket {
     socket: UdpSocket,
-    /// Longer by one than any datagram that is believed, so that the decoder sees which are too long.
+    /// Buffer, longer by one than any datagram that is accepted, so that the decoder sees which are too long.
     buffer: Vec<u8>,
 }
 

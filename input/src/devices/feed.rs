@@ -1,5 +1,4 @@
-//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue
-//! behind it.
+//! Loop that keeps a device open, and the queue from its thread to the frame loop.
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,21 +9,21 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySen
 use crate::clock::{Clock, Nanos, SECOND, seconds_between};
 use crate::sample::{Sample, SampleSource};
 
-/// Pause before a device is looked for again, at first.
+/// First pause before a device is looked for again.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);
-/// The longest such pause; each is twice the one before.
+/// Longest such pause; each is twice the one before.
 const LONGEST_PAUSE: Duration = Duration::from_secs(2);
 
-/// How to find and open a device.
+/// Place where a device can be found and opened.
 pub(super) trait DevicePort: Send {
-    /// Opens it.
+    /// Opens the device.
     ///
     /// # Errors
     /// A sentence that says what is missing and what to do about it.
     fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String>;
 }
 
-/// Which device has been opened.
+/// Device that has been opened.
 #[derive(Clone, Debug)]
 pub(super) struct OpenedDevice {
     pub(super) source: SampleSource,
@@ -32,50 +31,49 @@ pub(super) struct OpenedDevice {
     pub(super) path: String,
 }
 
-/// An open device.
+/// Connection to an open device.
 pub(super) trait DeviceConnection {
-    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none
-    /// if none came.
+    /// Waits a tenth of a second at most for bytes and appends them to the buffer; nothing if none came.
     ///
     /// # Errors
-    /// If the device is gone.
+    /// A device that is gone.
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()>;
 
-    /// Samples had to be dropped: a device that reports only changes now reports all.
+    /// Asks for a full report: samples had to be dropped, and this device may report only changes.
     fn report_all(&mut self) {}
 }
 
-/// Whether a device can be read.
+/// State of a device: open or not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeviceState {
-    /// It is open.
+    /// The device is open.
     Open,
-    /// It is not; the sentence says why, and what to do.
+    /// A sentence that says why the device is not open, and what to do.
     Absent(String),
 }
 
-/// How a device is.
+/// Status of a device, for a listing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeviceStatus {
-    /// Which decoder reads it.
+    /// Decoder that reads the device.
     pub source: SampleSource,
-    /// What it calls itself.
+    /// Name that the device gives itself.
     pub name: String,
-    /// Where it is.
+    /// Path or address of the device.
     pub path: String,
-    /// Whether it can be read.
+    /// State of the device: open, or the reason why not.
     pub state: DeviceState,
     /// Samples a second, over the last second.
     pub rate_hz: f64,
-    /// Samples so far.
+    /// Number of samples so far.
     pub samples: u64,
-    /// Samples that were dropped because nobody drained them.
+    /// Number of samples that were dropped because the queue was full.
     pub dropped: u64,
-    /// The last bytes.
+    /// Bytes of the last sample.
     pub last: Vec<u8>,
 }
 
-/// What a device's thread tells about it.
+/// Status that a device's thread keeps up to date.
 #[derive(Debug)]
 pub(super) struct DeviceNews {
     status: DeviceStatus,
@@ -83,15 +81,15 @@ pub(super) struct DeviceNews {
     this_second: u32,
 }
 
-/// A device's news, shared by its thread and the listing.
+/// Status of a device, shared by its thread and the listing.
 pub(super) type SharedNews = Arc<Mutex<DeviceNews>>;
 
-/// The news are whole at all times, even should a thread die while it holds them.
+/// Locks the status. It is whole at all times, even if a thread dies while it holds the lock.
 fn lock(live: &SharedNews) -> MutexGuard<'_, DeviceNews> {
     live.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A device's status at the time `now`.
+/// Status of a device at the time `now`.
 pub(super) fn status(live: &SharedNews, now: Nanos) -> DeviceStatus {
     let live = lock(live);
     let mut status = live.status.clone();
@@ -105,14 +103,14 @@ pub(super) fn status(live: &SharedNews, now: Nanos) -> DeviceStatus {
 pub(super) struct DeviceFeed {
     clock: Clock,
     queue: Sender<Sample>,
-    /// The other end of the queue, to make room.
+    /// Other end of the queue, to make room.
     oldest: Receiver<Sample>,
     live: SharedNews,
     stopped: Receiver<()>,
 }
 
 impl DeviceFeed {
-    /// A queue of this length, its other end, and the device's news.
+    /// Feed with a queue of this length, the queue's other end, and the shared status.
     pub(super) fn new(
         source: SampleSource,
         clock: Clock,
@@ -146,7 +144,7 @@ impl DeviceFeed {
                     let why = self.read(source, connection.as_mut());
                     self.send(Sample::closed(self.clock.now(), source));
                     self.absent(why);
-                    // One that goes as soon as it has come is given time.
+                    // A device that goes as soon as it has come is given time.
                     pause = if began.elapsed() > LONGEST_PAUSE { FIRST_PAUSE } else { (2 * pause).min(LONGEST_PAUSE) };
                 }
                 Err(why) => {
@@ -154,14 +152,14 @@ impl DeviceFeed {
                     pause = (2 * pause).min(LONGEST_PAUSE);
                 }
             }
-            // Wakes at once when the program ends.
+            // This wait ends at once when the program ends.
             if self.stopped.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
                 return;
             }
         }
     }
 
-    /// Reads until the device goes or the program ends; says which.
+    /// Reads until the device goes or the program ends; returns the reason.
     fn read(&self, source: SampleSource, connection: &mut dyn DeviceConnection) -> String {
         let mut bytes = Vec::new();
         while !self.is_stopped() {
@@ -194,7 +192,7 @@ impl DeviceFeed {
         live.status.rate_hz = 0.0;
     }
 
-    /// Queues bytes; whether others were dropped for them.
+    /// Queues bytes; true if others were dropped for them.
     fn bytes(&self, source: SampleSource, bytes: &[u8]) -> bool {
         let now = self.clock.now();
         let dropped = self.send(Sample::bytes(now, source, bytes));
@@ -211,11 +209,11 @@ impl DeviceFeed {
         dropped
     }
 
-    /// Queues a sample in place of the oldest if need be; whether there was need.
+    /// Queues a sample, in place of the oldest if the queue is full; true if it was.
     fn send(&self, sample: Sample) -> bool {
         let mut sample = sample;
         let mut dropped = 0;
-        // The loop ends: only this thread fills the queue.
+        // The loop ends, because only this thread fills the queue.
         while let Err(TrySendError::Full(back)) = self.queue.try_send(sample) {
             sample = back;
             dropped += u64::from(self.oldest.try_recv().is_ok());
@@ -227,7 +225,7 @@ impl DeviceFeed {
 
 #[cfg(test)]
 mod tests {
-    //! A flood that nobody drains must cost the oldest samples, never the newest, and no memory.
+    //! A flood that the frame loop does not drain must cost the oldest samples, never the newest, and no memory.
     use super::*;
 
     fn feed(length: usize) -> (DeviceFeed, Receiver<Sample>, SharedNews, Sender<()>) {
@@ -248,7 +246,7 @@ mod tests {
         assert_eq!((status.samples, status.dropped, status.last), (10, 6, vec![9]));
     }
 
-    /// A device that says one thing and goes, a number of times; then it cannot be opened.
+    /// Device that sends one byte and goes, a number of times; then it cannot be opened.
     struct Flaky {
         lives: u8,
     }
@@ -292,7 +290,7 @@ mod tests {
         std::thread::sleep(Duration::from_secs(1));
         drop(stop);
         thread.join().unwrap();
-        // At 0, 0.2, 0.6 and 1.4 s.
+        // Openings at 0, 0.2, 0.6 and 1.4 s.
         let lives = samples.try_iter().filter(|sample| sample.signal == crate::sample::Signal::Opened).count();
         assert!((2..=3).contains(&lives), "{lives}");
     }

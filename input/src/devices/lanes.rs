@@ -16,25 +16,25 @@ use crate::clock::Clock;
 use crate::head::url::TrackerUrl;
 use crate::sample::{Sample, SampleSource};
 
-/// Samples of one device that wait for the frame loop: several seconds of the fastest.
+/// Length of a device's queue, samples: several seconds of the fastest device.
 const QUEUE: usize = 4096;
-/// Samples of a tracker that wait: they are longer.
+/// Length of a tracker's queue, samples, which are longer.
 const TRACKER_QUEUE: usize = 1024;
 
-/// Why devices cannot be read at all.
+/// Error that prevents the devices from being read.
 #[derive(Debug, Error)]
 pub enum DevicesError {
-    /// The system gives us no thread.
+    /// A thread that the system refuses.
     #[error("cannot start the thread that reads the {source_device}: {cause}")]
     Thread {
-        /// Which device.
+        /// Device of the thread.
         source_device: SampleSource,
-        /// Why not.
+        /// Error of the system.
         cause: std::io::Error,
     },
 }
 
-/// One device's thread and its queue.
+/// Thread of one device, and its queue.
 #[derive(Debug)]
 struct DeviceLane {
     samples: Receiver<Sample>,
@@ -48,7 +48,7 @@ pub struct Devices {
     clock: Clock,
     lanes: Vec<DeviceLane>,
     brake: Arc<BrakeSlot>,
-    /// Closed to end the threads.
+    /// Channel that is closed to end the threads.
     stop: Option<Sender<()>>,
 }
 
@@ -56,7 +56,7 @@ impl Devices {
     /// Starts to look for the devices.
     ///
     /// # Errors
-    /// If a thread cannot be started. A device that is missing is no error.
+    /// A thread that cannot be started. A missing device is no error.
     pub fn open(config: &DevicesConfig, clock: Clock) -> Result<Self, DevicesError> {
         let (stop, stopped) = bounded(0);
         let brake = Arc::new(BrakeSlot::default());
@@ -99,24 +99,24 @@ impl Devices {
         Ok(())
     }
 
-    /// Everything that has arrived since the last call, in the order of arrival.
+    /// Samples that have arrived since the last call, in the order of arrival.
     pub fn drain(&self) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::new();
         for lane in &self.lanes {
-            // No more than fit at once, or a flood would keep us here.
+            // No more than the queue holds, or a flood would keep this loop going.
             samples.extend(lane.samples.try_iter().take(QUEUE));
         }
         samples.sort_by_key(|sample| sample.at);
         samples
     }
 
-    /// Tells the bicycle how strongly to brake, 0 to 1. May be called every frame: only the newest
-    /// is sent, and at most fifty a second.
+    /// Sends the bicycle a brake command, 0 to 1. This may be called every frame: only the newest is sent, and at
+    /// most fifty a second.
     pub fn brake(&self, brake: f64) {
         self.brake.set(brake);
     }
 
-    /// How the devices are.
+    /// Status of each device.
     pub fn status(&self) -> Vec<DeviceStatus> {
         let now = self.clock.now();
         self.lanes.iter().map(|lane| status(&lane.live, now)).collect()
@@ -124,7 +124,7 @@ impl Devices {
 }
 
 impl Drop for Devices {
-    /// Ends the threads; each looks up from its device at least ten times a second, and from waiting for a server
+    /// Ends the threads. Each looks up from its device at least ten times a second, and from waiting for a server
     /// after a second.
     fn drop(&mut self) {
         self.stop = None;

@@ -1,14 +1,13 @@
 //! Live devices, each read by a thread of its own.
 //!
-//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first
-//! quickly and then every two seconds; so devices may be plugged and unplugged at any time. What it
-//! reads goes, stamped with the ride's clock, into a bounded queue that the frame loop drains
-//! ([`Devices::drain`]). Should the loop stall, a full queue drops its *oldest* sample: no thread
-//! ever waits, the newest state is never lost, and what was dropped is counted. Each device has its
-//! own queue, so one that floods hurts only itself.
+//! A thread looks for its device, opens it, reads it until it goes, and looks again, at first quickly and then every
+//! two seconds; so devices may be plugged and unplugged at any time. The bytes go, stamped with the ride's clock,
+//! into a bounded queue that the frame loop drains ([`Devices::drain`]). If the loop stalls, a full queue drops its
+//! *oldest* sample: no thread ever waits, the newest state is never lost, and dropped samples are counted. Each
+//! device has its own queue, so a flood of one harms no other.
 //!
-//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence
-//! what to do about it. A keyboard's and a mouse's samples come from the window, not from here.
+//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence what to do about
+//! it. Samples of keyboard and mouse come from the window, not from here.
 
 mod config;
 mod dtrack;

@@ -10,12 +10,12 @@ use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::gamepad::{GamepadItem, codes};
 use crate::sample::SampleSource;
 
-/// How long a read waits: a tenth of a second.
+/// Longest wait of a read: a tenth of a second.
 const READ_WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
-/// Where the system names joysticks, even those we may not read.
+/// Directory in which the system names joysticks, also those that may not be read.
 const NAMES: &str = "/dev/input/by-id";
 
-/// Looks for a pad.
+/// Search for a pad.
 pub(super) struct PadPort;
 
 impl DevicePort for PadPort {
@@ -32,19 +32,19 @@ impl DevicePort for PadPort {
     }
 }
 
-/// What a pad calls itself.
+/// Name that a pad gives itself.
 pub(super) fn name(device: &Device) -> String {
     device.name().unwrap_or("gamepad").to_owned()
 }
 
-/// Every pad that we may read, in a fixed order.
+/// All pads that may be read, in a fixed order.
 pub(super) fn pads() -> Vec<(PathBuf, Device)> {
     let mut pads: Vec<_> = evdev::enumerate().filter(|(_, device)| layout(device).is_some()).collect();
     pads.sort_by(|(a, _), (b, _)| a.cmp(b));
     pads
 }
 
-/// A joystick that is there but may not be read.
+/// Path of a joystick that is there but may not be read.
 fn unreadable() -> Option<PathBuf> {
     let names = Path::new(NAMES).read_dir().ok()?;
     names
@@ -53,7 +53,7 @@ fn unreadable() -> Option<PathBuf> {
         .find(|path| path.to_string_lossy().ends_with("-event-joystick") && std::fs::File::open(path).is_err())
 }
 
-/// Whether it is a gamepad or a joystick.
+/// Layout of a device as gamepad or joystick; `None` for other devices.
 fn layout(device: &Device) -> Option<GamepadItem> {
     let has_stick = device.supported_absolute_axes()?.contains(AbsoluteAxisCode::ABS_X);
     let buttons = device.supported_keys()?;
@@ -66,14 +66,14 @@ fn layout(device: &Device) -> Option<GamepadItem> {
     }
 }
 
-/// An open pad.
+/// Open gamepad or joystick.
 struct EvdevPad {
     device: Device,
     report_all: bool,
 }
 
 impl EvdevPad {
-    /// Writes its layout, every axis and every button that is held.
+    /// Writes the layout, every axis and every held button.
     fn describe(&self, bytes: &mut Vec<u8>) -> io::Result<()> {
         if let Some(layout) = layout(&self.device) {
             layout.encode(bytes);

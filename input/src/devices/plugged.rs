@@ -1,4 +1,4 @@
-//! What is plugged in, whether it is used or not.
+//! Devices of the machine, used or not.
 
 use hidapi::HidApi;
 
@@ -6,20 +6,20 @@ use super::puck::candidates;
 use super::serial;
 use crate::sample::SampleSource;
 
-/// A device that the machine has.
+/// Device that is plugged in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PluggedDevice {
-    /// What could read it.
+    /// Decoder that could read the device.
     pub source: SampleSource,
-    /// What it calls itself.
+    /// Name that the device gives itself.
     pub name: String,
-    /// Where it is.
+    /// Path of the device.
     pub path: String,
-    /// Why it may not be read, and what to do; `None` if it may, or if only use would tell.
+    /// Reason why it may not be read, and what to do; `None` if it may, or if only an attempt would tell.
     pub refused: Option<String>,
 }
 
-/// Every device of the machine that could be used: serial ports, SpaceMice, gamepads.
+/// All devices of the machine that could be used: serial ports, SpaceMice, gamepads.
 pub fn plugged_in() -> Vec<PluggedDevice> {
     let mut plugged: Vec<PluggedDevice> = serial::ports()
         .into_iter()

@@ -1,4 +1,4 @@
-//! A SpaceMouse: raw HID where we may read it, spacenavd's socket where we may not.
+//! A SpaceMouse, read as raw HID if that is allowed, else through spacenavd's socket.
 
 use std::ffi::CString;
 use std::io;
@@ -15,19 +15,19 @@ const LOGITECH: u16 = 0x046d;
 const CONNEXION: u16 = 0x256f;
 /// Usage page and usage of a multi-axis controller.
 const MULTI_AXIS: (u16, u16) = (1, 8);
-/// Mice, keyboards and numpads of the same makers.
+/// Product numbers of mice, keyboards and numpads of the same makers.
 const NOT_A_PUCK: [u16; 12] =
     [0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668];
-/// How long one read of a single interface waits, milliseconds.
+/// Longest wait of one read of a single interface, milliseconds.
 const READ_WAIT_MS: i32 = 100;
-/// The longest report is 13 bytes.
+/// Length of the buffer, bytes; the longest report is 13.
 const BUFFER: usize = 64;
 
-/// What makes the device readable.
+/// Instruction that makes the device readable.
 const UDEV_RULE: &str = "as root, put `KERNEL==\"hidraw*\", ATTRS{idVendor}==\"046d|256f\", TAG+=\"uaccess\"` into \
                          /etc/udev/rules.d/70-spacemouse.rules and plug it in again";
 
-/// An interface that may be that of a SpaceMouse.
+/// Interface that may be that of a SpaceMouse.
 pub(super) struct SpaceMouseInterface {
     pub(super) name: String,
     pub(super) path: CString,
@@ -45,7 +45,7 @@ impl SpaceMouseInterface {
     }
 }
 
-/// Every interface that may be that of a SpaceMouse.
+/// All interfaces that may be that of a SpaceMouse.
 pub(super) fn candidates(api: &HidApi) -> Vec<SpaceMouseInterface> {
     api.device_list()
         .filter(|device| [LOGITECH, CONNEXION].contains(&device.vendor_id()))
@@ -60,7 +60,7 @@ pub(super) fn candidates(api: &HidApi) -> Vec<SpaceMouseInterface> {
         .collect()
 }
 
-/// Where a SpaceMouse may be.
+/// Places where a SpaceMouse may be found.
 pub(super) struct PuckPort {
     socket: PathBuf,
 }
@@ -87,8 +87,8 @@ impl DevicePort for PuckPort {
     }
 }
 
-/// Opens every interface that may be it: a wireless receiver has several, and only time tells which
-/// one it is.
+/// Opens all interfaces that may be the right one: a wireless receiver has several, and only the first report tells
+/// which.
 fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
     let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
     let mut interfaces = Vec::new();
@@ -110,7 +110,7 @@ fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
     Ok((place, Box::new(HidInterfaces { interfaces })))
 }
 
-/// The interfaces that are left; one, as soon as it has spoken.
+/// Open interfaces; a single one after the first report.
 struct HidInterfaces {
     interfaces: Vec<HidDevice>,
 }

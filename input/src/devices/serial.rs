@@ -9,18 +9,18 @@ use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::brake::BrakeCommand;
 use crate::sample::SampleSource;
 
-/// How long a read waits, and so how late a brake command may be on a silent line.
+/// Longest wait of a read, and so the delay of a brake command on a silent line.
 const READ_WAIT: Duration = Duration::from_millis(20);
-/// Brake commands are at least this far apart.
+/// Shortest time between brake commands.
 const COMMAND_EVERY: Duration = Duration::from_millis(20);
-/// Bytes taken at once.
+/// Most bytes taken at once.
 const BUFFER: usize = 1024;
 
-/// The newest brake command that has not been sent.
+/// Newest brake command not yet sent.
 #[derive(Debug)]
 pub(super) struct BrakeSlot(AtomicU64);
 
-/// Nothing to send: the bits of a number that is none.
+/// Bits of a NaN, for nothing to send.
 const EMPTY: u64 = u64::MAX;
 
 impl Default for BrakeSlot {
@@ -40,7 +40,7 @@ impl BrakeSlot {
     }
 }
 
-/// Where the bicycle is plugged in.
+/// Serial port of the bicycle, not yet open.
 pub(super) struct SerialPort {
     path: String,
     baud: u32,
@@ -55,8 +55,7 @@ impl SerialPort {
 
 impl DevicePort for SerialPort {
     fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets
-        // many a board.
+        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets many boards.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
             let path = &self.path;
             match error.kind() {
@@ -99,13 +98,13 @@ impl SerialLink {
         let line = BrakeCommand { sequence: self.sequence, brake }.to_line();
         self.sequence = self.sequence.wrapping_add(1);
         self.last_command = Some(Instant::now());
-        // A box that does not listen misses a command; the checksum tells it of half a one.
+        // A box that does not listen misses a command; the checksum reveals half of one.
         passing(self.port.write_all(line.as_bytes()))
     }
 }
 
 impl Drop for SerialLink {
-    /// Nobody is left to brake for.
+    /// Releases the brake.
     fn drop(&mut self) {
         if self.last_command.is_some() {
             let _ = self.send(0.0);
@@ -128,7 +127,7 @@ impl DeviceConnection for SerialLink {
     }
 }
 
-/// Takes what will pass for no error.
+/// Turns a timeout or an interruption into success.
 pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     match outcome {
         Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
@@ -138,9 +137,9 @@ pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Every serial port of the machine: path, and what is plugged into it.
+/// All serial ports of the machine: path, and name of the device.
 pub(super) fn ports() -> Vec<(String, String)> {
-    // The crate takes this directory for granted.
+    // The serialport crate takes this directory for granted.
     if cfg!(target_os = "linux") && !std::path::Path::new("/sys/class/tty").is_dir() {
         return Vec::new();
     }

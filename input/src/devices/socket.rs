@@ -1,4 +1,4 @@
-//! The socket of spacenavd.
+//! Connection to spacenavd through its socket.
 
 use std::io::{self, ErrorKind, Read};
 use std::os::unix::net::UnixStream;
@@ -10,10 +10,10 @@ use super::serial::passing;
 use crate::sample::SampleSource;
 use crate::spacenavd::EVENT_LENGTH;
 
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
 
-/// A connection to the daemon.
+/// Connection to the daemon.
 pub(super) struct SpacenavdLink {
     stream: UnixStream,
     partial: Vec<u8>,
@@ -44,7 +44,7 @@ impl SpacenavdLink {
 }
 
 impl DeviceConnection for SpacenavdLink {
-    /// Gives whole events only, so that one that has to be dropped does not shift those behind it.
+    /// Reads whole events only, so that a dropped sample does not shift the events behind it.
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut buffer = [0; 32 * EVENT_LENGTH];
         match self.stream.read(&mut buffer) {

@@ -1,9 +1,9 @@
-//! A VRPN server over TCP alone.
+//! Connection to a VRPN server over TCP alone.
 //!
-//! Both sides begin with their cookies; the server's is awaited here, so that one that speaks
-//! something else is told from a tracker. We then name the device that we listen to and ask once a
-//! second whether it is there, as VRPN's own clients do. What the server sends goes on as it comes,
-//! whole messages only: one that has to be dropped then does not shift those behind it.
+//! Both sides begin with their cookies. The server's is awaited here, to tell a tracker from a server that speaks
+//! something else. Then this side names the device that it listens to and sends a ping once a second, as VRPN's own
+//! clients do. The server's bytes are passed on as they come, in whole messages: a message that has to be dropped
+//! then does not shift those behind it.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -18,27 +18,27 @@ use crate::vrpn::wire::{
     COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage, VrpnPiece, VrpnPieces, description,
 };
 
-/// How long a server may take to answer at first.
+/// Longest wait for the connection and the server's cookie.
 const CONNECT_WAIT: Duration = Duration::from_secs(1);
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
-/// How long a write may wait for a server that does not read.
+/// Longest wait of a write, for a server that does not read.
 const WRITE_WAIT: Duration = Duration::from_millis(100);
-/// The device is asked this often.
+/// Time between two pings.
 const PING_EVERY: Duration = Duration::from_secs(1);
-/// A server that has said nothing for so long is gone, as VRPN has it.
+/// Silence after which a server counts as gone, as in VRPN itself.
 const SILENCE: Duration = Duration::from_secs(10);
-/// Bytes taken at once.
+/// Most bytes taken at once.
 const BUFFER: usize = 4096;
-/// Descriptions kept, for the samples after some had to be dropped.
+/// Most descriptions kept, for the samples after some had to be dropped.
 const MOST_DESCRIPTIONS: usize = 256;
 
-/// Our number for the device, and for our two types of message.
+/// Number of this side for the device; below, its numbers for the two types of message.
 const OUR_SENDER: i32 = 0;
 const OUR_PING: i32 = 0;
 const OUR_PONG: i32 = 1;
 
-/// Where a server is.
+/// Address of a server, and the device on it.
 pub(super) struct VrpnPort {
     host: String,
     port: u16,
@@ -79,21 +79,21 @@ impl DevicePort for VrpnPort {
     }
 }
 
-/// An open connection.
+/// Open connection to a server.
 struct VrpnLink {
     stream: TcpStream,
     pieces: VrpnPieces,
     numbers: VrpnNumbers,
-    /// The server's cookie, then its descriptions, as they came.
+    /// Cookie of the server, then its descriptions, as they came.
     descriptions: Vec<Vec<u8>>,
-    /// What the next sample begins with.
+    /// Bytes that the next sample begins with.
     first: Vec<u8>,
     last_ping: Option<Instant>,
     last_heard: Instant,
 }
 
 impl VrpnLink {
-    /// Exchanges the cookies and names our device.
+    /// Exchanges the cookies and names the device.
     fn begin(mut stream: TcpStream, device: &str) -> io::Result<Self> {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_WAIT))?;
@@ -135,7 +135,7 @@ impl VrpnLink {
         self.stream.write_all(&message.to_bytes())
     }
 
-    /// Asks whether somebody is there, and ends what is silent for too long.
+    /// Sends a ping when it is time; an error after too long a silence.
     fn ping(&mut self) -> io::Result<()> {
         if self.last_heard.elapsed() > SILENCE {
             let known = match self.numbers.senders() {
@@ -152,7 +152,7 @@ impl VrpnLink {
         self.say(OUR_PING)
     }
 
-    /// Passes on the whole messages of these bytes, and answers whether we are there.
+    /// Passes on the whole messages of these bytes, and answers a ping.
     fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut outcome = Ok(());
         let mut asked = false;
@@ -163,7 +163,7 @@ impl VrpnLink {
             }
             Ok(VrpnPiece::Message(message, raw)) if outcome.is_ok() => {
                 bytes.extend_from_slice(raw);
-                // The decoder counts those that cannot be read.
+                // The decoder counts descriptions that cannot be read.
                 if numbers.describe(&message) == Ok(true) {
                     keep(descriptions, raw);
                 }
@@ -179,9 +179,9 @@ impl VrpnLink {
     }
 }
 
-/// Keeps a description in place of an earlier one of the same number.
+/// Keeps a description, in place of an earlier one of the same number.
 fn keep(descriptions: &mut Vec<Vec<u8>>, raw: &[u8]) {
-    // Sender and type: what is described.
+    // Bytes of sender and type, which say what is described.
     let what = 12..20;
     let same = descriptions.iter().skip(1).position(|known| known[what.clone()] == raw[what.clone()]);
     match same {
@@ -207,7 +207,7 @@ impl DeviceConnection for VrpnLink {
         self.last_heard = Instant::now();
         let mut messages = Vec::new();
         self.take(&buffer[..length], &mut messages)?;
-        // Not as a sample of its own: in a flood that would cost another, and so on for ever.
+        // They are no sample of their own: in a flood that would drop another one, and so on.
         if !messages.is_empty() {
             bytes.append(&mut self.first);
             bytes.append(&mut messages);
@@ -215,7 +215,7 @@ impl DeviceConnection for VrpnLink {
         Ok(())
     }
 
-    /// What was dropped may have described what comes.
+    /// Repeats the descriptions, since a dropped sample may have held some.
     fn report_all(&mut self) {
         self.first = self.descriptions.concat();
     }
@@ -223,13 +223,13 @@ impl DeviceConnection for VrpnLink {
 
 #[cfg(test)]
 mod tests {
-    //! A server that dies without a word must be noticed, and a mistaken name be told.
+    //! A server that dies without a word must be noticed, and a mistaken name of the device be reported.
     use std::net::TcpListener;
 
     use super::*;
     use crate::vrpn::golden;
 
-    /// Our end and the server's, after the cookies.
+    /// Both ends of a connection after the cookies: the client's and the server's.
     fn link() -> (VrpnLink, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();

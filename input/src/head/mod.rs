@@ -1,20 +1,18 @@
-//! The head: from a tracker's poses to where the eyes are and how fast they go.
+//! The head: from a tracker's poses to the place and velocity of the eyes.
 //!
-//! A tracker says how its sensor stands in its own axes. With the two transforms that the laboratory
-//! has measured,
+//! A tracker gives the pose of its sensor in its own axes. With the two transforms that the laboratory has measured,
 //!
 //! room_from_head = room_from_tracker · tracker_from_sensor · sensor_from_head,
 //!
-//! where the head's origin is midway between the eyes, so the velocity, made of differences of that
-//! origin's places, is the eyes' and not the sensor's: when the head turns, the two differ.
+//! where the head's origin is midway between the eyes. The velocity is made from differences of that origin's places,
+//! so it is the velocity of the eyes, not of the sensor: when the head turns, the two differ.
 //!
-//! Times: a velocity is a difference of the times at which the tracker *measured*, where it says so,
-//! for those do not jitter with the network; how old a pose is goes by its arrival.
+//! A velocity uses the times at which the tracker *measured*, where it gives them, because these do not jitter with
+//! the network. The age of a pose is counted from its arrival.
 //!
-//! What cannot be is rejected and counted ([`PoseError`]): numbers that are none, quaternions that are
-//! none, poses that are older than the last, and leaps faster than anybody moves, unless the next pose
-//! says the same. A head that is lost keeps its place, and its velocity fades. Nothing ever takes it
-//! to the origin.
+//! Impossible poses are rejected and counted ([`PoseError`]): numbers that are not finite, quaternions that are not
+//! of length one, poses that are older than the last, and leaps faster than any person moves, unless the next pose
+//! confirms the leap. A head that is lost keeps its place, and its velocity fades. It is never moved to the origin.
 
 pub(crate) mod config;
 pub(crate) mod mouse;

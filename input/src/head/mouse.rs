@@ -1,10 +1,9 @@
-//! A head that the mouse moves, for those without a tracker.
+//! Decoder of the mouse that moves the head, used without a tracker.
 //!
-//! Dragging with the left button turns the head, as one looks around; with the right button, or with
-//! Shift held, it moves sideways and up; the wheel moves it ahead and back. The middle button, or the
-//! window's [`MouseEvent::Reset`], takes it back to where it began. The head glides after the mouse,
-//! so that its velocity is smooth; both are functions of the last event's time and the time of
-//! asking, so it does not matter how often one asks.
+//! Dragging with the left button turns the head. Dragging with the right button, or with Shift held, moves it
+//! sideways and up; the wheel moves it ahead and back. The middle button, or the window's [`MouseEvent::Reset`],
+//! returns it to its start. The head glides after the mouse, so that its velocity is smooth. Place and velocity are
+//! functions of the last event's time and the time of asking, so the number of calls does not matter.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,21 +17,21 @@ use crate::faults::Faults;
 
 /// Turn for a drag by one pixel, radians: 0.15 degrees.
 const TURN_PER_PIXEL: f64 = 0.15 * std::f64::consts::PI / 180.0;
-/// Way for a drag by one pixel, metres.
+/// Distance for a drag by one pixel, metres.
 const METRES_PER_PIXEL: f64 = 0.002;
-/// Way for one notch of the wheel, metres.
+/// Distance for one notch of the wheel, metres.
 const METRES_PER_NOTCH: f64 = 0.1;
-/// No further up or down than this, radians.
+/// Largest pitch, up or down, radians.
 const STEEPEST: f64 = FRAC_PI_2 * 0.95;
-/// How far from its beginning the head may be, along each axis, metres.
+/// Largest distance of the head from its start along each axis, metres.
 const REACH_M: f64 = 5.0;
-/// How hard the head is drawn to where the mouse wants it: a tenth of a second, 1/s.
+/// Rate at which the head approaches the goal of the mouse, 1/s: a time of a tenth of a second.
 const EAGERNESS: f64 = 10.0;
 
-/// A place that follows another like a critically damped spring.
+/// Place that follows a goal like a critically damped spring.
 ///
-/// *Equation*: x = g + (d + (v₀ + ω d) t) e^(−ωt), d = x₀ − g: place and velocity are continuous
-/// whenever the goal g changes.
+/// *Equation*: x = g + (d + (v₀ + ω d) t) e^(−ωt), d = x₀ − g: place and velocity are continuous whenever the goal g
+/// changes.
 #[derive(Clone, Copy, Debug)]
 struct Glide {
     since: Nanos,
@@ -46,7 +45,7 @@ impl Glide {
         Self { since: 0, from: position, velocity: DVec3::ZERO, goal: position }
     }
 
-    /// Place and velocity.
+    /// Place, metres, and velocity, m/s, at the time `at`.
     fn at(&self, at: Nanos) -> (DVec3, DVec3) {
         let time_s = seconds_between(self.since, at);
         let decay = (-EAGERNESS * time_s).exp();
@@ -75,7 +74,7 @@ pub struct MouseDecoder {
 }
 
 impl MouseDecoder {
-    /// A head that rests here, in the room's axes, and looks ahead.
+    /// Head that rests at `home` in the room's axes and looks ahead.
     pub fn new(home: DVec3) -> Self {
         Self {
             home,
@@ -88,7 +87,7 @@ impl MouseDecoder {
         }
     }
 
-    /// The head at the time `at`.
+    /// Head at the time `at`.
     pub fn state(&self, at: Nanos) -> HeadState {
         let (position_m, velocity_m_s) = self.place.at(at);
         let orientation = DQuat::from_euler(EulerRot::YXZ, self.yaw, self.pitch, 0.0);
@@ -135,7 +134,7 @@ impl MouseDecoder {
 }
 
 impl Decoder for MouseDecoder {
-    /// The window lost the focus: buttons are let go, the head stays where it is.
+    /// Releases the buttons: the window lost the focus. The head stays where it is.
     fn reset(&mut self, _at: Nanos) {
         (self.held, self.shift) = ([false; 3], false);
     }
@@ -158,8 +157,8 @@ impl Decoder for MouseDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! The head must go where the mouse wants it, without a jump of place or velocity, and its
-    //! velocity must be that of its place.
+    //! The head must follow the mouse without a jump of place or velocity, and its velocity must be the derivative of
+    //! its place.
     use super::*;
     use crate::clock::SECOND;
     use crate::head::mouse_event::{BUTTON, MOVED, SHIFT, WHEEL};
@@ -225,7 +224,7 @@ mod tests {
             let mean = (now.position_m - last.position_m) / 1e-3;
             let middle = head.state(at - step / 2).velocity_m_s;
             assert!((mean - middle).length() < 1e-4, "{tick}: {mean} for {middle}");
-            // ω² times the reach of the pull, for a millisecond.
+            // Bound: ω² times the distance to the goal, times a millisecond.
             assert!((now.velocity_m_s - last.velocity_m_s).length() < 0.1, "{tick}");
             last = now;
         }

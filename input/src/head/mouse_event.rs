@@ -1,15 +1,15 @@
 //! Events of the mouse in the window, and their bytes.
 
-/// No event moves the mouse further, pixels, or its wheel, notches.
+/// Largest motion of one event: pixels of the mouse, or notches of the wheel.
 const FARTHEST: f32 = 1e5;
-/// A button of the mouse.
+/// Button of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MouseButton {
-    /// Turns.
+    /// Left button, which turns the head.
     Left,
-    /// Moves.
+    /// Right button, which moves the head.
     Right,
-    /// Goes back to the beginning.
+    /// Middle button, which returns the head to its start.
     Middle,
 }
 
@@ -17,28 +17,28 @@ impl MouseButton {
     const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Middle];
 }
 
-/// Something that the mouse does in the window.
+/// Event of the mouse in the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MouseEvent {
-    /// It moves, by pixels.
+    /// A motion, pixels.
     Moved {
-        /// To the right.
+        /// Motion to the right, pixels.
         right: f32,
-        /// Down.
+        /// Motion downward, pixels.
         down: f32,
     },
-    /// A button is pressed or released.
+    /// A button pressed or released.
     Button {
-        /// Which one.
+        /// Button of the event.
         button: MouseButton,
-        /// Whether it is down.
+        /// True if the button is down.
         pressed: bool,
     },
-    /// The shift key is pressed or released.
+    /// The shift key pressed (true) or released.
     Shift(bool),
-    /// The wheel is turned, by notches away from the user.
+    /// Turn of the wheel, notches away from the user.
     Wheel(f32),
-    /// Back to the beginning.
+    /// Return to the start.
     Reset,
 }
 
@@ -49,7 +49,7 @@ pub(super) const WHEEL: u8 = 3;
 const RESET: u8 = 4;
 
 impl MouseEvent {
-    /// The bytes that the decoder reads; numbers little-endian. Several events may follow one another.
+    /// Bytes of the event, numbers little-endian. Several events may follow one another.
     pub fn to_bytes(self) -> Vec<u8> {
         match self {
             Self::Moved { right, down } => [&[MOVED][..], &right.to_le_bytes(), &down.to_le_bytes()].concat(),
@@ -60,7 +60,7 @@ impl MouseEvent {
         }
     }
 
-    /// The event at the beginning, and what follows it; `None` if there is none.
+    /// First event of the bytes, and the rest; `None` if they do not begin with an event.
     pub(super) fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let (&kind, rest) = bytes.split_first()?;
         Some(match kind {

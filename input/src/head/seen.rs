@@ -1,4 +1,4 @@
-//! Poses that follow one another, and what makes the next one unbelievable.
+//! Poses that follow one another, and the checks of the next one.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -6,38 +6,38 @@ use thiserror::Error;
 use super::rigid::Rigid;
 use crate::clock::{Nanos, seconds_between};
 
-/// Over a longer gap than this, seconds, no velocity is made.
+/// Longest gap across which a velocity is made, seconds.
 const GAP_S: f64 = 0.25;
-/// A message time that goes back further than this, seconds, is a clock that was set.
+/// Step back of the message time beyond which the tracker's clock has been set, seconds.
 const CLOCK_SET_S: f64 = 1.0;
-/// No head goes faster, m/s.
+/// Highest speed of a head, m/s.
 const FASTEST_M_S: f64 = 5.0;
-/// What noise may add to its way, metres.
+/// Largest distance that noise may add, metres.
 const NOISE_M: f64 = 0.02;
 
-/// Why a pose was rejected.
+/// Reason for rejecting a pose.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PoseError {
-    /// Not finite, or absurdly far away.
+    /// A place that is not finite, or absurdly far away.
     #[error("a head at {0}, which is nowhere")]
     Place(DVec3),
-    /// No turn.
+    /// A quaternion that is not of length one.
     #[error("a quaternion of length {0}")]
     Quaternion(f64),
-    /// Measured no later than the last.
+    /// A pose measured no later than the last.
     #[error("a pose that is no newer than the last")]
     Stale,
-    /// A leap.
+    /// A leap, faster than any head moves.
     #[error("a leap of {way_m:.2} m in {interval_s:.3} s")]
     Leap {
-        /// How far.
+        /// Distance of the leap, metres.
         way_m: f64,
-        /// In what time.
+        /// Time of the leap, seconds.
         interval_s: f64,
     },
 }
 
-/// A pose of the head, and its times.
+/// Pose of the head, and its times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeenPose {
     pub(super) at: Nanos,
@@ -45,12 +45,12 @@ pub(super) struct SeenPose {
     pub(super) room_from_head: Rigid,
 }
 
-/// The time from one pose to the next, seconds.
+/// Time from one pose to the next, seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum PoseInterval {
-    /// They belong to one track.
+    /// Interval within one track.
     Steady(f64),
-    /// There was a gap, or the tracker's clock was set.
+    /// Interval over a gap, or after the tracker's clock was set.
     Gap(f64),
 }
 
@@ -63,7 +63,7 @@ impl PoseInterval {
 }
 
 impl SeenPose {
-    /// The time since then; `None` if the next pose is no newer.
+    /// Time from this pose to the next; `None` if the next one is no newer.
     pub(super) fn until(&self, next: &Self) -> Option<PoseInterval> {
         let arrived_s = seconds_between(self.at, next.at);
         let measured_s = self.measured_s.zip(next.measured_s).map(|(earlier, later)| later - earlier);
@@ -75,7 +75,7 @@ impl SeenPose {
         }
     }
 
-    /// Whether a head may have gone there in this time; if not, how far it would be.
+    /// Checks that a head can move to the next pose in this time.
     pub(super) fn reaches(&self, next: &Self, interval: PoseInterval) -> Result<(), PoseError> {
         let way_m = self.room_from_head.position.distance(next.room_from_head.position);
         let interval_s = interval.seconds();

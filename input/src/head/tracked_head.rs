@@ -1,4 +1,4 @@
-//! The tracked head: poses in, place, turn and velocity out.
+//! The tracked head: poses in; place, turn and velocity out.
 
 use glam::{DQuat, DVec3};
 
@@ -13,32 +13,32 @@ use crate::clock::{Nanos, seconds_between};
 use crate::config_error::ConfigError;
 use crate::faults::Faults;
 
-/// A pose may be this old before its velocity begins to fade, seconds: three frames at 60 Hz.
+/// Age of a pose at which its velocity begins to fade, seconds: three frames at 60 Hz.
 const GRACE_S: f64 = 0.05;
-/// Or this old, in intervals of a slow tracker.
+/// Age of a pose at which its velocity begins to fade, in intervals of a slow tracker; the larger of both counts.
 const GRACE_FRAMES: f64 = 1.5;
-/// A tracked head: fed poses in the order in which they came, asked once a frame.
+/// Tracked head. Poses are fed in the order in which they came, and the state is read once a frame.
 #[derive(Debug)]
 pub struct TrackedHead {
     config: HeadConfig,
     room_from_tracker: Rigid,
     sensor_from_head: Rigid,
     last: Option<SeenPose>,
-    /// A pose that leapt away, which the next may confirm.
+    /// Pose that leapt away, which the next one may confirm.
     leapt: Option<SeenPose>,
     velocity: TrackVelocity,
-    /// The last interval between poses of one track, seconds.
+    /// Last interval between poses of one track, seconds.
     rhythm_s: f64,
-    /// When the tracker went.
+    /// Time at which the tracker went.
     gone: Option<Nanos>,
     rejected: Faults,
 }
 
 impl TrackedHead {
-    /// A head that has not been seen.
+    /// Head that has not been seen yet.
     ///
     /// # Errors
-    /// Names a setting that cannot be used.
+    /// A setting that cannot be used.
     pub fn new(config: HeadConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
@@ -54,17 +54,17 @@ impl TrackedHead {
         })
     }
 
-    /// How it is tracked.
+    /// Settings of the head.
     pub fn config(&self) -> &HeadConfig {
         &self.config
     }
 
-    /// Poses that were rejected so far, and why the last one was.
+    /// Poses that were rejected so far, and the reason for the last one.
     pub fn rejected(&self) -> &Faults {
         &self.rejected
     }
 
-    /// Takes a pose; those of other sensors are passed over.
+    /// Takes a pose; poses of other sensors are passed over.
     pub fn pose(&mut self, pose: &TrackedPose) {
         if pose.sensor != self.config.sensor {
             return;
@@ -74,7 +74,7 @@ impl TrackedHead {
         }
     }
 
-    /// The tracker came or went: from now on the head is lost, until it is seen again.
+    /// Marks the head as lost until it is seen again: the tracker came or went.
     pub fn gone(&mut self, at: Nanos) {
         self.gone.get_or_insert(at);
     }
@@ -91,7 +91,7 @@ impl TrackedHead {
             seen.room_from_head.orientation = -seen.room_from_head.orientation;
         }
 
-        // A leap counts once it has been said twice.
+        // Accept a leap once a second pose confirms it.
         let interval = last.until(&seen).ok_or(PoseError::Stale)?;
         if let Err(leap) = last.reaches(&seen, interval) {
             let confirmed = match &self.leapt {
@@ -128,7 +128,7 @@ impl TrackedHead {
         Ok(())
     }
 
-    /// The head's pose, if the sensor's makes sense.
+    /// Pose of the head, if the sensor's is possible.
     fn sound(&self, pose: &TrackedPose) -> Result<SeenPose, PoseError> {
         let length = pose.orientation.length();
         if !UNIT_LENGTHS.contains(&length) {
@@ -143,7 +143,7 @@ impl TrackedHead {
         Ok(SeenPose { at: pose.at, measured_s, room_from_head })
     }
 
-    /// How far a pose is to be believed at the time `at`, and the share of its velocity.
+    /// Reliability of a pose at the time `at`, and the remaining share of its velocity, 0 to 1.
     fn belief(&self, last: &SeenPose, at: Nanos) -> (Tracking, f64) {
         let unseen_s = seconds_between(last.at, at) - GRACE_S.max(GRACE_FRAMES * self.rhythm_s);
         let gone_s = self.gone.map_or(f64::NEG_INFINITY, |gone| seconds_between(gone, at));
@@ -157,7 +157,7 @@ impl TrackedHead {
         }
     }
 
-    /// The head at the time `at`.
+    /// Head at the time `at`.
     pub fn state(&self, at: Nanos) -> HeadState {
         let Some(last) = &self.last else {
             return HeadState {

@@ -1,27 +1,27 @@
-//! One measurement of a tracker.
+//! Measurement of a tracker.
 
 use glam::{DQuat, DVec3};
 
 use crate::clock::Nanos;
 
-/// What a tracker says about one of its sensors.
+/// Pose of one of a tracker's sensors.
 ///
 /// *Frames, units*: the tracker's axes; metres, seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackedPose {
     /// Number of the sensor, or body.
     pub sensor: i32,
-    /// When it arrived.
+    /// Time of arrival.
     pub at: Nanos,
-    /// When it was measured, on the tracker's clock, from which only differences are of use.
+    /// Time of the measurement on the tracker's clock, of which only differences are of use.
     pub measured_s: Option<f64>,
-    /// How long before its sending it was measured, where the tracker says so.
+    /// Time from the measurement to its sending, where the tracker gives it.
     pub latency_s: Option<f64>,
-    /// Where.
+    /// Place of the sensor.
     pub position_m: DVec3,
-    /// `tracker_from_sensor`, as it came.
+    /// Turn `tracker_from_sensor`, as it came.
     pub orientation: DQuat,
-    /// The sensor's velocity by the tracker's own reckoning, m/s. The head's is made of places, since
-    /// this is not the velocity of the eyes.
+    /// Velocity of the sensor as the tracker computes it, m/s. The head's velocity is made from places, since this is
+    /// not the velocity of the eyes.
     pub velocity_m_s: Option<DVec3>,
 }

@@ -1,9 +1,9 @@
 //! Records inside a chunk.
 //!
 //! The linear reader of the `mcap` crate can walk into chunks by itself, but it believes the lengths of the records
-//! inside: one that is longer than its chunk would be read on beyond the chunk's end. So each chunk is given to a reader
-//! of its own, without anything behind its content. The reader checks the content against the chunk's checksum before it
-//! yields any record.
+//! inside: a record that is longer than its chunk would be read on beyond the chunk's end. So each chunk is given to
+//! a reader of its own, without anything behind its content. The reader checks the content against the chunk's
+//! checksum before it yields any record.
 
 use std::io::Read;
 
@@ -14,8 +14,8 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use super::outer_records::LONGEST_RECORD;
 use super::parse::parsed;
 
-/// Length of a chunk's fields before its content, without the name of the compression, bytes: start, end, uncompressed
-/// length, checksum, length of the name, length of the content.
+/// Length of a chunk's fields before its content, without the name of the compression, bytes: start, end,
+/// uncompressed length, checksum, length of the name, length of the content.
 const FIELDS: usize = 8 + 8 + 8 + 4 + 4 + 8;
 
 /// Calls `each` with opcode and body of every record of a chunk.
@@ -55,7 +55,7 @@ pub(super) fn records_of_chunk(
     Ok(())
 }
 
-/// What is wrong with a chunk.
+/// Sentence that says what is wrong with a chunk.
 fn sentence(error: McapError) -> String {
     match error {
         McapError::BadChunkCrc { .. } => "the chunk does not match its checksum".to_owned(),
@@ -72,11 +72,11 @@ fn sentence(error: McapError) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! A hostile chunk must end in a sentence: one that lies about its lengths must neither be read beyond its end nor
-    //! stop the program.
+    //! A hostile chunk must end in a sentence: one with false lengths must neither be read beyond its end nor stop
+    //! the program.
     use super::*;
 
-    /// A chunk's body: its checksum, how long it says its content is, its content, what stands behind.
+    /// Body of a chunk: its checksum, the length that it claims for its content, its content, and bytes behind it.
     fn chunk(compression: &str, checksum: u32, claimed: u64, content: &[u8], behind: &[u8]) -> Vec<u8> {
         let mut body = [0_u64, 0, content.len() as u64].map(u64::to_le_bytes).concat();
         body.extend(checksum.to_le_bytes());
@@ -108,7 +108,7 @@ mod tests {
         let content = [record(5, 3, b"one"), record(0x80, 0, b""), record(5, 3, b"two")].concat();
         let expected = vec![(5, b"one".to_vec()), (0x80, vec![]), (5, b"two".to_vec())];
         assert_eq!(read(&plain(&content)), Ok(expected.clone()));
-        // A checksum of zero says that there is none.
+        // A checksum of zero means that there is none.
         assert_eq!(read(&chunk("", 0, content.len() as u64, &content, &[])), Ok(expected));
         assert_eq!(read(&plain(&[])), Ok(vec![]));
     }

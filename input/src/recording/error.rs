@@ -1,4 +1,4 @@
-//! Why a recording cannot be made or read.
+//! Errors of making and reading a recording.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,97 +7,97 @@ use thiserror::Error;
 
 use super::header::{PROFILE, VERSION};
 
-/// Why a recording could not be made or read.
+/// Reason why a recording could not be made or read.
 #[derive(Debug, Error)]
 pub enum RecordingError {
-    /// The system refused.
+    /// An error of the system.
     #[error("cannot {action} {}: {cause}", path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What was tried.
+        /// Attempted operation, a verb.
         action: &'static str,
-        /// Why it failed.
+        /// Error of the system.
         cause: io::Error,
     },
-    /// A recording is never written over.
+    /// A file that exists already; a recording is never written over.
     #[error("{} exists already: give the recording another name, or remove it", path.display())]
     Exists {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
     /// A directory instead of a file.
     #[error("{} is a directory: give the name of a recording, a file that ends in .mcap", path.display())]
     Directory {
-        /// The directory.
+        /// Path of the directory.
         path: PathBuf,
     },
-    /// Nothing in it.
+    /// An empty file.
     #[error("{} is empty: the ride ended before anything was recorded", path.display())]
     Empty {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// Not MCAP at all.
+    /// A file that is not MCAP.
     #[error("{} is not a recording: it does not begin as an MCAP file does", path.display())]
     NotMcap {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// MCAP, but not ours.
+    /// An MCAP file of another program.
     #[error("{} is an MCAP file of another program (profile {profile:?}, not \"{PROFILE}\")", path.display())]
     Foreign {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What it calls itself.
+        /// Profile in the file.
         profile: String,
     },
-    /// From another version of the program.
+    /// A recording in another version of the format.
     #[error("{} has format {found:?}, this program reads \"{VERSION}\": replay it with the program that recorded it", path.display())]
     Version {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The format it claims.
+        /// Version in the file.
         found: String,
     },
-    /// The file is damaged; everything before may be used.
+    /// A damaged file; the entries before the damage may be used.
     #[error("{} is damaged at byte {offset}: {what}; what comes before can be used", path.display())]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Where the damaged record begins.
+        /// Place where the damaged record begins, bytes.
         offset: u64,
-        /// What is wrong.
+        /// Description of the damage.
         what: String,
     },
-    /// The file stops before its end; everything before may be used.
+    /// A file that stops before its end; the entries before may be used.
     #[error("{} ends too early, at byte {offset}: the recording was cut off; what comes before can be used", path.display())]
     CutOff {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Where the record that is missing or incomplete begins.
+        /// Place where the missing or incomplete record begins, bytes.
         offset: u64,
     },
     /// A number that no replay could read back.
     #[error("frame {frame} cannot be recorded: {field} is {value}")]
     NotFinite {
-        /// The frame.
+        /// Number of the frame.
         frame: u64,
-        /// Which number.
+        /// Name of the field.
         field: String,
-        /// What it is.
+        /// Value of the field.
         value: f64,
     },
-    /// The recorder has failed before.
+    /// A recorder that has failed before.
     #[error("{}: recording has stopped", path.display())]
     Stopped {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// The disk did not keep up with the ride.
+    /// A disk that did not keep up with the ride.
     #[error("{}: the disk does not keep up; what was written until now can be used", path.display())]
     TooSlow {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
 }

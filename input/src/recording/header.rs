@@ -1,4 +1,4 @@
-//! The header of a recording, and what tells our files from others.
+//! Header of a recording, and the names that mark a file of this program.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::action::VehicleKind;
 use crate::config::DeskConfig;
 
-/// MCAP profile, which tells our files from others.
+/// MCAP profile of this program's files.
 pub(super) const PROFILE: &str = "rapidity";
 /// Name of the metadata record with the header.
 pub(super) const METADATA: &str = "rapidity";
@@ -20,13 +20,13 @@ pub(super) const KEY_HEADER: &str = "header";
 /// Key of the header's CRC-32, eight hexadecimal digits.
 pub(super) const KEY_CHECKSUM: &str = "header_crc32";
 
-/// What a ride depends on besides its samples.
+/// Everything that a ride depends on besides its samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RideHeader {
     /// Version of the program that recorded.
     pub build: String,
-    /// The scene: a file or the name of a built-in one.
+    /// Scene: a file or the name of a built-in one.
     pub scene: String,
     /// Speed of light in the world at the start, m/s.
     pub speed_of_light_m_s: f64,
@@ -34,11 +34,10 @@ pub struct RideHeader {
     pub vehicle: VehicleKind,
     /// Name of the integrator.
     pub integrator: String,
-    /// Its step, seconds of proper time.
+    /// Step of the integrator, seconds of proper time.
     pub step_s: f64,
-    /// How the devices are read.
+    /// Settings of the decoders.
     pub desk: DeskConfig,
-    /// Whatever else decides the ride, by name: the seed of a built-in scene, the place of the
-    /// start.
+    /// Other settings that decide the ride, by name: the seed of a built-in scene, the place of the start.
     pub settings: BTreeMap<String, String>,
 }

@@ -1,8 +1,8 @@
 //! Outermost records of a recording's file, read from the front, with the place of each.
 //!
-//! The bytes go through the linear reader of the `mcap` crate, which checks magic number, lengths and the checksum over
-//! the data. It asks for no byte beyond the record that it is reading, and is given none. So the bytes given so far say
-//! where the next record begins.
+//! The bytes go through the linear reader of the `mcap` crate, which checks magic number, lengths and the checksum
+//! over the data. It asks for no byte beyond the record that it is reading, and is given none. So the bytes given so
+//! far say where the next record begins.
 
 use std::fmt;
 use std::fs::File;

@@ -1,7 +1,7 @@
 //! Parsing of single records.
 //!
-//! The parser of the `mcap` crate reserves as much memory as a text claims to be long, up to four gigabytes, before it
-//! looks how much is there. So the lengths of texts are checked first.
+//! The parser of the `mcap` crate reserves as much memory as a text claims to be long, up to four gigabytes, before
+//! it looks how much is there. So the lengths of texts are checked first.
 
 use mcap::records::{Record, op};
 
@@ -11,7 +11,8 @@ pub(super) fn parsed(opcode: u8, body: &[u8]) -> Option<Record<'_>> {
     mcap::parse_record(opcode, body).ok()
 }
 
-/// `None` if a text of the record claims to be longer than the record, or if the kind is unknown here.
+/// Checks that no text of the record claims to be longer than the record; `None` if one does, or if the kind is
+/// unknown.
 fn texts_fit(opcode: u8, body: &[u8]) -> Option<()> {
     // Bytes before the texts, number of texts, and whether a map of texts follows: MCAP specification, version 0.
     let (fixed, texts, has_map) = match opcode {
@@ -35,7 +36,7 @@ fn texts_fit(opcode: u8, body: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// The bytes behind a 32-bit length, as many as it says, and what follows them.
+/// Bytes behind a 32-bit length, as many as it says, and the rest.
 fn split_text(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)
@@ -43,7 +44,7 @@ fn split_text(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 
 #[cfg(test)]
 mod tests {
-    //! A length that cannot be must be refused before memory is reserved for it.
+    //! An impossible length must be refused before memory is reserved for it.
     use super::*;
 
     fn text(text: &str) -> Vec<u8> {

@@ -1,10 +1,10 @@
-//! Reading a recording, also one that is damaged or still being written.
+//! Reader of recordings, also of those that are damaged or still being written.
 //!
-//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before anything
-//! in it is believed, messages must follow each other without a gap, and the data as a whole has a checksum at its end.
-//! At the first thing that is wrong the reader says what and where, and stops; everything it gave before is good.
-//! Lengths and checksums are checked by the linear reader of the `mcap` crate (`outer_records.rs`, `chunk.rs`); the order
-//! of the messages and their content are checked here.
+//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before
+//! anything in it is believed, messages must follow each other without a gap, and the data as a whole has a checksum
+//! at its end. At the first error the reader says what is wrong and where, and stops; every entry before is good.
+//! Lengths and checksums are checked by the linear reader of the `mcap` crate (`outer_records.rs`, `chunk.rs`); the
+//! order of the messages and their content are checked here.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
@@ -22,15 +22,15 @@ use super::record::{RecordingEntry, RecordingTopic, SampleRecord};
 /// Length of the record that ends the data, bytes: its checksum.
 const DATA_END_LENGTH: usize = 4;
 
-/// A recording that is being read: its header, and an iterator over its entries in the order in which they were made.
+/// Recording that is being read: its header, and an iterator over its entries in the order in which they were made.
 ///
-/// The last item is an error if the file does not end as it should; all before it may be used.
+/// The last item is an error if the file does not end as it should; all items before it may be used.
 #[derive(Debug)]
 pub struct Recording {
     records: OuterRecords,
     header: RideHeader,
     messages: Messages,
-    /// Outcome to be told after the entries, once no more is read.
+    /// Outcome to be reported after the entries, once no more is read.
     end: Option<Result<(), RecordingError>>,
 }
 
@@ -38,8 +38,8 @@ impl Recording {
     /// Opens a recording and reads its header.
     ///
     /// # Errors
-    /// If it cannot be opened, is no recording of this program or of another format, or is damaged
-    /// within the header.
+    /// A file that cannot be opened, is no recording of this program or of another format, or is damaged within the
+    /// header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let mut records = OuterRecords::open(path)?;
         check_profile(&mut records)?;
@@ -47,12 +47,12 @@ impl Recording {
         Ok(Self { records, header, messages: Messages::default(), end: None })
     }
 
-    /// What the ride depends on besides its samples.
+    /// Everything that the ride depends on besides its samples.
     pub fn header(&self) -> &RideHeader {
         &self.header
     }
 
-    /// Reads the next outermost record. `Ok(false)` says that the data has ended as it should.
+    /// Reads the next outermost record; false at the proper end of the data.
     fn advance(&mut self) -> Result<bool, RecordingError> {
         let record = self.records.next()?;
         let outcome = match record.opcode {
@@ -60,7 +60,7 @@ impl Recording {
             op::DATA_END if record.body.len() == DATA_END_LENGTH => return Ok(false),
             op::DATA_END => Err("the data does not match its checksum".to_owned()),
             op::FOOTER => Err("the end of the data is missing".to_owned()),
-            // Indexes, attachments and what others may add are passed over.
+            // Indexes, attachments and records of other programs are passed over.
             opcode => self.messages.take(opcode, &record.body),
         };
         outcome.map(|()| true).map_err(|what| self.records.damaged(record.offset, what))
@@ -97,7 +97,7 @@ fn read_header(records: &mut OuterRecords) -> Result<RideHeader, RecordingError>
     serde_json::from_str(text).map_err(|error| damaged(format!("`{KEY_HEADER}`: {error}")))
 }
 
-/// Messages that have been read and not yet given, and what is known of their channels.
+/// Messages that have been read and not yet returned, and the channels known so far.
 #[derive(Debug, Default)]
 struct Messages {
     /// Topic of each channel; `None` for one that a later program has added.
@@ -161,7 +161,7 @@ impl Iterator for Recording {
             if let Some(entry) = self.messages.entries.pop_front() {
                 return Some(Ok(entry));
             }
-            // The end is told once.
+            // The error is reported once.
             if let Some(end) = &mut self.end {
                 return std::mem::replace(end, Ok(())).err().map(Err);
             }

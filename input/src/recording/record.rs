@@ -1,4 +1,4 @@
-//! What is written for a frame and a sample, and the JSON schemas that describe it.
+//! Records of a frame and of a sample, and the JSON schemas that describe them.
 
 use std::fmt;
 
@@ -8,55 +8,54 @@ use crate::clock::Nanos;
 use crate::controls::Controls;
 use crate::sample::{Sample, SampleSource, Signal};
 
-/// The observer after a frame's steps.
+/// Observer after a frame's steps.
 ///
 /// # Frames, units
-/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the
-/// physics. The celerity is in units of the speed of light. The orientation is the quaternion (x,
-/// y, z, w) that takes the pilot's axes to the axes of the comoving frame that is a pure boost of
-/// the world's.
+/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the physics. The celerity is
+/// in units of the speed of light. The orientation is the quaternion (x, y, z, w) that takes the pilot's axes to the
+/// axes of the comoving frame that is a pure boost of the world's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameRecord {
     /// Number of the frame, from 0.
     pub frame: u64,
-    /// Real time at which the desk was asked.
+    /// Real time of the frame, at which the controls were read.
     pub at: Nanos,
-    /// Steps that were integrated in this frame.
+    /// Number of steps that were integrated in this frame.
     pub steps: u64,
-    /// The observer's own time.
+    /// Proper time of the observer, metres.
     pub proper_time: f64,
-    /// The world's time.
+    /// Time in the world's frame, metres.
     pub ct: f64,
-    /// Where.
+    /// Place in the world, metres.
     pub position: [f64; 3],
-    /// How fast.
+    /// Celerity γβ in the world.
     pub celerity: [f64; 3],
-    /// Which way up.
+    /// Orientation, quaternion (x, y, z, w).
     pub orientation: [f64; 4],
     /// Rapidity, for plots.
     pub rapidity: f64,
     /// Doppler factor dead ahead of the motion, for plots.
     pub doppler_ahead: f64,
-    /// Distance ridden, measured along the road.
+    /// Distance ridden along the road, metres.
     pub road: f64,
-    /// Distance ridden, by the vehicle's own odometer (∫ β dτ).
+    /// Distance ridden by the vehicle's own odometer (∫ β dτ), metres.
     pub odometer: f64,
 }
 
-/// Where two frame records differ first.
+/// First difference between two frame records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameDifference {
-    /// The field, with its index.
+    /// Name of the field, with its index.
     pub field: String,
-    /// What was recorded.
+    /// Value in the recording.
     pub recorded: String,
-    /// What the replay gives.
+    /// Value in the replay.
     pub replayed: String,
 }
 
 impl FrameRecord {
-    /// Every real number, with its place.
+    /// All real numbers of the record, with their names.
     fn numbers(&self) -> impl Iterator<Item = (FieldPlace, f64)> {
         let vectors: [(&str, &[f64]); 9] = [
             ("proper_time", std::slice::from_ref(&self.proper_time)),
@@ -75,13 +74,13 @@ impl FrameRecord {
         })
     }
 
-    /// The first number that JSON cannot carry.
+    /// First number that JSON cannot carry, with its name.
     pub(super) fn not_finite(&self) -> Option<(String, f64)> {
         let found = self.numbers().find(|(_, number)| !number.is_finite());
         found.map(|(place, number)| (place.to_string(), number))
     }
 
-    /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
+    /// Compares a recorded frame with a replayed one, bit for bit; −0 differs from 0.
     pub fn first_difference(&self, replayed: &Self) -> Option<FrameDifference> {
         let counts = [
             ("frame", self.frame, replayed.frame),
@@ -101,7 +100,7 @@ impl FrameRecord {
     }
 }
 
-/// A number's place in a frame record.
+/// Name of a number in a frame record.
 #[derive(Clone, Copy)]
 struct FieldPlace {
     field: &'static str,
@@ -117,30 +116,30 @@ impl fmt::Display for FieldPlace {
     }
 }
 
-/// What the desk said for a frame.
+/// Controls of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ControlsRecord {
     /// Number of the frame.
     pub frame: u64,
-    /// Real time at which the desk was asked.
+    /// Real time of the frame, at which the controls were read.
     pub at: Nanos,
-    /// Its answer.
+    /// Controls at that time.
     #[serde(flatten)]
     pub controls: Controls,
 }
 
-/// One message of a recording.
+/// Message of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RecordingEntry {
-    /// A device said something.
+    /// Sample of a device.
     Sample(Sample),
-    /// What the desk made of it.
+    /// Controls that the desk made for a frame.
     Controls(ControlsRecord),
-    /// Where the observer was after the frame.
+    /// Observer after the frame.
     Frame(FrameRecord),
 }
 
-/// What happened, as it is written.
+/// Kind of a sample's signal, as it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum SignalKind {
@@ -149,7 +148,7 @@ enum SignalKind {
     Closed,
 }
 
-/// A sample, as it is written.
+/// Sample, as it is written.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SampleRecord {
@@ -183,7 +182,7 @@ impl TryFrom<SampleRecord> for Sample {
     }
 }
 
-/// Bytes as hexadecimal digits.
+/// Hexadecimal digits of the bytes.
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -199,7 +198,7 @@ fn unhex(text: &str) -> Result<Box<[u8]>, String> {
     }
 }
 
-/// A channel of the recording.
+/// Channel of the recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RecordingTopic {
     Samples,
@@ -210,7 +209,7 @@ pub(super) enum RecordingTopic {
 impl RecordingTopic {
     pub(super) const ALL: [Self; 3] = [Self::Samples, Self::Controls, Self::Frames];
 
-    /// Its name in the file.
+    /// Name of the channel in the file.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Samples => "/device/raw",
@@ -219,7 +218,7 @@ impl RecordingTopic {
         }
     }
 
-    /// Name and text of its schema.
+    /// Name and text of the channel's schema.
     pub(super) fn schema(self) -> (&'static str, &'static str) {
         match self {
             Self::Samples => ("rapidity.Sample", include_str!("sample.schema.json")),
@@ -231,8 +230,8 @@ impl RecordingTopic {
 
 #[cfg(test)]
 mod tests {
-    //! Every field must take part in the comparison, and be known to the schema: one that is not
-    //! would differ unseen, or would not be plotted.
+    //! Every field must take part in the comparison and be known to the schema: a forgotten field would differ
+    //! unnoticed, or would not be plotted.
     use super::*;
     use serde_json::Value;
 

@@ -1,12 +1,12 @@
-//! Writing a recording while the ride goes on.
+//! Writer of a recording while the ride goes on.
 //!
-//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON
-//! and writes. Every half second it closes the chunk and hands it to the disk. A queue that is full
-//! means that the disk has stalled for many seconds: since a recording with a gap would not replay,
-//! recording then stops with an error instead of losing something or of stopping the ride.
+//! The frame loop only puts entries into a queue; a thread named `recorder` turns them into JSON and writes them.
+//! Every half second it closes the chunk and hands it to the disk. A full queue means that the disk has stalled for
+//! many seconds. A recording with a gap would not replay, so recording then stops with an error, rather than losing
+//! entries or stopping the ride.
 //!
-//! The bytes are those of the `mcap` crate's writer. It puts a chunk together in memory and writes it whole; only when a
-//! chunk ends stands here ([`FLUSH_EVERY`]), for that decides how much a crash costs.
+//! The bytes are written by the `mcap` crate's writer, which puts a chunk together in memory and writes it whole.
+//! Only the end of a chunk is decided here ([`FLUSH_EVERY`]), because it decides how much a crash costs.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -28,21 +28,21 @@ use crate::clock::Nanos;
 use crate::controls::Controls;
 use crate::sample::Sample;
 
-/// How often a chunk is closed and handed to the disk.
+/// Time after which a chunk is closed and handed to the disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(500);
-/// Things that wait for the disk: half a minute of a ride with all devices.
+/// Length of the queue, entries: half a minute of a ride with all devices.
 const QUEUE: usize = 32_768;
 
-/// What is put into the queue.
+/// Item of the queue.
 enum Queued {
     One(RecordingEntry),
     Many(Vec<RecordingEntry>),
 }
 
-/// A recording that is being made.
+/// Recording that is being made.
 ///
-/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the
-/// controls and the observer of the frame.
+/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the controls and the
+/// observer of the frame.
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
@@ -51,10 +51,10 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Creates the file and writes what the ride depends on.
+    /// Creates the file and writes the header.
     ///
     /// # Errors
-    /// If the file exists already, or the system does not let us create or write it.
+    /// A file that exists already, or that the system does not allow to create or write.
     pub fn create(path: &Path, header: &RideHeader) -> Result<Self, RecordingError> {
         let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
@@ -74,15 +74,15 @@ impl Recorder {
     /// Records a sample.
     ///
     /// # Errors
-    /// If writing has failed, or does not keep up. The recording has then stopped.
+    /// A failed write, or a disk that does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
         self.push(Queued::One(RecordingEntry::Sample(sample.clone())))
     }
 
-    /// Records what the desk said for a frame.
+    /// Records the controls of a frame.
     ///
     /// # Errors
-    /// As for [`sample`](Self::sample).
+    /// Errors of [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
         self.push(Queued::One(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
     }
@@ -90,16 +90,16 @@ impl Recorder {
     /// Records the observer after a frame.
     ///
     /// # Errors
-    /// If a number is not finite; else as for [`sample`](Self::sample).
+    /// A number that is not finite, and errors of [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
         check(record)?;
         self.push(Queued::One(RecordingEntry::Frame(record.clone())))
     }
 
-    /// Records what happened before the file was created, however much; to be called first.
+    /// Records all entries from before the file was created, however many; called first.
     ///
     /// # Errors
-    /// As for [`frame`](Self::frame).
+    /// Errors of [`frame`](Self::frame).
     pub fn past(&mut self, entries: Vec<RecordingEntry>) -> Result<(), RecordingError> {
         for entry in &entries {
             if let RecordingEntry::Frame(record) = entry {
@@ -109,10 +109,10 @@ impl Recorder {
         self.push(Queued::Many(entries))
     }
 
-    /// Writes what still waits, the index and the end of the file.
+    /// Writes the waiting entries, the index and the end of the file.
     ///
     /// # Errors
-    /// If any of the recording could not be written.
+    /// A part of the recording that could not be written.
     pub fn finish(mut self) -> Result<(), RecordingError> {
         self.close()
     }
@@ -136,7 +136,7 @@ impl Recorder {
         }
     }
 
-    /// Closes the queue and waits until all is written.
+    /// Closes the queue and waits until everything is written.
     fn close(&mut self) -> Result<(), RecordingError> {
         self.queue = None;
         let Some(thread) = self.thread.take() else {
@@ -150,21 +150,20 @@ impl Recorder {
 }
 
 impl Drop for Recorder {
-    /// Finishes the file; who wants to know whether that went well calls
-    /// [`finish`](Recorder::finish).
+    /// Finishes the file. Call [`finish`](Recorder::finish) to learn of errors.
     fn drop(&mut self) {
         let _ = self.close();
     }
 }
 
-/// The header as JSON. A number that is not finite is written as none, so it is read back to see.
+/// Header as JSON. A number that is not finite is written as null, so the text is read back to check it.
 fn text(header: &RideHeader) -> Result<String, serde_json::Error> {
     let text = serde_json::to_string(header)?;
     serde_json::from_str::<RideHeader>(&text)?;
     Ok(text)
 }
 
-/// That every number can be read back.
+/// Checks that every number can be read back.
 fn check(record: &FrameRecord) -> Result<(), RecordingError> {
     match record.not_finite() {
         Some((field, value)) => Err(RecordingError::NotFinite { frame: record.frame, field, value }),
@@ -180,7 +179,7 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
     RecordingError::io(path, "write", cause)
 }
 
-/// Writes the messages until the queue is closed, and flushes now and then.
+/// Writes entries until the queue is closed, and flushes at intervals.
 fn write_until_closed(messages: &Receiver<Queued>, writer: &mut RecordingWriter) -> Result<(), McapError> {
     loop {
         match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
@@ -192,10 +191,10 @@ fn write_until_closed(messages: &Receiver<Queued>, writer: &mut RecordingWriter)
     }
 }
 
-/// The file, and the numbers of its channels.
+/// Open file, and the numbers of its channels.
 struct RecordingWriter {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
-    /// The same file, to see it onto the disk.
+    /// Second handle of the file, to hand it to the disk.
     file: File,
     channels: [u16; RecordingTopic::ALL.len()],
     sequence: u32,
@@ -204,8 +203,8 @@ struct RecordingWriter {
 }
 
 impl RecordingWriter {
-    /// Writes everything that comes before the first message. Chunks are put together in memory and
-    /// written whole, so that the file never holds half of one that looks complete.
+    /// Writes everything that comes before the first message. Chunks are put together in memory and written whole, so
+    /// that the file never holds an incomplete one that looks complete.
     fn new(file: File, header: String) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)
@@ -271,7 +270,7 @@ impl RecordingWriter {
 
 #[cfg(test)]
 mod tests {
-    //! A recorder that cannot write must say so once, with the cause, and must never stop the ride.
+    //! A recorder that cannot write must report it once, with the cause, and must never stop the ride.
     use super::*;
     use crate::sample::SampleSource;
 

@@ -12,7 +12,7 @@ use crate::head::tracked_pose::TrackedPose;
 
 const POSE_LENGTH: usize = 64;
 const VELOCITY_LENGTH: usize = 72;
-/// Sensors whose velocities are remembered.
+/// Number of sensors whose velocities are remembered.
 const MOST_SENSORS: usize = 64;
 
 /// Decoder of [`SampleSource::Vrpn`](crate::SampleSource::Vrpn): the server's side of a direct connection.
@@ -26,7 +26,7 @@ pub struct VrpnDecoder {
 }
 
 impl VrpnDecoder {
-    /// A decoder of what this device of the server says.
+    /// Decoder for this device of the server.
     pub fn new(device: &str) -> Self {
         Self {
             pieces: VrpnPieces::default(),
@@ -37,12 +37,12 @@ impl VrpnDecoder {
         }
     }
 
-    /// What the server has described.
+    /// Descriptions by the server.
     pub fn numbers(&self) -> &VrpnNumbers {
         &self.numbers
     }
 
-    /// The poses of the bytes fed last, in their order.
+    /// Poses of the bytes fed last, in their order.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
     }
@@ -87,11 +87,11 @@ impl VrpnDecoder {
     }
 }
 
-/// A pose; `None` if the payload is none.
+/// Pose in a message; `None` if the payload has another length.
 fn pose(at: Nanos, message: &VrpnMessage<'_>) -> Option<TrackedPose> {
     let payload: &[u8; POSE_LENGTH] = message.payload.try_into().ok()?;
     let [x, y, z, qx, qy, qz, qw] = numbers(&payload[8..])?;
-    // A server without a clock stamps nothing.
+    // A server without a clock sends a time of zero.
     let measured_s = f64::from(message.seconds) + 1e-6 * f64::from(message.microseconds);
     Some(TrackedPose {
         sensor: sensor(payload)?,
@@ -104,7 +104,7 @@ fn pose(at: Nanos, message: &VrpnMessage<'_>) -> Option<TrackedPose> {
     })
 }
 
-/// A sensor and its velocity; `None` if the payload is none.
+/// Sensor and velocity in a message, m/s; `None` if the payload has another length.
 fn velocity(message: &VrpnMessage<'_>) -> Option<(i32, DVec3)> {
     let payload: &[u8; VELOCITY_LENGTH] = message.payload.try_into().ok()?;
     let velocity = DVec3::from_array(numbers(&payload[8..])?);
@@ -115,7 +115,7 @@ fn sensor(payload: &[u8]) -> Option<i32> {
     payload.first_chunk().map(|bytes| i32::from_be_bytes(*bytes))
 }
 
-/// The first numbers of these bytes.
+/// First `N` big-endian numbers of these bytes.
 fn numbers<const N: usize>(bytes: &[u8]) -> Option<[f64; N]> {
     let mut numbers = [0.0; N];
     for (number, bytes) in numbers.iter_mut().zip(bytes.as_chunks::<8>().0.get(..N)?) {
@@ -147,8 +147,8 @@ impl Decoder for VrpnDecoder {
 
 #[cfg(test)]
 mod tests {
-    //! What the stock server sends must give its poses, whatever numbers it has chosen and however
-    //! the stream is cut; what has not been described must be passed over.
+    //! The bytes of the stock server must give its poses, whatever numbers it has chosen and however the stream is
+    //! cut; messages whose numbers have not been described must be passed over.
     use super::*;
     use crate::clock::SECOND;
     use crate::vrpn::golden;
@@ -182,7 +182,7 @@ mod tests {
         let stream = golden::session();
         let (poses, faults) = decode("Head", &[&stream]);
         assert_eq!((poses, faults), (vec![identity()], 0));
-        // Before Spin0 was described its pose was nobody's.
+        // A pose of Spin0 from before its description belongs to no device.
         let (poses, faults) = decode("Spin0", &[&stream]);
         assert_eq!((poses.len(), faults), (1, 0));
         let turned = DQuat::from_xyzw(0.0, 0.0, 0.977_174_116_055_616_2, 0.212_439_984_256_554_53);
@@ -203,7 +203,7 @@ mod tests {
         let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         decoder.bytes(0, &golden::session(), &mut actions);
         assert_eq!(decoder.take_poses().len(), 1);
-        // Number 1 goes to another device; the next connection's numbers are its own.
+        // Number 1 goes to another device; the next connection has its own numbers.
         decoder.bytes(0, &description(DESCRIBES_SENDER, 1, "Wand"), &mut actions);
         decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
         assert_eq!(decoder.take_poses(), []);
@@ -221,7 +221,7 @@ mod tests {
             decoder.bytes(0, &stream[..half], &mut actions);
             decoder.reset(0);
             decoder.take_poses();
-            // Numbers of before mean nothing, and half a message shifts nothing.
+            // Numbers of the last connection mean nothing, and half a message shifts nothing.
             let unnamed = [golden::bytes(golden::COOKIE), golden::bytes(golden::IDENTITY)].concat();
             decoder.bytes(0, &unnamed, &mut actions);
             assert_eq!((decoder.take_poses(), decoder.faults().number()), (vec![], 0), "half {half}");

@@ -1,16 +1,15 @@
-//! VRPN: trackers of nearly every make, through a server that speaks one language.
+//! VRPN: trackers of nearly every make, through a server with one protocol.
 //!
-//! The server numbers its senders (devices) and types of messages as it likes, and describes each
-//! number before it is used. We keep the numbers of the names that matter and pass over every
-//! message whose numbers have not been described: over other transports such messages come early,
-//! so they are no fault.
+//! The server chooses numbers for its senders (devices) and types of messages, and describes each number before it is
+//! used. The decoder keeps the numbers of the names that it needs and passes over every message whose numbers have
+//! not been described: over other transports such messages come early, so they are no fault.
 //!
 //! | message | payload |
 //! |---|---|
 //! | `vrpn_Tracker Pos_Quat` | i32 sensor, i32 filler, f64 × 3 position (m), f64 × 4 quaternion (x, y, z, w) |
 //! | `vrpn_Tracker Velocity` | i32 sensor, i32 filler, f64 × 3 velocity (m/s), f64 × 5 of turning |
 //!
-//! The axes are whatever the laboratory has calibrated.
+//! The axes are those that the laboratory has calibrated.
 
 pub(crate) mod decoder;
 #[cfg(test)]

@@ -1,6 +1,5 @@
-//! A ride with a tracked head: a recording of it must give the same head to the last bit, whatever
-//! the tracker sent; what it sent must never make a head that no replay could read back; and
-//! recordings of before there was a head must open.
+//! A recording of a ride with a tracked head must give the same head to the last bit, whatever the tracker sent; no
+//! sample may make a head that a replay could not read back; and recordings from before heads were tracked must open.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -44,7 +43,7 @@ fn header(desk: DeskConfig) -> RideHeader {
     }
 }
 
-/// Feeds the samples, asks after each, and records it.
+/// Feeds the samples, and reads and records the controls after each.
 fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
     let mut desk = Desk::new(config.clone()).unwrap();
     let mut recorder = Recorder::create(path, &header(config.clone())).unwrap();
@@ -60,7 +59,7 @@ fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
     ridden
 }
 
-/// Every number of a head, as bits.
+/// Bits of every number of a head.
 fn bits(controls: &Controls) -> Vec<u64> {
     let head = controls.head.unwrap();
     let numbers =
@@ -68,7 +67,7 @@ fn bits(controls: &Controls) -> Vec<u64> {
     numbers.into_iter().map(f64::to_bits).collect()
 }
 
-/// Rides a recording again and compares.
+/// Replays a recording and compares.
 fn assert_same_again(path: &Path, ridden: &[Controls]) {
     let recording = Recording::open(path).unwrap();
     let mut desk = Desk::new(recording.header().desk.clone()).unwrap();
@@ -88,7 +87,7 @@ fn assert_same_again(path: &Path, ridden: &[Controls]) {
     assert_eq!(frames, ridden.len());
 }
 
-/// A pose of a 100 Hz tracker as a VRPN server sends it, number 5 of sender 3.
+/// Pose of a 100 Hz tracker as a VRPN server sends it, number 5 of sender 3.
 fn vrpn_pose(frame: u32, x: f64) -> Vec<u8> {
     let mut payload = vec![0; 8];
     let turn = 0.01 * f64::from(frame);
@@ -105,7 +104,7 @@ fn vrpn_pose(frame: u32, x: f64) -> Vec<u8> {
     .to_bytes()
 }
 
-/// A walk of three seconds as this source's samples.
+/// Samples of a walk of three seconds for this source.
 fn walk(source: SampleSource) -> Vec<Sample> {
     let step = SECOND / 100;
     let mut samples = vec![Sample::opened(0, source)];
@@ -116,7 +115,7 @@ fn walk(source: SampleSource) -> Vec<Sample> {
             stream.extend(description(DESCRIBES_SENDER, 3, "Head"));
             stream.extend(description(DESCRIBES_TYPE, 5, vrpn::POSE));
             (0..300).for_each(|frame| stream.extend(vrpn_pose(frame, sway(frame))));
-            // Cut without regard to the messages.
+            // The stream is cut without regard to the messages.
             samples
                 .extend((1..).zip(stream.chunks(61)).map(|(chunk, bytes)| Sample::bytes(chunk * step, source, bytes)));
         }
@@ -214,7 +213,7 @@ fn without_a_tracker_there_is_no_head() {
     }
 }
 
-/// The texts of a recording that was made before heads were tracked.
+/// Record from a recording that was made before heads were tracked.
 #[test]
 fn recordings_of_before_the_head_open() {
     let mut desk = serde_json::to_value(DeskConfig::default()).unwrap();
@@ -234,7 +233,7 @@ fn a_tracker_that_cannot_be_is_refused_at_the_door() {
     assert_eq!(error, "tracker.fade_s is 0: expected a positive number from 1e-6 to 1e6");
 }
 
-/// A number as a tracker may send it, sound or not.
+/// Number as a tracker may send it, sound or not.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![4 => -3.0..3.0, 1 => any::<f64>(), 1 => Just(0.0), 1 => Just(1.0)]
 }
@@ -268,7 +267,7 @@ fn any_sample(source: SampleSource) -> impl Strategy<Value = Sample> {
     })
 }
 
-/// A source's place, and a filter, and samples.
+/// Address of a tracker, a filter, and samples.
 fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sample>)> {
     (proptest::sample::select(URLS.to_vec()), proptest::sample::select(filters().to_vec())).prop_flat_map(
         |(url, filter)| {
@@ -281,7 +280,8 @@ fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sampl
 proptest! {
     #![proptest_config(ProptestConfig { cases: 192, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever a tracker sends, the head is somewhere, some way up and of some speed, and is the same again.
+    /// Any samples of a tracker must give a head with finite place, turn and velocity, and the same again in a
+    /// replay.
     #[test]
     fn any_noise_gives_a_sound_head_and_the_same_again((url, filter, samples) in any_track()) {
         let directory = tempfile::tempdir().unwrap();

@@ -1,8 +1,8 @@
-//! Recordings: what is written must be read back to the last bit, by us and by others; of a damaged
-//! file everything before the damage must be given, nothing after it, and nothing false.
+//! A recording must be read back to the last bit, by this program and by others; of a damaged file every entry before
+//! the damage must be returned, none after it, and none that is false.
 //!
-//! A wrong program would replay a ride that never was, refuse a ride because its last second is
-//! missing, or fall over a hostile file.
+//! A wrong program would replay a ride that never was, refuse a ride because its last second is missing, or crash on
+//! a hostile file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,7 +26,7 @@ fn header() -> RideHeader {
     }
 }
 
-/// A ride of this many frames, and what it records.
+/// Entries of a ride of this many frames.
 fn ride(frames: u64) -> Vec<RecordingEntry> {
     let mut desk = Desk::new(DeskConfig::default()).unwrap();
     let mut entries = Vec::new();
@@ -71,7 +71,7 @@ fn record(path: &Path, entries: &[RecordingEntry]) {
     recorder.finish().unwrap();
 }
 
-/// Everything that can be read, and how it ended.
+/// Entries that can be read, and the error at the end.
 fn read(path: &Path) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let mut recording = match Recording::open(path) {
         Ok(recording) => recording,
@@ -91,8 +91,8 @@ fn read(path: &Path) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     (entries, None)
 }
 
-/// Everything that can be read of these bytes. The tests do this thousands of times: in memory,
-/// where the system offers it.
+/// Entries that can be read from these bytes, and the error at the end. The tests do this thousands of times: in
+/// memory, where the system offers it.
 fn read_bytes(bytes: &[u8]) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let memory = Path::new("/dev/shm");
     let directory = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }.unwrap();
@@ -101,14 +101,14 @@ fn read_bytes(bytes: &[u8]) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     read(&path)
 }
 
-/// A directory, and the path of a recording in it.
+/// Directory, and the path of a recording in it.
 fn place() -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("ride.mcap");
     (directory, path)
 }
 
-/// The bytes of a short ride, and its entries.
+/// Bytes of a short ride, and its entries.
 fn short_ride() -> (Vec<u8>, Vec<RecordingEntry>) {
     let (_directory, path) = place();
     let entries = ride(3);
@@ -137,7 +137,7 @@ fn what_is_written_is_read_to_the_last_bit() {
     assert_same_bits(&found, &entries);
 }
 
-/// A recording of the first format, made when it was read by hand.
+/// Recording of the first format, kept from an older program.
 #[test]
 fn old_recordings_read_to_the_same_bits() {
     let (found, error) = read_bytes(include_bytes!("recordings/format_1.bin"));
@@ -145,7 +145,7 @@ fn old_recordings_read_to_the_same_bits() {
     assert_same_bits(&found, &ride(3));
 }
 
-/// Other programs cut a recording into other chunks, or none, and need not write checksums.
+/// Copies by other programs, with other chunks or none, and without checksums, must read the same.
 #[test]
 fn a_recording_copied_by_another_program_is_the_same() {
     let (bytes, entries) = short_ride();
@@ -187,7 +187,7 @@ fn samples_out_of_order_stay_in_the_order_of_the_desk() {
     assert_eq!(read(&path).0, entries);
 }
 
-/// A ride of an hour that somebody wants to keep, while it goes on.
+/// Ride of an hour that is recorded while it goes on.
 #[test]
 fn what_came_before_the_file_is_written_first_however_much() {
     let (_directory, path) = place();
@@ -203,8 +203,7 @@ fn what_came_before_the_file_is_written_first_however_much() {
     assert_eq!(found[..50_000], past);
 }
 
-/// The specification's own library, as an independent reader: Foxglove finds channels, schemas and
-/// times where it looks.
+/// Reader of the specification's own library, which must find channels, schemas and times.
 #[test]
 fn others_read_it_too() {
     let (_directory, path) = place();
@@ -247,7 +246,7 @@ fn the_desk_says_the_same_again() {
     assert_eq!(frames, 200);
 }
 
-/// A crash loses at most the last second: what a copy of the file holds while the ride goes on.
+/// A crash must lose at most the last second: the copy of a file during the ride must hold all before.
 #[test]
 fn a_file_that_is_being_written_holds_all_but_the_last_second() {
     let (directory, path) = place();
@@ -264,7 +263,7 @@ fn a_file_that_is_being_written_holds_all_but_the_last_second() {
         if found.len() == entries.len() {
             break;
         }
-        // Twice the promise, for a busy machine.
+        // The limit is twice the promise, for a busy machine.
         assert!(written.elapsed() < Duration::from_secs(2), "{} of {}", found.len(), entries.len());
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -287,7 +286,7 @@ fn of_a_file_cut_anywhere_everything_before_the_cut_is_read() {
             Some(RecordingError::Empty { .. }) => assert_eq!(length, 0),
             Some(RecordingError::NotMcap { .. }) => assert!(length < 8),
             Some(RecordingError::CutOff { offset, .. }) => {
-                // The record that is missing or incomplete.
+                // The error must name the record that is missing or incomplete.
                 let begins = records(&bytes).map(|(begins, _, _)| begins).filter(|&begins| begins <= length).last();
                 assert_eq!(Some(offset as usize), begins, "cut at {length}");
             }
@@ -314,7 +313,7 @@ fn a_flipped_bit_anywhere_in_the_data_is_found_and_nothing_false_is_read() {
     }
 }
 
-/// Lengths and counts of four gigabytes, wherever they stand.
+/// Lengths and counts of four gigabytes at every place.
 #[test]
 fn a_length_of_gigabytes_anywhere_ends_in_a_sentence() {
     let (bytes, entries) = short_ride();
@@ -327,13 +326,13 @@ fn a_length_of_gigabytes_anywhere_ends_in_a_sentence() {
     }
 }
 
-/// Every byte of the data, and some of the index behind it.
+/// Places of every byte of the data, and of some of the index behind it.
 fn places(bytes: &[u8]) -> impl Iterator<Item = usize> {
     let data_end = data_end(bytes);
     (0..data_end).chain((data_end..bytes.len()).step_by(50))
 }
 
-/// Every outermost record: where it begins, of what kind it is, where it ends.
+/// Outermost records: beginning, kind and end of each.
 fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
     let mut begins = 8;
     std::iter::from_fn(move || {
@@ -345,12 +344,12 @@ fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
     })
 }
 
-/// Where the record that ends the data itself ends.
+/// End of the record that ends the data.
 fn data_end(bytes: &[u8]) -> usize {
     records(bytes).find(|(_, kind, _)| *kind == 0x0f).unwrap().2
 }
 
-/// A recording that was cut off has no checksum over the whole, so a lost chunk must show by itself.
+/// A recording that was cut off has no checksum over the whole, so a lost chunk must be noticed by itself.
 #[test]
 fn a_chunk_that_is_missing_is_noticed() {
     let (_directory, path) = place();
@@ -360,7 +359,7 @@ fn a_chunk_that_is_missing_is_noticed() {
     record(&path, &entries);
     let bytes = fs::read(&path).unwrap();
     let chunks: Vec<_> = records(&bytes).filter(|(_, kind, _)| *kind == 6).collect();
-    // The first holds the channels only.
+    // The first chunk holds the channels only.
     let [_, _, lost, kept, ..] = chunks[..] else { panic!("{} chunks", chunks.len()) };
     let holed = [&bytes[..lost.0], &bytes[lost.2..kept.2]].concat();
     let (found, error) = read_bytes(&holed);
@@ -370,7 +369,7 @@ fn a_chunk_that_is_missing_is_noticed() {
     assert!(text.contains("some are missing"), "{text}");
 }
 
-/// A wrong speed of light must not wait for the end of the ride to be noticed.
+/// A wrong speed of light must be noticed before the ride, not at its end.
 #[test]
 fn a_changed_header_is_refused_at_once() {
     let (bytes, _) = short_ride();
@@ -488,8 +487,7 @@ fn is_sound(controls: &Controls) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever devices send, controls stay in their ranges, and a recording of it gives the same
-    /// controls again.
+    /// Controls must stay in their ranges, whatever devices send, and a recording must give the same controls again.
     #[test]
     fn any_noise_gives_sound_controls_and_the_same_again(samples in proptest::collection::vec(any_sample(), 1..60)) {
         let (_directory, path) = place();
@@ -514,7 +512,7 @@ proptest! {
         }
     }
 
-    /// A hostile file ends in an error, whatever its records claim to be and to hold.
+    /// A hostile file must end in an error, whatever its records claim to be and to hold.
     #[test]
     fn hostile_files_are_refused(
         records in proptest::collection::vec((0..20_u8, any::<u64>(), 0..3_u8, any_bytes()), 0..8),

@@ -1,8 +1,8 @@
-//! A DTrack controller on a real UDP socket, played by the test.
+//! Tests with a DTrack controller on a real UDP socket, played by the test.
 //!
-//! Frames must give their poses; garbage, truncated and endless datagrams and floods must be survived,
-//! and a body that the cameras lose must stay where it was. A wrong program would send the head to the
-//! origin or turn it the other way.
+//! Frames must give their poses; garbage, truncated and endless datagrams and floods must be survived, and a body
+//! that the cameras lose must stay at its place. A wrong program would send the head to the origin or turn it the
+//! other way.
 
 use std::net::UdpSocket;
 use std::time::Duration;
@@ -12,21 +12,21 @@ use input::SampleSource;
 use input::devices::DeviceState;
 use input::head::Tracking;
 
-/// A controller, and where it sends to.
+/// Controller, and the address that it sends to.
 struct Controller {
     socket: UdpSocket,
     port: u16,
 }
 
 impl Controller {
-    /// Chooses a port that nobody listens at.
+    /// Chooses a port without a listener.
     fn start() -> Self {
         let port = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         Self { socket: UdpSocket::bind("127.0.0.1:0").unwrap(), port }
     }
 
     fn send(&self, datagram: impl AsRef<[u8]>) {
-        // Linux tells on the next sending that nobody listened to the last one.
+        // Linux reports at the next sending that the last one had no listener.
         let _ = self.socket.send_to(datagram.as_ref(), ("127.0.0.1", self.port));
     }
 }
@@ -113,7 +113,7 @@ fn garbage_is_counted_and_the_next_frame_used() {
 fn of_a_flood_the_newest_pose_survives() {
     let controller = Controller::start();
     let mut tracking = track(&controller);
-    // Nobody drains while they come.
+    // The frames are not drained while they come.
     for number in 0..20_000 {
         controller.send(frame(number, 1.0));
     }
@@ -129,7 +129,7 @@ fn a_port_in_use_and_a_foreign_address_are_told() {
     let port = taken.local_addr().unwrap().port();
     for (url, expected) in [
         (format!("dtrack://127.0.0.1:{port}"), "another program listens at"),
-        // Reserved for documents.
+        // An address that is reserved for documents.
         (format!("dtrack://192.0.2.1:{port}"), "is no address of this machine"),
     ] {
         Loop::track(&url).until(expected, |it| match &it.devices.status()[0].state {
@@ -150,7 +150,7 @@ fn a_multicast_group_is_joined_where_the_system_has_a_way_to_it() {
         controller.send(frame(number, 1.0));
         match &it.devices.status()[0].state {
             DeviceState::Open => it.head().tracked == Tracking::Tracked,
-            // A machine without a network has none.
+            // A machine without a network has no such group.
             DeviceState::Absent(why) => why.contains("cannot listen at"),
         }
     });

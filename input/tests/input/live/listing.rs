@@ -1,6 +1,5 @@
-//! Looking for devices on whatever machine this is: nothing that is missing or forbidden may be an
-//! error, and everything must be said in a sentence. A wrong program would panic where the system
-//! lacks a directory, or say nothing.
+//! Search for devices on any machine: a missing or forbidden device must be no error, and its state must be told in a
+//! sentence. A wrong program would panic where the system lacks a directory, or say nothing.
 
 use std::path::PathBuf;
 

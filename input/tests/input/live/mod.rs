@@ -1,4 +1,4 @@
-//! Live devices on real terminals and sockets; each file says what it holds them to.
+//! Live devices on real terminals and sockets; the head of each file says which behaviour it tests.
 
 mod dtrack;
 mod frames;
