@@ -4,6 +4,8 @@
 //! inside: a record that is longer than its chunk would be read on beyond the chunk's end. So each chunk is given to
 //! a reader of its own, without anything behind its content. The reader checks the content against the chunk's
 //! checksum before it yields any record.
+//!
+//! Chunks may be compressed with zstd or lz4.
 
 use std::io::Read;
 

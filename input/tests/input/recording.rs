@@ -145,29 +145,56 @@ fn old_recordings_read_to_the_same_bits() {
     assert_same_bits(&found, &ride(3));
 }
 
-/// Copies by other programs, with other chunks or none, and without checksums, must read the same.
+/// Options of another program that copies a recording.
+fn options() -> mcap::WriteOptions {
+    mcap::WriteOptions::new().profile("rapidity").compression(None)
+}
+
+/// Bytes of a copy of a recording by another program, with a note at its end.
+fn copied(bytes: &[u8], options: mcap::WriteOptions) -> Vec<u8> {
+    let summary = mcap::Summary::read(bytes).unwrap().unwrap();
+    let metadata = mcap::read::metadata(bytes, &summary.metadata_indexes[0]).unwrap();
+    let mut copy = options.create(std::io::Cursor::new(Vec::new())).unwrap();
+    copy.write_metadata(&metadata).unwrap();
+    for message in mcap::MessageStream::new(bytes).unwrap() {
+        copy.write(&message.unwrap()).unwrap();
+    }
+    copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
+    copy.finish().unwrap();
+    copy.into_inner().into_inner()
+}
+
+/// Copies by other programs, with other chunks or none, compressed, and without checksums, must read the same.
 #[test]
 fn a_recording_copied_by_another_program_is_the_same() {
     let (bytes, entries) = short_ride();
-    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
-    let metadata = mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).unwrap();
-    let options = || mcap::WriteOptions::new().profile("rapidity").compression(None);
     for options in [
         options().use_chunks(false),
         options().chunk_size(Some(300)),
         options().calculate_chunk_crcs(false).calculate_data_section_crc(false),
         options().repeat_channels(false).emit_statistics(false).emit_message_indexes(false),
+        options().compression(Some(mcap::Compression::Zstd)),
+        options().compression(Some(mcap::Compression::Lz4)),
     ] {
-        let mut copy = options.create(std::io::Cursor::new(Vec::new())).unwrap();
-        copy.write_metadata(&metadata).unwrap();
-        for message in mcap::MessageStream::new(&bytes).unwrap() {
-            copy.write(&message.unwrap()).unwrap();
-        }
-        copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
-        copy.finish().unwrap();
-        let (found, error) = read_bytes(&copy.into_inner().into_inner());
+        let (found, error) = read_bytes(&copied(&bytes, options));
         assert!(error.is_none(), "{error:?}");
         assert_same_bits(&found, &entries);
+    }
+}
+
+/// Damage of compressed data must be found before or after it is unpacked, and must not stop the program.
+#[test]
+fn a_flipped_bit_of_a_compressed_copy_is_found() {
+    let (bytes, entries) = short_ride();
+    for compression in [mcap::Compression::Zstd, mcap::Compression::Lz4] {
+        let copy = copied(&bytes, options().compression(Some(compression)));
+        for index in 0..data_end(&copy) {
+            let mut damaged = copy.clone();
+            damaged[index] ^= 1 << (index % 8);
+            let (found, error) = read_bytes(&damaged);
+            assert_eq!(found, entries[..found.len()], "bit {} of byte {index}", index % 8);
+            assert!(error.is_some(), "bit {} of byte {index}", index % 8);
+        }
     }
 }
 
