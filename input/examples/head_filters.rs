@@ -1,34 +1,34 @@
-//! What each velocity filter of the head costs in latency and leaves of the tracker's noise: the table of
-//! docs/TRACKING.md.
+//! Latency and remaining noise of each velocity filter of the head: the table of docs/TRACKING.md.
 //!
 //!     cargo run --release -p input --example head_filters
 //!
 //! A synthetic head walks to and fro (0.6 m, 0.4 Hz: up to 1.5 m/s) and sways and bobs as walkers do. A tracker sees
-//! it with half a millimetre of noise along each axis. Its poses go through [`Head`] as in a ride, and what comes out
-//! is compared with the true velocity:
+//! it with half a millimetre of noise along each axis. The poses go through [`TrackedHead`] as in a ride, and the
+//! result is compared with the true velocity:
 //!
 //! - *latency*: the delay of the true velocity that fits best;
-//! - *noise*: what the tracker's noise adds while the head walks, RMS along each axis; *at rest*: while it does not;
-//! - *shimmer*: by how much the noise at rest moves the picture where aberration is strongest, where c is 30 km/h;
-//! - *error*: RMS difference from the true velocity at that moment, latency included, along each axis.
+//! - *noise*: RMS along each axis of the velocity that the tracker's noise adds while the head walks; *at rest*: the
+//!   same while it stands;
+//! - *shimmer*: shift of the picture by the noise at rest, where aberration is strongest and c is 30 km/h;
+//! - *error*: RMS difference along each axis from the true velocity at that moment, latency included.
 
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
-use input::head::{Head, VelocityFilter};
+use input::head::{TrackedHead, VelocityFilter};
 use input::{HeadConfig, Nanos, SECOND, TrackedPose, TrackerUrl};
 
 /// Noise of the tracker along each axis, metres.
 const NOISE_M: f64 = 5e-4;
 /// Length of the walk, seconds.
 const WALK_S: f64 = 120.0;
-/// The filters have begun after so long, seconds.
+/// Time after which the filters have settled, seconds.
 const BEGUN_S: f64 = 2.0;
 /// Tracker rates, Hz.
 const RATES_HZ: [f64; 2] = [60.0, 200.0];
 /// Speed of light, m/s.
 const C_M_S: f64 = 30.0 / 3.6;
-/// Amplitude (m) and frequency (Hz) along each axis, whose ratios repeat only after long.
+/// Amplitude (m) and frequency (Hz) along each axis; the ratios repeat only after a long time.
 const WALK: [(f64, f64); 3] = [(0.03, 0.91), (0.02, 1.83), (0.6, 0.4)];
 
 fn walk(time_s: f64) -> DVec3 {
@@ -39,7 +39,7 @@ fn walk_velocity(time_s: f64) -> DVec3 {
     DVec3::from_array(WALK.map(|(reach, hz)| reach * TAU * hz * (TAU * hz * time_s).cos()))
 }
 
-/// Numbers that look random and are the same every time: xorshift, then Box and Muller's normal ones.
+/// Reproducible pseudo-random numbers: xorshift, then normal ones by Box and Muller.
 struct Noise(u64);
 
 impl Noise {
@@ -58,7 +58,7 @@ impl Noise {
 /// Time and filtered velocity after each frame of the tracker.
 fn filtered(filter: VelocityFilter, rate_hz: f64, noise_m: f64, walk: fn(f64) -> DVec3) -> Vec<(f64, DVec3)> {
     let config = HeadConfig { velocity: filter, ..HeadConfig::new(TrackerUrl::Mouse) };
-    let mut head = Head::new(config).expect("the settings are sound");
+    let mut head = TrackedHead::new(config).expect("the settings are sound");
     let mut noise = Noise(1905);
     let mut track = Vec::new();
     for frame in 0..(WALK_S * rate_hz) as u64 {
@@ -92,7 +92,7 @@ fn error(track: &[(f64, DVec3)], delay_s: f64) -> f64 {
     rms(track.iter().map(|(time_s, velocity)| *velocity - walk_velocity(time_s - delay_s)))
 }
 
-/// The delay that fits best, seconds, to 0.1 ms.
+/// Delay of the true velocity that fits best, seconds, to 0.1 ms.
 fn latency(track: &[(f64, DVec3)]) -> f64 {
     let best = |from_s: f64, step_s: f64, steps: u32| {
         let delays = (0..=steps).map(|step| from_s + step_s * f64::from(step));

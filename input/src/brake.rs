@@ -1,32 +1,32 @@
-//! What the program tells the bicycle: how strongly to brake.
+//! Brake commands that the program sends to the bicycle.
 //!
-//! The ergometer's brake is driven from the lever and from what the simulation feels (B 5.6.1). The
-//! line is `K1,<seq>,<brake 0..1>*HH`, sealed like those that come in; the box may check `seq` for
-//! lost ones.
+//! The ergometer's brake is driven by the lever and by the forces of the simulation (B 5.6.1). The line is
+//! `K1,<seq>,<brake 0..1>*HH`, with the same checksum as the lines that come in; the box may check `seq` to find lost
+//! ones.
 
 use crate::line::{LineError, sealed, unseal};
 
-/// A brake command.
+/// Brake command with its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrakeCommand {
-    /// Counts up by one a command; wraps.
+    /// Number of the command; counts up by one, wraps.
     pub sequence: u32,
     /// Braking torque as a fraction of the brake's strongest, 0 to 1.
     pub brake: f64,
 }
 
 impl BrakeCommand {
-    /// The line, with its line feed. The brake is clamped to 0 to 1 and given to a thousandth; what
-    /// is not a number brakes not.
+    /// Line of the command, with its line feed. The brake is clamped to 0 to 1 and rounded to a thousandth; NaN gives
+    /// 0.
     pub fn to_line(self) -> String {
         let brake = if self.brake.is_nan() { 0.0 } else { self.brake.clamp(0.0, 1.0) };
         sealed(&format!("K1,{},{brake:.3}", self.sequence))
     }
 
-    /// Reads a line without its end, as the box does.
+    /// Parses a line without its end, as the box does.
     ///
     /// # Errors
-    /// If checksum or fields are wrong.
+    /// A wrong checksum or field.
     pub fn parse(line: &str) -> Result<Self, LineError> {
         let text = unseal(line)?;
         let fields: Vec<&str> = text.split(',').collect();

@@ -1,19 +1,19 @@
-//! What the rider wants, whatever device he says it with.
+//! Controls: the rider's wishes, whatever the device.
 
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::head::HeadState;
+use crate::head::state::HeadState;
 
-/// The state of all controls at one moment, and what was pressed since the moment before.
+/// State of all controls at one moment, and the actions since the moment before.
 ///
 /// # Frames, units
-/// The pilot's own axes, right-handed: x to the right, y up, z backward, so that forward is −z.
-/// Turns are about these axes by the right-hand rule.
+/// The pilot's own axes, right-handed: x to the right, y up, z backward, so that forward is −z. Turns are about these
+/// axes by the right-hand rule.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Controls {
-    /// Speed of the driven wheel on the rider's own clock, m/s; negative backward. `None` while
-    /// there is neither a bicycle nor anybody who pedals by key or trigger.
+    /// Speed of the driven wheel on the rider's own clock, m/s; negative backward. `None` while there is neither a
+    /// bicycle nor a key or trigger that has pedalled.
     pub wheel_speed: Option<f64>,
     /// Turns of the crank a second. `None` where no sensor measures them.
     pub cadence_hz: Option<f64>,
@@ -21,14 +21,13 @@ pub struct Controls {
     pub steer_rad: f64,
     /// Brake lever, 0 released to 1 pulled through.
     pub brake: f64,
-    /// Wanted thrust as a fraction of the vehicle's, each −1 to 1: right, up, backward.
+    /// Thrust as a fraction of the vehicle's largest, each −1 to 1: right, up, backward.
     pub thrust: [f64; 3],
-    /// Wanted turn rate as a fraction of the vehicle's, each −1 to 1: nose up, nose to the left,
-    /// roll to the left.
+    /// Turn rate as a fraction of the vehicle's largest, each −1 to 1: nose up, nose to the left, roll to the left.
     pub turn: [f64; 3],
-    /// The head in the room. `None` where nothing tracks it.
+    /// Head in the room. `None` without a tracker.
     #[serde(default)]
     pub head: Option<HeadState>,
-    /// What happened since the controls were last asked for, in order.
+    /// Actions since the controls were last asked for, in order.
     pub actions: Vec<Action>,
 }

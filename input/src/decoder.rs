@@ -1,46 +1,22 @@
-//! What all decoders have in common: bytes in, state inside, faults counted.
+//! Common interface of all decoders: bytes in, state inside, faults counted.
 //!
-//! A decoder has no clock and no thread. It sees the samples of its device in order and holds what
-//! they say; time enters only through the samples and through the moment at which the desk asks.
+//! A decoder has no clock and no thread. It sees the samples of its device in order and holds the resulting state;
+//! time enters only through the samples and through the moment at which the desk asks.
 
 use crate::action::Action;
-use crate::sample::Nanos;
+use crate::clock::Nanos;
+use crate::faults::Faults;
 
-/// A device's bytes turned into state.
+/// Decoder of a device's bytes into state.
 pub trait Decoder {
-    /// The device came or went: half a message, held keys and deflections are forgotten.
+    /// Forgets half a message, held keys and deflections: the device came or went.
     fn reset(&mut self, at: Nanos);
 
-    /// Bytes arrived at `at`, cut anywhere. What happens once is pushed to `actions`.
+    /// Takes bytes that arrived at `at`, cut anywhere, and pushes actions to `actions`.
     fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions);
 
-    /// What could not be understood so far.
+    /// Messages that could not be understood so far.
     fn faults(&self) -> &Faults;
-}
-
-/// Messages that were skipped because they made no sense.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Faults {
-    number: u64,
-    last: Option<String>,
-}
-
-impl Faults {
-    /// Counts one more.
-    pub(crate) fn count(&mut self, what: impl Into<String>) {
-        self.number += 1;
-        self.last = Some(what.into());
-    }
-
-    /// How many there were.
-    pub fn number(&self) -> u64 {
-        self.number
-    }
-
-    /// What was wrong with the last one.
-    pub fn last(&self) -> Option<&str> {
-        self.last.as_deref()
-    }
 }
 
 /// Actions waiting for the next frame, in the order in which they happened.
@@ -50,17 +26,17 @@ pub struct Actions {
 }
 
 impl Actions {
-    /// More than anybody can press between two frames; the rest of a flood is dropped.
+    /// Most actions kept between two frames, more than a person can press; the rest of a flood is dropped.
     const MOST: usize = 256;
 
-    /// Adds one.
+    /// Adds an action.
     pub fn push(&mut self, action: Action) {
         if self.waiting.len() < Self::MOST {
             self.waiting.push(action);
         }
     }
 
-    /// Hands them over.
+    /// Returns the waiting actions and forgets them.
     pub fn take(&mut self) -> Vec<Action> {
         std::mem::take(&mut self.waiting)
     }

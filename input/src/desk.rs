@@ -1,52 +1,59 @@
 //! The desk: all devices' decoders, and the one set of controls that they make.
 //!
-//! Feed it samples in the order in which they were drained, ask it for the controls once a frame.
-//! What it answers depends on nothing else, so feeding a recording's samples and asking at its
-//! frame times gives the same bits.
+//! Samples are fed in the order in which they were drained, and the controls are read once a frame. The result
+//! depends on nothing else, so the samples and frame times of a recording give the same bits.
 //!
-//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake
-//! wins; the wheel is the faster of the ridden and the pretended one. Keys and sticks turn the
-//! handlebar only as far as a rider would lean: at the speed v no further than tan δ = a L / v².
+//! Several devices may be used at once. Deflections add up and are clamped; the stronger brake wins; the wheel speed
+//! is the faster of the measured and the simulated one. Keys and sticks turn the handlebar only as far as a rider
+//! would lean: at the speed v no further than tan δ = a L / v².
 //!
-//! A tracker's poses go to the one [`Head`], if one is configured.
+//! A tracker's poses go to the one [`TrackedHead`], if one is configured.
 
-use crate::action::Settings;
-use crate::bicycle::Bicycle;
-use crate::config::{ConfigError, DeskConfig};
+use crate::bicycle::decoder::BicycleDecoder;
+use crate::clock::Nanos;
+use crate::config::DeskConfig;
+use crate::config_error::ConfigError;
 use crate::controls::Controls;
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::dtrack::Dtrack;
-use crate::gamepad::Gamepad;
-use crate::head::{Head, HeadConfig, HeadState, Mouse, TrackedPose, TrackerUrl};
-use crate::keyboard::Keyboard;
-use crate::sample::{Nanos, Sample, Signal, Source};
-use crate::spacemouse::SpaceMouse;
-use crate::spacenavd::Spacenavd;
-use crate::vrpn::Vrpn;
+use crate::decoder::{Actions, Decoder};
+use crate::dtrack::DtrackDecoder;
+use crate::faults::Faults;
+use crate::gamepad::GamepadDecoder;
+use crate::head::config::HeadConfig;
+use crate::head::mouse::MouseDecoder;
+use crate::head::state::HeadState;
+use crate::head::tracked_head::TrackedHead;
+use crate::head::tracked_pose::TrackedPose;
+use crate::head::url::TrackerUrl;
+use crate::keyboard::KeyboardDecoder;
+use crate::sample::{Sample, SampleSource, Signal};
+use crate::settings::ActionDecoder;
+use crate::spacemouse::SpaceMouseDecoder;
+use crate::spacenavd::SpacenavdDecoder;
+use crate::vrpn::decoder::VrpnDecoder;
 use glam::DVec3;
 
-/// All decoders.
+/// Decoders of all devices, and the state that they share.
 #[derive(Debug)]
 pub struct Desk {
     config: DeskConfig,
-    keyboard: Keyboard,
-    gamepad: Gamepad,
-    space_mouse: SpaceMouse,
-    spacenavd: Spacenavd,
-    bicycle: Bicycle,
-    vrpn: Vrpn,
-    dtrack: Dtrack,
-    mouse: Mouse,
-    head: Option<Head>,
-    settings: Settings,
+    keyboard: KeyboardDecoder,
+    gamepad: GamepadDecoder,
+    space_mouse: SpaceMouseDecoder,
+    spacenavd: SpacenavdDecoder,
+    bicycle: BicycleDecoder,
+    vrpn: VrpnDecoder,
+    dtrack: DtrackDecoder,
+    mouse: MouseDecoder,
+    head: Option<TrackedHead>,
+    settings: ActionDecoder,
     actions: Actions,
 }
 
 impl Desk {
-    /// A desk at which nobody sits yet.
+    /// Desk without any sample yet.
     ///
     /// # Errors
-    /// Names a setting that cannot be used.
+    /// A setting that cannot be used.
     pub fn new(config: DeskConfig) -> Result<Self, ConfigError> {
         config.check()?;
         let device = match config.head.as_ref().map(|head| &head.url) {
@@ -55,22 +62,22 @@ impl Desk {
         };
         let home = config.head.as_ref().map_or(DVec3::ZERO, |head| DVec3::from_array(head.home));
         Ok(Self {
-            vrpn: Vrpn::new(device),
-            dtrack: Dtrack::default(),
-            mouse: Mouse::new(home),
-            head: config.head.clone().map(Head::new).transpose()?,
-            keyboard: Keyboard::new(config.rider.clone()),
-            gamepad: Gamepad::default(),
-            space_mouse: SpaceMouse::new(config.space_mouse),
-            spacenavd: Spacenavd::new(config.spacenavd),
-            bicycle: Bicycle::new(config.bicycle.clone()),
-            settings: Settings::default(),
+            vrpn: VrpnDecoder::new(device),
+            dtrack: DtrackDecoder::default(),
+            mouse: MouseDecoder::new(home),
+            head: config.head.clone().map(TrackedHead::new).transpose()?,
+            keyboard: KeyboardDecoder::new(config.rider.clone()),
+            gamepad: GamepadDecoder::default(),
+            space_mouse: SpaceMouseDecoder::new(config.space_mouse),
+            spacenavd: SpacenavdDecoder::new(config.spacenavd),
+            bicycle: BicycleDecoder::new(config.bicycle.clone()),
+            settings: ActionDecoder::default(),
             actions: Actions::default(),
             config,
         })
     }
 
-    /// How the devices are read; belongs into a recording's header.
+    /// Settings of all decoders, as they belong into a recording's header.
     pub fn config(&self) -> &DeskConfig {
         &self.config
     }
@@ -78,15 +85,15 @@ impl Desk {
     /// Takes the next sample.
     pub fn feed(&mut self, sample: &Sample) {
         let decoder: &mut dyn Decoder = match sample.source {
-            Source::Keyboard => &mut self.keyboard,
-            Source::Gamepad => &mut self.gamepad,
-            Source::SpaceMouse => &mut self.space_mouse,
-            Source::Spacenavd => &mut self.spacenavd,
-            Source::Bicycle => &mut self.bicycle,
-            Source::Vrpn => &mut self.vrpn,
-            Source::Dtrack => &mut self.dtrack,
-            Source::Mouse => &mut self.mouse,
-            Source::Settings => &mut self.settings,
+            SampleSource::Keyboard => &mut self.keyboard,
+            SampleSource::Gamepad => &mut self.gamepad,
+            SampleSource::SpaceMouse => &mut self.space_mouse,
+            SampleSource::Spacenavd => &mut self.spacenavd,
+            SampleSource::Bicycle => &mut self.bicycle,
+            SampleSource::Vrpn => &mut self.vrpn,
+            SampleSource::Dtrack => &mut self.dtrack,
+            SampleSource::Mouse => &mut self.mouse,
+            SampleSource::Settings => &mut self.settings,
         };
         match &sample.signal {
             Signal::Opened | Signal::Closed => decoder.reset(sample.at),
@@ -95,11 +102,11 @@ impl Desk {
         self.track(sample);
     }
 
-    /// Hands what a tracker has said to the head, if the head listens to that tracker.
+    /// Passes a tracker's poses to the head, if the head listens to that tracker.
     fn track(&mut self, sample: &Sample) {
         let poses: Vec<TrackedPose> = match sample.source {
-            Source::Vrpn => self.vrpn.take_poses(),
-            Source::Dtrack => self.dtrack.take_poses(),
+            SampleSource::Vrpn => self.vrpn.take_poses(),
+            SampleSource::Dtrack => self.dtrack.take_poses(),
             _ => return,
         };
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
@@ -111,24 +118,24 @@ impl Desk {
         }
     }
 
-    /// The tracked head, if one is configured: what it rejects.
-    pub fn head(&self) -> Option<&Head> {
+    /// Tracked head, if one is configured.
+    pub fn head(&self) -> Option<&TrackedHead> {
         self.head.as_ref()
     }
 
-    /// What the VRPN server has described of itself.
-    pub fn vrpn(&self) -> &Vrpn {
+    /// Decoder of the VRPN server, with the server's descriptions.
+    pub fn vrpn(&self) -> &VrpnDecoder {
         &self.vrpn
     }
 
-    /// The head at the time `at`, as far as it is used.
+    /// Head at the time `at`, reduced to the parts that its mode uses.
     fn head_state(&self, at: Nanos) -> Option<HeadState> {
         let head = self.head.as_ref()?;
         let HeadConfig { url, mode, .. } = head.config();
         mode.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
     }
 
-    /// What is wanted at the time `at`, and what was pressed since the last time this was asked.
+    /// Controls at the time `at`, with the actions since the last call.
     pub fn controls(&mut self, at: Nanos) -> Controls {
         let rider = &self.config.rider;
         let wheel_speed = [
@@ -164,36 +171,36 @@ impl Desk {
         }
     }
 
-    /// What could not be understood of a device's bytes so far.
-    pub fn faults(&self, source: Source) -> &Faults {
+    /// Messages of a device that could not be understood so far.
+    pub fn faults(&self, source: SampleSource) -> &Faults {
         match source {
-            Source::Keyboard => self.keyboard.faults(),
-            Source::Gamepad => self.gamepad.faults(),
-            Source::SpaceMouse => self.space_mouse.faults(),
-            Source::Spacenavd => self.spacenavd.faults(),
-            Source::Bicycle => self.bicycle.faults(),
-            Source::Vrpn => self.vrpn.faults(),
-            Source::Dtrack => self.dtrack.faults(),
-            Source::Mouse => self.mouse.faults(),
-            Source::Settings => self.settings.faults(),
+            SampleSource::Keyboard => self.keyboard.faults(),
+            SampleSource::Gamepad => self.gamepad.faults(),
+            SampleSource::SpaceMouse => self.space_mouse.faults(),
+            SampleSource::Spacenavd => self.spacenavd.faults(),
+            SampleSource::Bicycle => self.bicycle.faults(),
+            SampleSource::Vrpn => self.vrpn.faults(),
+            SampleSource::Dtrack => self.dtrack.faults(),
+            SampleSource::Mouse => self.mouse.faults(),
+            SampleSource::Settings => self.settings.faults(),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    //! Devices used together must add up to one rider, not fight; what one lets go of must go.
+    //! Devices used together must add up to one rider; a device that goes must release what it held.
     use super::*;
     use crate::action::{Action, VehicleKind};
-    use crate::keyboard::Key;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
+    use crate::key::KeyboardKey;
 
     fn desk() -> Desk {
         Desk::new(DeskConfig::default()).unwrap()
     }
 
     fn push_right(at: Nanos) -> Sample {
-        Sample::bytes(at, Source::SpaceMouse, [1, 0x5e, 1, 0, 0, 0, 0])
+        Sample::bytes(at, SampleSource::SpaceMouse, [1, 0x5e, 1, 0, 0, 0, 0])
     }
 
     #[test]
@@ -207,11 +214,11 @@ mod tests {
     #[test]
     fn deflections_add_up_and_stay_in_range() {
         let mut desk = desk();
-        desk.feed(&Sample::key(0, Key::A, true));
+        desk.feed(&Sample::key(0, KeyboardKey::A, true));
         desk.feed(&push_right(SECOND));
         assert_eq!(desk.controls(SECOND).thrust[0], 0.0);
-        desk.feed(&Sample::key(SECOND, Key::A, false));
-        desk.feed(&Sample::key(SECOND, Key::D, true));
+        desk.feed(&Sample::key(SECOND, KeyboardKey::A, false));
+        desk.feed(&Sample::key(SECOND, KeyboardKey::D, true));
         desk.feed(&push_right(3 * SECOND));
         assert_eq!(desk.controls(3 * SECOND).thrust[0], 1.0);
     }
@@ -219,21 +226,21 @@ mod tests {
     #[test]
     fn the_faster_wheel_counts() {
         let mut desk = desk();
-        desk.feed(&Sample::key(0, Key::W, true));
-        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"3.6\n"));
+        desk.feed(&Sample::key(0, KeyboardKey::W, true));
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"3.6\n"));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
-        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"36\n"));
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"36\n"));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(10.0));
-        desk.feed(&Sample::closed(SECOND, Source::Bicycle));
+        desk.feed(&Sample::closed(SECOND, SampleSource::Bicycle));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
     }
 
     #[test]
     fn a_fast_rider_steers_no_further_than_he_leans() {
         let mut desk = desk();
-        desk.feed(&Sample::key(0, Key::Left, true));
+        desk.feed(&Sample::key(0, KeyboardKey::Left, true));
         assert_eq!(desk.controls(SECOND).steer_rad, 0.6);
-        desk.feed(&Sample::bytes(SECOND, Source::Bicycle, *b"36\n"));
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"36\n"));
         let controls = desk.controls(SECOND);
         // v² tan δ / L is the lateral acceleration.
         let lateral = controls.wheel_speed.unwrap().powi(2) * controls.steer_rad.tan() / 1.1;
@@ -243,9 +250,9 @@ mod tests {
     #[test]
     fn actions_of_all_devices_come_once_and_in_order() {
         let mut desk = desk();
-        desk.feed(&Sample::key(0, Key::Three, true));
+        desk.feed(&Sample::key(0, KeyboardKey::Three, true));
         desk.feed(&Sample::action(1, &Action::TimeScale(0.25)));
-        desk.feed(&Sample::bytes(2, Source::SpaceMouse, [3, 1]));
+        desk.feed(&Sample::bytes(2, SampleSource::SpaceMouse, [3, 1]));
         let expected = [Action::Vehicle(VehicleKind::Fly), Action::TimeScale(0.25), Action::TogglePause];
         assert_eq!(desk.controls(3).actions, expected);
         assert_eq!(desk.controls(3).actions, []);
@@ -253,15 +260,15 @@ mod tests {
 
     #[test]
     fn a_device_that_goes_lets_go() {
-        for source in Source::ALL {
+        for source in SampleSource::ALL {
             let mut desk = desk();
-            desk.feed(&Sample::key(0, Key::Q, true));
+            desk.feed(&Sample::key(0, KeyboardKey::Q, true));
             desk.feed(&push_right(SECOND));
             let (before, closed) = (desk.controls(SECOND), Sample::closed(SECOND, source));
             desk.feed(&closed);
             let after = desk.controls(SECOND + SECOND / 2);
-            assert_eq!(after.thrust != before.thrust, source == Source::SpaceMouse, "{source}");
-            assert_eq!(after.turn != before.turn, source == Source::Keyboard, "{source}");
+            assert_eq!(after.thrust != before.thrust, source == SampleSource::SpaceMouse, "{source}");
+            assert_eq!(after.turn != before.turn, source == SampleSource::Keyboard, "{source}");
         }
     }
 

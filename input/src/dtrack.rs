@@ -2,18 +2,18 @@
 //!
 //! | line | holds |
 //! |---|---|
-//! | `ts2 S US LATENCY` | seconds since 1970 and microseconds at which the cameras looked, and the latency until sending, µs |
+//! | `ts2 S US LATENCY` | seconds since 1970 and microseconds of the measurement, and latency until sending, µs |
 //! | `ts S` | the same by older controllers: seconds since midnight |
-//! | `6d N [id q][x y z a b c][r0 … r8] …` | N bodies: number and quality, position in mm and angles, rotation matrix column after column |
+//! | `6d N [id q][x y z a b c][r0 … r8] …` | N bodies: number, quality, position in mm, angles, matrix by columns |
 //!
-//! All other lines (`fr`, `6dcal`, `6df2`, `3d`, …) are passed over. A body that the cameras do not
-//! see is not in the `6d` line, or has quality −1. The matrix is used, not the angles.
+//! All other lines (`fr`, `6dcal`, `6df2`, `3d`, …) are passed over. A body that the cameras do not see is not in the
+//! `6d` line, or has quality −1. The matrix is used, not the angles.
 //!
 //! ```
 //! use input::decoder::{Actions, Decoder};
-//! use input::dtrack::Dtrack;
+//! use input::dtrack::DtrackDecoder;
 //!
-//! let mut decoder = Dtrack::default();
+//! let mut decoder = DtrackDecoder::default();
 //! let frame = b"fr 1\r\n6d 1 [0 1.000][100.0 200.0 300.0 0 0 0][1 0 0 0 1 0 0 0 1]\r\n";
 //! decoder.bytes(0, frame, &mut Actions::default());
 //! assert_eq!(decoder.take_poses()[0].position_m.to_array(), [0.1, 0.2, 0.3]);
@@ -22,21 +22,22 @@
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
 
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::head::TrackedPose;
-use crate::sample::Nanos;
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
+use crate::head::tracked_pose::TrackedPose;
 
-/// The port that DTrack sends to, unless it is told another.
+/// Usual port of DTrack.
 pub const PORT: u16 = 5000;
-/// The longest datagram that is believed: a hundred bodies.
+/// Length of the longest datagram that is accepted, bytes: about a hundred bodies.
 pub const LONGEST_DATAGRAM: usize = 32 * 1024;
-/// How far columns of a rotation matrix may be from orthonormal; six decimals are sent.
+/// Largest deviation of a rotation matrix's columns from orthonormal; six decimals are sent.
 const ORTHONORMAL: f64 = 1e-2;
 
-/// Why a datagram, or a line of it, was skipped.
+/// Reason for skipping a datagram, or a line of it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DtrackError {
-    /// Longer than any.
+    /// A datagram that is too long.
     #[error("a datagram of more than {LONGEST_DATAGRAM} bytes")]
     TooLong,
     /// Bytes outside ASCII.
@@ -45,12 +46,12 @@ pub enum DtrackError {
     /// A line that cannot be read.
     #[error("a `{line}` line: expected {expected}")]
     Line {
-        /// Which line.
+        /// Name of the line.
         line: &'static str,
-        /// What belongs there.
+        /// Description of a correct line.
         expected: &'static str,
     },
-    /// A matrix that does not turn.
+    /// A matrix that is no rotation.
     #[error("body {body}: its matrix is no rotation")]
     Matrix {
         /// Number of the body.
@@ -58,22 +59,22 @@ pub enum DtrackError {
     },
 }
 
-/// When a frame was measured.
+/// Time at which a frame was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Stamp {
+struct DtrackStamp {
     measured_s: Option<f64>,
     latency_s: Option<f64>,
 }
 
-/// Decoder of [`Source::Dtrack`](crate::Source::Dtrack): a datagram a sample.
+/// Decoder of [`SampleSource::Dtrack`](crate::SampleSource::Dtrack): a datagram a sample.
 #[derive(Debug, Default)]
-pub struct Dtrack {
+pub struct DtrackDecoder {
     poses: Vec<TrackedPose>,
     faults: Faults,
 }
 
-impl Dtrack {
-    /// The poses of the datagram fed last: the bodies that were seen.
+impl DtrackDecoder {
+    /// Poses of the datagram fed last: the bodies that were seen.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
     }
@@ -97,12 +98,12 @@ impl Dtrack {
     }
 }
 
-/// What follows this name in the lines that begin with it.
+/// Rest of each line that begins with this name.
 fn lines<'a>(text: &'a str, name: &'static str) -> impl Iterator<Item = &'a str> {
     text.split(['\r', '\n']).filter_map(move |line| line.strip_prefix(name)?.strip_prefix(' '))
 }
 
-fn stamp(text: &str) -> Result<Stamp, DtrackError> {
+fn stamp(text: &str) -> Result<DtrackStamp, DtrackError> {
     let bad = |line, expected| DtrackError::Line { line, expected };
     if let Some(line) = lines(text, "ts2").next() {
         let mut fields = line.split_ascii_whitespace().map(str::parse::<u32>);
@@ -112,26 +113,26 @@ fn stamp(text: &str) -> Result<Stamp, DtrackError> {
             return Err(bad("ts2", "seconds, microseconds, microseconds of latency"));
         };
         let measured_s = f64::from(seconds) + 1e-6 * f64::from(microseconds);
-        return Ok(Stamp { measured_s: Some(measured_s), latency_s: Some(1e-6 * f64::from(latency)) });
+        return Ok(DtrackStamp { measured_s: Some(measured_s), latency_s: Some(1e-6 * f64::from(latency)) });
     }
     let Some(line) = lines(text, "ts").next() else {
-        return Ok(Stamp::default());
+        return Ok(DtrackStamp::default());
     };
     let seconds = line.trim().parse().ok().filter(|seconds: &f64| seconds.is_finite());
     let seconds = seconds.ok_or(bad("ts", "seconds since midnight"))?;
-    Ok(Stamp { measured_s: Some(seconds), latency_s: None })
+    Ok(DtrackStamp { measured_s: Some(seconds), latency_s: None })
 }
 
-/// A body in a `6d` line.
-struct Body {
+/// Body in a `6d` line.
+struct DtrackBody {
     id: i32,
     quality: f64,
     position_mm: DVec3,
     rotation: DMat3,
 }
 
-impl Body {
-    fn pose(&self, at: Nanos, stamp: Stamp) -> Result<TrackedPose, DtrackError> {
+impl DtrackBody {
+    fn pose(&self, at: Nanos, stamp: DtrackStamp) -> Result<TrackedPose, DtrackError> {
         let error = self.rotation.transpose() * self.rotation - DMat3::IDENTITY;
         let largest = error.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
         if largest.is_nan() || largest > ORTHONORMAL || self.rotation.determinant() < 0.0 {
@@ -149,8 +150,8 @@ impl Body {
     }
 }
 
-/// The bodies of a `6d` line that were seen.
-fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
+/// Bodies of a `6d` line that were seen.
+fn bodies(line: &str) -> Result<Vec<DtrackBody>, DtrackError> {
     const BAD: DtrackError =
         DtrackError::Line { line: "6d", expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]" };
     let (count, mut rest) = line.trim().split_once(' ').unwrap_or((line.trim(), ""));
@@ -165,7 +166,7 @@ fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
         let rotation = block(&mut rest).and_then(numbers::<9>).ok_or(BAD)?;
         found += 1;
         let rotation = DMat3::from_cols_array(&rotation);
-        let body = Body { id, quality, position_mm: DVec3::new(x, y, z), rotation };
+        let body = DtrackBody { id, quality, position_mm: DVec3::new(x, y, z), rotation };
         if body.quality >= 0.0 {
             bodies.push(body);
         }
@@ -173,14 +174,14 @@ fn bodies(line: &str) -> Result<Vec<Body>, DtrackError> {
     if found == count { Ok(bodies) } else { Err(BAD) }
 }
 
-/// What stands between the next pair of brackets, which must come at once.
+/// Text between the next pair of brackets, which must come at once.
 fn block<'a>(rest: &mut &'a str) -> Option<&'a str> {
     let (block, behind) = rest.trim_start().strip_prefix('[')?.split_once(']')?;
     *rest = behind;
     Some(block.trim())
 }
 
-/// Exactly as many finite numbers.
+/// Exactly `N` finite numbers.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let mut numbers = [0.0; N];
     let mut fields = text.split_ascii_whitespace();
@@ -190,7 +191,7 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     fields.next().is_none().then_some(numbers)
 }
 
-impl Decoder for Dtrack {
+impl Decoder for DtrackDecoder {
     fn reset(&mut self, _at: Nanos) {}
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
@@ -206,22 +207,22 @@ impl Decoder for Dtrack {
 
 #[cfg(test)]
 mod tests {
-    //! A frame as ART's controllers send it must give what the stock VRPN server made of it; a
-    //! transposed matrix would turn the head the other way. What cannot be read is skipped whole.
+    //! A frame as ART's controllers send it must give the poses that the stock VRPN server made of it; a transposed
+    //! matrix would turn the head the other way. A line that cannot be read is skipped whole.
     use super::*;
 
-    /// As it came out of the stock server: position 0.1 0.2 0.3, quaternion 0 0 0.258819 0.965926.
+    /// Frame that gave position 0.1 0.2 0.3 and quaternion 0 0 0.258819 0.965926 in the stock server.
     const FRAME: &str = concat!(
         "fr 21753\r\nts2 1795325065 643615 4200\r\n6dcal 2\r\n",
         "6d 1 [0 1.000][100.000 200.000 300.000 0.0 0.0 30.0]",
         "[0.866025 0.500000 0.000000 -0.500000 0.866025 0.000000 0.000000 0.000000 1.000000]\r\n",
         "6df2 0 0 \r\n3d 1 [1 1.000][210.730 -90.669 -108.554]\r\n",
     );
-    /// Six decimals are printed.
+    /// Tolerance of six printed decimals.
     const PRINTED: f64 = 1e-6;
 
     fn decode(datagram: &[u8]) -> (Vec<TrackedPose>, u64) {
-        let mut decoder = Dtrack::default();
+        let mut decoder = DtrackDecoder::default();
         decoder.bytes(7, datagram, &mut Actions::default());
         (decoder.take_poses(), decoder.faults().number())
     }

@@ -1,18 +1,17 @@
 //! Filters for noisy measurements, and the dead zone of a stick.
 //!
-//! [`MedianOfThree`] removes single outliers (a bouncing contact, a lost pulse); [`OneEuro`] then
-//! smooths, strongly while the signal rests and weakly while it moves, so that slow jitter goes and
-//! quick motion is not late.
+//! [`MedianOfThree`] removes single outliers (a bouncing contact, a lost pulse). [`OneEuro`] then smooths, strongly
+//! while the signal rests and weakly while it moves, so that slow jitter disappears and quick motion is not delayed.
 
 use std::f64::consts::TAU;
 
-/// The value with a dead zone about zero, continuous at the zone's edge and clamped to −1 to 1.
+/// Value with a dead zone about zero, continuous at the zone's edge and clamped to −1 to 1.
 pub fn with_dead_zone(value: f64, zone: f64) -> f64 {
     let outside = ((value.abs() - zone) / (1.0 - zone)).clamp(0.0, 1.0);
     outside.copysign(value)
 }
 
-/// The middle one of the last three values.
+/// Median of the last three values.
 #[derive(Clone, Debug, Default)]
 pub struct MedianOfThree {
     earlier: Option<f64>,
@@ -20,8 +19,7 @@ pub struct MedianOfThree {
 }
 
 impl MedianOfThree {
-    /// Takes a value and gives the median. Until three are there: the smallest, which is safe for a
-    /// speed.
+    /// Takes a value and returns the median. Before the third value it is the smallest, which is safe for a speed.
     pub fn filter(&mut self, value: f64) -> f64 {
         let median = match (self.earlier, self.last) {
             (Some(a), Some(b)) => a.min(b).max(value.min(a.max(b))),
@@ -36,14 +34,13 @@ impl MedianOfThree {
 
 /// Low-pass whose cutoff grows with the speed of the signal.
 ///
-/// *Equation*: x̂ ← x̂ + α (x − x̂), α = 1/(1 + τ/Δt), τ = 1/(2π f), f = f_min + b |dx̂/dt|, where
-/// the derivative is taken from the last filtered value and itself low-passed at a fixed cutoff.
-/// Casiez, Roussel, Vogel, CHI 2012.
+/// *Equation*: x̂ ← x̂ + α (x − x̂), α = 1/(1 + τ/Δt), τ = 1/(2π f), f = f_min + b |dx̂/dt|, where the derivative is
+/// taken from the last filtered value and itself low-passed at a fixed cutoff. Casiez, Roussel, Vogel, CHI 2012.
 #[derive(Clone, Debug)]
 pub struct OneEuro {
     /// Cutoff at rest, Hz.
     minimum_cutoff_hz: f64,
-    /// By how much the cutoff rises with the speed of the signal, Hz per unit a second.
+    /// Rise of the cutoff with the speed of the signal, Hz per unit a second.
     speed_coefficient: f64,
     /// Cutoff for the speed, Hz.
     derivative_cutoff_hz: f64,
@@ -51,13 +48,13 @@ pub struct OneEuro {
 }
 
 impl OneEuro {
-    /// A filter that has seen nothing yet.
+    /// Filter without any value yet.
     pub fn new(minimum_cutoff_hz: f64, speed_coefficient: f64, derivative_cutoff_hz: f64) -> Self {
         Self { minimum_cutoff_hz, speed_coefficient, derivative_cutoff_hz, state: None }
     }
 
-    /// Takes the next value, `interval_s` seconds after the one before, and gives the filtered one.
-    /// An interval that is not positive repeats the last result.
+    /// Takes the next value, `interval_s` seconds after the one before, and returns the filtered one. An interval
+    /// that is not positive repeats the last result.
     pub fn filter(&mut self, value: f64, interval_s: f64) -> f64 {
         let Some((filtered, speed)) = self.state else {
             self.state = Some((value, 0.0));
@@ -77,11 +74,10 @@ impl OneEuro {
 
 #[cfg(test)]
 mod tests {
-    //! The One Euro filter must give its authors' numbers; a filter that differentiates raw values
-    //! misses the third.
+    //! The One Euro filter must give its authors' numbers; a filter that differentiates raw values misses the third.
     use super::*;
 
-    /// The published numbers carry seven decimals.
+    /// Tolerance of the published numbers, which have seven decimals.
     const PUBLISHED: f64 = 1e-7;
 
     #[test]

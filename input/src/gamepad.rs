@@ -1,7 +1,7 @@
-//! A gamepad or joystick.
+//! Decoder of a gamepad or joystick.
 //!
-//! Its bytes are our own plain writing of what Linux's evdev says, so that a recording does not
-//! depend on the system:
+//! The bytes are a plain encoding of Linux's evdev events, made here, so that a recording does not depend on the
+//! system:
 //!
 //! | first byte | then, little-endian | meaning |
 //! |---|---|---|
@@ -16,22 +16,23 @@
 //! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
 //! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
 //!
-//! On a gamepad Start pauses, Select shows the help, the upper button goes back to the start and
-//! the left one takes a picture.
+//! On a gamepad Start pauses, Select shows the help, the upper button returns to the start and the left one takes a
+//! picture.
 
 use crate::action::Action;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::filters::with_dead_zone;
-use crate::sample::Nanos;
 
-/// Part of the way within which a stick counts as centred: worn ones rest off centre.
+/// Part of the range within which a stick counts as centred: worn ones rest off centre.
 const STICK_DEAD_ZONE: f64 = 0.12;
-/// The same for triggers.
+/// Part of the range within which a trigger counts as released.
 const TRIGGER_DEAD_ZONE: f64 = 0.04;
-/// Axes of the absolute kind that evdev numbers.
+/// Number of absolute axes in evdev.
 const AXES: usize = 64;
 
-/// Numbers of Linux's `input-event-codes.h`.
+/// Codes of Linux's `input-event-codes.h`.
 pub mod codes {
     /// Event type: a button.
     pub const KEY: u16 = 1;
@@ -58,37 +59,37 @@ pub mod codes {
     pub(super) const START: u16 = 0x13b;
 }
 
-/// One item of a gamepad's bytes.
+/// Item of a gamepad's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Item {
-    /// It is laid out as a gamepad.
+pub enum GamepadItem {
+    /// Layout of a gamepad.
     Gamepad,
-    /// It is laid out as a joystick.
+    /// Layout of a joystick.
     Joystick,
-    /// An axis: number, where it is, how far it goes.
+    /// Axis with its number, value and range.
     Axis {
-        /// evdev's number.
+        /// Number of the axis in evdev.
         code: u16,
-        /// Where it is.
+        /// Value of the axis.
         value: i32,
-        /// Its least value.
+        /// Smallest value of the axis.
         least: i32,
-        /// Its greatest value.
+        /// Largest value of the axis.
         most: i32,
     },
-    /// An event of evdev.
+    /// Event of evdev.
     Event {
-        /// Its type: [`codes::KEY`], [`codes::ABSOLUTE`] or another.
+        /// Type of the event: [`codes::KEY`], [`codes::ABSOLUTE`] or another.
         kind: u16,
-        /// Which button or axis.
+        /// Number of the button or axis.
         code: u16,
-        /// The new value.
+        /// New value of the button or axis.
         value: i32,
     },
 }
 
-impl Item {
-    /// Writes the item behind the bytes.
+impl GamepadItem {
+    /// Appends the item to the bytes.
     pub fn encode(self, bytes: &mut Vec<u8>) {
         match self {
             Self::Gamepad => bytes.push(b'G'),
@@ -107,7 +108,7 @@ impl Item {
         }
     }
 
-    /// Reads the first item and gives what follows it.
+    /// First item of the bytes, and the rest.
     fn split(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let (&kind, rest) = bytes.split_first()?;
         match kind {
@@ -142,47 +143,47 @@ impl Item {
     }
 }
 
-/// An axis that has been announced.
+/// Axis that has been announced.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
+struct GamepadAxis {
     value: f64,
     least: f64,
     most: f64,
 }
 
-impl Axis {
-    /// −1 to 1 about the middle of its way.
+impl GamepadAxis {
+    /// Deflection of a stick, −1 to 1 about the middle of its range.
     fn stick(self) -> f64 {
         with_dead_zone((2.0 * self.value - self.least - self.most) / (self.most - self.least), STICK_DEAD_ZONE)
     }
 
-    /// 0 to 1 from its lower end.
+    /// Deflection of a trigger, 0 to 1 from its lower end.
     fn trigger(self) -> f64 {
         with_dead_zone(((self.value - self.least) / (self.most - self.least)).max(0.0), TRIGGER_DEAD_ZONE)
     }
 }
 
-/// Decoder of [`Source::Gamepad`](crate::Source::Gamepad).
+/// Decoder of [`SampleSource::Gamepad`](crate::SampleSource::Gamepad).
 #[derive(Debug)]
-pub struct Gamepad {
+pub struct GamepadDecoder {
     is_joystick: bool,
-    axes: [Option<Axis>; AXES],
+    axes: [Option<GamepadAxis>; AXES],
     held: Vec<u16>,
     pedalled: bool,
     faults: Faults,
 }
 
-impl Default for Gamepad {
+impl Default for GamepadDecoder {
     fn default() -> Self {
         Self { is_joystick: false, axes: [None; AXES], held: Vec::new(), pedalled: false, faults: Faults::default() }
     }
 }
 
-impl Gamepad {
-    /// No pad has more buttons; more are not remembered.
+impl GamepadDecoder {
+    /// Most buttons remembered, more than any pad has.
     const MOST_HELD: usize = 64;
 
-    /// How strongly it pedals, 0 to 1; `None` until it has.
+    /// Strength of pedalling, 0 to 1; `None` before the first.
     pub fn pedal(&self) -> Option<f64> {
         self.pedalled.then(|| self.forward())
     }
@@ -192,7 +193,7 @@ impl Gamepad {
         if self.is_joystick { self.button(codes::THUMB) } else { self.trigger(codes::Z) }
     }
 
-    /// Handlebar, −1 right to 1 left.
+    /// Turn of the handlebar, −1 right to 1 left.
     pub fn steer(&self) -> f64 {
         -self.stick(codes::X)
     }
@@ -216,11 +217,11 @@ impl Gamepad {
     }
 
     fn stick(&self, code: u16) -> f64 {
-        self.axes[usize::from(code)].map_or(0.0, Axis::stick)
+        self.axes[usize::from(code)].map_or(0.0, GamepadAxis::stick)
     }
 
     fn trigger(&self, code: u16) -> f64 {
-        self.axes[usize::from(code)].map_or(0.0, Axis::trigger)
+        self.axes[usize::from(code)].map_or(0.0, GamepadAxis::trigger)
     }
 
     fn button(&self, code: u16) -> f64 {
@@ -243,39 +244,39 @@ impl Gamepad {
         }
     }
 
-    fn item(&mut self, item: Item, actions: &mut Actions) {
+    fn item(&mut self, item: GamepadItem, actions: &mut Actions) {
         match item {
-            // A description begins: what is held is said next.
-            Item::Gamepad | Item::Joystick => {
-                self.is_joystick = item == Item::Joystick;
+            // A description begins: the held buttons follow.
+            GamepadItem::Gamepad | GamepadItem::Joystick => {
+                self.is_joystick = item == GamepadItem::Joystick;
                 self.held.clear();
             }
-            Item::Axis { code, value, least, most } if usize::from(code) < AXES && least < most => {
+            GamepadItem::Axis { code, value, least, most } if usize::from(code) < AXES && least < most => {
                 let [value, least, most] = [value, least, most].map(f64::from);
-                self.axes[usize::from(code)] = Some(Axis { value, least, most });
+                self.axes[usize::from(code)] = Some(GamepadAxis { value, least, most });
             }
-            Item::Axis { code, least, most, .. } => {
+            GamepadItem::Axis { code, least, most, .. } => {
                 self.faults.count(format!("axis {code} that goes from {least} to {most}"));
             }
-            Item::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(code)) {
+            GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(code)) {
                 Some(Some(axis)) => axis.value = f64::from(value),
                 _ => self.faults.count(format!("axis {code}, which was not announced")),
             },
-            // A value of 2 is a repetition.
-            Item::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
-            Item::Event { .. } => {}
+            // The value 2 is a repetition.
+            GamepadItem::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
+            GamepadItem::Event { .. } => {}
         }
         self.pedalled |= self.forward() > 0.0;
     }
 }
 
-impl Decoder for Gamepad {
+impl Decoder for GamepadDecoder {
     fn reset(&mut self, _at: Nanos) {
         *self = Self { faults: std::mem::take(&mut self.faults), ..Self::default() };
     }
 
     fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
-        while let Some((item, rest)) = Item::split(bytes) {
+        while let Some((item, rest)) = GamepadItem::split(bytes) {
             self.item(item, actions);
             bytes = rest;
         }
@@ -291,43 +292,42 @@ impl Decoder for Gamepad {
 
 #[cfg(test)]
 mod tests {
-    //! A stick must read zero where it rests, one where it ends, and whatever a pad held must go
-    //! with it.
+    //! A stick must read zero at rest and one at its end; a pad that is unplugged must release everything it held.
     use super::*;
 
-    fn pad(items: &[Item]) -> (Gamepad, Vec<Action>) {
-        let (mut pad, mut actions) = (Gamepad::default(), Actions::default());
+    fn pad(items: &[GamepadItem]) -> (GamepadDecoder, Vec<Action>) {
+        let (mut pad, mut actions) = (GamepadDecoder::default(), Actions::default());
         feed(&mut pad, items, &mut actions);
         (pad, actions.take())
     }
 
-    fn feed(pad: &mut Gamepad, items: &[Item], actions: &mut Actions) {
+    fn feed(pad: &mut GamepadDecoder, items: &[GamepadItem], actions: &mut Actions) {
         let mut bytes = Vec::new();
         items.iter().for_each(|item| item.encode(&mut bytes));
         pad.bytes(0, &bytes, actions);
     }
 
-    fn axis(code: u16, value: i32) -> Item {
-        Item::Axis { code, value, least: -32768, most: 32767 }
+    fn axis(code: u16, value: i32) -> GamepadItem {
+        GamepadItem::Axis { code, value, least: -32768, most: 32767 }
     }
 
-    fn event(kind: u16, code: u16, value: i32) -> Item {
-        Item::Event { kind, code, value }
+    fn event(kind: u16, code: u16, value: i32) -> GamepadItem {
+        GamepadItem::Event { kind, code, value }
     }
 
     #[test]
     fn a_resting_pad_wants_nothing() {
-        let trigger = Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 };
-        let (pad, actions) = pad(&[Item::Gamepad, axis(codes::X, -2000), axis(codes::Y, 1500), trigger]);
+        let trigger = GamepadItem::Axis { code: codes::RZ, value: 0, least: 0, most: 255 };
+        let (pad, actions) = pad(&[GamepadItem::Gamepad, axis(codes::X, -2000), axis(codes::Y, 1500), trigger]);
         assert_eq!((pad.deflection(), pad.brake(), pad.pedal()), ([0.0; 6].map(|zero: f64| zero), 0.0, None));
         assert!(actions.is_empty());
     }
 
     #[test]
     fn sticks_and_triggers_reach_their_ends() {
-        let (mut pad, _) = pad(&[Item::Gamepad, axis(codes::X, 0), axis(codes::Y, 0), axis(codes::RX, 0)]);
+        let (mut pad, _) = pad(&[GamepadItem::Gamepad, axis(codes::X, 0), axis(codes::Y, 0), axis(codes::RX, 0)]);
         let mut actions = Actions::default();
-        let trigger = Item::Axis { code: codes::RZ, value: 255, least: 0, most: 255 };
+        let trigger = GamepadItem::Axis { code: codes::RZ, value: 255, least: 0, most: 255 };
         let pushed = [event(codes::ABSOLUTE, codes::X, -32768), event(codes::ABSOLUTE, codes::RX, 32767), trigger];
         feed(&mut pad, &pushed, &mut actions);
         assert_eq!(pad.steer(), 1.0);
@@ -340,9 +340,9 @@ mod tests {
     #[test]
     fn a_joystick_is_flown_by_stick_and_twist() {
         let (pad, _) = pad(&[
-            Item::Joystick,
-            Item::Axis { code: codes::Y, value: 255, least: 0, most: 255 },
-            Item::Axis { code: codes::RZ, value: 0, least: 0, most: 255 },
+            GamepadItem::Joystick,
+            GamepadItem::Axis { code: codes::Y, value: 255, least: 0, most: 255 },
+            GamepadItem::Axis { code: codes::RZ, value: 0, least: 0, most: 255 },
             event(codes::KEY, codes::TRIGGER, 1),
         ]);
         let [_, _, back, nose_up, _, roll_left] = pad.deflection();
@@ -361,7 +361,7 @@ mod tests {
         let (mut pad, _) = pad(&[axis(codes::Y, -32768), event(codes::KEY, codes::LEFT_SHOULDER, 1)]);
         assert_eq!(pad.deflection()[2], -1.0);
         pad.reset(0);
-        assert_eq!(pad.deflection(), Gamepad::default().deflection());
+        assert_eq!(pad.deflection(), GamepadDecoder::default().deflection());
         assert_eq!(pad.deflection().map(f64::abs), [0.0; 6]);
     }
 
@@ -371,15 +371,15 @@ mod tests {
         let right = event(codes::KEY, codes::RIGHT_SHOULDER, 1);
         let (mut pad, _) = pad(&[left, right]);
         assert_eq!(pad.deflection()[5], 0.0);
-        feed(&mut pad, &[Item::Gamepad, right], &mut Actions::default());
+        feed(&mut pad, &[GamepadItem::Gamepad, right], &mut Actions::default());
         assert_eq!(pad.deflection()[5], -1.0);
     }
 
     #[test]
     fn nonsense_is_counted_and_bounded() {
         let (mut pad, _) = pad(&[
-            Item::Axis { code: 64, value: 0, least: 0, most: 1 },
-            Item::Axis { code: 0, value: 0, least: 1, most: 1 },
+            GamepadItem::Axis { code: 64, value: 0, least: 0, most: 1 },
+            GamepadItem::Axis { code: 0, value: 0, least: 1, most: 1 },
             event(codes::ABSOLUTE, 5, 1),
             event(codes::ABSOLUTE, 999, 1),
         ]);
@@ -389,8 +389,8 @@ mod tests {
             pad.bytes(0, bytes, &mut actions);
         }
         assert_eq!(pad.faults().number(), 7);
-        let flood: Vec<Item> = (0..5000).map(|code| event(codes::KEY, code, 1)).collect();
+        let flood: Vec<GamepadItem> = (0..5000).map(|code| event(codes::KEY, code, 1)).collect();
         feed(&mut pad, &flood, &mut actions);
-        assert_eq!(pad.held.len(), Gamepad::MOST_HELD);
+        assert_eq!(pad.held.len(), GamepadDecoder::MOST_HELD);
     }
 }

@@ -1,8 +1,7 @@
-//! Keys of the window: riding, driving and flying without any device.
+//! Decoder of the window's keys: riding, driving and flying without any device.
 //!
-//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every
-//! system) and 1 for pressed, 0 for released. Several may follow one another in a sample. What keys
-//! want moves on ramps, as legs and hands do.
+//! A sample holds key events of two bytes each, as [`KeyboardKey::to_bytes`] writes them. Controls move to the goals
+//! of the held keys on ramps, as legs and hands do.
 //!
 //! | keys | bicycle | drive, fly |
 //! |---|---|---|
@@ -14,142 +13,60 @@
 //! | R, F | | thrust up, down |
 //! | Q, E | | roll left, right |
 //!
-//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the
-//! vehicle, Backspace goes back to the start, C takes a picture, V records, H and F1 show the help.
+//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
+//! returns to the start, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
-use crate::config::RiderConfig;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
+use crate::key::KeyboardKey;
 use crate::ramp::Ramp;
-use crate::sample::Nanos;
+use crate::rider_config::RiderConfig;
 
-/// Full deflections a second that a pressed key moves a control by.
+/// Rate of a control whose key is pressed, full deflections a second.
 const PRESS_RATE: f64 = 3.0;
-/// The same for a released key.
+/// Rate of a control whose key is released, full deflections a second.
 const RELEASE_RATE: f64 = 5.0;
 
-macro_rules! keys {
-    ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
-        /// A key that means something, by its place on the USB keyboard.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[repr(u8)]
-        pub enum Key {
-            $($(#[$doc])* $name = $code),*
-        }
-
-        impl Key {
-            /// Every key.
-            pub const ALL: &[Self] = &[$(Self::$name),*];
-
-            /// The key with this number on the USB.
-            pub fn from_code(code: u8) -> Option<Self> {
-                match code {
-                    $($code => Some(Self::$name),)*
-                    _ => None,
-                }
-            }
-        }
-    };
-}
-
-keys! {
-    /// A.
-    A = 0x04,
-    /// C.
-    C = 0x06,
-    /// D.
-    D = 0x07,
-    /// E.
-    E = 0x08,
-    /// F.
-    F = 0x09,
-    /// H.
-    H = 0x0b,
-    /// P.
-    P = 0x13,
-    /// Q.
-    Q = 0x14,
-    /// R.
-    R = 0x15,
-    /// S.
-    S = 0x16,
-    /// V.
-    V = 0x19,
-    /// W.
-    W = 0x1a,
-    /// 1 above the letters.
-    One = 0x1e,
-    /// 2 above the letters.
-    Two = 0x1f,
-    /// 3 above the letters.
-    Three = 0x20,
-    /// Backspace.
-    Backspace = 0x2a,
-    /// The space bar.
-    Space = 0x2c,
-    /// − above the letters.
-    Minus = 0x2d,
-    /// = above the letters.
-    Equal = 0x2e,
-    /// The full stop.
-    Period = 0x37,
-    /// F1.
-    F1 = 0x3a,
-    /// Arrow to the right.
-    Right = 0x4f,
-    /// Arrow to the left.
-    Left = 0x50,
-    /// Arrow down.
-    Down = 0x51,
-    /// Arrow up.
-    Up = 0x52,
-    /// Either shift key.
-    Shift = 0xe1,
-}
-
-/// The bytes of a key event.
-pub fn encode(key: Key, pressed: bool) -> [u8; 2] {
-    [key as u8, u8::from(pressed)]
-}
-
-/// What a key does once when pressed.
-fn action(key: Key) -> Option<Action> {
+/// Action of a key when pressed; `None` for keys that are held.
+fn action(key: KeyboardKey) -> Option<Action> {
     Some(match key {
-        Key::P => Action::TogglePause,
-        Key::Period => Action::Step,
-        Key::Minus => Action::ScaleTime(0.5),
-        Key::Equal => Action::ScaleTime(2.0),
-        Key::One => Action::Vehicle(VehicleKind::Bicycle),
-        Key::Two => Action::Vehicle(VehicleKind::Drive),
-        Key::Three => Action::Vehicle(VehicleKind::Fly),
-        Key::Backspace => Action::Restart,
-        Key::C => Action::Photo,
-        Key::V => Action::ToggleRecording,
-        Key::H | Key::F1 => Action::ToggleHelp,
+        KeyboardKey::P => Action::TogglePause,
+        KeyboardKey::Period => Action::Step,
+        KeyboardKey::Minus => Action::ScaleTime(0.5),
+        KeyboardKey::Equal => Action::ScaleTime(2.0),
+        KeyboardKey::One => Action::Vehicle(VehicleKind::Bicycle),
+        KeyboardKey::Two => Action::Vehicle(VehicleKind::Drive),
+        KeyboardKey::Three => Action::Vehicle(VehicleKind::Fly),
+        KeyboardKey::Backspace => Action::Restart,
+        KeyboardKey::C => Action::Photo,
+        KeyboardKey::V => Action::ToggleRecording,
+        KeyboardKey::H | KeyboardKey::F1 => Action::ToggleHelp,
         _ => return None,
     })
 }
 
-/// The keys that are down.
+/// Keys that are down.
 #[derive(Clone, Copy, Debug)]
-struct Held([bool; 256]);
+struct HeldKeys([bool; 256]);
 
-impl Held {
-    fn any(&self, keys: &[Key]) -> bool {
+impl HeldKeys {
+    fn any(&self, keys: &[KeyboardKey]) -> bool {
         keys.iter().any(|&key| self.0[usize::from(key as u8)])
     }
 
-    /// −1, 0 or 1 for a pair of opposite keys.
-    fn between(&self, negative: &[Key], positive: &[Key]) -> f64 {
+    /// Direction of a pair of opposite keys: −1, 0 or 1.
+    fn between(&self, negative: &[KeyboardKey], positive: &[KeyboardKey]) -> f64 {
         f64::from(i8::from(self.any(positive)) - i8::from(self.any(negative)))
     }
 }
 
-/// Decoder of [`Source::Keyboard`](crate::Source::Keyboard).
+/// Decoder of [`SampleSource::Keyboard`](crate::SampleSource::Keyboard).
 #[derive(Debug)]
-pub struct Keyboard {
+pub struct KeyboardDecoder {
     rider: RiderConfig,
-    held: Held,
+    held: HeldKeys,
     pedalled: bool,
     wheel: Ramp,
     steer: Ramp,
@@ -159,12 +76,12 @@ pub struct Keyboard {
     faults: Faults,
 }
 
-impl Keyboard {
-    /// A keyboard that nobody touches.
+impl KeyboardDecoder {
+    /// Keyboard without a pressed key.
     pub fn new(rider: RiderConfig) -> Self {
         Self {
             rider,
-            held: Held([false; 256]),
+            held: HeldKeys([false; 256]),
             pedalled: false,
             wheel: Ramp::default(),
             steer: Ramp::default(),
@@ -175,12 +92,12 @@ impl Keyboard {
         }
     }
 
-    /// Speed that the keys pedal, m/s; `None` until somebody has.
+    /// Speed that the keys pedal, m/s; `None` before the first pedalling.
     pub fn wheel_speed(&self, at: Nanos) -> Option<f64> {
         self.pedalled.then(|| self.wheel.value(at))
     }
 
-    /// Handlebar, −1 right to 1 left.
+    /// Turn of the handlebar, −1 right to 1 left.
     pub fn steer(&self, at: Nanos) -> f64 {
         self.steer.value(at)
     }
@@ -197,38 +114,41 @@ impl Keyboard {
         [right, up, back, nose_up, nose_left, roll_left]
     }
 
-    /// Aims every ramp at what the held keys want.
+    /// Aims every ramp at the goal of the held keys.
     fn aim(&mut self, at: Nanos) {
         let held = self.held;
         let lean = |ramp: &mut Ramp, target: f64| {
             ramp.aim(at, target, if target == 0.0 { RELEASE_RATE } else { PRESS_RATE });
         };
 
-        // Fly and drive.
+        // Aim the controls of drive and fly.
         let thrust = [
-            held.between(&[Key::A], &[Key::D]),
-            held.between(&[Key::F], &[Key::R]),
-            held.between(&[Key::W], &[Key::S]),
+            held.between(&[KeyboardKey::A], &[KeyboardKey::D]),
+            held.between(&[KeyboardKey::F], &[KeyboardKey::R]),
+            held.between(&[KeyboardKey::W], &[KeyboardKey::S]),
         ];
         let turn = [
-            held.between(&[Key::Down], &[Key::Up]),
-            held.between(&[Key::Right], &[Key::Left]),
-            held.between(&[Key::E], &[Key::Q]),
+            held.between(&[KeyboardKey::Down], &[KeyboardKey::Up]),
+            held.between(&[KeyboardKey::Right], &[KeyboardKey::Left]),
+            held.between(&[KeyboardKey::E], &[KeyboardKey::Q]),
         ];
         self.thrust.iter_mut().zip(thrust).for_each(|(ramp, target)| lean(ramp, target));
         self.turn.iter_mut().zip(turn).for_each(|(ramp, target)| lean(ramp, target));
 
-        // Ride.
-        lean(&mut self.steer, held.between(&[Key::D, Key::Right], &[Key::A, Key::Left]));
-        lean(&mut self.brake, held.between(&[], &[Key::Space]));
+        // Aim the controls of the bicycle.
+        lean(
+            &mut self.steer,
+            held.between(&[KeyboardKey::D, KeyboardKey::Right], &[KeyboardKey::A, KeyboardKey::Left]),
+        );
+        lean(&mut self.brake, held.between(&[], &[KeyboardKey::Space]));
         let rider = &self.rider;
-        let forward = held.between(&[Key::S, Key::Down], &[Key::W, Key::Up]);
-        let (speed, rate) = if held.any(&[Key::Space]) {
+        let forward = held.between(&[KeyboardKey::S, KeyboardKey::Down], &[KeyboardKey::W, KeyboardKey::Up]);
+        let (speed, rate) = if held.any(&[KeyboardKey::Space]) {
             (0.0, rider.brake_m_s2)
         } else if forward > 0.0 {
-            (if held.any(&[Key::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
+            (if held.any(&[KeyboardKey::Shift]) { rider.sprint_m_s } else { rider.cruise_m_s }, rider.pedal_m_s2)
         } else if forward < 0.0 {
-            // First to a stop, then backward.
+            // The wheel slows to a stop first, then turns backward.
             (-rider.reverse_m_s, rider.pedal_m_s2)
         } else {
             (0.0, rider.coast_m_s2)
@@ -238,17 +158,17 @@ impl Keyboard {
     }
 }
 
-impl Decoder for Keyboard {
-    /// The window lost the focus: every key is let go, the bicycle coasts.
+impl Decoder for KeyboardDecoder {
+    /// Releases every key: the window lost the focus. The bicycle coasts.
     fn reset(&mut self, at: Nanos) {
-        self.held = Held([false; 256]);
+        self.held = HeldKeys([false; 256]);
         self.aim(at);
     }
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions) {
         let (events, rest) = bytes.as_chunks::<2>();
         for &[code, state] in events {
-            match (Key::from_code(code), state) {
+            match (KeyboardKey::from_code(code), state) {
                 (Some(key), 0 | 1) => {
                     let held = &mut self.held.0[usize::from(code)];
                     let pressed = state == 1 && !*held;
@@ -273,31 +193,24 @@ impl Decoder for Keyboard {
 
 #[cfg(test)]
 mod tests {
-    //! A key that is held must lead smoothly to its control and a released one back; the order of
-    //! asking may not matter.
+    //! A held key must move its control smoothly to its end and a released one back; the order of asking may not
+    //! matter.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
-    fn keyboard() -> (Keyboard, Actions) {
-        (Keyboard::new(RiderConfig::default()), Actions::default())
-    }
-
-    #[test]
-    fn every_key_survives_its_bytes() {
-        for &key in Key::ALL {
-            assert_eq!(Key::from_code(encode(key, true)[0]), Some(key));
-        }
+    fn keyboard() -> (KeyboardDecoder, Actions) {
+        (KeyboardDecoder::new(RiderConfig::default()), Actions::default())
     }
 
     #[test]
     fn pedalling_rises_to_the_cruise_and_coasts_down() {
         let (mut keys, mut actions) = keyboard();
         assert_eq!(keys.wheel_speed(0), None);
-        keys.bytes(SECOND, &encode(Key::W, true), &mut actions);
+        keys.bytes(SECOND, &KeyboardKey::W.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(SECOND), Some(0.0));
         assert_eq!(keys.wheel_speed(2 * SECOND), Some(2.0));
         assert_eq!(keys.wheel_speed(60 * SECOND), Some(10.0));
-        keys.bytes(60 * SECOND, &encode(Key::W, false), &mut actions);
+        keys.bytes(60 * SECOND, &KeyboardKey::W.to_bytes(false), &mut actions);
         assert_eq!(keys.wheel_speed(64 * SECOND), Some(8.0));
         assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
     }
@@ -305,8 +218,8 @@ mod tests {
     #[test]
     fn braking_wins_over_pedalling() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &encode(Key::Up, true), &mut actions);
-        keys.bytes(10 * SECOND, &encode(Key::Space, true), &mut actions);
+        keys.bytes(0, &KeyboardKey::Up.to_bytes(true), &mut actions);
+        keys.bytes(10 * SECOND, &KeyboardKey::Space.to_bytes(true), &mut actions);
         assert_eq!(keys.wheel_speed(11 * SECOND), Some(4.0));
         assert_eq!(keys.brake(11 * SECOND), 1.0);
         assert_eq!(keys.wheel_speed(12 * SECOND), Some(0.0));
@@ -315,17 +228,17 @@ mod tests {
     #[test]
     fn opposite_keys_cancel() {
         let (mut keys, mut actions) = keyboard();
-        keys.bytes(0, &encode(Key::A, true), &mut actions);
+        keys.bytes(0, &KeyboardKey::A.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(SECOND), keys.deflection(SECOND)[0]), (1.0, -1.0));
-        keys.bytes(SECOND, &encode(Key::D, true), &mut actions);
+        keys.bytes(SECOND, &KeyboardKey::D.to_bytes(true), &mut actions);
         assert_eq!((keys.steer(2 * SECOND), keys.deflection(2 * SECOND)[0]), (0.0, 0.0));
     }
 
     #[test]
     fn losing_the_focus_lets_everything_go() {
         let (mut keys, mut actions) = keyboard();
-        for key in [Key::W, Key::A, Key::Space, Key::Q] {
-            keys.bytes(0, &encode(key, true), &mut actions);
+        for key in [KeyboardKey::W, KeyboardKey::A, KeyboardKey::Space, KeyboardKey::Q] {
+            keys.bytes(0, &key.to_bytes(true), &mut actions);
         }
         keys.reset(SECOND);
         let later = 30 * SECOND;
@@ -337,7 +250,7 @@ mod tests {
     fn a_repeated_press_acts_once() {
         let (mut keys, mut actions) = keyboard();
         for state in [true, true, false, true] {
-            keys.bytes(0, &encode(Key::P, state), &mut actions);
+            keys.bytes(0, &KeyboardKey::P.to_bytes(state), &mut actions);
         }
         assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause]);
     }

@@ -1,51 +1,66 @@
-//! Devices to controls.
+//! Devices to controls, and recordings of both.
 //!
-//! Whatever a rider touches ends as a stream of [`Sample`]s: raw bytes, a time stamp, the device's
-//! name. A [`Desk`] decodes them and says, once a frame, what the rider wants ([`Controls`]).
-//! Decoding is a pure function, so a [`recording`] of samples and frame times replays to the same
-//! bits. Live samples come from [`devices`], where each device has a thread of its own; tests and
-//! replays make them without any hardware.
+//! Every device ends as a stream of [`Sample`]s: raw bytes, a time stamp, the device's name. A [`Desk`] decodes them
+//! into the rider's [`Controls`], once a frame. Decoding is a pure function, so a [`recording`] of samples and frame
+//! times replays to the same bits. Live samples come from [`devices`], where each device has a thread of its own;
+//! tests and replays make them without any hardware.
 //!
 //! ```
-//! use input::{Desk, DeskConfig, Key, SECOND, Sample};
+//! use input::{Desk, DeskConfig, KeyboardKey, SECOND, Sample};
 //!
 //! let mut desk = Desk::new(DeskConfig::default())?;
-//! desk.feed(&Sample::key(0, Key::W, true));
+//! desk.feed(&Sample::key(0, KeyboardKey::W, true));
 //! assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
 //! # Ok::<(), input::ConfigError>(())
 //! ```
 //!
-//! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on
-//! the wall.
+//! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on the wall.
+
+#![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
 
 pub mod action;
+mod axis_table;
 pub mod bicycle;
 pub mod brake;
+mod clock;
 pub mod config;
+mod config_error;
 mod controls;
 pub mod decoder;
 mod desk;
 pub mod devices;
 pub mod dtrack;
+mod faults;
 pub mod filters;
 pub mod gamepad;
 pub mod head;
+mod key;
 pub mod keyboard;
 pub mod line;
 pub mod pulses;
 mod ramp;
 pub mod recording;
+mod rider_config;
 mod sample;
+pub mod settings;
 pub mod spacemouse;
 pub mod spacenavd;
 pub mod vrpn;
 
 pub use action::{Action, VehicleKind};
+pub use axis_table::AxisTable;
+pub use bicycle::config::{BareNumber, BicycleConfig};
 pub use brake::BrakeCommand;
-pub use config::{AxisTable, BareNumber, BicycleConfig, ConfigError, DeskConfig, RiderConfig};
+pub use clock::{Clock, Nanos, SECOND, seconds_between};
+pub use config::DeskConfig;
+pub use config_error::ConfigError;
 pub use controls::Controls;
 pub use desk::Desk;
 pub use devices::{Devices, DevicesConfig};
+pub use faults::Faults;
 pub use head::{HeadConfig, HeadState, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
-pub use keyboard::Key;
-pub use sample::{Clock, Nanos, SECOND, Sample, Signal, Source, seconds_between};
+pub use key::KeyboardKey;
+pub use key::KeyboardKey as Key; // until app is moved
+pub use rider_config::RiderConfig;
+pub use sample::SampleSource as Source; // until app is moved
+pub use sample::{Sample, SampleSource, Signal};

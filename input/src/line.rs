@@ -1,62 +1,62 @@
 //! Text lines from a byte stream, and their checksum.
 //!
-//! A serial port hands over bytes cut anywhere, with noise in between. [`Lines`] puts lines
-//! together, bounded in length; [`sealed`] and [`unseal`] add and check the checksum `*HH`: all
-//! bytes before the asterisk, combined by exclusive or, as two hexadecimal digits, as in NMEA 0183.
+//! A serial port delivers bytes cut anywhere, with noise in between. [`Lines`] joins them to lines of bounded length;
+//! [`sealed`] and [`unseal`] add and check the checksum `*HH`: all bytes before the asterisk, combined by exclusive
+//! or, as two hexadecimal digits, as in NMEA 0183.
 
 use thiserror::Error;
 
-/// The longest line anybody sends is about half as long.
+/// Length of the longest line that is accepted, bytes, about twice the longest in use.
 pub const LONGEST_LINE: usize = 128;
 
-/// Why a line was skipped.
+/// Reason for skipping a line.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LineError {
-    /// It did not end.
+    /// A line without an end.
     #[error("a line longer than {LONGEST_LINE} bytes; is the baud rate right?")]
     TooLong,
-    /// It holds bytes outside ASCII.
+    /// Bytes outside ASCII.
     #[error("a line that is not ASCII text; is the baud rate right?")]
     NotText,
-    /// It must end in `*HH` and does not.
+    /// A line without the `*HH` that it must end in.
     #[error("no checksum `*HH` at the end of {line:?}")]
     NoChecksum {
-        /// The line.
+        /// Text of the line.
         line: String,
     },
-    /// Its checksum is not that of its text.
+    /// A checksum that is not that of the text.
     #[error("checksum {found:02X} in {line:?}, computed {computed:02X}")]
     Checksum {
-        /// The line.
+        /// Text of the line.
         line: String,
-        /// What the line claims.
+        /// Checksum in the line.
         found: u8,
-        /// What its text gives.
+        /// Checksum of the text.
         computed: u8,
     },
-    /// It has another number of fields.
+    /// A wrong number of fields.
     #[error("{found} fields in {line:?}, expected {expected}")]
     Fields {
-        /// The line.
+        /// Text of the line.
         line: String,
-        /// How many there are.
+        /// Number of fields in the line.
         found: usize,
-        /// How many belong there.
+        /// Number of fields that is expected.
         expected: &'static str,
     },
-    /// A field cannot be read, or cannot be right.
+    /// A field that cannot be read, or cannot be right.
     #[error("{field} {text:?}: expected {expected}")]
     Field {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it holds.
+        /// Text of the field.
         text: String,
-        /// What belongs there.
+        /// Description of a correct field.
         expected: &'static str,
     },
 }
 
-/// Puts lines together; LF, CR or both end one.
+/// Assembler of lines from bytes; LF, CR or both end a line.
 #[derive(Debug, Default)]
 pub struct Lines {
     partial: Vec<u8>,
@@ -69,8 +69,7 @@ impl Lines {
         *self = Self::default();
     }
 
-    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are
-    /// passed over.
+    /// Takes the next bytes and calls `each` for every line that ends in them; empty ones are passed over.
     pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<&str, LineError>)) {
         for &byte in bytes {
             if byte == b'\n' || byte == b'\r' {
@@ -83,7 +82,7 @@ impl Lines {
                 }
                 self.reset_keeping_buffer();
             } else if self.skipping {
-                // The rest of a line that was too long.
+                // The rest of a line that was too long is skipped.
             } else if self.partial.len() == LONGEST_LINE {
                 self.skipping = true;
                 each(Err(LineError::TooLong));
@@ -99,20 +98,20 @@ impl Lines {
     }
 }
 
-/// All bytes combined by exclusive or.
+/// Exclusive or of all bytes.
 fn checksum(text: &str) -> u8 {
     text.bytes().fold(0, |sum, byte| sum ^ byte)
 }
 
-/// The text with its checksum and a line feed.
+/// Text with its checksum and a line feed.
 pub fn sealed(text: &str) -> String {
     format!("{text}*{:02X}\n", checksum(text))
 }
 
-/// The text of a sealed line.
+/// Text of a sealed line.
 ///
 /// # Errors
-/// If the checksum is missing or wrong.
+/// A missing or wrong checksum.
 pub fn unseal(line: &str) -> Result<&str, LineError> {
     let none = || LineError::NoChecksum { line: line.to_owned() };
     let (text, digits) = line.rsplit_once('*').ok_or_else(none)?;
@@ -126,8 +125,7 @@ pub fn unseal(line: &str) -> Result<&str, LineError> {
 
 #[cfg(test)]
 mod tests {
-    //! However the bytes are cut, the same lines must come out; a flipped bit must not pass the
-    //! checksum.
+    //! Lines must come out the same however the bytes are cut; a flipped bit must not pass the checksum.
     use super::*;
 
     fn lines(chunks: &[&[u8]]) -> Vec<Result<String, LineError>> {

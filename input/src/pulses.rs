@@ -1,16 +1,15 @@
-//! How fast something turns, from the times at which it passed a sensor.
+//! Rate of a turning wheel, from the times of the pulses of its sensor.
 //!
-//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the
-//! age of the last pulse needs ours. Between pulses the estimate is capped by what the silence
-//! still allows (had it turned faster, the next pulse would be here already), so it decays by
-//! itself, and after a while of silence it is zero.
+//! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the age of the last
+//! pulse is measured on this machine's. Between pulses the estimate is capped by the silence (at a higher rate the
+//! next pulse would be here already). So it decays by itself, and after a while of silence it is zero.
 
+use crate::clock::{Nanos, seconds_between};
 use crate::filters::{MedianOfThree, OneEuro};
-use crate::sample::{Nanos, seconds_between};
 
 /// Cutoff at a steady pace, Hz: a rider's pace changes within a second.
 const STEADY_CUTOFF_HZ: f64 = 1.0;
-/// How quickly the filter opens when the pace changes, Hz per pulse a second each second.
+/// Rise of the cutoff with the change of pace, Hz per pulse a second each second.
 const CUTOFF_PER_CHANGE: f64 = 0.5;
 /// Cutoff for the change of pace, Hz.
 const CHANGE_CUTOFF_HZ: f64 = 1.0;
@@ -18,9 +17,9 @@ const CHANGE_CUTOFF_HZ: f64 = 1.0;
 /// Estimator of a pulse rate.
 #[derive(Clone, Debug)]
 pub struct PulseRate {
-    /// Shorter intervals are a bouncing contact.
+    /// Shortest interval that is believed, seconds; shorter ones are a bouncing contact.
     shortest_interval_s: f64,
-    /// After this much silence it stands still.
+    /// Silence after which the rate is zero, seconds.
     stop_after_s: f64,
     last_pulse: Option<Nanos>,
     rate_hz: f64,
@@ -29,7 +28,7 @@ pub struct PulseRate {
 }
 
 impl PulseRate {
-    /// An estimator that stands still until it has seen two pulses.
+    /// Estimator at rest until it has seen two pulses.
     pub fn new(shortest_interval_s: f64, stop_after_s: f64) -> Self {
         Self {
             shortest_interval_s,
@@ -46,9 +45,8 @@ impl PulseRate {
         *self = Self::new(self.shortest_interval_s, self.stop_after_s);
     }
 
-    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last
-    /// one before them. Says whether they were believed: a bounce is not, and leaves everything as
-    /// it was.
+    /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last one before them.
+    /// False if they are a bounce, which changes nothing.
     pub fn pulses(&mut self, at: Nanos, count: u32, interval_s: f64) -> bool {
         let interval_each_s = interval_s / f64::from(count);
         if interval_each_s < self.shortest_interval_s {
@@ -58,7 +56,7 @@ impl PulseRate {
             self.last_pulse = Some(at);
             return true;
         };
-        // After a long rest the interval says nothing, the sensor's clock may even have wrapped.
+        // After a long rest the interval is meaningless; the sensor's clock may even have wrapped.
         if seconds_between(last, at) > self.stop_after_s {
             self.reset();
             self.last_pulse = Some(at);
@@ -69,7 +67,7 @@ impl PulseRate {
         true
     }
 
-    /// When the last pulse came.
+    /// Time of the last pulse.
     pub fn last_pulse(&self) -> Option<Nanos> {
         self.last_pulse
     }
@@ -83,12 +81,12 @@ impl PulseRate {
 
 #[cfg(test)]
 mod tests {
-    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last
-    //! jerk, and neither a bouncing contact nor a clock that wrapped may show as speed.
+    //! A steady wheel must read its exact rate, a stopped one must come to rest without a last jerk, and neither a
+    //! bouncing contact nor a clock that wrapped may appear as speed.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
-    /// Rounding of a few operations.
+    /// Rounding of a few operations, Hz.
     const ROUNDING: f64 = 1e-12;
 
     fn steady(interval: Nanos, pulses: u64) -> PulseRate {

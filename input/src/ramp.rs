@@ -1,11 +1,11 @@
-//! A value that moves towards its target at a steady rate, as a key makes it.
+//! Value that moves towards its target at a steady rate, driven by a key.
 //!
-//! A key is down or up, a leg is not. The value between is a function of the time of the last
-//! change and the time of asking only, so it does not matter how often one asks.
+//! A key is down or up, a leg is not. The value between is a function of the time of the last change and the time of
+//! asking only, so the number of calls does not matter.
 
-use crate::sample::{Nanos, seconds_between};
+use crate::clock::{Nanos, seconds_between};
 
-/// A ramp from where it was when its target was last changed.
+/// Ramp from its value at the last change of the target.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ramp {
     from: f64,
@@ -15,14 +15,14 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// The value at the time `at`.
+    /// Value at the time `at`.
     pub fn value(&self, at: Nanos) -> f64 {
         let way = self.target - self.from;
         let reach = self.rate * seconds_between(self.since, at);
         if way.abs() <= reach { self.target } else { self.from + reach.copysign(way) }
     }
 
-    /// From `at` on, moves towards `target` by `rate` a second.
+    /// Moves towards `target` from `at` on, by `rate` a second.
     pub fn aim(&mut self, at: Nanos, target: f64, rate: f64) {
         *self = Self { from: self.value(at), since: at, target, rate };
     }
@@ -31,7 +31,7 @@ impl Ramp {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
     #[test]
     fn a_ramp_reaches_its_target_and_stays() {

@@ -1,51 +1,22 @@
-//! What a device said, and when.
+//! Samples: the bytes of a device, with their time.
 //!
-//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp,
-//! and which device spoke. Whatever is decoded from samples is a pure function of them, so a
-//! recording of samples and frame times replays to the same bits. Even the switches of the
-//! interface pass as samples ([`Source::Settings`]).
+//! A [`Sample`] is the only thing that may influence a ride: raw bytes as they came, a time stamp, and the device.
+//! All that is decoded from samples is a pure function of them, so a recording of samples and frame times replays to
+//! the same bits. The switches of the interface pass as samples, too ([`SampleSource::Settings`]).
 
 use std::fmt;
-use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::head::MouseEvent;
-use crate::keyboard::{self, Key};
+use crate::clock::Nanos;
+use crate::head::mouse_event::MouseEvent;
+use crate::key::KeyboardKey;
 
-/// Nanoseconds since the ride began, on one monotonic clock for devices and frames alike.
-pub type Nanos = u64;
-
-/// One second in [`Nanos`].
-pub const SECOND: Nanos = 1_000_000_000;
-
-/// Seconds from `earlier` to `later`; zero if they are the wrong way round, as samples of two
-/// threads may be.
-pub fn seconds_between(earlier: Nanos, later: Nanos) -> f64 {
-    later.saturating_sub(earlier) as f64 * 1e-9
-}
-
-/// The ride's clock: monotonic, zero at the start. Copies agree.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock(Instant);
-
-impl Clock {
-    /// Starts a clock at zero.
-    pub fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    /// The time now. It fits for 584 years.
-    pub fn now(self) -> Nanos {
-        Nanos::try_from(self.0.elapsed().as_nanos()).unwrap_or(Nanos::MAX)
-    }
-}
-
-/// Which device a sample comes from, and so which decoder reads its bytes.
+/// Device of a sample, which decides the decoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Source {
+pub enum SampleSource {
     /// Keys of the window: [`crate::keyboard`].
     Keyboard,
     /// A gamepad or joystick: [`crate::gamepad`].
@@ -60,14 +31,14 @@ pub enum Source {
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
     Dtrack,
-    /// The mouse in the window, where it moves the head: [`crate::head::Mouse`].
+    /// The mouse in the window, where it moves the head: [`crate::head::MouseDecoder`].
     Mouse,
-    /// The program's own interface: [`crate::action`].
+    /// The program's own interface: [`crate::settings`].
     Settings,
 }
 
-impl Source {
-    /// Every source, in the order of the listing.
+impl SampleSource {
+    /// All sources, in the order of the listing.
     pub const ALL: [Self; 9] = [
         Self::Keyboard,
         Self::Gamepad,
@@ -80,7 +51,7 @@ impl Source {
         Self::Settings,
     ];
 
-    /// The name in recordings and messages.
+    /// Name in recordings and messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Keyboard => "keyboard",
@@ -96,63 +67,63 @@ impl Source {
     }
 }
 
-impl fmt::Display for Source {
+impl fmt::Display for SampleSource {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
     }
 }
 
-/// What happened on a device.
+/// Signal of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Signal {
-    /// It was plugged in, or the connection stands again: nothing earlier holds any more.
+    /// The device was plugged in, or the connection stands again: nothing earlier holds any more.
     Opened,
-    /// Bytes arrived, in the device's own format, cut wherever the transport cut them.
+    /// Bytes in the device's own format, cut wherever the transport cut them.
     Bytes(Box<[u8]>),
-    /// It is gone: everything it held is released.
+    /// The device is gone: everything that it held is released.
     Closed,
 }
 
-/// One thing one device said at one time.
+/// Signal of one device at one time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// When it arrived at this machine.
+    /// Time of arrival at this machine.
     pub at: Nanos,
-    /// Who said it.
-    pub source: Source,
-    /// What it said.
+    /// Device that sent the signal.
+    pub source: SampleSource,
+    /// Signal of the device.
     pub signal: Signal,
 }
 
 impl Sample {
-    /// A device that has just been opened.
-    pub fn opened(at: Nanos, source: Source) -> Self {
+    /// Sample of a device that has just been opened.
+    pub fn opened(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Opened }
     }
 
-    /// Bytes from a device.
-    pub fn bytes(at: Nanos, source: Source, bytes: impl Into<Box<[u8]>>) -> Self {
+    /// Sample of bytes from a device.
+    pub fn bytes(at: Nanos, source: SampleSource, bytes: impl Into<Box<[u8]>>) -> Self {
         Self { at, source, signal: Signal::Bytes(bytes.into()) }
     }
 
-    /// A device that has gone. For the keyboard: the window lost the focus.
-    pub fn closed(at: Nanos, source: Source) -> Self {
+    /// Sample of a device that has gone. For the keyboard: the window lost the focus.
+    pub fn closed(at: Nanos, source: SampleSource) -> Self {
         Self { at, source, signal: Signal::Closed }
     }
 
-    /// A key of the window pressed or released.
-    pub fn key(at: Nanos, key: Key, pressed: bool) -> Self {
-        Self::bytes(at, Source::Keyboard, keyboard::encode(key, pressed))
+    /// Sample of a key of the window, pressed or released.
+    pub fn key(at: Nanos, key: KeyboardKey, pressed: bool) -> Self {
+        Self::bytes(at, SampleSource::Keyboard, key.to_bytes(pressed))
     }
 
-    /// The mouse of the window, where it moves the head.
+    /// Sample of the window's mouse, where it moves the head.
     pub fn mouse(at: Nanos, event: MouseEvent) -> Self {
-        Self::bytes(at, Source::Mouse, event.to_bytes())
+        Self::bytes(at, SampleSource::Mouse, event.to_bytes())
     }
 
-    /// A switch of the interface.
+    /// Sample of an action of the interface.
     pub fn action(at: Nanos, action: &Action) -> Self {
-        Self::bytes(at, Source::Settings, action.to_bytes())
+        Self::bytes(at, SampleSource::Settings, action.to_bytes())
     }
 }
 
@@ -161,14 +132,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn time_that_runs_backwards_counts_as_none() {
-        assert_eq!(seconds_between(5 * SECOND, 3 * SECOND), 0.0);
-        assert_eq!(seconds_between(3 * SECOND, 5 * SECOND), 2.0);
-    }
-
-    #[test]
     fn names_are_the_serialised_names() {
-        for source in Source::ALL {
+        for source in SampleSource::ALL {
             assert_eq!(serde_json::to_value(source).unwrap(), source.name());
         }
     }

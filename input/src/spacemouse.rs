@@ -1,42 +1,43 @@
-//! A SpaceMouse as raw HID reports.
+//! Decoder of a SpaceMouse as raw HID reports.
 //!
-//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350
-//! at full deflection. Report 1 carries the shifts, and on newer devices the turns as well; on
-//! older ones these come in report 2. Which kind it is shows in the length of report 1, not in the
-//! product's number: firmware differs. Report 3 holds the buttons.
+//! The first byte is the number of the report; values are little-endian 16-bit integers, about ±350 at full
+//! deflection. Report 1 carries the shifts, and on newer devices the turns as well; on older ones these come in
+//! report 2. The length of report 1 tells the two kinds apart, not the product's number, because firmware differs.
+//! Report 3 holds the buttons.
 //!
-//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. Should these be
-//! lost, flight must not go on for ever: after half a second of silence the cap counts as released.
+//! A deflected cap reports at 60 Hz and more, and a released one ends with zeros. If these are lost, flight must not
+//! continue: after half a second of silence the cap counts as released.
 
 use crate::action::Action;
-use crate::config::AxisTable;
-use crate::decoder::{Actions, Decoder, Faults};
+use crate::axis_table::AxisTable;
+use crate::clock::{Nanos, seconds_between};
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::filters::with_dead_zone;
-use crate::sample::{Nanos, seconds_between};
 
 /// Nominal full deflection; a hard push exceeds it.
 const FULL_DEFLECTION: f64 = 350.0;
-/// Part of the way within which a cap counts as centred, since caps drift.
+/// Part of the range within which a cap counts as centred, since caps drift.
 const DEAD_ZONE: f64 = 0.03;
 /// Silence after which a cap counts as released, seconds.
 const RELEASED_AFTER_S: f64 = 0.5;
 
-/// What the first buttons do.
+/// Actions of the first buttons.
 const BUTTONS: [Action; 2] = [Action::TogglePause, Action::ToggleHelp];
 
-/// What button `index` does when pressed, on either back end.
+/// Action of button `index` when pressed, on either back end.
 pub(crate) fn button(index: usize) -> Option<Action> {
     BUTTONS.get(index).copied()
 }
 
-/// The six controls for a device's axes and their full deflection.
+/// Six controls for a device's axes and their full deflection.
 pub(crate) fn deflection(table: AxisTable, axes: [i32; 6], full: f64) -> [f64; 6] {
     table.controls(axes.map(|axis| with_dead_zone(f64::from(axis) / full, DEAD_ZONE)))
 }
 
-/// Decoder of [`Source::SpaceMouse`](crate::Source::SpaceMouse): one report a sample.
+/// Decoder of [`SampleSource::SpaceMouse`](crate::SampleSource::SpaceMouse): one report a sample.
 #[derive(Debug)]
-pub struct SpaceMouse {
+pub struct SpaceMouseDecoder {
     table: AxisTable,
     axes: [i32; 6],
     last_motion: Nanos,
@@ -44,8 +45,8 @@ pub struct SpaceMouse {
     faults: Faults,
 }
 
-impl SpaceMouse {
-    /// A decoder at rest.
+impl SpaceMouseDecoder {
+    /// SpaceMouse at rest.
     pub fn new(table: AxisTable) -> Self {
         Self { table, axes: [0; 6], last_motion: 0, buttons: 0, faults: Faults::default() }
     }
@@ -73,7 +74,7 @@ impl SpaceMouse {
     }
 }
 
-impl Decoder for SpaceMouse {
+impl Decoder for SpaceMouseDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.axes = [0; 6];
         self.buttons = 0;
@@ -88,7 +89,7 @@ impl Decoder for SpaceMouse {
                 let what = format!("report {} of {} bytes", bytes[0], bytes.len());
                 self.faults.count(what);
             }
-            // Battery level and the like.
+            // Battery level and the like are passed over.
             [_, ..] => {}
             [] => self.faults.count("an empty report"),
         }
@@ -101,12 +102,12 @@ impl Decoder for SpaceMouse {
 
 #[cfg(test)]
 mod tests {
-    //! Reports captured from real devices must give their push; a lost zero must not fly on.
+    //! Reports captured from real devices must give their push; a lost zero must not keep the flight going.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
 
-    fn decoder() -> (SpaceMouse, Actions) {
-        (SpaceMouse::new(AxisTable::RAW), Actions::default())
+    fn decoder() -> (SpaceMouseDecoder, Actions) {
+        (SpaceMouseDecoder::new(AxisTable::RAW), Actions::default())
     }
 
     fn hex(text: &str) -> Vec<u8> {

@@ -1,16 +1,16 @@
-//! A SpaceMouse through the spacenavd daemon's socket.
+//! Decoder of a SpaceMouse through the spacenavd daemon's socket.
 //!
-//! Events are eight 32-bit integers in the machine's order (every machine we run on is
-//! little-endian): word 0 says what it is (0 motion, 1 press, 2 release, others passed over); a
-//! motion's words 1 to 6 are three shifts and three turns, ±500 at full deflection; a button's word
-//! 1 is its number. The stream may be cut anywhere.
+//! Events are eight 32-bit integers in the machine's order (all supported machines are little-endian). Word 0 is the
+//! kind (0 motion, 1 press, 2 release, others passed over); words 1 to 6 of a motion are three shifts and three
+//! turns, ±500 at full deflection; word 1 of a button is its number. The stream may be cut anywhere.
 //!
-//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent
-//! for seconds: silence means nothing here.
+//! The daemon leaves out events that repeat the last one, so a cap that is held still may be silent for seconds:
+//! silence has no meaning here.
 
-use crate::config::AxisTable;
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::sample::Nanos;
+use crate::axis_table::AxisTable;
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 use crate::spacemouse::{button, deflection};
 
 /// Length of an event, bytes.
@@ -20,22 +20,22 @@ const FULL_DEFLECTION: f64 = 500.0;
 
 const MOTION: i32 = 0;
 const PRESS: i32 = 1;
-/// Release, device, configuration, raw axis, raw button: nothing to do for them.
+/// Kinds without an effect: release, device, configuration, raw axis, raw button.
 const PASSED_OVER: std::ops::RangeInclusive<i32> = 2..=6;
 /// Upper half of word 0 in replies of the daemon's newer protocol, which interleave with events.
 const REPLY: i32 = 0x7faa;
 
-/// Decoder of [`Source::Spacenavd`](crate::Source::Spacenavd).
+/// Decoder of [`SampleSource::Spacenavd`](crate::SampleSource::Spacenavd).
 #[derive(Debug)]
-pub struct Spacenavd {
+pub struct SpacenavdDecoder {
     table: AxisTable,
     partial: Vec<u8>,
     axes: [i32; 6],
     faults: Faults,
 }
 
-impl Spacenavd {
-    /// A decoder at rest.
+impl SpacenavdDecoder {
+    /// SpaceMouse at rest.
     pub fn new(table: AxisTable) -> Self {
         Self { table, partial: Vec::new(), axes: [0; 6], faults: Faults::default() }
     }
@@ -59,7 +59,7 @@ impl Spacenavd {
     }
 }
 
-impl Decoder for Spacenavd {
+impl Decoder for SpacenavdDecoder {
     fn reset(&mut self, _at: Nanos) {
         self.partial.clear();
         self.axes = [0; 6];
@@ -86,7 +86,7 @@ impl Decoder for Spacenavd {
 
 #[cfg(test)]
 mod tests {
-    //! Events captured from the real daemon, however cut, must give their push.
+    //! Events captured from the real daemon must give their push, however they are cut.
     use super::*;
     use crate::action::Action;
 
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn captured_events_give_their_push() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes, [100, -50, -25, 7, -8, -300]);
         let expected = [0.2, -0.1, 0.05].map(|part: f64| (part.abs() - 0.03) / 0.97 * part.signum());
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn events_do_not_depend_on_the_cut() {
         for size in 1..=70 {
-            let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+            let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
             let mut seen = Vec::new();
             for chunk in captured().chunks(size) {
                 daemon.bytes(0, chunk, &mut actions);
@@ -135,18 +135,18 @@ mod tests {
 
     #[test]
     fn the_push_ends_with_the_connection() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         daemon.bytes(0, &captured()[..40], &mut actions);
         daemon.reset(0);
         assert_eq!(daemon.deflection(), [0.0; 6]);
-        // The half event of before must not shift what follows.
+        // The half event from before must not shift the next one.
         daemon.bytes(0, &captured()[..32], &mut actions);
         assert_eq!(daemon.axes[0], 100);
     }
 
     #[test]
     fn unknown_events_are_counted_and_replies_passed_over() {
-        let (mut daemon, mut actions) = (Spacenavd::new(AxisTable::SPACENAVD), Actions::default());
+        let (mut daemon, mut actions) = (SpacenavdDecoder::new(AxisTable::SPACENAVD), Actions::default());
         let mut reply = [0_u8; EVENT_LENGTH];
         reply[..4].copy_from_slice(&0x7faa_2000_i32.to_le_bytes());
         daemon.bytes(0, &reply, &mut actions);

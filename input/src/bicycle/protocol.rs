@@ -1,52 +1,52 @@
-//! The three kinds of line that a bicycle may send; [the decoder](super) says what they are for.
+//! The three kinds of line that a bicycle may send, described in [the module](super).
 
 use crate::line::{LineError, unseal};
 
-/// A line that has been understood.
+/// Line of the bicycle, parsed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Line {
-    /// A `B1` line.
+pub enum BicycleLine {
+    /// A `B1` line: counts and times of pulses.
     Pulses {
-        /// The box's clock when it was sent, µs.
+        /// Reading of the box's clock at sending, µs.
         now_us: u32,
-        /// Pulses of the wheel so far, and when the last one was.
-        wheel: Count,
-        /// Pulses of the crank so far, and when the last one was.
-        crank: Count,
+        /// Pulses of the wheel: number so far, and time of the last one.
+        wheel: PulseCount,
+        /// Pulses of the crank: number so far, and time of the last one.
+        crank: PulseCount,
         /// Reading of the steering sensor.
         steer: f64,
         /// Reading of the brake sensor.
         brake: f64,
     },
-    /// A four-field line.
+    /// A four-field line: the last interval.
     Interval {
-        /// Between the last two pulses of the wheel, µs.
+        /// Time between the last two pulses of the wheel, µs.
         interval_us: u32,
-        /// Since the last pulse, µs.
+        /// Time since the last pulse, µs.
         age_us: u32,
-        /// Steering.
+        /// Steering, −1 to 1.
         steer: f64,
-        /// Brake.
+        /// Brake, in the sensor's units.
         brake: f64,
     },
-    /// A single number.
+    /// A single number, the speed.
     Bare(f64),
 }
 
-/// Pulses counted so far, and when the last one was, on the box's clock.
+/// Number of pulses so far, and time of the last one on the box's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Count {
+pub struct PulseCount {
     /// Number of pulses; wraps.
     pub pulses: u32,
     /// Time of the last one, µs; wraps.
     pub last_us: u32,
 }
 
-impl Line {
-    /// Reads a line without its end.
+impl BicycleLine {
+    /// Parses a line without its end.
     ///
     /// # Errors
-    /// If it is none of the three kinds, or a field cannot be read.
+    /// A line of none of the three kinds, or a field that cannot be read.
     pub fn parse(line: &str) -> Result<Self, LineError> {
         let line = line.trim();
         if line.starts_with("B1,") {
@@ -77,8 +77,8 @@ impl Line {
         whole("seq", sequence)?;
         Ok(Self::Pulses {
             now_us: whole("t_us", now)?,
-            wheel: Count { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
-            crank: Count { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
+            wheel: PulseCount { pulses: whole("wheel_count", wheel)?, last_us: whole("wheel_t_us", wheel_last)? },
+            crank: PulseCount { pulses: whole("crank_count", crank)?, last_us: whole("crank_t_us", crank_last)? },
             steer: finite("steer_raw", steer)?,
             brake: finite("brake_raw", brake)?,
         })

@@ -1,18 +1,18 @@
-//! The datagrams of an ART controller. Nothing is sent to it: the controller is told where to send.
+//! Datagrams of an ART controller. Nothing is sent to it; the controller is configured to send here.
 
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
-use super::feed::{Connection, Place, Port};
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::serial::passing;
 use crate::dtrack::LONGEST_DATAGRAM;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
 
-/// Where the controller sends to.
+/// Address and port that the controller sends to.
 pub(super) struct DtrackPort {
     address: IpAddr,
     port: u16,
@@ -45,8 +45,8 @@ impl DtrackPort {
     }
 }
 
-impl Port for DtrackPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for DtrackPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let path = SocketAddr::new(self.address, self.port).to_string();
         let socket = self.bind().map_err(|error| match error.kind() {
             ErrorKind::AddrInUse => {
@@ -57,19 +57,19 @@ impl Port for DtrackPort {
             }
             _ => format!("cannot listen at {path}: {error}"),
         })?;
-        let place = Place { source: Source::Dtrack, name: "DTrack".to_owned(), path };
-        Ok((place, Box::new(Datagrams { socket, buffer: vec![0; LONGEST_DATAGRAM + 1] })))
+        let place = OpenedDevice { source: SampleSource::Dtrack, name: "DTrack".to_owned(), path };
+        Ok((place, Box::new(DtrackSocket { socket, buffer: vec![0; LONGEST_DATAGRAM + 1] })))
     }
 }
 
-/// A socket that is listened to.
-struct Datagrams {
+/// Open socket of the controller's datagrams.
+struct DtrackSocket {
     socket: UdpSocket,
-    /// Longer by one than any datagram that is believed, so that the decoder sees which are too long.
+    /// Buffer, longer by one than any datagram that is accepted, so that the decoder sees which are too long.
     buffer: Vec<u8>,
 }
 
-impl Connection for Datagrams {
+impl DeviceConnection for DtrackSocket {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         match self.socket.recv(&mut self.buffer) {
             Ok(length) => {

@@ -1,5 +1,4 @@
-//! From a device's thread to the frame loop: the loop that keeps a device open, and the queue
-//! behind it.
+//! Loop that keeps a device open, and the queue from its thread to the frame loop.
 
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -7,91 +6,91 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
 
-use crate::sample::{Clock, Nanos, SECOND, Sample, Source, seconds_between};
+use crate::clock::{Clock, Nanos, SECOND, seconds_between};
+use crate::sample::{Sample, SampleSource};
 
-/// Pause before a device is looked for again, at first.
+/// First pause before a device is looked for again.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);
-/// The longest such pause; each is twice the one before.
+/// Longest such pause; each is twice the one before.
 const LONGEST_PAUSE: Duration = Duration::from_secs(2);
 
-/// How to find and open a device.
-pub(super) trait Port: Send {
-    /// Opens it.
+/// Place where a device can be found and opened.
+pub(super) trait DevicePort: Send {
+    /// Opens the device.
     ///
     /// # Errors
     /// A sentence that says what is missing and what to do about it.
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String>;
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String>;
 }
 
-/// Which device has been opened.
+/// Device that has been opened.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
-    pub(super) source: Source,
+pub(super) struct OpenedDevice {
+    pub(super) source: SampleSource,
     pub(super) name: String,
     pub(super) path: String,
 }
 
-/// An open device.
-pub(super) trait Connection {
-    /// Waits a tenth of a second at most for bytes and puts them behind those in the buffer: none
-    /// if none came.
+/// Connection to an open device.
+pub(super) trait DeviceConnection {
+    /// Waits a tenth of a second at most for bytes and appends them to the buffer; nothing if none came.
     ///
     /// # Errors
-    /// If the device is gone.
+    /// A device that is gone.
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()>;
 
-    /// Samples had to be dropped: a device that reports only changes now reports all.
+    /// Asks for a full report: samples had to be dropped, and this device may report only changes.
     fn report_all(&mut self) {}
 }
 
-/// Whether a device can be read.
+/// State of a device: open or not.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum State {
-    /// It is open.
+pub enum DeviceState {
+    /// The device is open.
     Open,
-    /// It is not; the sentence says why, and what to do.
+    /// A sentence that says why the device is not open, and what to do.
     Absent(String),
 }
 
-/// How a device is.
+/// Status of a device, for a listing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Status {
-    /// Which decoder reads it.
-    pub source: Source,
-    /// What it calls itself.
+pub struct DeviceStatus {
+    /// Decoder that reads the device.
+    pub source: SampleSource,
+    /// Name that the device gives itself.
     pub name: String,
-    /// Where it is.
+    /// Path or address of the device.
     pub path: String,
-    /// Whether it can be read.
-    pub state: State,
+    /// State of the device: open, or the reason why not.
+    pub state: DeviceState,
     /// Samples a second, over the last second.
     pub rate_hz: f64,
-    /// Samples so far.
+    /// Number of samples so far.
     pub samples: u64,
-    /// Samples that were dropped because nobody drained them.
+    /// Number of samples that were dropped because the queue was full.
     pub dropped: u64,
-    /// The last bytes.
+    /// Bytes of the last sample.
     pub last: Vec<u8>,
 }
 
-/// What a device's thread tells about it.
+/// Status that a device's thread keeps up to date.
 #[derive(Debug)]
-pub(super) struct Live {
-    status: Status,
+pub(super) struct DeviceNews {
+    status: DeviceStatus,
     second_began: Nanos,
     this_second: u32,
 }
 
-/// A device's news, shared by its thread and the listing.
-pub(super) type Shared = Arc<Mutex<Live>>;
+/// Status of a device, shared by its thread and the listing.
+pub(super) type SharedNews = Arc<Mutex<DeviceNews>>;
 
-/// The news are whole at all times, even should a thread die while it holds them.
-fn lock(live: &Shared) -> MutexGuard<'_, Live> {
+/// Locks the status. It is whole at all times, even if a thread dies while it holds the lock.
+fn lock(live: &SharedNews) -> MutexGuard<'_, DeviceNews> {
     live.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A device's status at the time `now`.
-pub(super) fn status(live: &Shared, now: Nanos) -> Status {
+/// Status of a device at the time `now`.
+pub(super) fn status(live: &SharedNews, now: Nanos) -> DeviceStatus {
     let live = lock(live);
     let mut status = live.status.clone();
     if seconds_between(live.second_began, now) > 2.0 {
@@ -101,40 +100,40 @@ pub(super) fn status(live: &Shared, now: Nanos) -> Status {
 }
 
 /// The thread's end of a device's queue.
-pub(super) struct Feed {
+pub(super) struct DeviceFeed {
     clock: Clock,
     queue: Sender<Sample>,
-    /// The other end of the queue, to make room.
+    /// Other end of the queue, to make room.
     oldest: Receiver<Sample>,
-    live: Shared,
+    live: SharedNews,
     stopped: Receiver<()>,
 }
 
-impl Feed {
-    /// A queue of this length, its other end, and the device's news.
+impl DeviceFeed {
+    /// Feed with a queue of this length, the queue's other end, and the shared status.
     pub(super) fn new(
-        source: Source,
+        source: SampleSource,
         clock: Clock,
         length: usize,
         stopped: Receiver<()>,
-    ) -> (Self, Receiver<Sample>, Shared) {
+    ) -> (Self, Receiver<Sample>, SharedNews) {
         let (queue, samples) = bounded(length);
-        let status = Status {
+        let status = DeviceStatus {
             source,
             name: source.name().to_owned(),
             path: String::new(),
-            state: State::Absent("being looked for".to_owned()),
+            state: DeviceState::Absent("being looked for".to_owned()),
             rate_hz: 0.0,
             samples: 0,
             dropped: 0,
             last: Vec::new(),
         };
-        let live = Arc::new(Mutex::new(Live { status, second_began: clock.now(), this_second: 0 }));
+        let live = Arc::new(Mutex::new(DeviceNews { status, second_began: clock.now(), this_second: 0 }));
         (Self { clock, queue, oldest: samples.clone(), live: live.clone(), stopped }, samples, live)
     }
 
     /// Keeps the device open until the program ends.
-    pub(super) fn run(self, mut port: impl Port) {
+    pub(super) fn run(self, mut port: impl DevicePort) {
         let mut pause = FIRST_PAUSE;
         while !self.is_stopped() {
             match port.open() {
@@ -145,7 +144,7 @@ impl Feed {
                     let why = self.read(source, connection.as_mut());
                     self.send(Sample::closed(self.clock.now(), source));
                     self.absent(why);
-                    // One that goes as soon as it has come is given time.
+                    // A device that goes as soon as it has come is given time.
                     pause = if began.elapsed() > LONGEST_PAUSE { FIRST_PAUSE } else { (2 * pause).min(LONGEST_PAUSE) };
                 }
                 Err(why) => {
@@ -153,15 +152,15 @@ impl Feed {
                     pause = (2 * pause).min(LONGEST_PAUSE);
                 }
             }
-            // Wakes at once when the program ends.
+            // This wait ends at once when the program ends.
             if self.stopped.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
                 return;
             }
         }
     }
 
-    /// Reads until the device goes or the program ends; says which.
-    fn read(&self, source: Source, connection: &mut dyn Connection) -> String {
+    /// Reads until the device goes or the program ends; returns the reason.
+    fn read(&self, source: SampleSource, connection: &mut dyn DeviceConnection) -> String {
         let mut bytes = Vec::new();
         while !self.is_stopped() {
             bytes.clear();
@@ -179,22 +178,22 @@ impl Feed {
         self.stopped.try_recv() == Err(TryRecvError::Disconnected)
     }
 
-    fn opened(&self, place: Place) {
+    fn opened(&self, place: OpenedDevice) {
         let mut live = lock(&self.live);
-        let Place { source, name, path } = place;
-        live.status = Status { source, name, path, state: State::Open, ..live.status.clone() };
+        let OpenedDevice { source, name, path } = place;
+        live.status = DeviceStatus { source, name, path, state: DeviceState::Open, ..live.status.clone() };
         drop(live);
         self.send(Sample::opened(self.clock.now(), source));
     }
 
     fn absent(&self, why: String) {
         let mut live = lock(&self.live);
-        live.status.state = State::Absent(why);
+        live.status.state = DeviceState::Absent(why);
         live.status.rate_hz = 0.0;
     }
 
-    /// Queues bytes; whether others were dropped for them.
-    fn bytes(&self, source: Source, bytes: &[u8]) -> bool {
+    /// Queues bytes; true if others were dropped for them.
+    fn bytes(&self, source: SampleSource, bytes: &[u8]) -> bool {
         let now = self.clock.now();
         let dropped = self.send(Sample::bytes(now, source, bytes));
         let mut live = lock(&self.live);
@@ -210,11 +209,11 @@ impl Feed {
         dropped
     }
 
-    /// Queues a sample in place of the oldest if need be; whether there was need.
+    /// Queues a sample, in place of the oldest if the queue is full; true if it was.
     fn send(&self, sample: Sample) -> bool {
         let mut sample = sample;
         let mut dropped = 0;
-        // The loop ends: only this thread fills the queue.
+        // The loop ends, because only this thread fills the queue.
         while let Err(TrySendError::Full(back)) = self.queue.try_send(sample) {
             sample = back;
             dropped += u64::from(self.oldest.try_recv().is_ok());
@@ -226,43 +225,43 @@ impl Feed {
 
 #[cfg(test)]
 mod tests {
-    //! A flood that nobody drains must cost the oldest samples, never the newest, and no memory.
+    //! A flood that the frame loop does not drain must cost the oldest samples, never the newest, and no memory.
     use super::*;
 
-    fn feed(length: usize) -> (Feed, Receiver<Sample>, Shared, Sender<()>) {
+    fn feed(length: usize) -> (DeviceFeed, Receiver<Sample>, SharedNews, Sender<()>) {
         let (stop, stopped) = bounded(0);
-        let (feed, samples, live) = Feed::new(Source::Bicycle, Clock::start(), length, stopped);
+        let (feed, samples, live) = DeviceFeed::new(SampleSource::Bicycle, Clock::start(), length, stopped);
         (feed, samples, live, stop)
     }
 
     #[test]
     fn a_flood_drops_the_oldest_and_says_so() {
         let (feed, samples, live, _stop) = feed(4);
-        let dropped: Vec<bool> = (0..10_u8).map(|n| feed.bytes(Source::Bicycle, &[n])).collect();
+        let dropped: Vec<bool> = (0..10_u8).map(|n| feed.bytes(SampleSource::Bicycle, &[n])).collect();
         assert_eq!(dropped, [[false; 4].as_slice(), &[true; 6]].concat());
         let kept: Vec<_> = samples.try_iter().map(|sample| sample.signal).collect();
-        let expected: Vec<_> = (6..10_u8).map(|n| Sample::bytes(0, Source::Bicycle, [n]).signal).collect();
+        let expected: Vec<_> = (6..10_u8).map(|n| Sample::bytes(0, SampleSource::Bicycle, [n]).signal).collect();
         assert_eq!(kept, expected);
         let status = status(&live, 0);
         assert_eq!((status.samples, status.dropped, status.last), (10, 6, vec![9]));
     }
 
-    /// A device that says one thing and goes, a number of times; then it cannot be opened.
+    /// Device that sends one byte and goes, a number of times; then it cannot be opened.
     struct Flaky {
         lives: u8,
     }
 
-    impl Port for Flaky {
-        fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+    impl DevicePort for Flaky {
+        fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
             self.lives = self.lives.checked_sub(1).ok_or("it is broken")?;
-            let place = Place { source: Source::Bicycle, name: "flaky".into(), path: "nowhere".into() };
-            Ok((place, Box::new(Once(Some(self.lives)))))
+            let place = OpenedDevice { source: SampleSource::Bicycle, name: "flaky".into(), path: "nowhere".into() };
+            Ok((place, Box::new(SaysOnce(Some(self.lives)))))
         }
     }
 
-    struct Once(Option<u8>);
+    struct SaysOnce(Option<u8>);
 
-    impl Connection for Once {
+    impl DeviceConnection for SaysOnce {
         fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
             bytes.push(self.0.take().ok_or(io::ErrorKind::BrokenPipe)?);
             Ok(())
@@ -274,10 +273,10 @@ mod tests {
         let (feed, samples, live, stop) = feed(64);
         let thread = std::thread::spawn(move || feed.run(Flaky { lives: 2 }));
         let seen: Vec<_> = samples.iter().take(6).map(|sample| sample.signal).collect();
-        let bytes = |byte: u8| Sample::bytes(0, Source::Bicycle, [byte]).signal;
+        let bytes = |byte: u8| Sample::bytes(0, SampleSource::Bicycle, [byte]).signal;
         use crate::sample::Signal::{Closed, Opened};
         assert_eq!(seen, [Opened, bytes(1), Closed, Opened, bytes(0), Closed]);
-        while status(&live, 0).state != State::Absent("it is broken".to_owned()) {
+        while status(&live, 0).state != DeviceState::Absent("it is broken".to_owned()) {
             std::thread::sleep(Duration::from_millis(5));
         }
         drop(stop);
@@ -291,7 +290,7 @@ mod tests {
         std::thread::sleep(Duration::from_secs(1));
         drop(stop);
         thread.join().unwrap();
-        // At 0, 0.2, 0.6 and 1.4 s.
+        // Openings at 0, 0.2, 0.6 and 1.4 s.
         let lives = samples.try_iter().filter(|sample| sample.signal == crate::sample::Signal::Opened).count();
         assert!((2..=3).contains(&lives), "{lives}");
     }

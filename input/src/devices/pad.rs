@@ -6,44 +6,45 @@ use std::path::{Path, PathBuf};
 use evdev::{AbsoluteAxisCode, Device, KeyCode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-use super::feed::{Connection, Place, Port};
-use crate::gamepad::{Item, codes};
-use crate::sample::Source;
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+use crate::gamepad::{GamepadItem, codes};
+use crate::sample::SampleSource;
 
-/// How long a read waits: a tenth of a second.
+/// Longest wait of a read: a tenth of a second.
 const READ_WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
-/// Where the system names joysticks, even those we may not read.
+/// Directory in which the system names joysticks, also those that may not be read.
 const NAMES: &str = "/dev/input/by-id";
 
-/// Looks for a pad.
+/// Search for a pad.
 pub(super) struct PadPort;
 
-impl Port for PadPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for PadPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let (path, device) = pads().into_iter().next().ok_or_else(|| match unreadable() {
             Some(path) => {
                 format!("{} may not be read: `sudo usermod -aG input $USER`, then log in again", path.display())
             }
             None => "no gamepad is plugged in".to_owned(),
         })?;
-        let place = Place { source: Source::Gamepad, name: name(&device), path: path.display().to_string() };
-        Ok((place, Box::new(Pad { device, report_all: true })))
+        let place =
+            OpenedDevice { source: SampleSource::Gamepad, name: name(&device), path: path.display().to_string() };
+        Ok((place, Box::new(EvdevPad { device, report_all: true })))
     }
 }
 
-/// What a pad calls itself.
+/// Name that a pad gives itself.
 pub(super) fn name(device: &Device) -> String {
     device.name().unwrap_or("gamepad").to_owned()
 }
 
-/// Every pad that we may read, in a fixed order.
+/// All pads that may be read, in a fixed order.
 pub(super) fn pads() -> Vec<(PathBuf, Device)> {
     let mut pads: Vec<_> = evdev::enumerate().filter(|(_, device)| layout(device).is_some()).collect();
     pads.sort_by(|(a, _), (b, _)| a.cmp(b));
     pads
 }
 
-/// A joystick that is there but may not be read.
+/// Path of a joystick that is there but may not be read.
 fn unreadable() -> Option<PathBuf> {
     let names = Path::new(NAMES).read_dir().ok()?;
     names
@@ -52,43 +53,44 @@ fn unreadable() -> Option<PathBuf> {
         .find(|path| path.to_string_lossy().ends_with("-event-joystick") && std::fs::File::open(path).is_err())
 }
 
-/// Whether it is a gamepad or a joystick.
-fn layout(device: &Device) -> Option<Item> {
+/// Layout of a device as gamepad or joystick; `None` for other devices.
+fn layout(device: &Device) -> Option<GamepadItem> {
     let has_stick = device.supported_absolute_axes()?.contains(AbsoluteAxisCode::ABS_X);
     let buttons = device.supported_keys()?;
     if has_stick && buttons.contains(KeyCode(codes::SOUTH)) {
-        Some(Item::Gamepad)
+        Some(GamepadItem::Gamepad)
     } else if has_stick && buttons.contains(KeyCode(codes::TRIGGER)) {
-        Some(Item::Joystick)
+        Some(GamepadItem::Joystick)
     } else {
         None
     }
 }
 
-/// An open pad.
-struct Pad {
+/// Open gamepad or joystick.
+struct EvdevPad {
     device: Device,
     report_all: bool,
 }
 
-impl Pad {
-    /// Writes its layout, every axis and every button that is held.
+impl EvdevPad {
+    /// Writes the layout, every axis and every held button.
     fn describe(&self, bytes: &mut Vec<u8>) -> io::Result<()> {
         if let Some(layout) = layout(&self.device) {
             layout.encode(bytes);
         }
         for (axis, info) in self.device.get_absinfo()? {
-            let item = Item::Axis { code: axis.0, value: info.value(), least: info.minimum(), most: info.maximum() };
+            let item =
+                GamepadItem::Axis { code: axis.0, value: info.value(), least: info.minimum(), most: info.maximum() };
             item.encode(bytes);
         }
         for key in self.device.get_key_state()?.iter() {
-            Item::Event { kind: codes::KEY, code: key.0, value: 1 }.encode(bytes);
+            GamepadItem::Event { kind: codes::KEY, code: key.0, value: 1 }.encode(bytes);
         }
         Ok(())
     }
 }
 
-impl Connection for Pad {
+impl DeviceConnection for EvdevPad {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         if std::mem::take(&mut self.report_all) {
             return self.describe(bytes);
@@ -100,7 +102,7 @@ impl Connection for Pad {
             Err(error) => return Err(error.into()),
         }
         for event in self.device.fetch_events()? {
-            let item = Item::Event { kind: event.event_type().0, code: event.code(), value: event.value() };
+            let item = GamepadItem::Event { kind: event.event_type().0, code: event.code(), value: event.value() };
             item.encode(bytes);
         }
         Ok(())

@@ -1,40 +1,40 @@
-//! What is plugged in, whether it is used or not.
+//! Devices of the machine, used or not.
 
 use hidapi::HidApi;
 
 use super::puck::candidates;
 use super::serial;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 
-/// A device that the machine has.
+/// Device that is plugged in.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Plugged {
-    /// What could read it.
-    pub source: Source,
-    /// What it calls itself.
+pub struct PluggedDevice {
+    /// Decoder that could read the device.
+    pub source: SampleSource,
+    /// Name that the device gives itself.
     pub name: String,
-    /// Where it is.
+    /// Path of the device.
     pub path: String,
-    /// Why it may not be read, and what to do; `None` if it may, or if only use would tell.
+    /// Reason why it may not be read, and what to do; `None` if it may, or if only an attempt would tell.
     pub refused: Option<String>,
 }
 
-/// Every device of the machine that could be used: serial ports, SpaceMice, gamepads.
-pub fn plugged_in() -> Vec<Plugged> {
-    let mut plugged: Vec<Plugged> = serial::ports()
+/// All devices of the machine that could be used: serial ports, SpaceMice, gamepads.
+pub fn plugged_in() -> Vec<PluggedDevice> {
+    let mut plugged: Vec<PluggedDevice> = serial::ports()
         .into_iter()
-        .map(|(path, name)| Plugged { source: Source::Bicycle, name, path, refused: None })
+        .map(|(path, name)| PluggedDevice { source: SampleSource::Bicycle, name, path, refused: None })
         .collect();
     if let Ok(api) = HidApi::new() {
         plugged.extend(candidates(&api).into_iter().map(|candidate| {
             let refused = candidate.open(&api).err();
             let path = candidate.path.to_string_lossy().into_owned();
-            Plugged { source: Source::SpaceMouse, name: candidate.name, path, refused }
+            PluggedDevice { source: SampleSource::SpaceMouse, name: candidate.name, path, refused }
         }));
     }
     #[cfg(target_os = "linux")]
-    plugged.extend(super::pad::pads().into_iter().map(|(path, device)| Plugged {
-        source: Source::Gamepad,
+    plugged.extend(super::pad::pads().into_iter().map(|(path, device)| PluggedDevice {
+        source: SampleSource::Gamepad,
         name: super::pad::name(&device),
         path: path.display().to_string(),
         refused: None,

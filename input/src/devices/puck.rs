@@ -1,4 +1,4 @@
-//! A SpaceMouse: raw HID where we may read it, spacenavd's socket where we may not.
+//! A SpaceMouse, read as raw HID if that is allowed, else through spacenavd's socket.
 
 use std::ffi::CString;
 use std::io;
@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use hidapi::{HidApi, HidDevice};
 
-use super::feed::{Connection, Place, Port};
-use crate::sample::Source;
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+use crate::sample::SampleSource;
 
 /// Vendor number of the older devices.
 const LOGITECH: u16 = 0x046d;
@@ -15,25 +15,25 @@ const LOGITECH: u16 = 0x046d;
 const CONNEXION: u16 = 0x256f;
 /// Usage page and usage of a multi-axis controller.
 const MULTI_AXIS: (u16, u16) = (1, 8);
-/// Mice, keyboards and numpads of the same makers.
+/// Product numbers of mice, keyboards and numpads of the same makers.
 const NOT_A_PUCK: [u16; 12] =
     [0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668];
-/// How long one read of a single interface waits, milliseconds.
+/// Longest wait of one read of a single interface, milliseconds.
 const READ_WAIT_MS: i32 = 100;
-/// The longest report is 13 bytes.
+/// Length of the buffer, bytes; the longest report is 13.
 const BUFFER: usize = 64;
 
-/// What makes the device readable.
+/// Instruction that makes the device readable.
 const UDEV_RULE: &str = "as root, put `KERNEL==\"hidraw*\", ATTRS{idVendor}==\"046d|256f\", TAG+=\"uaccess\"` into \
                          /etc/udev/rules.d/70-spacemouse.rules and plug it in again";
 
-/// An interface that may be that of a SpaceMouse.
-pub(super) struct Candidate {
+/// Interface that may be that of a SpaceMouse.
+pub(super) struct SpaceMouseInterface {
     pub(super) name: String,
     pub(super) path: CString,
 }
 
-impl Candidate {
+impl SpaceMouseInterface {
     /// Opens the interface.
     ///
     /// # Errors
@@ -45,8 +45,8 @@ impl Candidate {
     }
 }
 
-/// Every interface that may be that of a SpaceMouse.
-pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
+/// All interfaces that may be that of a SpaceMouse.
+pub(super) fn candidates(api: &HidApi) -> Vec<SpaceMouseInterface> {
     api.device_list()
         .filter(|device| [LOGITECH, CONNEXION].contains(&device.vendor_id()))
         .filter(|device| (device.usage_page(), device.usage()) == MULTI_AXIS)
@@ -55,12 +55,12 @@ pub(super) fn candidates(api: &HidApi) -> Vec<Candidate> {
             let ids = (device.vendor_id(), device.product_id());
             let nameless = || format!("SpaceMouse {:04x}:{:04x}", ids.0, ids.1);
             let name = device.product_string().filter(|name| !name.is_empty()).map_or_else(nameless, str::to_owned);
-            Candidate { name, path: device.path().to_owned() }
+            SpaceMouseInterface { name, path: device.path().to_owned() }
         })
         .collect()
 }
 
-/// Where a SpaceMouse may be.
+/// Places where a SpaceMouse may be found.
 pub(super) struct PuckPort {
     socket: PathBuf,
 }
@@ -71,25 +71,25 @@ impl PuckPort {
     }
 
     #[cfg(unix)]
-    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
-        super::socket::Daemon::connect(&self.socket)
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+        super::socket::SpacenavdLink::connect(&self.socket)
     }
 
     #[cfg(not(unix))]
-    fn through_daemon(&self) -> Result<(Place, Box<dyn Connection>), String> {
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         Err(format!("there is no spacenavd here ({})", self.socket.display()))
     }
 }
 
-impl Port for PuckPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for PuckPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| format!("{raw}; {daemon}")))
     }
 }
 
-/// Opens every interface that may be it: a wireless receiver has several, and only time tells which
-/// one it is.
-fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
+/// Opens all interfaces that may be the right one: a wireless receiver has several, and only the first report tells
+/// which.
+fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
     let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
     let mut interfaces = Vec::new();
     let mut found = None;
@@ -103,19 +103,19 @@ fn open_raw() -> Result<(Place, Box<dyn Connection>), String> {
             Err(error) => why = error,
         }
     }
-    let Some(Candidate { name, path }) = found else {
+    let Some(SpaceMouseInterface { name, path }) = found else {
         return Err(why);
     };
-    let place = Place { source: Source::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
-    Ok((place, Box::new(Raw { interfaces })))
+    let place = OpenedDevice { source: SampleSource::SpaceMouse, name, path: path.to_string_lossy().into_owned() };
+    Ok((place, Box::new(HidInterfaces { interfaces })))
 }
 
-/// The interfaces that are left; one, as soon as it has spoken.
-struct Raw {
+/// Open interfaces; a single one after the first report.
+struct HidInterfaces {
     interfaces: Vec<HidDevice>,
 }
 
-impl Connection for Raw {
+impl DeviceConnection for HidInterfaces {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         let wait_ms = READ_WAIT_MS / i32::try_from(self.interfaces.len().max(1)).unwrap_or(READ_WAIT_MS);
         let mut buffer = [0; BUFFER];

@@ -5,22 +5,22 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use super::feed::{Connection, Place, Port};
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::brake::BrakeCommand;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 
-/// How long a read waits, and so how late a brake command may be on a silent line.
+/// Longest wait of a read, and so the delay of a brake command on a silent line.
 const READ_WAIT: Duration = Duration::from_millis(20);
-/// Brake commands are at least this far apart.
+/// Shortest time between brake commands.
 const COMMAND_EVERY: Duration = Duration::from_millis(20);
-/// Bytes taken at once.
+/// Most bytes taken at once.
 const BUFFER: usize = 1024;
 
-/// The newest brake command that has not been sent.
+/// Newest brake command not yet sent.
 #[derive(Debug)]
 pub(super) struct BrakeSlot(AtomicU64);
 
-/// Nothing to send: the bits of a number that is none.
+/// Bits of a NaN, for nothing to send.
 const EMPTY: u64 = u64::MAX;
 
 impl Default for BrakeSlot {
@@ -40,7 +40,7 @@ impl BrakeSlot {
     }
 }
 
-/// Where the bicycle is plugged in.
+/// Serial port of the bicycle, not yet open.
 pub(super) struct SerialPort {
     path: String,
     baud: u32,
@@ -53,10 +53,9 @@ impl SerialPort {
     }
 }
 
-impl Port for SerialPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
-        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets
-        // many a board.
+impl DevicePort for SerialPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+        // The control lines are left alone: pseudo-terminals have none, and touching DTR resets many boards.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
             let path = &self.path;
             match error.kind() {
@@ -69,21 +68,21 @@ impl Port for SerialPort {
                 _ => format!("{path} cannot be opened as a serial port: {error}"),
             }
         })?;
-        let place = Place { source: Source::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
-        let wire = Wire { port, brake: self.brake.clone(), sequence: 0, last_command: None };
+        let place = OpenedDevice { source: SampleSource::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };
+        let wire = SerialLink { port, brake: self.brake.clone(), sequence: 0, last_command: None };
         Ok((place, Box::new(wire)))
     }
 }
 
 /// An open serial port.
-struct Wire {
+struct SerialLink {
     port: Box<dyn serialport::SerialPort>,
     brake: Arc<BrakeSlot>,
     sequence: u32,
     last_command: Option<Instant>,
 }
 
-impl Wire {
+impl SerialLink {
     /// Sends the newest brake command, unless one has just been sent.
     fn command(&mut self) -> io::Result<()> {
         if self.last_command.is_some_and(|last| last.elapsed() < COMMAND_EVERY) {
@@ -99,13 +98,13 @@ impl Wire {
         let line = BrakeCommand { sequence: self.sequence, brake }.to_line();
         self.sequence = self.sequence.wrapping_add(1);
         self.last_command = Some(Instant::now());
-        // A box that does not listen misses a command; the checksum tells it of half a one.
+        // A box that does not listen misses a command; the checksum reveals half of one.
         passing(self.port.write_all(line.as_bytes()))
     }
 }
 
-impl Drop for Wire {
-    /// Nobody is left to brake for.
+impl Drop for SerialLink {
+    /// Releases the brake.
     fn drop(&mut self) {
         if self.last_command.is_some() {
             let _ = self.send(0.0);
@@ -113,7 +112,7 @@ impl Drop for Wire {
     }
 }
 
-impl Connection for Wire {
+impl DeviceConnection for SerialLink {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         self.command()?;
         let mut buffer = [0; BUFFER];
@@ -128,7 +127,7 @@ impl Connection for Wire {
     }
 }
 
-/// Takes what will pass for no error.
+/// Turns a timeout or an interruption into success.
 pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     match outcome {
         Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
@@ -138,9 +137,9 @@ pub(super) fn passing(outcome: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Every serial port of the machine: path, and what is plugged into it.
+/// All serial ports of the machine: path, and name of the device.
 pub(super) fn ports() -> Vec<(String, String)> {
-    // The crate takes this directory for granted.
+    // The serialport crate takes this directory for granted.
     if cfg!(target_os = "linux") && !std::path::Path::new("/sys/class/tty").is_dir() {
         return Vec::new();
     }

@@ -1,30 +1,30 @@
-//! The socket of spacenavd.
+//! Connection to spacenavd through its socket.
 
 use std::io::{self, ErrorKind, Read};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
 
-use super::feed::{Connection, Place};
+use super::feed::{DeviceConnection, OpenedDevice};
 use super::serial::passing;
-use crate::sample::Source;
+use crate::sample::SampleSource;
 use crate::spacenavd::EVENT_LENGTH;
 
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
 
-/// A connection to the daemon.
-pub(super) struct Daemon {
+/// Connection to the daemon.
+pub(super) struct SpacenavdLink {
     stream: UnixStream,
     partial: Vec<u8>,
 }
 
-impl Daemon {
+impl SpacenavdLink {
     /// Connects to the daemon.
     ///
     /// # Errors
     /// A sentence that says why not.
-    pub(super) fn connect(path: &Path) -> Result<(Place, Box<dyn Connection>), String> {
+    pub(super) fn connect(path: &Path) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let place = path.display().to_string();
         let stream = UnixStream::connect(path)
             .and_then(|stream| stream.set_read_timeout(Some(READ_WAIT)).map(|()| stream))
@@ -34,13 +34,17 @@ impl Daemon {
                 }
                 _ => format!("spacenavd cannot be reached at {place}: {error}"),
             })?;
-        let place = Place { source: Source::Spacenavd, name: "SpaceMouse through spacenavd".to_owned(), path: place };
+        let place = OpenedDevice {
+            source: SampleSource::Spacenavd,
+            name: "SpaceMouse through spacenavd".to_owned(),
+            path: place,
+        };
         Ok((place, Box::new(Self { stream, partial: Vec::new() })))
     }
 }
 
-impl Connection for Daemon {
-    /// Gives whole events only, so that one that has to be dropped does not shift those behind it.
+impl DeviceConnection for SpacenavdLink {
+    /// Reads whole events only, so that a dropped sample does not shift the events behind it.
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut buffer = [0; 32 * EVENT_LENGTH];
         match self.stream.read(&mut buffer) {
@@ -64,7 +68,7 @@ mod tests {
     fn samples_are_whole_events() {
         let (mut daemon, stream) = UnixStream::pair().unwrap();
         stream.set_read_timeout(Some(READ_WAIT)).unwrap();
-        let mut reader = Daemon { stream, partial: Vec::new() };
+        let mut reader = SpacenavdLink { stream, partial: Vec::new() };
         let mut bytes = Vec::new();
         for (sent, given) in [(40, 32), (20, 32), (4, 64), (0, 64)] {
             daemon.write_all(&vec![7; sent]).unwrap();

@@ -1,43 +1,44 @@
-//! A VRPN server over TCP alone.
+//! Connection to a VRPN server over TCP alone.
 //!
-//! Both sides begin with their cookies; the server's is awaited here, so that one that speaks
-//! something else is told from a tracker. We then name the device that we listen to and ask once a
-//! second whether it is there, as VRPN's own clients do. What the server sends goes on as it comes,
-//! whole messages only: one that has to be dropped then does not shift those behind it.
+//! Both sides begin with their cookies. The server's is awaited here, to tell a tracker from a server that speaks
+//! something else. Then this side names the device that it listens to and sends a ping once a second, as VRPN's own
+//! clients do. The server's bytes are passed on as they come, in whole messages: a message that has to be dropped
+//! then does not shift those behind it.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
-use super::feed::{Connection, Place, Port};
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::serial::passing;
-use crate::sample::Source;
+use crate::sample::SampleSource;
+use crate::vrpn::numbers::VrpnNumbers;
+use crate::vrpn::types::{PING, PONG};
 use crate::vrpn::wire::{
-    COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, Piece, Pieces, WireError, description,
+    COOKIE, COOKIE_LENGTH, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage, VrpnPiece, VrpnPieces, description,
 };
-use crate::vrpn::{Numbers, PING, PONG};
 
-/// How long a server may take to answer at first.
+/// Longest wait for the connection and the server's cookie.
 const CONNECT_WAIT: Duration = Duration::from_secs(1);
-/// How long a read waits.
+/// Longest wait of a read.
 const READ_WAIT: Duration = Duration::from_millis(100);
-/// How long a write may wait for a server that does not read.
+/// Longest wait of a write, for a server that does not read.
 const WRITE_WAIT: Duration = Duration::from_millis(100);
-/// The device is asked this often.
+/// Time between two pings.
 const PING_EVERY: Duration = Duration::from_secs(1);
-/// A server that has said nothing for so long is gone, as VRPN has it.
+/// Silence after which a server counts as gone, as in VRPN itself.
 const SILENCE: Duration = Duration::from_secs(10);
-/// Bytes taken at once.
+/// Most bytes taken at once.
 const BUFFER: usize = 4096;
-/// Descriptions kept, for the samples after some had to be dropped.
+/// Most descriptions kept, for the samples after some had to be dropped.
 const MOST_DESCRIPTIONS: usize = 256;
 
-/// Our number for the device, and for our two types of message.
+/// Number of this side for the device; below, its numbers for the two types of message.
 const OUR_SENDER: i32 = 0;
 const OUR_PING: i32 = 0;
 const OUR_PONG: i32 = 1;
 
-/// Where a server is.
+/// Address of a server, and the device on it.
 pub(super) struct VrpnPort {
     host: String,
     port: u16,
@@ -68,31 +69,31 @@ impl VrpnPort {
     }
 }
 
-impl Port for VrpnPort {
-    fn open(&mut self) -> Result<(Place, Box<dyn Connection>), String> {
+impl DevicePort for VrpnPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let path = format!("{}:{}", self.host, self.port);
         let stream = self.connect()?;
-        let link = Link::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
-        let place = Place { source: Source::Vrpn, name: self.device.clone(), path };
+        let link = VrpnLink::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
+        let place = OpenedDevice { source: SampleSource::Vrpn, name: self.device.clone(), path };
         Ok((place, Box::new(link)))
     }
 }
 
-/// An open connection.
-struct Link {
+/// Open connection to a server.
+struct VrpnLink {
     stream: TcpStream,
-    pieces: Pieces,
-    numbers: Numbers,
-    /// The server's cookie, then its descriptions, as they came.
+    pieces: VrpnPieces,
+    numbers: VrpnNumbers,
+    /// Cookie of the server, then its descriptions, as they came.
     descriptions: Vec<Vec<u8>>,
-    /// What the next sample begins with.
+    /// Bytes that the next sample begins with.
     first: Vec<u8>,
     last_ping: Option<Instant>,
     last_heard: Instant,
 }
 
-impl Link {
-    /// Exchanges the cookies and names our device.
+impl VrpnLink {
+    /// Exchanges the cookies and names the device.
     fn begin(mut stream: TcpStream, device: &str) -> io::Result<Self> {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_WAIT))?;
@@ -106,7 +107,7 @@ impl Link {
             }
             _ => error,
         })?;
-        let mut pieces = Pieces::default();
+        let mut pieces = VrpnPieces::default();
         let mut outcome = Ok(());
         pieces.push(&cookie, |piece| outcome = piece.map(|_| ()));
         outcome.map_err(invalid)?;
@@ -121,7 +122,7 @@ impl Link {
         Ok(Self {
             stream,
             pieces,
-            numbers: Numbers::new(device),
+            numbers: VrpnNumbers::new(device),
             descriptions: vec![cookie.to_vec()],
             first: cookie.to_vec(),
             last_ping: None,
@@ -130,11 +131,11 @@ impl Link {
     }
 
     fn say(&mut self, kind: i32) -> io::Result<()> {
-        let message = Message { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
+        let message = VrpnMessage { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
         self.stream.write_all(&message.to_bytes())
     }
 
-    /// Asks whether somebody is there, and ends what is silent for too long.
+    /// Sends a ping when it is time; an error after too long a silence.
     fn ping(&mut self) -> io::Result<()> {
         if self.last_heard.elapsed() > SILENCE {
             let known = match self.numbers.senders() {
@@ -151,18 +152,18 @@ impl Link {
         self.say(OUR_PING)
     }
 
-    /// Passes on the whole messages of these bytes, and answers whether we are there.
+    /// Passes on the whole messages of these bytes, and answers a ping.
     fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut outcome = Ok(());
         let mut asked = false;
         let (numbers, descriptions) = (&mut self.numbers, &mut self.descriptions);
         self.pieces.push(received, |piece| match piece {
-            Ok(Piece::Cookie(_)) if outcome.is_ok() => {
-                outcome = Err(invalid(WireError::NotVrpn("a second cookie".to_owned())));
+            Ok(VrpnPiece::Cookie(_)) if outcome.is_ok() => {
+                outcome = Err(invalid(VrpnError::NotVrpn("a second cookie".to_owned())));
             }
-            Ok(Piece::Message(message, raw)) if outcome.is_ok() => {
+            Ok(VrpnPiece::Message(message, raw)) if outcome.is_ok() => {
                 bytes.extend_from_slice(raw);
-                // The decoder counts those that cannot be read.
+                // The decoder counts descriptions that cannot be read.
                 if numbers.describe(&message) == Ok(true) {
                     keep(descriptions, raw);
                 }
@@ -178,9 +179,9 @@ impl Link {
     }
 }
 
-/// Keeps a description in place of an earlier one of the same number.
+/// Keeps a description, in place of an earlier one of the same number.
 fn keep(descriptions: &mut Vec<Vec<u8>>, raw: &[u8]) {
-    // Sender and type: what is described.
+    // Bytes of sender and type, which say what is described.
     let what = 12..20;
     let same = descriptions.iter().skip(1).position(|known| known[what.clone()] == raw[what.clone()]);
     match same {
@@ -190,11 +191,11 @@ fn keep(descriptions: &mut Vec<Vec<u8>>, raw: &[u8]) {
     }
 }
 
-fn invalid(error: WireError) -> io::Error {
+fn invalid(error: VrpnError) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, error)
 }
 
-impl Connection for Link {
+impl DeviceConnection for VrpnLink {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         self.ping()?;
         let mut buffer = [0; BUFFER];
@@ -206,7 +207,7 @@ impl Connection for Link {
         self.last_heard = Instant::now();
         let mut messages = Vec::new();
         self.take(&buffer[..length], &mut messages)?;
-        // Not as a sample of its own: in a flood that would cost another, and so on for ever.
+        // They are no sample of their own: in a flood that would drop another one, and so on.
         if !messages.is_empty() {
             bytes.append(&mut self.first);
             bytes.append(&mut messages);
@@ -214,7 +215,7 @@ impl Connection for Link {
         Ok(())
     }
 
-    /// What was dropped may have described what comes.
+    /// Repeats the descriptions, since a dropped sample may have held some.
     fn report_all(&mut self) {
         self.first = self.descriptions.concat();
     }
@@ -222,19 +223,19 @@ impl Connection for Link {
 
 #[cfg(test)]
 mod tests {
-    //! A server that dies without a word must be noticed, and a mistaken name be told.
+    //! A server that dies without a word must be noticed, and a mistaken name of the device be reported.
     use std::net::TcpListener;
 
     use super::*;
     use crate::vrpn::golden;
 
-    /// Our end and the server's, after the cookies.
-    fn link() -> (Link, TcpStream) {
+    /// Both ends of a connection after the cookies: the client's and the server's.
+    fn link() -> (VrpnLink, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let mut server = listener.accept().unwrap().0;
         server.write_all(&COOKIE).unwrap();
-        (Link::begin(stream, "Tail").unwrap(), server)
+        (VrpnLink::begin(stream, "Tail").unwrap(), server)
     }
 
     #[test]

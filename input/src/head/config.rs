@@ -1,4 +1,4 @@
-//! What can be set about the tracker: the table `[tracker]` of a display file.
+//! Settings of the tracker: the table `[tracker]` of a display file.
 //!
 //! ```
 //! # let text = r#"
@@ -14,40 +14,42 @@
 //! # assert_eq!(config.room_from_tracker.yaw, 90.0);
 //! ```
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::placement::{HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
-use super::{Placement, TrackerUrl};
-use crate::config::{ConfigError, positive};
+use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
+use super::state::HeadState;
+use super::url::TrackerUrl;
+use crate::config_error::{ConfigError, positive};
 
-/// How the head is tracked.
+/// Settings of the tracked head.
 ///
-/// *Frames, units*: the room's axes, in which the screens stand: x right, y up, z backward, metres.
-/// Angles are in degrees.
+/// *Frames, units*: the room's axes, in which the screens stand: x right, y up, z backward, metres. Angles are in
+/// degrees.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeadConfig {
-    /// Where the tracker is.
+    /// Address of the tracker.
     pub url: TrackerUrl,
     /// Number of the tracker's sensor, or body, that is on the head.
     #[serde(default)]
     pub sensor: i32,
-    /// How the tracker's axes stand in the room.
+    /// Placement of the tracker's axes in the room.
     #[serde(default)]
-    pub room_from_tracker: Placement,
-    /// How the sensor's axes stand in the head's, whose origin is midway between the eyes.
+    pub room_from_tracker: AxesPlacement,
+    /// Placement of the sensor's axes in the head's, whose origin is midway between the eyes.
     #[serde(default)]
-    pub head_from_sensor: Placement,
-    /// What of it is used.
+    pub head_from_sensor: AxesPlacement,
+    /// Parts of the head's state that are used.
     #[serde(default)]
     pub mode: TrackingMode,
-    /// How the velocity is made from poses.
+    /// Filter that makes the velocity from poses.
     #[serde(default)]
     pub velocity: VelocityFilter,
-    /// How long the velocity of a head that is lost takes to fade, seconds.
+    /// Time in which the velocity of a lost head fades, seconds.
     #[serde(default = "fade_s")]
     pub fade_s: f64,
-    /// Where the head is until the tracker has seen it; where one that the mouse moves begins.
+    /// Place of the head until the tracker has seen it, metres; start of a head that the mouse moves.
     #[serde(default = "home")]
     pub home: [f64; 3],
 }
@@ -56,55 +58,65 @@ fn fade_s() -> f64 {
     0.2
 }
 
-/// Where the eyes of somebody who stands in the middle are.
+/// Place of the eyes of a person who stands in the middle, metres.
 fn home() -> [f64; 3] {
     [0.0, 1.7, 0.0]
 }
 
-/// What of the tracker is used (W 6.4).
+/// Parts of the tracked head that are used (W 6.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TrackingMode {
-    /// The head's place and turn, and its velocity.
+    /// Place, turn and velocity of the head.
     #[default]
     PositionAndVelocity,
-    /// Its place and turn; it is taken to rest in the vehicle.
+    /// Place and turn of the head; it counts as resting in the vehicle.
     Position,
-    /// Nothing.
+    /// Tracking switched off.
     None,
 }
 
-/// How a velocity is made from poses. What each costs in latency and leaves of the noise is measured
-/// by the example `head_filters`.
+impl TrackingMode {
+    /// Part of a head's state that this mode uses; `None` without tracking.
+    pub fn of(self, state: HeadState) -> Option<HeadState> {
+        match self {
+            Self::PositionAndVelocity => Some(state),
+            Self::Position => Some(HeadState { velocity_m_s: DVec3::ZERO, ..state }),
+            Self::None => None,
+        }
+    }
+}
+
+/// Filter that makes a velocity from poses. The example `head_filters` measures the latency and the remaining noise
+/// of each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "filter", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum VelocityFilter {
-    /// The mean over the tracker's last frames (W 6.4.1).
+    /// Mean over the tracker's last frames (W 6.4.1).
     Mean {
-        /// How many.
+        /// Number of frames.
         #[serde(default = "frames")]
         frames: u32,
     },
-    /// The slope of the straight line that is closest to the places in a window of time.
+    /// Slope of the straight line that is closest to the places in a window of time.
     LeastSquares {
-        /// The window's length, seconds.
+        /// Length of the window, seconds.
         #[serde(default = "window_s")]
         window_s: f64,
     },
-    /// A low-pass whose cutoff rises with the acceleration: [`crate::filters::OneEuro`] on the
-    /// differences.
+    /// Low-pass whose cutoff rises with the acceleration: [`crate::filters::OneEuro`] on the differences.
     OneEuro {
         /// Cutoff while the velocity is steady, Hz.
         #[serde(default = "minimum_cutoff_hz")]
         minimum_cutoff_hz: f64,
-        /// By how much the cutoff rises with the acceleration, Hz per m/s².
+        /// Rise of the cutoff with the acceleration, Hz per m/s².
         #[serde(default = "acceleration_coefficient")]
         acceleration_coefficient: f64,
         /// Cutoff for the acceleration, Hz.
         #[serde(default = "acceleration_cutoff_hz")]
         acceleration_cutoff_hz: f64,
     },
-    /// No filter: the difference of the last two poses.
+    /// Difference of the last two poses, without a filter.
     Off,
 }
 
@@ -129,24 +141,24 @@ fn acceleration_cutoff_hz() -> f64 {
 }
 
 impl Default for VelocityFilter {
-    /// As in W 6.4.1.
+    /// Mean over four frames, as in W 6.4.1.
     fn default() -> Self {
         Self::Mean { frames: frames() }
     }
 }
 
 impl VelocityFilter {
-    /// The most frames that are averaged.
+    /// Largest number of frames that are averaged.
     const MOST_FRAMES: u32 = 1000;
-    /// The longest window, seconds.
+    /// Length of the longest window, seconds.
     const LONGEST_WINDOW_S: f64 = 1.0;
 
-    /// The least-squares filter with its usual window.
+    /// Least-squares filter with its usual window.
     pub fn least_squares() -> Self {
         Self::LeastSquares { window_s: window_s() }
     }
 
-    /// The One Euro filter with its usual cutoffs.
+    /// One Euro filter with its usual cutoffs.
     pub fn one_euro() -> Self {
         Self::OneEuro {
             minimum_cutoff_hz: minimum_cutoff_hz(),
@@ -185,13 +197,13 @@ impl VelocityFilter {
 }
 
 impl HeadConfig {
-    /// A tracker as it comes: its axes are the room's, its sensor is the head.
+    /// Settings of a tracker without calibration: its axes are the room's, its sensor is the head.
     pub fn new(url: TrackerUrl) -> Self {
         Self {
             url,
             sensor: 0,
-            room_from_tracker: Placement::default(),
-            head_from_sensor: Placement::default(),
+            room_from_tracker: AxesPlacement::default(),
+            head_from_sensor: AxesPlacement::default(),
             mode: TrackingMode::default(),
             velocity: VelocityFilter::default(),
             fade_s: fade_s(),
@@ -202,13 +214,13 @@ impl HeadConfig {
     /// Checks every setting.
     ///
     /// # Errors
-    /// Names the first one that cannot be used.
+    /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.room_from_tracker.check(&ROOM_FROM_TRACKER)?;
         self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
         let placements = [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
         for (keys, placement) in placements {
-            if self.url == TrackerUrl::Mouse && placement != Placement::default() {
+            if self.url == TrackerUrl::Mouse && placement != AxesPlacement::default() {
                 let value = format!("{:?}", placement.position);
                 let expected = "nothing with url = \"mouse\", which moves the head itself from `home`";
                 return Err(ConfigError { key: keys.position, value, expected });
@@ -222,9 +234,10 @@ impl HeadConfig {
 
 #[cfg(test)]
 mod tests {
-    //! A table must mean what it says, and one that cannot be used must be told by key and reason.
+    //! Each key of a table must be read as documented; a table that cannot be used must be reported with key and
+    //! reason.
     use super::*;
-    use crate::head::Rigid;
+    use crate::head::rigid::Rigid;
     use glam::DQuat;
 
     fn parse(text: &str) -> Result<HeadConfig, String> {
@@ -259,7 +272,7 @@ mod tests {
         assert_eq!(config.room_from_tracker.position, [1.0, 2.5, -3.0]);
         assert_eq!(config.head_from_sensor.rigid().orientation, DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
         assert_eq!(config.velocity, VelocityFilter::LeastSquares { window_s: 0.1 });
-        // It survives the recording's header.
+        // The settings survive the recording's header.
         let json = serde_json::to_string(&config).unwrap();
         assert_eq!(serde_json::from_str::<HeadConfig>(&json).unwrap(), config);
         assert_eq!(parse(&toml::to_string(&config).unwrap()), Ok(config));

@@ -1,138 +1,37 @@
-//! A head that the mouse moves, for those without a tracker.
+//! Decoder of the mouse that moves the head, used without a tracker.
 //!
-//! Dragging with the left button turns the head, as one looks around; with the right button, or with
-//! Shift held, it moves sideways and up; the wheel moves it ahead and back. The middle button, or the
-//! window's [`MouseEvent::Reset`], takes it back to where it began. The head glides after the mouse,
-//! so that its velocity is smooth; both are functions of the last event's time and the time of
-//! asking, so it does not matter how often one asks.
+//! Dragging with the left button turns the head. Dragging with the right button, or with Shift held, moves it
+//! sideways and up; the wheel moves it ahead and back. The middle button, or the window's [`MouseEvent::Reset`],
+//! returns it to its start. The head glides after the mouse, so that its velocity is smooth. Place and velocity are
+//! functions of the last event's time and the time of asking, so the number of calls does not matter.
 
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DQuat, DVec3, EulerRot};
 
-use super::{HeadState, Tracking};
-use crate::decoder::{Actions, Decoder, Faults};
-use crate::sample::{Nanos, seconds_between};
+use super::mouse_event::{MouseButton, MouseEvent};
+use super::state::{HeadState, Tracking};
+use crate::clock::{Nanos, seconds_between};
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
 
 /// Turn for a drag by one pixel, radians: 0.15 degrees.
 const TURN_PER_PIXEL: f64 = 0.15 * std::f64::consts::PI / 180.0;
-/// Way for a drag by one pixel, metres.
+/// Distance for a drag by one pixel, metres.
 const METRES_PER_PIXEL: f64 = 0.002;
-/// Way for one notch of the wheel, metres.
+/// Distance for one notch of the wheel, metres.
 const METRES_PER_NOTCH: f64 = 0.1;
-/// No further up or down than this, radians.
+/// Largest pitch, up or down, radians.
 const STEEPEST: f64 = FRAC_PI_2 * 0.95;
-/// How far from its beginning the head may be, along each axis, metres.
+/// Largest distance of the head from its start along each axis, metres.
 const REACH_M: f64 = 5.0;
-/// No event moves the mouse further, pixels, or its wheel, notches.
-const FARTHEST: f32 = 1e5;
-/// How hard the head is drawn to where the mouse wants it: a tenth of a second, 1/s.
+/// Rate at which the head approaches the goal of the mouse, 1/s: a time of a tenth of a second.
 const EAGERNESS: f64 = 10.0;
 
-/// A button of the mouse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MouseButton {
-    /// Turns.
-    Left,
-    /// Moves.
-    Right,
-    /// Goes back to the beginning.
-    Middle,
-}
-
-impl MouseButton {
-    const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Middle];
-}
-
-/// Something that the mouse does in the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MouseEvent {
-    /// It moves, by pixels.
-    Moved {
-        /// To the right.
-        right: f32,
-        /// Down.
-        down: f32,
-    },
-    /// A button is pressed or released.
-    Button {
-        /// Which one.
-        button: MouseButton,
-        /// Whether it is down.
-        pressed: bool,
-    },
-    /// The shift key is pressed or released.
-    Shift(bool),
-    /// The wheel is turned, by notches away from the user.
-    Wheel(f32),
-    /// Back to the beginning.
-    Reset,
-}
-
-const MOVED: u8 = 0;
-const BUTTON: u8 = 1;
-const SHIFT: u8 = 2;
-const WHEEL: u8 = 3;
-const RESET: u8 = 4;
-
-impl MouseEvent {
-    /// The bytes that the decoder reads; numbers little-endian. Several events may follow one another.
-    pub fn to_bytes(self) -> Vec<u8> {
-        match self {
-            Self::Moved { right, down } => [&[MOVED][..], &right.to_le_bytes(), &down.to_le_bytes()].concat(),
-            Self::Button { button, pressed } => vec![BUTTON, button as u8, u8::from(pressed)],
-            Self::Shift(held) => vec![SHIFT, u8::from(held)],
-            Self::Wheel(ahead) => [&[WHEEL][..], &ahead.to_le_bytes()].concat(),
-            Self::Reset => vec![RESET],
-        }
-    }
-
-    /// The event at the beginning, and what follows it; `None` if there is none.
-    fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
-        let (&kind, rest) = bytes.split_first()?;
-        Some(match kind {
-            MOVED => {
-                let (right, rest) = number(rest)?;
-                let (down, rest) = number(rest)?;
-                (Self::Moved { right, down }, rest)
-            }
-            BUTTON => {
-                let (&button, rest) = rest.split_first()?;
-                let (pressed, rest) = switch(rest)?;
-                (Self::Button { button: *MouseButton::ALL.get(usize::from(button))?, pressed }, rest)
-            }
-            SHIFT => {
-                let (held, rest) = switch(rest)?;
-                (Self::Shift(held), rest)
-            }
-            WHEEL => {
-                let (ahead, rest) = number(rest)?;
-                (Self::Wheel(ahead), rest)
-            }
-            RESET => (Self::Reset, rest),
-            _ => return None,
-        })
-    }
-}
-
-fn number(bytes: &[u8]) -> Option<(f32, &[u8])> {
-    let (number, rest) = bytes.split_first_chunk()?;
-    let number = f32::from_le_bytes(*number);
-    (number.abs() <= FARTHEST).then_some((number, rest))
-}
-
-fn switch(bytes: &[u8]) -> Option<(bool, &[u8])> {
-    match bytes.split_first()? {
-        (0, rest) => Some((false, rest)),
-        (1, rest) => Some((true, rest)),
-        _ => None,
-    }
-}
-
-/// A place that follows another like a critically damped spring.
+/// Place that follows a goal like a critically damped spring.
 ///
-/// *Equation*: x = g + (d + (v₀ + ω d) t) e^(−ωt), d = x₀ − g: place and velocity are continuous
-/// whenever the goal g changes.
+/// *Equation*: x = g + (d + (v₀ + ω d) t) e^(−ωt), d = x₀ − g: place and velocity are continuous whenever the goal g
+/// changes.
 #[derive(Clone, Copy, Debug)]
 struct Glide {
     since: Nanos,
@@ -146,7 +45,7 @@ impl Glide {
         Self { since: 0, from: position, velocity: DVec3::ZERO, goal: position }
     }
 
-    /// Place and velocity.
+    /// Place, metres, and velocity, m/s, at the time `at`.
     fn at(&self, at: Nanos) -> (DVec3, DVec3) {
         let time_s = seconds_between(self.since, at);
         let decay = (-EAGERNESS * time_s).exp();
@@ -162,9 +61,9 @@ impl Glide {
     }
 }
 
-/// Decoder of [`Source::Mouse`](crate::Source::Mouse).
+/// Decoder of [`SampleSource::Mouse`](crate::SampleSource::Mouse).
 #[derive(Debug)]
-pub struct Mouse {
+pub struct MouseDecoder {
     home: DVec3,
     held: [bool; 3],
     shift: bool,
@@ -174,8 +73,8 @@ pub struct Mouse {
     faults: Faults,
 }
 
-impl Mouse {
-    /// A head that rests here, in the room's axes, and looks ahead.
+impl MouseDecoder {
+    /// Head that rests at `home` in the room's axes and looks ahead.
     pub fn new(home: DVec3) -> Self {
         Self {
             home,
@@ -188,7 +87,7 @@ impl Mouse {
         }
     }
 
-    /// The head at the time `at`.
+    /// Head at the time `at`.
     pub fn state(&self, at: Nanos) -> HeadState {
         let (position_m, velocity_m_s) = self.place.at(at);
         let orientation = DQuat::from_euler(EulerRot::YXZ, self.yaw, self.pitch, 0.0);
@@ -234,8 +133,8 @@ impl Mouse {
     }
 }
 
-impl Decoder for Mouse {
-    /// The window lost the focus: buttons are let go, the head stays where it is.
+impl Decoder for MouseDecoder {
+    /// Releases the buttons: the window lost the focus. The head stays where it is.
     fn reset(&mut self, _at: Nanos) {
         (self.held, self.shift) = ([false; 3], false);
     }
@@ -258,10 +157,11 @@ impl Decoder for Mouse {
 
 #[cfg(test)]
 mod tests {
-    //! The head must go where the mouse wants it, without a jump of place or velocity, and its
-    //! velocity must be that of its place.
+    //! The head must follow the mouse without a jump of place or velocity, and its velocity must be the derivative of
+    //! its place.
     use super::*;
-    use crate::sample::SECOND;
+    use crate::clock::SECOND;
+    use crate::head::mouse_event::{BUTTON, MOVED, SHIFT, WHEEL};
 
     const HOME: DVec3 = DVec3::new(0.0, 1.7, 0.5);
     const RIGHT: MouseEvent = MouseEvent::Moved { right: 100.0, down: 0.0 };
@@ -270,8 +170,8 @@ mod tests {
         MouseEvent::Button { button, pressed }
     }
 
-    fn mouse(events: &[(Nanos, MouseEvent)]) -> Mouse {
-        let mut mouse = Mouse::new(HOME);
+    fn mouse(events: &[(Nanos, MouseEvent)]) -> MouseDecoder {
+        let mut mouse = MouseDecoder::new(HOME);
         for (at, event) in events {
             mouse.bytes(*at, &event.to_bytes(), &mut Actions::default());
         }
@@ -281,26 +181,6 @@ mod tests {
 
     fn near(found: DVec3, expected: DVec3) {
         assert!((found - expected).length() < 1e-9, "{found} for {expected}");
-    }
-
-    #[test]
-    fn events_survive_their_bytes() {
-        let events = [
-            RIGHT,
-            button(MouseButton::Middle, true),
-            button(MouseButton::Left, false),
-            MouseEvent::Shift(true),
-            MouseEvent::Wheel(-2.5),
-            MouseEvent::Reset,
-        ];
-        let bytes: Vec<u8> = events.iter().flat_map(|event| event.to_bytes()).collect();
-        let mut rest = &bytes[..];
-        for event in events {
-            let (found, behind) = MouseEvent::from_bytes(rest).unwrap();
-            assert_eq!(found, event);
-            rest = behind;
-        }
-        assert!(rest.is_empty());
     }
 
     #[test]
@@ -330,7 +210,7 @@ mod tests {
 
     #[test]
     fn place_and_velocity_are_continuous_and_belong_together() {
-        let mut head = Mouse::new(HOME);
+        let mut head = MouseDecoder::new(HOME);
         let mut at = 0;
         let step = SECOND / 1000;
         let mut last = head.state(0);
@@ -344,7 +224,7 @@ mod tests {
             let mean = (now.position_m - last.position_m) / 1e-3;
             let middle = head.state(at - step / 2).velocity_m_s;
             assert!((mean - middle).length() < 1e-4, "{tick}: {mean} for {middle}");
-            // ω² times the reach of the pull, for a millisecond.
+            // Bound: ω² times the distance to the goal, times a millisecond.
             assert!((now.velocity_m_s - last.velocity_m_s).length() < 0.1, "{tick}");
             last = now;
         }
@@ -386,10 +266,10 @@ mod tests {
     fn nonsense_is_counted_and_moves_nothing() {
         let nan = [&[WHEEL][..], &f32::NAN.to_le_bytes()].concat();
         for bytes in [&[9][..], &[BUTTON, 3, 1], &[BUTTON, 0, 2], &[MOVED, 0], &nan, &[SHIFT]] {
-            let mut head = Mouse::new(HOME);
+            let mut head = MouseDecoder::new(HOME);
             head.bytes(0, bytes, &mut Actions::default());
             assert_eq!(head.faults().number(), 1, "{bytes:?}");
-            assert_eq!(head.state(SECOND), Mouse::new(HOME).state(SECOND));
+            assert_eq!(head.state(SECOND), MouseDecoder::new(HOME).state(SECOND));
         }
     }
 }

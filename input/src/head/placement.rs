@@ -1,37 +1,37 @@
-//! Shifts and turns as they are written down: metres and degrees, under the keys of a table.
+//! Shifts and turns in the form of the settings: metres and degrees, under the keys of a table.
 
 use std::ops::RangeInclusive;
 
 use glam::{DQuat, DVec3, EulerRot};
 use serde::{Deserialize, Serialize};
 
-use super::Rigid;
-use crate::config::ConfigError;
+use super::rigid::Rigid;
+use crate::config_error::ConfigError;
 
-/// How far from the room's origin anything is, metres.
+/// Largest distance from the room's origin along each axis, metres.
 pub(super) const FARTHEST_M: f64 = 1000.0;
-/// Lengths of quaternions that pass for one.
+/// Lengths of quaternions that count as one.
 pub(super) const UNIT_LENGTHS: RangeInclusive<f64> = 1.0 - 1e-2..=1.0 + 1e-2;
 
-/// How one body's axes stand in another's: turned, then shifted.
+/// Placement of one body's axes in another's: turned, then shifted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Placement {
-    /// Its origin in the other's axes, metres.
+pub struct AxesPlacement {
+    /// Origin of the body in the other's axes, metres.
     pub position: [f64; 3],
-    /// Turn about y, to the left, degrees; the last to be done.
+    /// Turn about y, to the left, degrees; applied last.
     pub yaw: f64,
     /// Turn about x, nose up, degrees.
     pub pitch: f64,
-    /// Turn about z, to the left, degrees; the first to be done.
+    /// Turn about z, to the left, degrees; applied first.
     pub roll: f64,
-    /// The turn as a quaternion (x, y, z, w), instead of the angles.
+    /// Turn as a quaternion (x, y, z, w), instead of the angles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quaternion: Option<[f64; 4]>,
 }
 
-impl Placement {
-    /// The transform.
+impl AxesPlacement {
+    /// Transform of this placement.
     pub fn rigid(&self) -> Rigid {
         let angles = [self.yaw, self.pitch, self.roll].map(f64::to_radians);
         let orientation = match self.quaternion {
@@ -41,7 +41,7 @@ impl Placement {
         Rigid { position: DVec3::from_array(self.position), orientation }
     }
 
-    /// Checks the table whose keys these are.
+    /// Checks the values; `keys` are their names for the error.
     pub(super) fn check(&self, keys: &PlacementKeys) -> Result<(), ConfigError> {
         within(keys.position, self.position)?;
         for (key, angle) in [(keys.yaw, self.yaw), (keys.pitch, self.pitch), (keys.roll, self.roll)] {
@@ -91,7 +91,7 @@ macro_rules! placement_keys {
 pub(super) const ROOM_FROM_TRACKER: PlacementKeys = placement_keys!("tracker.room_from_tracker");
 pub(super) const HEAD_FROM_SENSOR: PlacementKeys = placement_keys!("tracker.head_from_sensor");
 
-/// Fails unless the place is near the origin.
+/// Checks that a place is near the origin.
 pub(super) fn within(key: &'static str, position: [f64; 3]) -> Result<(), ConfigError> {
     if position.iter().all(|coordinate| coordinate.abs() <= FARTHEST_M) {
         Ok(())
@@ -107,15 +107,15 @@ mod tests {
 
     #[test]
     fn yaw_is_to_the_left_pitch_nose_up_roll_to_the_left() {
-        let forward = |placement: Placement| placement.rigid().orientation * DVec3::NEG_Z;
+        let forward = |placement: AxesPlacement| placement.rigid().orientation * DVec3::NEG_Z;
         let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 1e-15, "{a} for {b}");
-        near(forward(Placement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
-        near(forward(Placement { pitch: 90.0, ..Default::default() }), DVec3::Y);
-        let rolled = Placement { roll: 90.0, ..Default::default() }.rigid().orientation;
+        near(forward(AxesPlacement { yaw: 90.0, ..Default::default() }), DVec3::NEG_X);
+        near(forward(AxesPlacement { pitch: 90.0, ..Default::default() }), DVec3::Y);
+        let rolled = AxesPlacement { roll: 90.0, ..Default::default() }.rigid().orientation;
         near(rolled * DVec3::Y, DVec3::NEG_X);
-        // Yaw comes last.
+        // Yaw is applied last.
         near(
-            forward(Placement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
+            forward(AxesPlacement { yaw: 90.0, pitch: 45.0, ..Default::default() }),
             DVec3::new(-0.5, 0.5, 0.0) * 2_f64.sqrt(),
         );
     }

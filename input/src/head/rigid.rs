@@ -1,27 +1,26 @@
-//! Shifts and turns: how one body's axes stand in another's.
+//! Rigid transforms: a turn, then a shift.
 
 use glam::{DQuat, DVec3};
 
-/// A turn, then a shift; named `target_from_source`. Takes points of the source's axes to the
-/// target's. Metres.
+/// Rigid transform, named `target_from_source`. It takes points of the source's axes to the target's, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rigid {
-    /// The source's origin in the target's axes.
+    /// Origin of the source in the target's axes, metres.
     pub position: DVec3,
-    /// The turn that takes the source's axes to the target's; of length one.
+    /// Turn that takes the source's axes to the target's, of length one.
     pub orientation: DQuat,
 }
 
 impl Rigid {
-    /// Same axes.
+    /// Transform that changes nothing.
     pub const IDENTITY: Self = Self { position: DVec3::ZERO, orientation: DQuat::IDENTITY };
 
-    /// A point of the source's axes in the target's.
+    /// Point of the source's axes in the target's.
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.position + self.orientation * point
     }
 
-    /// `source_from_target`.
+    /// Inverse transform, `source_from_target`.
     pub fn inverse(&self) -> Self {
         let orientation = self.orientation.conjugate();
         Self { position: orientation * -self.position, orientation }
@@ -31,7 +30,7 @@ impl Rigid {
 impl std::ops::Mul for Rigid {
     type Output = Self;
 
-    /// `c_from_b * b_from_a` is `c_from_a`.
+    /// Product: `c_from_b * b_from_a` is `c_from_a`.
     fn mul(self, other: Self) -> Self {
         Self { position: self.point(other.position), orientation: (self.orientation * other.orientation).normalize() }
     }

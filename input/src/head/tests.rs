@@ -1,25 +1,32 @@
-//! The head must be where the tracker's axes and the sensor's mounting put it, move as the eyes do,
-//! and take no nonsense; a head that is lost must neither jump nor run on.
+//! The head must be placed by the tracker's axes and the sensor's mounting, move with the velocity of the eyes, and
+//! ignore impossible poses; a lost head must neither jump nor move on.
 
-use super::*;
-use crate::sample::SECOND;
 use std::f64::consts::FRAC_PI_2;
 
-/// Differences of places a few metres from the origin, over a hundredth of a second.
+use glam::{DQuat, DVec3};
+
+use super::config::{HeadConfig, TrackingMode, VelocityFilter};
+use super::placement::AxesPlacement;
+use super::state::{HeadState, Tracking};
+use super::tracked_head::TrackedHead;
+use super::tracked_pose::TrackedPose;
+use crate::clock::{Nanos, SECOND};
+
+/// Rounding of differences of places a few metres from the origin, over a hundredth of a second, m/s.
 const ROUNDING: f64 = 1e-9;
 
-/// The interval of a 100 Hz tracker.
+/// Interval of a 100 Hz tracker.
 const FRAME: Nanos = SECOND / 100;
 
 fn config() -> HeadConfig {
     HeadConfig::new("dtrack://".parse().unwrap())
 }
 
-fn head() -> Head {
-    Head::new(HeadConfig { velocity: VelocityFilter::Off, ..config() }).unwrap()
+fn head() -> TrackedHead {
+    TrackedHead::new(HeadConfig { velocity: VelocityFilter::Off, ..config() }).unwrap()
 }
 
-/// The pose of frame `number`, measured at its arrival.
+/// Pose of frame `number`, measured at its arrival.
 fn pose(number: u64, position_m: DVec3) -> TrackedPose {
     TrackedPose {
         sensor: 0,
@@ -36,17 +43,17 @@ fn near(found: DVec3, expected: DVec3, tolerance: f64) {
     assert!((found - expected).length() < tolerance, "{found} for {expected}");
 }
 
-/// A head that walks ahead at 1 m/s, seen ten times.
-fn walking() -> Head {
+/// Head that walks ahead at 1 m/s, after ten poses.
+fn walking() -> TrackedHead {
     let mut head = head();
     (0..10).for_each(|number| head.pose(&pose(number, DVec3::new(0.0, 1.7, -0.01 * number as f64))));
     assert_eq!(head.rejected().number(), 0);
     head
 }
 
-/// When the walk above was seen last.
+/// Time of the last pose of the walk above.
 const SEEN: Nanos = 9 * FRAME;
-/// The message times have a resolution of a quarter of a microsecond, against the frame.
+/// Tolerance for message times, which have a resolution of a quarter of a microsecond against the frame.
 const CLOCK: f64 = 1e-4;
 
 #[test]
@@ -58,10 +65,11 @@ fn a_head_not_seen_yet_is_at_home() {
 
 #[test]
 fn the_transforms_apply_in_their_order() {
-    // The tracker hangs 2 m up, turned to the left; the sensor sits 10 cm above the eyes and 5 cm behind, upside down.
-    let room_from_tracker = Placement { position: [0.0, 2.0, 0.0], yaw: 90.0, ..Default::default() };
-    let head_from_sensor = Placement { position: [0.0, 0.1, 0.05], roll: 180.0, ..Default::default() };
-    let mut head = Head::new(HeadConfig { room_from_tracker, head_from_sensor, ..config() }).unwrap();
+    // The tracker hangs 2 m up, turned to the left; the sensor sits 10 cm above the eyes and 5 cm behind, upside
+    // down.
+    let room_from_tracker = AxesPlacement { position: [0.0, 2.0, 0.0], yaw: 90.0, ..Default::default() };
+    let head_from_sensor = AxesPlacement { position: [0.0, 0.1, 0.05], roll: 180.0, ..Default::default() };
+    let mut head = TrackedHead::new(HeadConfig { room_from_tracker, head_from_sensor, ..config() }).unwrap();
     // A metre ahead of the tracker, 30 cm below it, turned upside down as it is mounted.
     let upside_down = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     head.pose(&TrackedPose { orientation: upside_down, ..pose(0, DVec3::new(0.0, -0.3, -1.0)) });
@@ -73,17 +81,16 @@ fn the_transforms_apply_in_their_order() {
 
 #[test]
 fn the_velocity_is_that_of_the_eyes() {
-    // The sensor stays where it is while the head, whose eyes are 20 cm ahead of it, turns at 2 rad/s
-    // to the left.
-    let head_from_sensor = Placement { position: [0.0, 0.0, 0.2], ..Default::default() };
+    // The sensor stays at its place while the head, whose eyes are 20 cm ahead of it, turns at 2 rad/s to the left.
+    let head_from_sensor = AxesPlacement { position: [0.0, 0.0, 0.2], ..Default::default() };
     let velocity = VelocityFilter::Off;
-    let mut head = Head::new(HeadConfig { head_from_sensor, velocity, ..config() }).unwrap();
+    let mut head = TrackedHead::new(HeadConfig { head_from_sensor, velocity, ..config() }).unwrap();
     for number in 0..50 {
         let orientation = DQuat::from_rotation_y(0.02 * number as f64);
         head.pose(&TrackedPose { orientation, ..pose(number, DVec3::Y) });
     }
     let state = head.state(49 * FRAME);
-    // 0.4 m/s to the left of where the eyes were half a frame ago.
+    // The velocity is 0.4 m/s to the left of the eyes' direction half a frame ago.
     let left = DQuat::from_rotation_y(0.02 * 48.5) * DVec3::NEG_X;
     near(state.velocity_m_s, 0.4 * left, CLOCK);
     near(state.position_m, DVec3::Y + DQuat::from_rotation_y(0.98) * DVec3::NEG_Z * 0.2, ROUNDING);
@@ -135,7 +142,7 @@ fn a_lost_head_stays_and_its_velocity_fades() {
 fn a_slow_tracker_loses_nobody_between_its_frames() {
     let mut head = head();
     for number in 0..20 {
-        // 8 Hz.
+        // A tracker of 8 Hz.
         let at = number * SECOND / 8;
         let measured_s = Some(0.125 * number as f64);
         head.pose(&TrackedPose { at, measured_s, ..pose(0, DVec3::X * 0.125 * number as f64) });
@@ -151,7 +158,7 @@ fn a_slow_tracker_loses_nobody_between_its_frames() {
 fn a_tracker_that_goes_loses_the_head_at_once() {
     let mut head = walking();
     head.gone(SEEN);
-    // To be asked again, and to come back without the head, changes nothing.
+    // A second loss, before the head is seen again, changes nothing.
     head.gone(SEEN + SECOND / 10);
     assert_eq!(head.state(SEEN).tracked, Tracking::Fading);
     let halfway = head.state(SEEN + SECOND / 10);
@@ -162,7 +169,7 @@ fn a_tracker_that_goes_loses_the_head_at_once() {
 #[test]
 fn a_head_found_again_makes_no_velocity_of_the_gap() {
     let mut head = walking();
-    // Found a second later, two metres away, at rest.
+    // The head is found a second later, two metres away, at rest.
     for number in 110..120 {
         head.pose(&pose(number, DVec3::new(2.0, 1.7, 0.0)));
         let state = head.state(number * FRAME);
@@ -180,18 +187,18 @@ fn a_single_leap_is_rejected_and_a_repeated_one_believed() {
     assert_eq!(head.state(SEEN), before);
     assert_eq!(head.rejected().number(), 1);
     assert!(head.rejected().last().unwrap().starts_with("a leap of 3.00 m in"), "{:?}", head.rejected());
-    // Back on its way: the leap was none.
+    // A pose back on the old track: the leap does not count.
     head.pose(&pose(11, DVec3::new(0.0, 1.7, -0.11)));
     assert_eq!((head.state(11 * FRAME).position_m.x, head.rejected().number()), (0.0, 1));
     near(head.state(11 * FRAME).velocity_m_s, DVec3::NEG_Z, CLOCK);
-    // Two leaps to different places are none either; the second to the same place counts.
+    // Two leaps to different places do not count either; the second one to the same place does.
     head.pose(&pose(12, DVec3::new(3.0, 1.7, 0.0)));
     head.pose(&pose(13, DVec3::new(-3.0, 1.7, 0.0)));
     assert_eq!((head.state(13 * FRAME).position_m.x, head.rejected().number()), (0.0, 3));
     head.pose(&pose(14, DVec3::new(-3.0, 1.7, 0.0)));
     let state = head.state(14 * FRAME);
     assert_eq!((state.position_m.x, head.rejected().number()), (-3.0, 3));
-    // No velocity comes of the leap.
+    // The leap makes no velocity.
     assert!(state.velocity_m_s.length() < 1.001, "{state:?}");
     head.pose(&pose(15, DVec3::new(-3.0, 1.7, 0.0)));
     assert_eq!(head.state(15 * FRAME).velocity_m_s, DVec3::ZERO);
@@ -224,7 +231,7 @@ fn nonsense_is_rejected_and_counted() {
         head.pose(&pose);
         assert_eq!((head.rejected().number(), head.state(SEEN)), (number, before), "{pose:?}");
     }
-    // Within the tolerance it is made a unit.
+    // A quaternion within the tolerance is normalised.
     head.pose(&TrackedPose { orientation: DQuat::from_xyzw(0.0, 0.0, 0.0, 1.005), ..good });
     assert_eq!(head.state(10 * FRAME).orientation, DQuat::IDENTITY);
     head.pose(&TrackedPose { sensor: 1, ..pose(11, DVec3::splat(f64::NAN)) });

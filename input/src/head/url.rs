@@ -1,4 +1,4 @@
-//! Where a tracker is, as one text: `vrpn://HOST[:PORT]/DEVICE`, `dtrack://[ADDRESS][:PORT]`, `mouse`.
+//! Address of a tracker as one text: `vrpn://HOST[:PORT]/DEVICE`, `dtrack://[ADDRESS][:PORT]`, `mouse`.
 
 use std::fmt;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
@@ -7,75 +7,75 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::sample::Source;
-use crate::vrpn::wire::LONGEST_NAME;
-use crate::{dtrack, vrpn};
+use crate::dtrack;
+use crate::sample::SampleSource;
+use crate::vrpn::wire::{self, LONGEST_NAME};
 
-/// A tracker's place.
+/// Address of a tracker.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum TrackerUrl {
     /// A VRPN server, reached over TCP.
     Vrpn {
-        /// Its name or address.
+        /// Name or address of the server.
         host: String,
-        /// Its port.
+        /// Port of the server.
         port: u16,
-        /// Which of its devices the tracker is.
+        /// Name of the tracker among the server's devices.
         device: String,
     },
     /// The datagrams of an ART DTrack controller.
     Dtrack {
-        /// The address of this machine that they are sent to, or the multicast group.
+        /// Address of this machine that the controller sends to, or the multicast group.
         address: IpAddr,
-        /// The port that they are sent to.
+        /// Port that the controller sends to.
         port: u16,
     },
-    /// No tracker: the mouse in the window moves the head.
+    /// Mouse in the window, which moves the head without a tracker.
     Mouse,
 }
 
-/// Why a text is no tracker's place.
+/// Reason why a text is no tracker's address.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TrackerUrlError {
-    /// Nothing that we know.
+    /// A text of unknown form.
     #[error(
         "{0:?} is no tracker: expected vrpn://HOST/DEVICE, dtrack://ADDRESS:PORT or mouse, as in vrpn://192.168.0.10/Head"
     )]
     Unknown(String),
-    /// No host.
+    /// An address without a host.
     #[error("{0:?} names no host: expected vrpn://HOST/DEVICE, as in vrpn://192.168.0.10/Head")]
     Host(String),
-    /// No device.
+    /// An address without a device.
     #[error("{0:?} names no device of the server: expected vrpn://HOST/DEVICE, as in vrpn://192.168.0.10/Head")]
     Device(String),
-    /// Not a port.
+    /// A port that is no number from 1 to 65535.
     #[error("{port:?} in {url:?} is no port: expected a number from 1 to 65535")]
     Port {
-        /// The whole text.
+        /// Whole text of the address.
         url: String,
-        /// What should be a port.
+        /// Text in place of a port.
         port: String,
     },
-    /// Not an address.
+    /// A text in place of an address.
     #[error(
         "{address:?} in {url:?} is no address: expected one of this machine or a multicast group, as in dtrack://225.1.1.1:5000, or none"
     )]
     Address {
-        /// The whole text.
+        /// Whole text of the address.
         url: String,
-        /// What should be an address.
+        /// Text in place of an address.
         address: String,
     },
 }
 
 impl TrackerUrl {
-    /// Which decoder reads it.
-    pub fn source(&self) -> Source {
+    /// Source of the tracker's samples, and so its decoder.
+    pub fn source(&self) -> SampleSource {
         match self {
-            Self::Vrpn { .. } => Source::Vrpn,
-            Self::Dtrack { .. } => Source::Dtrack,
-            Self::Mouse => Source::Mouse,
+            Self::Vrpn { .. } => SampleSource::Vrpn,
+            Self::Dtrack { .. } => SampleSource::Dtrack,
+            Self::Mouse => SampleSource::Mouse,
         }
     }
 }
@@ -89,10 +89,10 @@ impl FromStr for TrackerUrl {
             return Ok(Self::Mouse);
         }
         match url.split_once("://") {
-            // VRPN's own name for its way over TCP alone.
+            // VRPN's own name for a connection over TCP alone.
             Some(("vrpn" | "tcp", rest)) => {
                 let (place, device) = rest.split_once('/').unwrap_or((rest, ""));
-                let (host, port) = host_and_port(url, place, vrpn::wire::PORT)?;
+                let (host, port) = host_and_port(url, place, wire::PORT)?;
                 if host.is_empty() || host.contains('@') {
                     return Err(TrackerUrlError::Host(url.to_owned()));
                 }
@@ -112,11 +112,11 @@ impl FromStr for TrackerUrl {
     }
 }
 
-/// Cuts `HOST[:PORT]`; an IPv6 address stands in brackets.
+/// Splits `HOST[:PORT]`; an IPv6 address stands in brackets.
 fn host_and_port<'a>(url: &str, place: &'a str, usual: u16) -> Result<(&'a str, u16), TrackerUrlError> {
     let (host, port) = match place.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
         Some((host, "")) => (host, None),
-        // Without its colon it is no number either.
+        // A text without its colon is no port.
         Some((host, rest)) => (host, Some(rest.strip_prefix(':').unwrap_or(""))),
         None => match place.split_once(':') {
             Some((host, port)) => (host, Some(port)),
@@ -161,7 +161,7 @@ impl From<TrackerUrl> for String {
 
 #[cfg(test)]
 mod tests {
-    //! A place must survive its text, for a recording carries it; a wrong one must be told why.
+    //! An address must survive its text, because a recording carries it; a wrong one must be refused with a reason.
     use super::*;
 
     #[test]

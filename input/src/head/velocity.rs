@@ -1,43 +1,43 @@
-//! A velocity from the places of a track, and the filters that take the noise out of it.
+//! Velocity from the places of a track, and the filters that reduce its noise.
 //!
-//! A difference of places that are half a millimetre uncertain, 17 ms apart, is uncertain by 4 cm/s;
-//! at 200 Hz by 14 cm/s. Every filter trades some of that for latency. All treat the three axes
-//! alike, so that a turned room gives the turned velocity.
+//! A difference of places that are uncertain by half a millimetre, 17 ms apart, is uncertain by 4 cm/s; at 200 Hz by
+//! 14 cm/s. Every filter trades some of that for latency. All treat the three axes alike, so that a turned room gives
+//! the turned velocity.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::VelocityFilter;
+use super::config::VelocityFilter;
 
-/// A place closer in time to the last than this, seconds, is passed over: the difference would be
-/// noise alone.
+/// Shortest interval to the last place, seconds. A closer place is passed over, because its difference would be noise
+/// alone.
 const SHORTEST_S: f64 = 5e-4;
 
-/// A place and its time, seconds before now.
-type Place = (f64, DVec3);
+/// Place, metres, and its time, seconds before now.
+type TimedPlace = (f64, DVec3);
 
-/// The velocity of a track.
+/// Velocity of a track.
 #[derive(Clone, Debug)]
-pub struct Velocity {
+pub struct TrackVelocity {
     filter: VelocityFilter,
-    /// The newest last.
-    track: VecDeque<Place>,
-    /// For the One Euro filter: acceleration, low-passed.
+    /// Places of the track, the newest last.
+    track: VecDeque<TimedPlace>,
+    /// Acceleration for the One Euro filter, low-passed.
     acceleration: DVec3,
-    /// Whether `value` has come from differences of this track.
+    /// True if `value` comes from differences of this track.
     begun: bool,
     value: DVec3,
 }
 
-impl Velocity {
-    /// A track without places.
+impl TrackVelocity {
+    /// Track without places.
     pub fn new(filter: VelocityFilter) -> Self {
         Self { filter, track: VecDeque::new(), acceleration: DVec3::ZERO, begun: false, value: DVec3::ZERO }
     }
 
-    /// The velocity after the last place, m/s.
+    /// Velocity after the last place, m/s.
     pub fn value(&self) -> DVec3 {
         self.value
     }
@@ -68,7 +68,7 @@ impl Velocity {
                 self.mean().unwrap_or(raw)
             }
             VelocityFilter::LeastSquares { window_s } => {
-                // A slow tracker has no more than two places in it.
+                // The window of a slow tracker holds no more than two places.
                 while self.track.len() > 2 && self.track[0].0 < -window_s * (1.0 + 1e-9) {
                     self.track.pop_front();
                 }
@@ -99,14 +99,14 @@ impl Velocity {
         self.track.drain(..last);
     }
 
-    /// The way from the first to the last place over the time between: the mean of the differences,
-    /// each by its time.
+    /// Difference of the last and the first place over the time between: the mean of the differences, each weighted
+    /// by its time.
     fn mean(&self) -> Option<DVec3> {
         let (&(begin, from), &(end, to)) = (self.track.front()?, self.track.back()?);
         (end > begin).then(|| (to - from) / (end - begin))
     }
 
-    /// The slope of the line of least squares.
+    /// Slope of the line of least squares.
     ///
     /// *Equation*: v = Σ (tᵢ − t̄) xᵢ / Σ (tᵢ − t̄)².
     fn slope(&self) -> Option<DVec3> {
@@ -125,20 +125,20 @@ impl Velocity {
 
 #[cfg(test)]
 mod tests {
-    //! Every filter must give a steady motion its exact velocity, whatever the intervals, and turn
-    //! with the room; the One Euro filter must be the one that `filters` has.
+    //! Every filter must give a steady motion its exact velocity, whatever the intervals, and turn with the room; the
+    //! One Euro filter must agree with that of `filters`.
     use super::*;
     use crate::filters::OneEuro;
     use glam::DQuat;
 
-    /// Sums of a few hundred terms.
+    /// Rounding of sums of a few hundred terms, m/s.
     const ROUNDING: f64 = 1e-9;
 
     fn every_filter() -> [VelocityFilter; 4] {
         [VelocityFilter::default(), VelocityFilter::least_squares(), VelocityFilter::one_euro(), VelocityFilter::Off]
     }
 
-    /// Intervals as a network makes them of 60 Hz.
+    /// Intervals of a 60 Hz tracker after a network.
     fn intervals() -> impl Iterator<Item = f64> {
         (0..400).map(|index| (1.0 + 0.4 * (f64::from(index) * 1.7).sin()) / 60.0)
     }
@@ -147,7 +147,7 @@ mod tests {
     fn steady_motion_has_its_exact_velocity() {
         let expected = DVec3::new(1.2, -0.1, -0.7);
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             let mut position = DVec3::new(100.0, 2.0, -300.0);
             velocity.restart(position, DVec3::ZERO);
             for interval_s in intervals() {
@@ -162,7 +162,7 @@ mod tests {
     fn a_turned_track_has_the_turned_velocity() {
         let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.3, -1.1, 2.0);
         for filter in every_filter() {
-            let (mut plain, mut turned) = (Velocity::new(filter), Velocity::new(filter));
+            let (mut plain, mut turned) = (TrackVelocity::new(filter), TrackVelocity::new(filter));
             let mut time: f64 = 0.0;
             for interval_s in intervals() {
                 time += interval_s;
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_mean_is_over_its_frames_and_not_over_more() {
-        let mut velocity = Velocity::new(VelocityFilter::Mean { frames: 4 });
+        let mut velocity = TrackVelocity::new(VelocityFilter::Mean { frames: 4 });
         velocity.restart(DVec3::ZERO, DVec3::ZERO);
         let mut x = 0.0;
         // Speeds 0, 0, 4, 8, 12, 16 m/s at 100 Hz.
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn the_slope_has_the_velocity_of_the_middle_of_its_window() {
-        let mut velocity = Velocity::new(VelocityFilter::LeastSquares { window_s: 0.1 });
+        let mut velocity = TrackVelocity::new(VelocityFilter::LeastSquares { window_s: 0.1 });
         for step in 0..100 {
             // A fall: x = t².
             let time = 0.005 * f64::from(step);
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn one_euro_is_that_of_the_authors_on_the_differences() {
-        let mut velocity = Velocity::new(VelocityFilter::OneEuro {
+        let mut velocity = TrackVelocity::new(VelocityFilter::OneEuro {
             minimum_cutoff_hz: 1.0,
             acceleration_coefficient: 0.1,
             acceleration_cutoff_hz: 1.0,
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn two_places_at_one_time_are_one() {
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             for step in 0..50 {
                 let x = 0.01 * f64::from(step);
                 velocity.push(0.01, DVec3::X * x);
@@ -238,7 +238,7 @@ mod tests {
                 assert!(velocity.value().x < 1.2, "{filter:?}: {}", velocity.value());
             }
             assert!((velocity.value().x - 1.0).abs() < 2e-4, "{filter:?}: {}", velocity.value());
-            // Faster than is of use, but true.
+            // A faster track than needed, but with a true velocity.
             for step in 0..5000 {
                 velocity.push(1e-4, DVec3::X * (0.49 + 1e-4 * f64::from(step)));
             }
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn a_track_holds_no_more_than_it_needs() {
         for filter in every_filter() {
-            let mut velocity = Velocity::new(filter);
+            let mut velocity = TrackVelocity::new(filter);
             for _ in 0..10_000 {
                 velocity.push(1e-3, DVec3::ZERO);
                 assert!(velocity.track.len() <= 52, "{filter:?}: {}", velocity.track.len());

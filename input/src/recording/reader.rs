@@ -1,32 +1,36 @@
-//! Reading a recording, also one that is damaged or still being written.
+//! Reader of recordings, also of those that are damaged or still being written.
 //!
-//! The file is read once from front to back, a chunk at a time. A chunk is checked against its
-//! checksum before anything in it is believed, messages must follow each other without a gap, and
-//! the data as a whole has a checksum at its end. At the first thing that is wrong the reader says
-//! what and where, and stops; everything it gave before is good.
+//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before
+//! anything in it is believed, messages must follow each other without a gap, and the data as a whole has a checksum
+//! at its end. At the first error the reader says what is wrong and where, and stops; every entry before is good.
+//! Lengths and checksums are checked by the linear reader of the `mcap` crate (`outer_records.rs`, `chunk.rs`); the
+//! order of the messages and their content are checked here.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
+use mcap::records::{MessageHeader, Record, op};
 use serde::de::DeserializeOwned;
 
-use super::record::{Entry, SampleRecord, Topic};
-use super::records::{Record, Records};
-use super::wire::{Fields, opcode};
-use super::{Header, RecordingError};
+use super::chunk::records_of_chunk;
+use super::error::RecordingError;
+use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
+use super::outer_records::OuterRecords;
+use super::parse::parsed;
+use super::record::{RecordingEntry, RecordingTopic, SampleRecord};
 
-/// A recording that is being read: its header, and an iterator over its entries in the order in
-/// which they were made.
+/// Length of the record that ends the data, bytes: its checksum.
+const DATA_END_LENGTH: usize = 4;
+
+/// Recording that is being read: its header, and an iterator over its entries in the order in which they were made.
 ///
-/// The last item is an error if the file does not end as it should; all before it may be used.
+/// The last item is an error if the file does not end as it should; all items before it may be used.
 #[derive(Debug)]
 pub struct Recording {
-    records: Records,
-    header: Header,
-    channels: BTreeMap<u16, Option<Topic>>,
-    sequence: u32,
-    entries: VecDeque<Entry>,
-    /// What to say after the entries; nothing is read any more.
+    records: OuterRecords,
+    header: RideHeader,
+    messages: Messages,
+    /// Outcome to be reported after the entries, once no more is read.
     end: Option<Result<(), RecordingError>>,
 }
 
@@ -34,116 +38,111 @@ impl Recording {
     /// Opens a recording and reads its header.
     ///
     /// # Errors
-    /// If it cannot be opened, is no recording of this program or of another format, or is damaged
-    /// within the header.
+    /// A file that cannot be opened, is no recording of this program or of another format, or is damaged within the
+    /// header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
-        let (records, header) = Records::open(path)?;
-        Ok(Self { records, header, channels: BTreeMap::new(), sequence: 0, entries: VecDeque::new(), end: None })
+        let mut records = OuterRecords::open(path)?;
+        check_profile(&mut records)?;
+        let header = read_header(&mut records)?;
+        Ok(Self { records, header, messages: Messages::default(), end: None })
     }
 
-    /// What the ride depends on besides its samples.
-    pub fn header(&self) -> &Header {
+    /// Everything that the ride depends on besides its samples.
+    pub fn header(&self) -> &RideHeader {
         &self.header
     }
 
-    /// Reads the next outermost record. `Ok(false)` says that the data has ended as it should.
+    /// Reads the next outermost record; false at the proper end of the data.
     fn advance(&mut self) -> Result<bool, RecordingError> {
         let record = self.records.next()?;
-        match record.opcode {
-            opcode::CHUNK => self.chunk(&record)?,
-            opcode::SCHEMA | opcode::CHANNEL | opcode::MESSAGE => {
-                self.inner(record.opcode, &record.body).map_err(|what| self.records.damaged(record.offset, what))?;
-            }
-            opcode::DATA_END => {
-                let mut fields = Fields(&record.body);
-                let checksum = fields.u32();
-                return if checksum == Some(record.checksum_before) && fields.0.is_empty() {
-                    Ok(false)
-                } else {
-                    Err(self.records.damaged(record.offset, "the data does not match its checksum"))
-                };
-            }
-            opcode::FOOTER => {
-                return Err(self.records.damaged(record.offset, "the end of the data is missing"));
-            }
-            // Indexes, attachments and what others may add.
-            _ => {}
-        }
-        Ok(true)
-    }
-
-    /// Reads all that a chunk holds, once its checksum is right.
-    fn chunk(&mut self, record: &Record) -> Result<(), RecordingError> {
-        let damaged = |what: String| self.records.damaged(record.offset, what);
-        let mut fields = Fields(&record.body);
-        let parts = (|| {
-            let (_start, _end, _length) = (fields.u64()?, fields.u64()?, fields.u64()?);
-            Some((fields.u32()?, fields.text()?, fields.long_bytes()?))
-        })();
-        let Some((checksum, compression, content)) = parts else {
-            return Err(damaged("the chunk is shorter than it says".to_owned()));
+        let outcome = match record.opcode {
+            op::CHUNK => records_of_chunk(&record.body, |opcode, body| self.messages.take(opcode, body)),
+            op::DATA_END if record.body.len() == DATA_END_LENGTH => return Ok(false),
+            op::DATA_END => Err("the data does not match its checksum".to_owned()),
+            op::FOOTER => Err("the end of the data is missing".to_owned()),
+            // Indexes, attachments and records of other programs are passed over.
+            opcode => self.messages.take(opcode, &record.body),
         };
-        if !compression.is_empty() {
-            return Err(damaged(format!("compressed with {compression:?}; recordings are not compressed")));
-        }
-        if checksum != crc32fast::hash(content) {
-            return Err(damaged("the chunk does not match its checksum".to_owned()));
-        }
-        let mut records = Fields(content);
-        while !records.0.is_empty() {
-            let outcome = match records.record() {
-                Some((opcode, body)) => self.inner(opcode, body),
-                None => Err("a record is longer than its chunk".to_owned()),
-            };
-            outcome.map_err(|what| self.records.damaged(record.offset, what))?;
-        }
-        Ok(())
+        outcome.map(|()| true).map_err(|what| self.records.damaged(record.offset, what))
     }
+}
 
-    /// Takes a channel or a message.
-    fn inner(&mut self, kind: u8, body: &[u8]) -> Result<(), String> {
-        match kind {
-            opcode::CHANNEL => self.channel(body),
-            opcode::MESSAGE => self.message(body),
+/// Checks that the file is MCAP and of this program.
+fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
+    let record = records.next()?;
+    match parsed(record.opcode, &record.body) {
+        Some(Record::Header(header)) if header.profile == PROFILE => Ok(()),
+        Some(Record::Header(header)) => Err(records.foreign(header.profile)),
+        _ => Err(records.damaged(record.offset, "the MCAP header cannot be read")),
+    }
+}
+
+/// Reads the metadata record that describes the ride.
+fn read_header(records: &mut OuterRecords) -> Result<RideHeader, RecordingError> {
+    let record = records.next()?;
+    let damaged = |what: String| records.damaged(record.offset, what);
+    let values = match parsed(record.opcode, &record.body) {
+        Some(Record::Metadata(metadata)) if metadata.name == METADATA => metadata.metadata,
+        _ => return Err(damaged("the description of the ride is missing".to_owned())),
+    };
+    let value = |key: &str| values.get(key).map(String::as_str);
+    match value(KEY_VERSION) {
+        Some(VERSION) => {}
+        found => return Err(records.version(found.unwrap_or_default().to_owned())),
+    }
+    let text = value(KEY_HEADER).ok_or_else(|| damaged(format!("`{KEY_HEADER}` is missing")))?;
+    if value(KEY_CHECKSUM) != Some(&format!("{:08x}", crc32fast::hash(text.as_bytes()))) {
+        return Err(damaged(format!("`{KEY_HEADER}` does not match its checksum")));
+    }
+    serde_json::from_str(text).map_err(|error| damaged(format!("`{KEY_HEADER}`: {error}")))
+}
+
+/// Messages that have been read and not yet returned, and the channels known so far.
+#[derive(Debug, Default)]
+struct Messages {
+    /// Topic of each channel; `None` for one that a later program has added.
+    channels: BTreeMap<u16, Option<RecordingTopic>>,
+    /// Number that the next message must have.
+    sequence: u32,
+    entries: VecDeque<RecordingEntry>,
+}
+
+impl Messages {
+    /// Takes a channel or a message; other records are passed over.
+    fn take(&mut self, opcode: u8, body: &[u8]) -> Result<(), String> {
+        match opcode {
+            op::CHANNEL => match parsed(opcode, body) {
+                Some(Record::Channel(channel)) => {
+                    let topic = RecordingTopic::ALL.into_iter().find(|topic| topic.name() == channel.topic);
+                    self.channels.insert(channel.id, topic);
+                    Ok(())
+                }
+                _ => Err("a channel is shorter than it says".to_owned()),
+            },
+            op::MESSAGE => match parsed(opcode, body) {
+                Some(Record::Message { header, data }) => self.message(header, &data),
+                _ => Err("a message is shorter than its header".to_owned()),
+            },
             _ => Ok(()),
         }
     }
 
-    fn channel(&mut self, body: &[u8]) -> Result<(), String> {
-        let mut fields = Fields(body);
-        let parts = (|| {
-            let (id, _schema) = (fields.u16()?, fields.u16()?);
-            Some((id, fields.text()?))
-        })();
-        let (id, name) = parts.ok_or("a channel is shorter than it says")?;
-        self.channels.insert(id, Topic::ALL.into_iter().find(|topic| topic.name() == name));
-        Ok(())
-    }
-
-    fn message(&mut self, body: &[u8]) -> Result<(), String> {
-        let mut fields = Fields(body);
-        let parts = (|| {
-            let (channel, sequence) = (fields.u16()?, fields.u32()?);
-            let (_logged, _published) = (fields.u64()?, fields.u64()?);
-            Some((channel, sequence))
-        })();
-        let (channel, sequence) = parts.ok_or("a message is shorter than its header")?;
+    fn message(&mut self, header: MessageHeader, text: &[u8]) -> Result<(), String> {
+        let MessageHeader { sequence, channel_id, .. } = header;
         let expected = self.sequence;
         if sequence != expected {
             return Err(format!("message {sequence} follows where {expected} should: some are missing"));
         }
         self.sequence = self.sequence.wrapping_add(1);
 
-        let text = fields.0;
-        let topic = self.channels.get(&channel).ok_or_else(|| format!("message {sequence} is of no channel"))?;
+        let topic = self.channels.get(&channel_id).ok_or_else(|| format!("message {sequence} is of no channel"))?;
         self.entries.push_back(match topic {
-            Some(Topic::Samples) => {
+            Some(RecordingTopic::Samples) => {
                 let record: SampleRecord = parse(sequence, text)?;
-                Entry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
+                RecordingEntry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
             }
-            Some(Topic::Controls) => Entry::Controls(parse(sequence, text)?),
-            Some(Topic::Frames) => Entry::Frame(parse(sequence, text)?),
-            // A channel that a later program has added.
+            Some(RecordingTopic::Controls) => RecordingEntry::Controls(parse(sequence, text)?),
+            Some(RecordingTopic::Frames) => RecordingEntry::Frame(parse(sequence, text)?),
             None => return Ok(()),
         });
         Ok(())
@@ -155,14 +154,14 @@ fn parse<T: DeserializeOwned>(sequence: u32, text: &[u8]) -> Result<T, String> {
 }
 
 impl Iterator for Recording {
-    type Item = Result<Entry, RecordingError>;
+    type Item = Result<RecordingEntry, RecordingError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            if let Some(entry) = self.entries.pop_front() {
+            if let Some(entry) = self.messages.entries.pop_front() {
                 return Some(Ok(entry));
             }
-            // The end is told once.
+            // The error is reported once.
             if let Some(end) = &mut self.end {
                 return std::mem::replace(end, Ok(())).err().map(Err);
             }

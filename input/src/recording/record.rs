@@ -1,62 +1,62 @@
-//! What is written for a frame and a sample, and the JSON schemas that describe it.
+//! Records of a frame and of a sample, and the JSON schemas that describe them.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Nanos, Sample, Signal, Source};
+use crate::sample::{Sample, SampleSource, Signal};
 
-/// The observer after a frame's steps.
+/// Observer after a frame's steps.
 ///
 /// # Frames, units
-/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the
-/// physics. The celerity is in units of the speed of light. The orientation is the quaternion (x,
-/// y, z, w) that takes the pilot's axes to the axes of the comoving frame that is a pure boost of
-/// the world's.
+/// World axes, right-handed, y up; lengths and times in metres (of light travel), as in the physics. The celerity is
+/// in units of the speed of light. The orientation is the quaternion (x, y, z, w) that takes the pilot's axes to the
+/// axes of the comoving frame that is a pure boost of the world's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameRecord {
     /// Number of the frame, from 0.
     pub frame: u64,
-    /// Real time at which the desk was asked.
+    /// Real time of the frame, at which the controls were read.
     pub at: Nanos,
-    /// Steps that were integrated in this frame.
+    /// Number of steps that were integrated in this frame.
     pub steps: u64,
-    /// The observer's own time.
+    /// Proper time of the observer, metres.
     pub proper_time: f64,
-    /// The world's time.
+    /// Time in the world's frame, metres.
     pub ct: f64,
-    /// Where.
+    /// Place in the world, metres.
     pub position: [f64; 3],
-    /// How fast.
+    /// Celerity γβ in the world.
     pub celerity: [f64; 3],
-    /// Which way up.
+    /// Orientation, quaternion (x, y, z, w).
     pub orientation: [f64; 4],
     /// Rapidity, for plots.
     pub rapidity: f64,
     /// Doppler factor dead ahead of the motion, for plots.
     pub doppler_ahead: f64,
-    /// Distance ridden, measured along the road.
+    /// Distance ridden along the road, metres.
     pub road: f64,
-    /// Distance ridden, by the vehicle's own odometer (∫ β dτ).
+    /// Distance ridden by the vehicle's own odometer (∫ β dτ), metres.
     pub odometer: f64,
 }
 
-/// Where two frame records differ first.
+/// First difference between two frame records.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// The field, with its index.
+pub struct FrameDifference {
+    /// Name of the field, with its index.
     pub field: String,
-    /// What was recorded.
+    /// Value in the recording.
     pub recorded: String,
-    /// What the replay gives.
+    /// Value in the replay.
     pub replayed: String,
 }
 
 impl FrameRecord {
-    /// Every real number, with its place.
-    fn numbers(&self) -> impl Iterator<Item = (Place, f64)> {
+    /// All real numbers of the record, with their names.
+    fn numbers(&self) -> impl Iterator<Item = (FieldPlace, f64)> {
         let vectors: [(&str, &[f64]); 9] = [
             ("proper_time", std::slice::from_ref(&self.proper_time)),
             ("ct", std::slice::from_ref(&self.ct)),
@@ -69,19 +69,19 @@ impl FrameRecord {
             ("odometer", std::slice::from_ref(&self.odometer)),
         ];
         vectors.into_iter().flat_map(|(field, vector)| {
-            let place = move |index| Place { field, index: (vector.len() > 1).then_some(index) };
+            let place = move |index| FieldPlace { field, index: (vector.len() > 1).then_some(index) };
             vector.iter().enumerate().map(move |(index, &number)| (place(index), number))
         })
     }
 
-    /// The first number that JSON cannot carry.
+    /// First number that JSON cannot carry, with its name.
     pub(super) fn not_finite(&self) -> Option<(String, f64)> {
         let found = self.numbers().find(|(_, number)| !number.is_finite());
         found.map(|(place, number)| (place.to_string(), number))
     }
 
-    /// Compares a recorded frame with a replayed one, bit for bit; −0 is not 0.
-    pub fn first_difference(&self, replayed: &Self) -> Option<Difference> {
+    /// Compares a recorded frame with a replayed one, bit for bit; −0 differs from 0.
+    pub fn first_difference(&self, replayed: &Self) -> Option<FrameDifference> {
         let counts = [
             ("frame", self.frame, replayed.frame),
             ("at", self.at, replayed.at),
@@ -89,25 +89,25 @@ impl FrameRecord {
         ];
         if let Some((field, ours, theirs)) = counts.into_iter().find(|(_, ours, theirs)| ours != theirs) {
             let (recorded, replayed) = (ours.to_string(), theirs.to_string());
-            return Some(Difference { field: field.to_owned(), recorded, replayed });
+            return Some(FrameDifference { field: field.to_owned(), recorded, replayed });
         }
         self.numbers().zip(replayed.numbers()).find(|((_, ours), (_, theirs))| ours.to_bits() != theirs.to_bits()).map(
             |((place, ours), (_, theirs))| {
                 let (recorded, replayed) = (format!("{ours:?}"), format!("{theirs:?}"));
-                Difference { field: place.to_string(), recorded, replayed }
+                FrameDifference { field: place.to_string(), recorded, replayed }
             },
         )
     }
 }
 
-/// A number's place in a frame record.
+/// Name of a number in a frame record.
 #[derive(Clone, Copy)]
-struct Place {
+struct FieldPlace {
     field: &'static str,
     index: Option<usize>,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FieldPlace {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.index {
             Some(index) => write!(formatter, "{}[{index}]", self.field),
@@ -116,54 +116,54 @@ impl fmt::Display for Place {
     }
 }
 
-/// What the desk said for a frame.
+/// Controls of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ControlsRecord {
     /// Number of the frame.
     pub frame: u64,
-    /// Real time at which the desk was asked.
+    /// Real time of the frame, at which the controls were read.
     pub at: Nanos,
-    /// Its answer.
+    /// Controls at that time.
     #[serde(flatten)]
     pub controls: Controls,
 }
 
-/// One message of a recording.
+/// Message of a recording.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Entry {
-    /// A device said something.
+pub enum RecordingEntry {
+    /// Sample of a device.
     Sample(Sample),
-    /// What the desk made of it.
+    /// Controls that the desk made for a frame.
     Controls(ControlsRecord),
-    /// Where the observer was after the frame.
+    /// Observer after the frame.
     Frame(FrameRecord),
 }
 
-/// What happened, as it is written.
+/// Kind of a sample's signal, as it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Kind {
+enum SignalKind {
     Opened,
     Bytes,
     Closed,
 }
 
-/// A sample, as it is written.
+/// Sample, as it is written.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SampleRecord {
     at: Nanos,
-    source: Source,
-    kind: Kind,
+    source: SampleSource,
+    kind: SignalKind,
     bytes: String,
 }
 
 impl From<&Sample> for SampleRecord {
     fn from(sample: &Sample) -> Self {
         let (kind, bytes): (_, &[u8]) = match &sample.signal {
-            Signal::Opened => (Kind::Opened, &[]),
-            Signal::Bytes(bytes) => (Kind::Bytes, bytes),
-            Signal::Closed => (Kind::Closed, &[]),
+            Signal::Opened => (SignalKind::Opened, &[]),
+            Signal::Bytes(bytes) => (SignalKind::Bytes, bytes),
+            Signal::Closed => (SignalKind::Closed, &[]),
         };
         Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
     }
@@ -174,15 +174,15 @@ impl TryFrom<SampleRecord> for Sample {
 
     fn try_from(record: SampleRecord) -> Result<Self, String> {
         let signal = match record.kind {
-            Kind::Opened => Signal::Opened,
-            Kind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
-            Kind::Closed => Signal::Closed,
+            SignalKind::Opened => Signal::Opened,
+            SignalKind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
+            SignalKind::Closed => Signal::Closed,
         };
         Ok(Self { at: record.at, source: record.source, signal })
     }
 }
 
-/// Bytes as hexadecimal digits.
+/// Hexadecimal digits of the bytes.
 pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -198,18 +198,18 @@ fn unhex(text: &str) -> Result<Box<[u8]>, String> {
     }
 }
 
-/// A channel of the recording.
+/// Channel of the recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Topic {
+pub(super) enum RecordingTopic {
     Samples,
     Controls,
     Frames,
 }
 
-impl Topic {
+impl RecordingTopic {
     pub(super) const ALL: [Self; 3] = [Self::Samples, Self::Controls, Self::Frames];
 
-    /// Its name in the file.
+    /// Name of the channel in the file.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Samples => "/device/raw",
@@ -218,7 +218,7 @@ impl Topic {
         }
     }
 
-    /// Name and text of its schema.
+    /// Name and text of the channel's schema.
     pub(super) fn schema(self) -> (&'static str, &'static str) {
         match self {
             Self::Samples => ("rapidity.Sample", include_str!("sample.schema.json")),
@@ -230,8 +230,8 @@ impl Topic {
 
 #[cfg(test)]
 mod tests {
-    //! Every field must take part in the comparison, and be known to the schema: one that is not
-    //! would differ unseen, or would not be plotted.
+    //! Every field must take part in the comparison and be known to the schema: a forgotten field would differ
+    //! unnoticed, or would not be plotted.
     use super::*;
     use serde_json::Value;
 
@@ -296,10 +296,10 @@ mod tests {
     #[test]
     fn samples_survive_their_text() {
         for sample in [
-            Sample::opened(1, Source::Bicycle),
-            Sample::bytes(u64::MAX, Source::SpaceMouse, [0, 0xff, 0x7f]),
-            Sample::bytes(3, Source::Settings, []),
-            Sample::closed(4, Source::Keyboard),
+            Sample::opened(1, SampleSource::Bicycle),
+            Sample::bytes(u64::MAX, SampleSource::SpaceMouse, [0, 0xff, 0x7f]),
+            Sample::bytes(3, SampleSource::Settings, []),
+            Sample::closed(4, SampleSource::Keyboard),
         ] {
             let text = serde_json::to_string(&SampleRecord::from(&sample)).unwrap();
             let record: SampleRecord = serde_json::from_str(&text).unwrap();
@@ -316,13 +316,13 @@ mod tests {
 
     #[test]
     fn schemas_describe_exactly_what_is_written() {
-        let sample = SampleRecord::from(&Sample::opened(0, Source::Gamepad));
+        let sample = SampleRecord::from(&Sample::opened(0, SampleSource::Gamepad));
         let written = [
             serde_json::to_value(sample).unwrap(),
             serde_json::to_value(ControlsRecord::default()).unwrap(),
             serde_json::to_value(FrameRecord::default()).unwrap(),
         ];
-        for (topic, written) in Topic::ALL.into_iter().zip(written) {
+        for (topic, written) in RecordingTopic::ALL.into_iter().zip(written) {
             let schema: Value = serde_json::from_str(topic.schema().1).unwrap();
             let described: Vec<_> = schema["properties"].as_object().unwrap().keys().collect();
             let written: Vec<_> = written.as_object().unwrap().keys().collect();

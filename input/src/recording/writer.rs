@@ -1,9 +1,12 @@
-//! Writing a recording while the ride goes on.
+//! Writer of a recording while the ride goes on.
 //!
-//! Whoever records only puts things into a queue; a thread named `recorder` turns them into JSON
-//! and writes. Every half second it closes the chunk and hands it to the disk. A queue that is full
-//! means that the disk has stalled for many seconds: since a recording with a gap would not replay,
-//! recording then stops with an error instead of losing something or of stopping the ride.
+//! The frame loop only puts entries into a queue; a thread named `recorder` turns them into JSON and writes them.
+//! Every half second it closes the chunk and hands it to the disk. A full queue means that the disk has stalled for
+//! many seconds. A recording with a gap would not replay, so recording then stops with an error, rather than losing
+//! entries or stopping the ride.
+//!
+//! The bytes are written by the `mcap` crate's writer, which puts a chunk together in memory and writes it whole.
+//! Only the end of a chunk is decided here ([`FLUSH_EVERY`]), because it decides how much a crash costs.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -18,46 +21,48 @@ use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions};
 use serde::Serialize;
 
-use super::record::{ControlsRecord, Entry, FrameRecord, SampleRecord, Topic};
-use super::{Header, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RecordingError, VERSION};
+use super::error::RecordingError;
+use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
+use super::record::{ControlsRecord, FrameRecord, RecordingEntry, RecordingTopic, SampleRecord};
+use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Nanos, Sample};
+use crate::sample::Sample;
 
-/// How often a chunk is closed and handed to the disk.
+/// Time after which a chunk is closed and handed to the disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(500);
-/// Things that wait for the disk: half a minute of a ride with all devices.
+/// Length of the queue, entries: half a minute of a ride with all devices.
 const QUEUE: usize = 32_768;
 
-/// What is put into the queue.
-enum Message {
-    One(Entry),
-    Many(Vec<Entry>),
+/// Item of the queue.
+enum Queued {
+    One(RecordingEntry),
+    Many(Vec<RecordingEntry>),
 }
 
-/// A recording that is being made.
+/// Recording that is being made.
 ///
-/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the
-/// controls and the observer of the frame.
+/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the controls and the
+/// observer of the frame.
 #[derive(Debug)]
 pub struct Recorder {
     path: PathBuf,
-    queue: Option<Sender<Message>>,
+    queue: Option<Sender<Queued>>,
     thread: Option<JoinHandle<Result<(), McapError>>>,
 }
 
 impl Recorder {
-    /// Creates the file and writes what the ride depends on.
+    /// Creates the file and writes the header.
     ///
     /// # Errors
-    /// If the file exists already, or the system does not let us create or write it.
-    pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
+    /// A file that exists already, or that the system does not allow to create or write.
+    pub fn create(path: &Path, header: &RideHeader) -> Result<Self, RecordingError> {
         let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
             io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
             io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
             _ => RecordingError::io(path, "create", cause),
         })?;
-        let mut writer = Writer::new(file, header).map_err(|error| failure(path, error))?;
+        let mut writer = RecordingWriter::new(file, header).map_err(|error| failure(path, error))?;
         let (queue, messages) = bounded(QUEUE);
         let thread = thread::Builder::new()
             .name("recorder".to_owned())
@@ -69,50 +74,50 @@ impl Recorder {
     /// Records a sample.
     ///
     /// # Errors
-    /// If writing has failed, or does not keep up. The recording has then stopped.
+    /// A failed write, or a disk that does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Message::One(Entry::Sample(sample.clone())))
+        self.push(Queued::One(RecordingEntry::Sample(sample.clone())))
     }
 
-    /// Records what the desk said for a frame.
+    /// Records the controls of a frame.
     ///
     /// # Errors
-    /// As for [`sample`](Self::sample).
+    /// Errors of [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Message::One(Entry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
+        self.push(Queued::One(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
     }
 
     /// Records the observer after a frame.
     ///
     /// # Errors
-    /// If a number is not finite; else as for [`sample`](Self::sample).
+    /// A number that is not finite, and errors of [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
         check(record)?;
-        self.push(Message::One(Entry::Frame(record.clone())))
+        self.push(Queued::One(RecordingEntry::Frame(record.clone())))
     }
 
-    /// Records what happened before the file was created, however much; to be called first.
+    /// Records all entries from before the file was created, however many; called first.
     ///
     /// # Errors
-    /// As for [`frame`](Self::frame).
-    pub fn past(&mut self, entries: Vec<Entry>) -> Result<(), RecordingError> {
+    /// Errors of [`frame`](Self::frame).
+    pub fn past(&mut self, entries: Vec<RecordingEntry>) -> Result<(), RecordingError> {
         for entry in &entries {
-            if let Entry::Frame(record) = entry {
+            if let RecordingEntry::Frame(record) = entry {
                 check(record)?;
             }
         }
-        self.push(Message::Many(entries))
+        self.push(Queued::Many(entries))
     }
 
-    /// Writes what still waits, the index and the end of the file.
+    /// Writes the waiting entries, the index and the end of the file.
     ///
     /// # Errors
-    /// If any of the recording could not be written.
+    /// A part of the recording that could not be written.
     pub fn finish(mut self) -> Result<(), RecordingError> {
         self.close()
     }
 
-    fn push(&mut self, message: Message) -> Result<(), RecordingError> {
+    fn push(&mut self, message: Queued) -> Result<(), RecordingError> {
         let Some(queue) = &self.queue else {
             return Err(RecordingError::Stopped { path: self.path.clone() });
         };
@@ -131,7 +136,7 @@ impl Recorder {
         }
     }
 
-    /// Closes the queue and waits until all is written.
+    /// Closes the queue and waits until everything is written.
     fn close(&mut self) -> Result<(), RecordingError> {
         self.queue = None;
         let Some(thread) = self.thread.take() else {
@@ -145,21 +150,20 @@ impl Recorder {
 }
 
 impl Drop for Recorder {
-    /// Finishes the file; who wants to know whether that went well calls
-    /// [`finish`](Recorder::finish).
+    /// Finishes the file. Call [`finish`](Recorder::finish) to learn of errors.
     fn drop(&mut self) {
         let _ = self.close();
     }
 }
 
-/// The header as JSON. A number that is not finite is written as none, so it is read back to see.
-fn text(header: &Header) -> Result<String, serde_json::Error> {
+/// Header as JSON. A number that is not finite is written as null, so the text is read back to check it.
+fn text(header: &RideHeader) -> Result<String, serde_json::Error> {
     let text = serde_json::to_string(header)?;
-    serde_json::from_str::<Header>(&text)?;
+    serde_json::from_str::<RideHeader>(&text)?;
     Ok(text)
 }
 
-/// That every number can be read back.
+/// Checks that every number can be read back.
 fn check(record: &FrameRecord) -> Result<(), RecordingError> {
     match record.not_finite() {
         Some((field, value)) => Err(RecordingError::NotFinite { frame: record.frame, field, value }),
@@ -175,32 +179,32 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
     RecordingError::io(path, "write", cause)
 }
 
-/// Writes the messages until the queue is closed, and flushes now and then.
-fn write_until_closed(messages: &Receiver<Message>, writer: &mut Writer) -> Result<(), McapError> {
+/// Writes entries until the queue is closed, and flushes at intervals.
+fn write_until_closed(messages: &Receiver<Queued>, writer: &mut RecordingWriter) -> Result<(), McapError> {
     loop {
         match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
-            Ok(Message::One(entry)) => writer.write(&entry)?,
-            Ok(Message::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
+            Ok(Queued::One(entry)) => writer.write(&entry)?,
+            Ok(Queued::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
             Err(RecvTimeoutError::Timeout) => writer.flush()?,
             Err(RecvTimeoutError::Disconnected) => return writer.finish(),
         }
     }
 }
 
-/// The file, and the numbers of its channels.
-struct Writer {
+/// Open file, and the numbers of its channels.
+struct RecordingWriter {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
-    /// The same file, to see it onto the disk.
+    /// Second handle of the file, to hand it to the disk.
     file: File,
-    channels: [u16; Topic::ALL.len()],
+    channels: [u16; RecordingTopic::ALL.len()],
     sequence: u32,
     flushed: Instant,
     is_flushed: bool,
 }
 
-impl Writer {
-    /// Writes everything that comes before the first message. Chunks are put together in memory and
-    /// written whole, so that the file never holds half of one that looks complete.
+impl RecordingWriter {
+    /// Writes everything that comes before the first message. Chunks are put together in memory and written whole, so
+    /// that the file never holds an incomplete one that looks complete.
     fn new(file: File, header: String) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)
@@ -216,8 +220,8 @@ impl Writer {
         ]);
         mcap.write_metadata(&Metadata { name: METADATA.to_owned(), metadata })?;
 
-        let mut channels = [0; Topic::ALL.len()];
-        for (channel, topic) in channels.iter_mut().zip(Topic::ALL) {
+        let mut channels = [0; RecordingTopic::ALL.len()];
+        for (channel, topic) in channels.iter_mut().zip(RecordingTopic::ALL) {
             let (name, schema) = topic.schema();
             let schema = mcap.add_schema(name, "jsonschema", schema.as_bytes())?;
             *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
@@ -227,11 +231,11 @@ impl Writer {
     }
 
     /// Writes an entry, and hands the chunk to the disk if it is time.
-    fn write(&mut self, entry: &Entry) -> Result<(), McapError> {
+    fn write(&mut self, entry: &RecordingEntry) -> Result<(), McapError> {
         match entry {
-            Entry::Sample(sample) => self.put(Topic::Samples, sample.at, &SampleRecord::from(sample)),
-            Entry::Controls(record) => self.put(Topic::Controls, record.at, record),
-            Entry::Frame(record) => self.put(Topic::Frames, record.at, record),
+            RecordingEntry::Sample(sample) => self.put(RecordingTopic::Samples, sample.at, &SampleRecord::from(sample)),
+            RecordingEntry::Controls(record) => self.put(RecordingTopic::Controls, record.at, record),
+            RecordingEntry::Frame(record) => self.put(RecordingTopic::Frames, record.at, record),
         }?;
         self.is_flushed = false;
         if self.flushed.elapsed() < FLUSH_EVERY { Ok(()) } else { self.flush() }
@@ -254,7 +258,7 @@ impl Writer {
         Ok(())
     }
 
-    fn put(&mut self, topic: Topic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
+    fn put(&mut self, topic: RecordingTopic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
         let text = serde_json::to_vec(record).map_err(io::Error::other)?;
         let channel_id = self.channels[topic as usize];
         let header = MessageHeader { channel_id, sequence: self.sequence, log_time: at, publish_time: at };
@@ -266,11 +270,11 @@ impl Writer {
 
 #[cfg(test)]
 mod tests {
-    //! A recorder that cannot write must say so once, with the cause, and must never stop the ride.
+    //! A recorder that cannot write must report it once, with the cause, and must never stop the ride.
     use super::*;
-    use crate::sample::Source;
+    use crate::sample::SampleSource;
 
-    fn recorder(queue: Sender<Message>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
+    fn recorder(queue: Sender<Queued>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
         Recorder { path: PathBuf::from("ride.mcap"), queue: Some(queue), thread }
     }
 
@@ -278,7 +282,7 @@ mod tests {
     fn a_stalled_disk_ends_the_recording_not_the_ride() {
         let (queue, _never_read) = bounded(1);
         let mut recorder = recorder(queue, None);
-        let sample = Sample::opened(0, Source::Bicycle);
+        let sample = Sample::opened(0, SampleSource::Bicycle);
         recorder.sample(&sample).unwrap();
         assert!(matches!(recorder.sample(&sample), Err(RecordingError::TooSlow { .. })));
         assert!(matches!(recorder.sample(&sample), Err(RecordingError::Stopped { .. })));
@@ -290,7 +294,7 @@ mod tests {
         drop(messages);
         let thread = thread::spawn(|| Err(McapError::Io(io::Error::other("no space left"))));
         let mut recorder = recorder(queue, Some(thread));
-        let error = recorder.sample(&Sample::opened(0, Source::Bicycle)).unwrap_err();
+        let error = recorder.sample(&Sample::opened(0, SampleSource::Bicycle)).unwrap_err();
         assert_eq!(error.to_string(), "cannot write ride.mcap: no space left");
         assert!(recorder.finish().is_ok());
     }

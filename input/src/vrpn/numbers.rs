@@ -1,40 +1,40 @@
-//! Which numbers stand for which names, on one connection.
+//! Numbers of the names on one connection.
 
-use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, Message, WireError};
-use super::{PING, PONG, POSE, VELOCITY};
+use super::types::{PING, PONG, POSE, VELOCITY};
+use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage};
 
-/// Senders that are remembered by name, for those who have mistaken it.
+/// Number of senders whose names are kept, to report a mistaken name.
 pub(super) const MOST_SENDERS: usize = 16;
 
-/// The numbers that the other side has given to the names that matter.
+/// Numbers that the other side has given to the names that are needed.
 #[derive(Clone, Debug, Default)]
-pub struct Numbers {
-    /// Name of the device that we listen to.
+pub struct VrpnNumbers {
+    /// Name of the device that is listened to.
     device: String,
     sender: Option<i32>,
-    /// Of [`Self::TYPES`].
+    /// Number of each of [`Self::TYPES`].
     types: [Option<i32>; 4],
     senders: Vec<String>,
 }
 
-impl Numbers {
+impl VrpnNumbers {
     const TYPES: [&str; 4] = [POSE, VELOCITY, PING, PONG];
 
-    /// Nothing described yet.
+    /// Numbers before any description.
     pub fn new(device: &str) -> Self {
         Self { device: device.to_owned(), ..Self::default() }
     }
 
-    /// Forgets what was described.
+    /// Forgets all descriptions.
     pub fn forget(&mut self) {
         *self = Self::new(&self.device);
     }
 
-    /// Takes a description; whether the message was one.
+    /// Takes a description; false for any other message.
     ///
     /// # Errors
-    /// If its name cannot be read.
-    pub fn describe(&mut self, message: &Message<'_>) -> Result<bool, WireError> {
+    /// A name that cannot be read.
+    pub fn describe(&mut self, message: &VrpnMessage<'_>) -> Result<bool, VrpnError> {
         match message.kind {
             DESCRIBES_SENDER => {
                 let name = message.name()?;
@@ -54,8 +54,8 @@ impl Numbers {
         Ok(true)
     }
 
-    /// Which of the types that matter this message of our device is; `None` for all others.
-    pub fn of_device(&self, message: &Message<'_>) -> Option<&'static str> {
+    /// Type of a message of the device, if it is one of the known types; `None` for all others.
+    pub fn of_device(&self, message: &VrpnMessage<'_>) -> Option<&'static str> {
         if self.sender != Some(message.sender) {
             return None;
         }
@@ -68,13 +68,13 @@ impl Numbers {
         &self.senders
     }
 
-    /// Whether our device has been described.
+    /// True if the device has been described.
     pub fn has_device(&self) -> bool {
         self.sender.is_some()
     }
 }
 
-/// A number goes to a name, and is taken from the name that had it.
+/// Gives a number to a name, and takes it from the name that had it.
 fn give(number: &mut Option<i32>, described: i32, is_ours: bool) {
     if is_ours {
         *number = Some(described);

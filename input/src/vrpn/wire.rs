@@ -1,4 +1,4 @@
-//! The bytes of VRPN: cookies and messages, cut from a stream and put together.
+//! Bytes of VRPN: cookies and messages, cut from a stream and put together.
 //!
 //! Both sides begin with a cookie of 24 bytes; messages follow. All numbers are big-endian:
 //!
@@ -12,20 +12,20 @@
 //! | 20 | u32 | sequence number, of no use |
 //! | 24 | | payload, padded with zeros to a multiple of 8 |
 //!
-//! No length of a message begins like a cookie, so a cookie is known wherever a message may begin,
-//! and after nonsense the stream is taken up again at the next one.
+//! No length of a message begins like a cookie. So a cookie is recognised wherever a message may begin, and after
+//! nonsense the stream is taken up again at the next one.
 
 use thiserror::Error;
 
-/// The port of a VRPN server, unless it is told another.
+/// Usual port of a VRPN server.
 pub const PORT: u16 = 3883;
 /// Length of a cookie, bytes.
 pub const COOKIE_LENGTH: usize = 24;
-/// What we say first: version 7.38, nothing is logged.
+/// Cookie of this side: version 7.38, nothing is logged.
 pub const COOKIE: [u8; COOKIE_LENGTH] = *b"vrpn: ver. 07.38  0\0\0\0\0\0";
-/// The longest payload that is believed: as much as VRPN's own buffers hold.
+/// Length of the longest payload that is accepted, bytes: the length of VRPN's own buffers.
 pub const LONGEST_PAYLOAD: usize = 64_000;
-/// The longest name and its NUL.
+/// Length of the longest name with its NUL, bytes.
 pub const LONGEST_NAME: usize = 100;
 
 /// Type of the messages that give a sender its number.
@@ -33,19 +33,19 @@ pub const DESCRIBES_SENDER: i32 = -1;
 /// Type of the messages that give a type its number.
 pub const DESCRIBES_TYPE: i32 = -2;
 
-/// How every cookie begins.
+/// Beginning of every cookie.
 const MAGIC: &[u8] = b"vrpn: ver. ";
-/// The version that a server must have: the part before the full stop.
+/// Version that a server must have: the part before the full stop.
 const MAJOR: &[u8] = b"07.";
 const HEADER_LENGTH: usize = 24;
 
-/// Why the stream makes no sense.
+/// Reason why the stream makes no sense.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum WireError {
-    /// It does not begin as VRPN does.
+pub enum VrpnError {
+    /// A beginning that is not VRPN's.
     #[error("the other side does not speak VRPN: it begins with {0:?}")]
     NotVrpn(String),
-    /// Another major version.
+    /// A cookie of another major version.
     #[error("the server speaks VRPN {0:?}, this program version 07")]
     Version(String),
     /// A length that no message has.
@@ -56,23 +56,25 @@ pub enum WireError {
     Name,
 }
 
-/// A message.
+/// Message of VRPN.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Message<'a> {
-    /// Seconds since 1970 on the sender's clock.
+pub struct VrpnMessage<'a> {
+    /// Time on the sender's clock, seconds since 1970.
     pub seconds: u32,
-    /// And microseconds.
+    /// Time on the sender's clock, microseconds of the second.
     pub microseconds: u32,
     /// Number of the sender; in a description, the number that is described.
     pub sender: i32,
     /// Number of the type.
     pub kind: i32,
-    /// What it says.
+    /// Content of the message.
     pub payload: &'a [u8],
 }
 
-impl Message<'_> {
-    /// The message's bytes, padding included; the sequence number is zero.
+pub use VrpnMessage as Message; // until app is moved
+
+impl VrpnMessage<'_> {
+    /// Bytes of the message, padding included; the sequence number is zero.
     pub fn to_bytes(&self) -> Vec<u8> {
         let length = u32::try_from(HEADER_LENGTH + self.payload.len()).expect("payloads are short");
         let mut bytes = Vec::with_capacity(HEADER_LENGTH + padded(self.payload.len()));
@@ -87,90 +89,90 @@ impl Message<'_> {
         bytes
     }
 
-    /// The name in a description's payload: its length with the NUL, the name, the NUL.
+    /// Name in a description's payload: its length with the NUL, the name, the NUL.
     ///
     /// # Errors
-    /// If it is no such payload.
-    pub fn name(&self) -> Result<&str, WireError> {
-        let (length, text) = self.payload.split_first_chunk().ok_or(WireError::Name)?;
-        let length = usize::try_from(u32::from_be_bytes(*length)).map_err(|_| WireError::Name)?;
+    /// A payload of another form.
+    pub fn name(&self) -> Result<&str, VrpnError> {
+        let (length, text) = self.payload.split_first_chunk().ok_or(VrpnError::Name)?;
+        let length = usize::try_from(u32::from_be_bytes(*length)).map_err(|_| VrpnError::Name)?;
         if length > LONGEST_NAME {
-            return Err(WireError::Name);
+            return Err(VrpnError::Name);
         }
-        let text = text.get(..length).and_then(|text| text.strip_suffix(&[0])).ok_or(WireError::Name)?;
-        std::str::from_utf8(text).map_err(|_| WireError::Name)
+        let text = text.get(..length).and_then(|text| text.strip_suffix(&[0])).ok_or(VrpnError::Name)?;
+        std::str::from_utf8(text).map_err(|_| VrpnError::Name)
     }
 }
 
-/// The bytes of a description: from now on, `number` means `name`.
+/// Bytes of a description: from now on, `number` means `name`.
 pub fn description(kind: i32, number: i32, name: &str) -> Vec<u8> {
     let length = u32::try_from(name.len() + 1).expect("names are short");
     let payload = [&length.to_be_bytes(), name.as_bytes(), &[0]].concat();
-    Message { seconds: 0, microseconds: 0, sender: number, kind, payload: &payload }.to_bytes()
+    VrpnMessage { seconds: 0, microseconds: 0, sender: number, kind, payload: &payload }.to_bytes()
 }
 
-/// The length with its padding.
+/// Length with its padding, bytes.
 fn padded(length: usize) -> usize {
     length.next_multiple_of(8)
 }
 
-/// What a stream consists of, with its bytes.
+/// Piece of a stream, with its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Piece<'a> {
-    /// The other side begins: whatever it has described is forgotten.
+pub enum VrpnPiece<'a> {
+    /// Cookie: the other side begins, and its earlier descriptions are forgotten.
     Cookie(&'a [u8]),
-    /// A message, and its bytes as they came.
-    Message(Message<'a>, &'a [u8]),
+    /// Message, and its bytes as they came.
+    Message(VrpnMessage<'a>, &'a [u8]),
 }
 
-/// Cuts a stream into its pieces. Holds one unfinished message at most.
+/// Cutter of a stream into its pieces. It holds one unfinished message at most.
 #[derive(Debug, Default)]
-pub struct Pieces {
+pub struct VrpnPieces {
     partial: Vec<u8>,
-    place: Place,
+    place: StreamPlace,
 }
 
-/// Where in the stream we are.
+/// Place in the stream.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Place {
+enum StreamPlace {
     /// Before the cookie.
     #[default]
     Start,
-    /// Between messages.
+    /// Place between two messages.
     Messages,
-    /// In nonsense, until a cookie comes.
+    /// In nonsense, until the next cookie.
     Lost,
 }
 
-impl Pieces {
-    /// Forgets the unfinished piece; the next is a cookie.
+impl VrpnPieces {
+    /// Forgets the unfinished piece; the next one must be a cookie.
     pub fn reset(&mut self) {
         *self = Self::default();
     }
 
-    /// Takes the next bytes and calls `each` for every piece that ends in them. Nonsense is told
-    /// once, then everything up to the next cookie is passed over.
-    pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<Piece<'_>, WireError>)) {
+    /// Takes the next bytes and calls `each` for every piece that ends in them. Nonsense is reported once, then
+    /// everything up to the next cookie is passed over.
+    pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(Result<VrpnPiece<'_>, VrpnError>)) {
         let mut stream = std::mem::take(&mut self.partial);
         stream.extend_from_slice(bytes);
         let mut rest = &stream[..];
         loop {
-            if self.place == Place::Lost {
+            if self.place == StreamPlace::Lost {
                 rest = &rest[cookie_or_end(rest)..];
             }
             match next(rest, self.place) {
                 Ok(Some((piece, length))) => {
-                    self.place = Place::Messages;
+                    self.place = StreamPlace::Messages;
                     each(Ok(piece));
                     rest = &rest[length..];
                 }
                 Ok(None) => break,
                 Err(error) => {
-                    if self.place != Place::Lost {
+                    if self.place != StreamPlace::Lost {
                         each(Err(error));
                     }
-                    self.place = Place::Lost;
-                    // Past what cannot be a beginning.
+                    self.place = StreamPlace::Lost;
+                    // Skip a byte that begins no piece.
                     rest = &rest[1..];
                 }
             }
@@ -181,7 +183,7 @@ impl Pieces {
     }
 }
 
-/// Where the next cookie begins, or may begin with what comes next.
+/// Place of the next cookie, or of the possible beginning of one at the end.
 fn cookie_or_end(bytes: &[u8]) -> usize {
     let begins = |at: &usize| {
         let here = &bytes[*at..];
@@ -190,34 +192,34 @@ fn cookie_or_end(bytes: &[u8]) -> usize {
     (0..bytes.len()).find(begins).unwrap_or(bytes.len())
 }
 
-/// The piece at the beginning and its length, or `None` if there is not enough yet.
-fn next(bytes: &[u8], place: Place) -> Result<Option<(Piece<'_>, usize)>, WireError> {
+/// First piece and its length, bytes; `None` if there is not enough yet.
+fn next(bytes: &[u8], place: StreamPlace) -> Result<Option<(VrpnPiece<'_>, usize)>, VrpnError> {
     let known = bytes.len().min(MAGIC.len());
     let like_a_cookie = known > 0 && bytes[..known] == MAGIC[..known];
     if like_a_cookie {
         return match bytes.get(..COOKIE_LENGTH) {
             None => Ok(None),
             Some(cookie) if cookie[MAGIC.len()..].starts_with(MAJOR) => {
-                Ok(Some((Piece::Cookie(cookie), COOKIE_LENGTH)))
+                Ok(Some((VrpnPiece::Cookie(cookie), COOKIE_LENGTH)))
             }
-            Some(cookie) => Err(WireError::Version(shown(&cookie[MAGIC.len()..]))),
+            Some(cookie) => Err(VrpnError::Version(shown(&cookie[MAGIC.len()..]))),
         };
     }
     match place {
         _ if bytes.is_empty() => Ok(None),
-        Place::Messages => message(bytes),
-        Place::Start | Place::Lost => Err(WireError::NotVrpn(shown(bytes))),
+        StreamPlace::Messages => message(bytes),
+        StreamPlace::Start | StreamPlace::Lost => Err(VrpnError::NotVrpn(shown(bytes))),
     }
 }
 
-fn message(bytes: &[u8]) -> Result<Option<(Piece<'_>, usize)>, WireError> {
+fn message(bytes: &[u8]) -> Result<Option<(VrpnPiece<'_>, usize)>, VrpnError> {
     let Some(first) = bytes.first_chunk() else {
         return Ok(None);
     };
     // The length is checked before anything is waited for.
     let length = u32::from_be_bytes(*first);
     let payload_length = usize::try_from(length).ok().and_then(|length| length.checked_sub(HEADER_LENGTH));
-    let payload_length = payload_length.filter(|&length| length <= LONGEST_PAYLOAD).ok_or(WireError::Length(length))?;
+    let payload_length = payload_length.filter(|&length| length <= LONGEST_PAYLOAD).ok_or(VrpnError::Length(length))?;
     let whole = HEADER_LENGTH + padded(payload_length);
     let Some(raw) = bytes.get(..whole) else {
         return Ok(None);
@@ -228,11 +230,12 @@ fn message(bytes: &[u8]) -> Result<Option<(Piece<'_>, usize)>, WireError> {
     }
     let [_, seconds, microseconds, sender, kind, _] = words;
     let payload = &raw[HEADER_LENGTH..HEADER_LENGTH + payload_length];
-    let message = Message { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
-    Ok(Some((Piece::Message(message, raw), whole)))
+    let message =
+        VrpnMessage { seconds, microseconds, sender: sender.cast_signed(), kind: kind.cast_signed(), payload };
+    Ok(Some((VrpnPiece::Message(message, raw), whole)))
 }
 
-/// The beginning of what cannot be read, for a sentence.
+/// Beginning of bytes that cannot be read, for an error's sentence.
 fn shown(bytes: &[u8]) -> String {
     let text: String = String::from_utf8_lossy(&bytes[..bytes.len().min(16)]).into_owned();
     text.trim_end_matches('\0').to_owned()
@@ -240,21 +243,21 @@ fn shown(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! Bytes captured from the stock server must be read and written to the byte, however they are
-    //! cut; a length that is no length must not be believed, nor cost memory.
+    //! Bytes captured from the stock server must be read and written exactly, however they are cut; an impossible
+    //! length must not be believed, nor cost memory.
     use super::*;
     use crate::vrpn::golden;
 
-    /// Sender, type and payload of a message, none of a cookie; and the bytes.
-    type Cut = (Option<(i32, i32, Vec<u8>)>, Vec<u8>);
+    /// Sender, type and payload of a message, `None` for a cookie; and the bytes.
+    type CutPiece = (Option<(i32, i32, Vec<u8>)>, Vec<u8>);
 
-    fn pieces(chunks: &[&[u8]]) -> Vec<Result<Cut, WireError>> {
-        let (mut cut, mut pieces) = (Vec::new(), Pieces::default());
+    fn pieces(chunks: &[&[u8]]) -> Vec<Result<CutPiece, VrpnError>> {
+        let (mut cut, mut pieces) = (Vec::new(), VrpnPieces::default());
         for chunk in chunks {
             pieces.push(chunk, |piece| {
                 cut.push(piece.map(|piece| match piece {
-                    Piece::Cookie(raw) => (None, raw.to_vec()),
-                    Piece::Message(message, raw) => {
+                    VrpnPiece::Cookie(raw) => (None, raw.to_vec()),
+                    VrpnPiece::Message(message, raw) => {
                         (Some((message.sender, message.kind, message.payload.to_vec())), raw.to_vec())
                     }
                 }));
@@ -274,7 +277,7 @@ mod tests {
             [(golden::SENDER, DESCRIBES_SENDER, 1, "Head"), (golden::TYPE, DESCRIBES_TYPE, 4, "vrpn_Tracker Pos_Quat")]
         {
             let mut expected = golden::bytes(text);
-            // Ours carry neither time nor sequence number.
+            // Descriptions made here carry neither time nor sequence number.
             expected[4..12].fill(0);
             expected[20..24].fill(0);
             assert_eq!(description(kind, number, name), expected);
@@ -285,13 +288,13 @@ mod tests {
     fn a_message_survives_its_bytes() {
         let raw = golden::bytes(golden::IDENTITY);
         let stream = [&COOKIE[..], &raw].concat();
-        let mut pieces = Pieces::default();
+        let mut pieces = VrpnPieces::default();
         pieces.push(&stream, |piece| {
-            if let Piece::Message(message, found) = piece.unwrap() {
+            if let VrpnPiece::Message(message, found) = piece.unwrap() {
                 assert_eq!(found, raw);
                 assert_eq!((message.seconds, message.microseconds), (0x6b02_7c89, 0x0009_d21f));
                 let mut again = message.to_bytes();
-                // Ours carry no sequence number.
+                // Messages made here carry no sequence number.
                 again[20..24].copy_from_slice(&raw[20..24]);
                 assert_eq!(again, raw);
             }
@@ -313,7 +316,7 @@ mod tests {
     #[test]
     fn names_are_read_or_refused() {
         let name = |payload: &[u8]| {
-            let message = Message { seconds: 0, microseconds: 0, sender: 0, kind: -1, payload };
+            let message = VrpnMessage { seconds: 0, microseconds: 0, sender: 0, kind: -1, payload };
             message.name().map(str::to_owned)
         };
         assert_eq!(name(b"\0\0\0\x05Head\0"), Ok("Head".to_owned()));
@@ -321,7 +324,7 @@ mod tests {
         for bad in
             [&b""[..], b"\0\0\0", b"\0\0\0\0", b"\0\0\0\x06Head\0", b"\0\0\0\x04Head", b"\xff\xff\xff\xffH\0", &long]
         {
-            assert_eq!(name(bad), Err(WireError::Name), "{bad:?}");
+            assert_eq!(name(bad), Err(VrpnError::Name), "{bad:?}");
         }
     }
 
@@ -347,9 +350,9 @@ mod tests {
     fn a_length_that_is_none_is_refused_before_it_costs_memory() {
         for length in [0, 23, 25 + LONGEST_PAYLOAD as u32, u32::MAX] {
             let stream = [&COOKIE[..], &length.to_be_bytes()].concat();
-            assert_eq!(pieces(&[&stream])[1], Err(WireError::Length(length)));
+            assert_eq!(pieces(&[&stream])[1], Err(VrpnError::Length(length)));
         }
-        let mut cut = Pieces::default();
+        let mut cut = VrpnPieces::default();
         cut.push(&COOKIE, |_| {});
         for _ in 0..1000 {
             cut.push(&[0xee; 1000], |_| {});

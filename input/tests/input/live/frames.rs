@@ -2,19 +2,19 @@
 
 use std::time::{Duration, Instant};
 
-use input::devices::State;
+use input::devices::DeviceState;
 use input::{Clock, Desk, DeskConfig, Devices, DevicesConfig, HeadConfig, HeadState};
 
-/// Longer than any pause before a device is looked for again, on a busy machine.
+/// Longest wait, more than any pause before a device is looked for again, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(8);
 
-/// A frame loop without pictures: it drains the devices into a desk.
+/// Frame loop without pictures, which drains the devices into a desk.
 pub struct Loop {
-    /// The ride's clock.
+    /// Clock of the ride.
     pub clock: Clock,
-    /// The devices.
+    /// Devices of the loop.
     pub devices: Devices,
-    /// Their decoders.
+    /// Desk with the decoders.
     pub desk: Desk,
 }
 
@@ -36,13 +36,13 @@ impl Loop {
         tracking
     }
 
-    /// The head now.
+    /// Head at this moment.
     pub fn head(&mut self) -> HeadState {
         let now = self.clock.now();
         self.desk.controls(now).head.unwrap()
     }
 
-    /// Draws frames until the condition holds.
+    /// Runs frames until the condition holds.
     pub fn until(&mut self, what: &str, mut holds: impl FnMut(&mut Self) -> bool) {
         let start = Instant::now();
         loop {
@@ -57,10 +57,10 @@ impl Loop {
         }
     }
 
-    /// Draws frames until the only device is open, or is not.
+    /// Runs frames until the only device is open, or is not.
     pub fn until_open(&mut self, open: bool) {
         self.until(if open { "opening" } else { "closing" }, |it| {
-            (it.devices.status()[0].state == State::Open) == open
+            (it.devices.status()[0].state == DeviceState::Open) == open
         });
     }
 }

@@ -1,12 +1,11 @@
-//! Looking for devices on whatever machine this is: nothing that is missing or forbidden may be an
-//! error, and everything must be said in a sentence. A wrong program would panic where the system
-//! lacks a directory, or say nothing.
+//! Search for devices on any machine: a missing or forbidden device must be no error, and its state must be told in a
+//! sentence. A wrong program would panic where the system lacks a directory, or say nothing.
 
 use std::path::PathBuf;
 
-use crate::frames::Loop;
+use super::frames::Loop;
 use input::DevicesConfig;
-use input::devices::{State, plugged_in};
+use input::devices::{DeviceState, plugged_in};
 
 #[test]
 fn a_machine_without_devices_is_no_error() {
@@ -17,8 +16,8 @@ fn a_machine_without_devices_is_no_error() {
     });
     looking.until("a word about every device", |it| {
         it.devices.status().iter().all(|status| match &status.state {
-            State::Open => !status.path.is_empty(),
-            State::Absent(why) => why != "being looked for" && why.contains(' '),
+            DeviceState::Open => !status.path.is_empty(),
+            DeviceState::Absent(why) => why != "being looked for" && why.contains(' '),
         })
     });
 }

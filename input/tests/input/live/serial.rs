@@ -1,19 +1,19 @@
-//! The bicycle on a real pseudo-terminal.
+//! Tests with the bicycle on a real pseudo-terminal.
 //!
-//! What is written into the terminal must arrive as speed, steering and brake; garbage and a pulled
-//! plug must pass without harm; brake commands must come back whole. A wrong program would hang,
-//! ride on without a bicycle, or not find it again.
+//! Lines written into the terminal must arrive as speed, steering and brake; garbage and a pulled plug must pass
+//! without harm; brake commands must come back whole. A wrong program would hang, ride on without a bicycle, or not
+//! find it again.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::frames::Loop;
-use input::devices::State;
-use input::{BrakeCommand, DevicesConfig, SECOND, Source};
+use super::frames::Loop;
+use input::devices::DeviceState;
+use input::{BrakeCommand, DevicesConfig, SECOND, SampleSource};
 use serialport::{SerialPort, TTYPort};
 
-/// A terminal under a name that stays when the terminal changes, as a device's name does.
+/// Terminal under a name that stays when the terminal changes, as a device's name does.
 struct Plug {
     name: PathBuf,
     terminal: Option<(TTYPort, TTYPort)>,
@@ -57,7 +57,7 @@ fn wheel_speed(it: &mut Loop) -> Option<f64> {
     it.desk.controls(now).wheel_speed
 }
 
-/// The line of a box whose wheel has turned `count` times, the last time at `last_us`.
+/// Line of a box whose wheel has turned `count` times, the last time at `last_us`.
 fn line(now_us: u32, count: u32, last_us: u32, steer: u32, brake: u32) -> String {
     input::line::sealed(&format!("B1,{count},{now_us},{count},{last_us},0,0,{steer},{brake}"))
 }
@@ -79,16 +79,16 @@ fn a_ride_through_a_terminal() {
         plug.say(tail);
         plug.say("\u{7f}noise\n");
     }
-    ride.until("the last line", |it| it.desk.faults(Source::Bicycle).number() == 6);
+    ride.until("the last line", |it| it.desk.faults(SampleSource::Bicycle).number() == 6);
     let controls = ride.desk.controls(ride.clock.now());
-    // The box's clock says 21 m/s; ours caps it by the age of the last pulse, on a busy machine a
-    // third of a second.
+    // The box's clock gives 21 m/s. The age of the last pulse on this machine's clock caps it; on a busy machine that
+    // is a third of a second.
     let speed = controls.wheel_speed.unwrap();
     assert!((6.0..=21.0 + 1e-9).contains(&speed), "{speed}");
     assert_eq!(controls.steer_rad, 0.0);
     assert!((controls.brake - 1.0 / 3.0).abs() < 1e-9);
 
-    // Silence runs down, monotonically, to a stop.
+    // The speed decays in silence, monotonically, to a stop.
     let now = ride.clock.now();
     let speeds: Vec<f64> =
         (0..30).map(|tenth| ride.desk.controls(now + tenth * SECOND / 10).wheel_speed.unwrap()).collect();
@@ -96,7 +96,7 @@ fn a_ride_through_a_terminal() {
     assert_eq!(speeds[29], 0.0);
 
     let status = &ride.devices.status()[0];
-    assert_eq!((status.state.clone(), status.dropped), (State::Open, 0));
+    assert_eq!((status.state.clone(), status.dropped), (DeviceState::Open, 0));
     assert!(status.samples >= 6 && !status.last.is_empty());
 }
 
@@ -117,7 +117,7 @@ fn a_pulled_plug_stops_and_may_be_put_back() {
         plug.insert();
     }
     ride.until_open(true);
-    assert_eq!(ride.desk.faults(Source::Bicycle).number(), 0);
+    assert_eq!(ride.desk.faults(SampleSource::Bicycle).number(), 0);
 }
 
 #[test]
@@ -126,8 +126,8 @@ fn brake_commands_come_back_whole_newest_first_not_too_often_and_let_go_at_the_e
     let mut plug = Plug::new(directory.path());
     let mut ride = Loop::start(&plug.config());
     ride.until_open(true);
-    // Two hundred frames in a fifth of a second, faster than any box wants to hear; it talks all the while, so that
-    // nothing waits for it.
+    // Two hundred frames in a fifth of a second, more commands than a box can take. The box sends all the while, so
+    // that no read waits.
     let start = Instant::now();
     for frame in 0..200_u32 {
         ride.devices.brake(f64::from(frame) / 199.0);
@@ -136,7 +136,7 @@ fn brake_commands_come_back_whole_newest_first_not_too_often_and_let_go_at_the_e
     }
     let elapsed = start.elapsed();
 
-    // Long enough for the last one to be sent.
+    // A pause long enough for the last command to be sent.
     std::thread::sleep(Duration::from_millis(200));
     drop(ride);
 
@@ -164,7 +164,7 @@ fn a_flood_does_not_stop_the_ride() {
     let mut plug = Plug::new(directory.path());
     let mut ride = Loop::start(&plug.config());
     ride.until_open(true);
-    // A megabyte of noise that nobody drains meanwhile, then a good line.
+    // A megabyte of noise that is not drained meanwhile, then a good line.
     let noise = [b'#'; 4096];
     for _ in 0..256 {
         let mut rest = &noise[..];
@@ -175,7 +175,7 @@ fn a_flood_does_not_stop_the_ride() {
     }
     plug.say("\n36\n");
     ride.until("the good line", |it| wheel_speed(it).is_some_and(|speed| speed > 9.0));
-    assert!(ride.desk.faults(Source::Bicycle).number() > 0);
+    assert!(ride.desk.faults(SampleSource::Bicycle).number() > 0);
 }
 
 #[test]
@@ -192,8 +192,8 @@ fn what_is_missing_is_said_in_a_sentence() {
         let mut ride =
             Loop::start(&DevicesConfig { bicycle, space_mouse: false, gamepad: false, ..Default::default() });
         ride.until(expected, |it| match &it.devices.status()[0].state {
-            State::Absent(why) => why.contains(expected),
-            State::Open => false,
+            DeviceState::Absent(why) => why.contains(expected),
+            DeviceState::Open => false,
         });
     }
 }

@@ -1,21 +1,20 @@
-//! Recordings: what is written must be read back to the last bit, by us and by others; of a damaged
-//! file everything before the damage must be given, nothing after it, and nothing false.
+//! A recording must be read back to the last bit, by this program and by others; of a damaged file every entry before
+//! the damage must be returned, none after it, and none that is false.
 //!
-//! A wrong program would replay a ride that never was, refuse a ride because its last second is
-//! missing, or fall over a hostile file.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! A wrong program would replay a ride that never was, refuse a ride because its last second is missing, or crash on
+//! a hostile file.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use input::recording::{ControlsRecord, Entry, FrameRecord, Header, Recorder, Recording, RecordingError};
-use input::{Controls, Desk, DeskConfig, Key, SECOND, Sample, Source, VehicleKind};
+use input::recording::{ControlsRecord, FrameRecord, Recorder, Recording, RecordingEntry, RecordingError, RideHeader};
+use input::{Controls, Desk, DeskConfig, KeyboardKey, SECOND, Sample, SampleSource, VehicleKind};
 use proptest::prelude::*;
 
-fn header() -> Header {
-    Header {
+fn header() -> RideHeader {
+    RideHeader {
         build: "0.1.0 (test)".to_owned(),
         scene: "town".to_owned(),
         speed_of_light_m_s: 30.0 / 3.6,
@@ -27,23 +26,23 @@ fn header() -> Header {
     }
 }
 
-/// A ride of this many frames, and what it records.
-fn ride(frames: u64) -> Vec<Entry> {
+/// Entries of a ride of this many frames.
+fn ride(frames: u64) -> Vec<RecordingEntry> {
     let mut desk = Desk::new(DeskConfig::default()).unwrap();
     let mut entries = Vec::new();
     for frame in 0..frames {
         let at = frame * SECOND / 60;
         let sample = match frame {
-            0 => Sample::key(at, Key::W, true),
-            1 => Sample::opened(at, Source::Bicycle),
-            _ => Sample::bytes(at, Source::Bicycle, format!("{frame}\n").into_bytes()),
+            0 => Sample::key(at, KeyboardKey::W, true),
+            1 => Sample::opened(at, SampleSource::Bicycle),
+            _ => Sample::bytes(at, SampleSource::Bicycle, format!("{frame}\n").into_bytes()),
         };
         desk.feed(&sample);
-        entries.push(Entry::Sample(sample));
+        entries.push(RecordingEntry::Sample(sample));
         let controls = desk.controls(at);
         let third = 1.0 / (3.0 + frame as f64);
-        entries.push(Entry::Controls(ControlsRecord { frame, at, controls }));
-        entries.push(Entry::Frame(FrameRecord {
+        entries.push(RecordingEntry::Controls(ControlsRecord { frame, at, controls }));
+        entries.push(RecordingEntry::Frame(FrameRecord {
             frame,
             at,
             steps: 4,
@@ -57,23 +56,23 @@ fn ride(frames: u64) -> Vec<Entry> {
     entries
 }
 
-fn put(recorder: &mut Recorder, entry: &Entry) {
+fn put(recorder: &mut Recorder, entry: &RecordingEntry) {
     match entry {
-        Entry::Sample(sample) => recorder.sample(sample),
-        Entry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls),
-        Entry::Frame(record) => recorder.frame(record),
+        RecordingEntry::Sample(sample) => recorder.sample(sample),
+        RecordingEntry::Controls(record) => recorder.controls(record.frame, record.at, &record.controls),
+        RecordingEntry::Frame(record) => recorder.frame(record),
     }
     .unwrap();
 }
 
-fn record(path: &Path, entries: &[Entry]) {
+fn record(path: &Path, entries: &[RecordingEntry]) {
     let mut recorder = Recorder::create(path, &header()).unwrap();
     entries.iter().for_each(|entry| put(&mut recorder, entry));
     recorder.finish().unwrap();
 }
 
-/// Everything that can be read, and how it ended.
-fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
+/// Entries that can be read, and the error at the end.
+fn read(path: &Path) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let mut recording = match Recording::open(path) {
         Ok(recording) => recording,
         Err(error) => return (Vec::new(), Some(error)),
@@ -92,9 +91,9 @@ fn read(path: &Path) -> (Vec<Entry>, Option<RecordingError>) {
     (entries, None)
 }
 
-/// Everything that can be read of these bytes. The tests do this thousands of times: in memory,
-/// where the system offers it.
-fn read_bytes(bytes: &[u8]) -> (Vec<Entry>, Option<RecordingError>) {
+/// Entries that can be read from these bytes, and the error at the end. The tests do this thousands of times: in
+/// memory, where the system offers it.
+fn read_bytes(bytes: &[u8]) -> (Vec<RecordingEntry>, Option<RecordingError>) {
     let memory = Path::new("/dev/shm");
     let directory = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }.unwrap();
     let path = directory.path().join("ride.mcap");
@@ -102,19 +101,29 @@ fn read_bytes(bytes: &[u8]) -> (Vec<Entry>, Option<RecordingError>) {
     read(&path)
 }
 
-/// A directory, and the path of a recording in it.
+/// Directory, and the path of a recording in it.
 fn place() -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("ride.mcap");
     (directory, path)
 }
 
-/// The bytes of a short ride, and its entries.
-fn short_ride() -> (Vec<u8>, Vec<Entry>) {
+/// Bytes of a short ride, and its entries.
+fn short_ride() -> (Vec<u8>, Vec<RecordingEntry>) {
     let (_directory, path) = place();
     let entries = ride(3);
     record(&path, &entries);
     (fs::read(&path).unwrap(), entries)
+}
+
+/// Compares entries; the numbers of frames by their bits.
+fn assert_same_bits(found: &[RecordingEntry], expected: &[RecordingEntry]) {
+    assert_eq!(found, expected);
+    for (found, expected) in found.iter().zip(expected) {
+        if let (RecordingEntry::Frame(found), RecordingEntry::Frame(expected)) = (found, expected) {
+            assert_eq!(found.first_difference(expected), None);
+        }
+    }
 }
 
 #[test]
@@ -125,10 +134,66 @@ fn what_is_written_is_read_to_the_last_bit() {
     assert_eq!(Recording::open(&path).unwrap().header(), &header());
     let (found, error) = read(&path);
     assert!(error.is_none(), "{error:?}");
-    assert_eq!(found, entries);
-    for (found, entry) in found.iter().zip(&entries) {
-        if let (Entry::Frame(found), Entry::Frame(entry)) = (found, entry) {
-            assert_eq!(found.first_difference(entry), None);
+    assert_same_bits(&found, &entries);
+}
+
+/// Recording of the first format, kept from an older program.
+#[test]
+fn old_recordings_read_to_the_same_bits() {
+    let (found, error) = read_bytes(include_bytes!("recordings/format_1.bin"));
+    assert!(error.is_none(), "{error:?}");
+    assert_same_bits(&found, &ride(3));
+}
+
+/// Options of another program that copies a recording.
+fn options() -> mcap::WriteOptions {
+    mcap::WriteOptions::new().profile("rapidity").compression(None)
+}
+
+/// Bytes of a copy of a recording by another program, with a note at its end.
+fn copied(bytes: &[u8], options: mcap::WriteOptions) -> Vec<u8> {
+    let summary = mcap::Summary::read(bytes).unwrap().unwrap();
+    let metadata = mcap::read::metadata(bytes, &summary.metadata_indexes[0]).unwrap();
+    let mut copy = options.create(std::io::Cursor::new(Vec::new())).unwrap();
+    copy.write_metadata(&metadata).unwrap();
+    for message in mcap::MessageStream::new(bytes).unwrap() {
+        copy.write(&message.unwrap()).unwrap();
+    }
+    copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
+    copy.finish().unwrap();
+    copy.into_inner().into_inner()
+}
+
+/// Copies by other programs, with other chunks or none, compressed, and without checksums, must read the same.
+#[test]
+fn a_recording_copied_by_another_program_is_the_same() {
+    let (bytes, entries) = short_ride();
+    for options in [
+        options().use_chunks(false),
+        options().chunk_size(Some(300)),
+        options().calculate_chunk_crcs(false).calculate_data_section_crc(false),
+        options().repeat_channels(false).emit_statistics(false).emit_message_indexes(false),
+        options().compression(Some(mcap::Compression::Zstd)),
+        options().compression(Some(mcap::Compression::Lz4)),
+    ] {
+        let (found, error) = read_bytes(&copied(&bytes, options));
+        assert!(error.is_none(), "{error:?}");
+        assert_same_bits(&found, &entries);
+    }
+}
+
+/// Damage of compressed data must be found before or after it is unpacked, and must not stop the program.
+#[test]
+fn a_flipped_bit_of_a_compressed_copy_is_found() {
+    let (bytes, entries) = short_ride();
+    for compression in [mcap::Compression::Zstd, mcap::Compression::Lz4] {
+        let copy = copied(&bytes, options().compression(Some(compression)));
+        for index in 0..data_end(&copy) {
+            let mut damaged = copy.clone();
+            damaged[index] ^= 1 << (index % 8);
+            let (found, error) = read_bytes(&damaged);
+            assert_eq!(found, entries[..found.len()], "bit {} of byte {index}", index % 8);
+            assert!(error.is_some(), "bit {} of byte {index}", index % 8);
         }
     }
 }
@@ -144,16 +209,16 @@ fn a_recording_of_nothing_is_a_recording() {
 #[test]
 fn samples_out_of_order_stay_in_the_order_of_the_desk() {
     let (_directory, path) = place();
-    let entries = [3, 1, 2].map(|at| Entry::Sample(Sample::key(at, Key::A, true)));
+    let entries = [3, 1, 2].map(|at| RecordingEntry::Sample(Sample::key(at, KeyboardKey::A, true)));
     record(&path, &entries);
     assert_eq!(read(&path).0, entries);
 }
 
-/// A ride of an hour that somebody wants to keep, while it goes on.
+/// Ride of an hour that is recorded while it goes on.
 #[test]
 fn what_came_before_the_file_is_written_first_however_much() {
     let (_directory, path) = place();
-    let press = |at| Entry::Sample(Sample::key(at, Key::W, at % 2 == 0));
+    let press = |at| RecordingEntry::Sample(Sample::key(at, KeyboardKey::W, at % 2 == 0));
     let past: Vec<_> = (0..50_000).map(press).collect();
     let mut recorder = Recorder::create(&path, &header()).unwrap();
     recorder.past(past.clone()).unwrap();
@@ -165,8 +230,7 @@ fn what_came_before_the_file_is_written_first_however_much() {
     assert_eq!(found[..50_000], past);
 }
 
-/// The specification's own library, as an independent reader: Foxglove finds channels, schemas and
-/// times where it looks.
+/// Reader of the specification's own library, which must find channels, schemas and times.
 #[test]
 fn others_read_it_too() {
     let (_directory, path) = place();
@@ -199,15 +263,17 @@ fn the_desk_says_the_same_again() {
     let mut frames = 0;
     for entry in &mut recording {
         match entry.unwrap() {
-            Entry::Sample(sample) => desk.feed(&sample),
-            Entry::Controls(record) => assert_eq!(desk.controls(record.at), record.controls, "frame {}", record.frame),
-            Entry::Frame(_) => frames += 1,
+            RecordingEntry::Sample(sample) => desk.feed(&sample),
+            RecordingEntry::Controls(record) => {
+                assert_eq!(desk.controls(record.at), record.controls, "frame {}", record.frame);
+            }
+            RecordingEntry::Frame(_) => frames += 1,
         }
     }
     assert_eq!(frames, 200);
 }
 
-/// A crash loses at most the last second: what a copy of the file holds while the ride goes on.
+/// A crash must lose at most the last second: the copy of a file during the ride must hold all before.
 #[test]
 fn a_file_that_is_being_written_holds_all_but_the_last_second() {
     let (directory, path) = place();
@@ -224,7 +290,7 @@ fn a_file_that_is_being_written_holds_all_but_the_last_second() {
         if found.len() == entries.len() {
             break;
         }
-        // Twice the promise, for a busy machine.
+        // The limit is twice the promise, for a busy machine.
         assert!(written.elapsed() < Duration::from_secs(2), "{} of {}", found.len(), entries.len());
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -247,7 +313,7 @@ fn of_a_file_cut_anywhere_everything_before_the_cut_is_read() {
             Some(RecordingError::Empty { .. }) => assert_eq!(length, 0),
             Some(RecordingError::NotMcap { .. }) => assert!(length < 8),
             Some(RecordingError::CutOff { offset, .. }) => {
-                // The record that is missing or incomplete.
+                // The error must name the record that is missing or incomplete.
                 let begins = records(&bytes).map(|(begins, _, _)| begins).filter(|&begins| begins <= length).last();
                 assert_eq!(Some(offset as usize), begins, "cut at {length}");
             }
@@ -274,13 +340,26 @@ fn a_flipped_bit_anywhere_in_the_data_is_found_and_nothing_false_is_read() {
     }
 }
 
-/// Every byte of the data, and some of the index behind it.
+/// Lengths and counts of four gigabytes at every place.
+#[test]
+fn a_length_of_gigabytes_anywhere_ends_in_a_sentence() {
+    let (bytes, entries) = short_ride();
+    for index in 0..data_end(&bytes) - 4 {
+        let mut hostile = bytes.clone();
+        hostile[index..index + 4].fill(0xff);
+        let (found, error) = read_bytes(&hostile);
+        assert_eq!(found, entries[..found.len()], "byte {index}");
+        assert!(error.is_some(), "byte {index}");
+    }
+}
+
+/// Places of every byte of the data, and of some of the index behind it.
 fn places(bytes: &[u8]) -> impl Iterator<Item = usize> {
     let data_end = data_end(bytes);
     (0..data_end).chain((data_end..bytes.len()).step_by(50))
 }
 
-/// Every outermost record: where it begins, of what kind it is, where it ends.
+/// Outermost records: beginning, kind and end of each.
 fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
     let mut begins = 8;
     std::iter::from_fn(move || {
@@ -292,22 +371,22 @@ fn records(bytes: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
     })
 }
 
-/// Where the record that ends the data itself ends.
+/// End of the record that ends the data.
 fn data_end(bytes: &[u8]) -> usize {
     records(bytes).find(|(_, kind, _)| *kind == 0x0f).unwrap().2
 }
 
-/// A recording that was cut off has no checksum over the whole, so a lost chunk must show by itself.
+/// A recording that was cut off has no checksum over the whole, so a lost chunk must be noticed by itself.
 #[test]
 fn a_chunk_that_is_missing_is_noticed() {
     let (_directory, path) = place();
     // Three megabytes, in chunks of about one.
-    let loud = |at| Entry::Sample(Sample::bytes(at, Source::Bicycle, vec![0; 4000]));
+    let loud = |at| RecordingEntry::Sample(Sample::bytes(at, SampleSource::Bicycle, vec![0; 4000]));
     let entries: Vec<_> = (0..375).map(loud).collect();
     record(&path, &entries);
     let bytes = fs::read(&path).unwrap();
     let chunks: Vec<_> = records(&bytes).filter(|(_, kind, _)| *kind == 6).collect();
-    // The first holds the channels only.
+    // The first chunk holds the channels only.
     let [_, _, lost, kept, ..] = chunks[..] else { panic!("{} chunks", chunks.len()) };
     let holed = [&bytes[..lost.0], &bytes[lost.2..kept.2]].concat();
     let (found, error) = read_bytes(&holed);
@@ -317,7 +396,7 @@ fn a_chunk_that_is_missing_is_noticed() {
     assert!(text.contains("some are missing"), "{text}");
 }
 
-/// A wrong speed of light must not wait for the end of the ride to be noticed.
+/// A wrong speed of light must be noticed before the ride, not at its end.
 #[test]
 fn a_changed_header_is_refused_at_once() {
     let (bytes, _) = short_ride();
@@ -382,7 +461,7 @@ fn a_later_format_is_named() {
 #[test]
 fn a_header_that_cannot_be_read_back_is_refused_before_the_ride() {
     let (_directory, path) = place();
-    let nonsense = Header { step_s: f64::NAN, ..header() };
+    let nonsense = RideHeader { step_s: f64::NAN, ..header() };
     let text = Recorder::create(&path, &nonsense).unwrap_err().to_string();
     assert!(text.starts_with("cannot write") && text.contains("null"), "{text}");
     assert!(!path.exists(), "the name must stay free");
@@ -412,7 +491,7 @@ fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
 }
 
 fn any_sample() -> impl Strategy<Value = Sample> {
-    let source = proptest::sample::select(Source::ALL.to_vec());
+    let source = proptest::sample::select(SampleSource::ALL.to_vec());
     (any::<u64>(), source, any_bytes(), 0..20_u8).prop_map(|(at, source, bytes, kind)| {
         let at = at % (100 * SECOND);
         match kind {
@@ -435,8 +514,7 @@ fn is_sound(controls: &Controls) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever devices send, controls stay in their ranges, and a recording of it gives the same
-    /// controls again.
+    /// Controls must stay in their ranges, whatever devices send, and a recording must give the same controls again.
     #[test]
     fn any_noise_gives_sound_controls_and_the_same_again(samples in proptest::collection::vec(any_sample(), 1..60)) {
         let (_directory, path) = place();
@@ -454,14 +532,14 @@ proptest! {
         let mut again = Desk::new(DeskConfig::default()).unwrap();
         for entry in Recording::open(&path).unwrap() {
             match entry.unwrap() {
-                Entry::Sample(sample) => again.feed(&sample),
-                Entry::Controls(record) => prop_assert_eq!(again.controls(record.at), record.controls),
-                Entry::Frame(_) => prop_assert!(false, "there was no frame"),
+                RecordingEntry::Sample(sample) => again.feed(&sample),
+                RecordingEntry::Controls(record) => prop_assert_eq!(again.controls(record.at), record.controls),
+                RecordingEntry::Frame(_) => prop_assert!(false, "there was no frame"),
             }
         }
     }
 
-    /// A hostile file ends in an error, whatever its records claim to be and to hold.
+    /// A hostile file must end in an error, whatever its records claim to be and to hold.
     #[test]
     fn hostile_files_are_refused(
         records in proptest::collection::vec((0..20_u8, any::<u64>(), 0..3_u8, any_bytes()), 0..8),

@@ -1,27 +1,26 @@
-//! A tracker through a real TCP connection, served by the test as the stock server serves it.
+//! Tests with a tracker through a real TCP connection, served by the test as the stock server serves it.
 //!
-//! Both sides' bytes must be VRPN's to the byte; poses must arrive however the stream is cut; garbage,
-//! other versions, silence, floods and a server that dies must be survived, and the head must stay
-//! where it was. A wrong program would hang, lose its place in the stream, or send the head to the
-//! origin.
+//! The bytes of both sides must be exactly VRPN's; poses must arrive however the stream is cut; garbage, other
+//! versions, silence, floods and a server that dies must be survived, and the head must stay at its place. A wrong
+//! program would hang, lose its place in the stream, or send the head to the origin.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::time::Duration;
 
-use crate::frames::Loop;
-use input::Source;
-use input::devices::State;
+use super::frames::Loop;
+use input::SampleSource;
+use input::devices::DeviceState;
 use input::head::Tracking;
 
-/// Captured from the stock server, version 7.38.
+/// Cookie captured from the stock server, version 7.38.
 const COOKIE: &str = "7672706e3a207665722e2030372e33382020300000000000";
 const SENDER_1_HEAD: &str = "000000216b027c890009b7cd00000001ffffffff0000000100000005486561640000000000000000";
 const TYPE_4_POSE: &str = concat!(
     "000000326b027c890009b7ce00000004fffffffe00000008000000167672706e5f547261636b657220506f735f51",
     "75617400000000000000",
 );
-/// Sender 1, type 4, sensor 0, at the origin, not turned.
+/// Pose of sender 1, type 4, sensor 0, at the origin, not turned.
 const IDENTITY: &str = concat!(
     "000000586b027c890009d21f00000001000000040000001d",
     "0000000000000000",
@@ -29,8 +28,8 @@ const IDENTITY: &str = concat!(
     "000000000000000000000000000000000000000000000000",
     "3ff0000000000000",
 );
-/// What we must say after our cookie: number 0 is "Head"; types 0 and 1 are `vrpn_Base ping_message` and
-/// `vrpn_Base pong_message`; times and sequence numbers are zero.
+/// Bytes that the client must send after its cookie: number 0 is "Head"; types 0 and 1 are `vrpn_Base ping_message`
+/// and `vrpn_Base pong_message`; times and sequence numbers are zero.
 const OURS: &str = concat!(
     "000000210000000000000000",
     "00000000ffffffff00000000",
@@ -42,16 +41,16 @@ const OURS: &str = concat!(
     "00000001fffffffe00000000",
     "000000177672706e5f4261736520706f6e675f6d657373616765000000000000",
 );
-/// And once a second: a message without payload, sender 0, type 0.
+/// Ping that the client must send once a second: a message without payload, sender 0, type 0.
 const OUR_PING: &str = "000000180000000000000000000000000000000000000000";
-/// Our answer to a ping: type 1.
+/// Answer of the client to a ping: type 1.
 const OUR_PONG: &str = "000000180000000000000000000000000000000100000000";
 
 fn unhex(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
 }
 
-/// A message as VRPN's own documents and captures have it.
+/// Message in the form of VRPN's own documents and captures.
 fn message(seconds: u32, microseconds: u32, sender: i32, kind: i32, payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for word in [24 + payload.len() as u32, seconds, microseconds, sender as u32, kind as u32, 0] {
@@ -62,13 +61,13 @@ fn message(seconds: u32, microseconds: u32, sender: i32, kind: i32, payload: &[u
     bytes
 }
 
-/// That a number is a name: −1 of a sender, −2 of a type.
+/// Description that a number is a name: −1 of a sender, −2 of a type.
 fn description(kind: i32, number: i32, name: &str) -> Vec<u8> {
     let length = name.len() as u32 + 1;
     message(0, 0, number, kind, &[&length.to_be_bytes(), name.as_bytes(), &[0]].concat())
 }
 
-/// Sender 1, type 4: frame `number` of a 100 Hz tracker, at (x, 1.5, 0).
+/// Pose of sender 1, type 4: frame `number` of a 100 Hz tracker, at (x, 1.5, 0).
 fn pose(number: u32, x: f64) -> Vec<u8> {
     let mut payload = vec![0; 8];
     for value in [x, 1.5, 0.0, 0.0, 0.0, 0.0, 1.0] {
@@ -81,7 +80,7 @@ fn descriptions() -> Vec<u8> {
     [unhex(SENDER_1_HEAD), unhex(TYPE_4_POSE)].concat()
 }
 
-/// A server of one client at a time.
+/// Server of one client at a time.
 struct Server {
     listener: TcpListener,
 }
@@ -95,14 +94,14 @@ impl Server {
         format!("vrpn://127.0.0.1:{}/Head", self.listener.local_addr().unwrap().port())
     }
 
-    /// A client that has said nothing yet.
+    /// Client that has sent nothing yet.
     fn accept(&self) -> TcpStream {
         let client = self.listener.accept().unwrap().0;
         client.set_read_timeout(Some(Duration::from_secs(5))).unwrap();
         client
     }
 
-    /// A client with which cookies have been exchanged, as they must be.
+    /// Client after the exchange of cookies.
     fn greet(&self) -> TcpStream {
         let mut client = self.accept();
         client.write_all(&unhex(COOKIE)).unwrap();
@@ -126,8 +125,8 @@ fn until_at(tracking: &mut Loop, x: f64) {
 
 fn until_absent(tracking: &mut Loop, expected: &str) {
     tracking.until(expected, |it| match &it.devices.status()[0].state {
-        State::Absent(why) => why.contains(expected),
-        State::Open => false,
+        DeviceState::Absent(why) => why.contains(expected),
+        DeviceState::Open => false,
     });
 }
 
@@ -143,7 +142,7 @@ fn both_sides_speak_vrpn_to_the_byte() {
     let head = tracking.head();
     assert_eq!((head.position_m.to_array(), head.orientation.to_array()), ([0.0; 3], [0.0, 0.0, 0.0, 1.0]));
 
-    // Who is asked answers, by the numbers that he was told.
+    // The client must answer a ping, with its own numbers.
     client.write_all(&[description(-2, 7, "vrpn_Base ping_message"), message(0, 0, 1, 7, &[])].concat()).unwrap();
     let mut heard = [0; 24];
     for _ in 0..10 {
@@ -155,8 +154,8 @@ fn both_sides_speak_vrpn_to_the_byte() {
     }
     assert_eq!(heard.to_vec(), unhex(OUR_PONG));
     let status = &tracking.devices.status()[0];
-    assert_eq!((status.source, status.name.as_str(), &status.state), (Source::Vrpn, "Head", &State::Open));
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!((status.source, status.name.as_str(), &status.state), (SampleSource::Vrpn, "Head", &DeviceState::Open));
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }
 
 #[test]
@@ -165,7 +164,7 @@ fn the_stream_may_be_cut_anywhere_and_what_is_not_described_is_passed_over() {
     let mut tracking = Loop::track(&server.url());
     let mut client = server.greet();
     client.set_nodelay(true).unwrap();
-    // A pose of nobody, before any description, and of somebody else.
+    // A pose of an unknown sender, before any description, and one of another device.
     let other = description(-1, 2, "Wand");
     let mut of_other = pose(0, 9.0);
     of_other[15] = 2;
@@ -177,7 +176,7 @@ fn the_stream_may_be_cut_anywhere_and_what_is_not_described_is_passed_over() {
         }
     }
     until_at(&mut tracking, 0.25);
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
     assert_eq!(tracking.desk.head().unwrap().rejected().number(), 0);
 }
 
@@ -193,14 +192,14 @@ fn a_server_that_dies_leaves_the_head_where_it_is_and_may_come_back() {
             client.write_all(&pose).unwrap();
         }
         until_at(&mut tracking, x);
-        // Dies in the middle of a message.
+        // The server dies in the middle of a message.
         client.write_all(&pose(1000 * session + 11, 0.0)[..50]).unwrap();
         drop(client);
         tracking.until("the loss", |it| it.head().tracked == Tracking::Lost);
         let head = tracking.head();
         assert_eq!((head.position_m.x, head.velocity_m_s.to_array()), (x, [0.0; 3]));
     }
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }
 
 #[test]
@@ -214,7 +213,7 @@ fn what_is_no_server_is_told_and_one_that_becomes_one_is_used() {
     let silent = server.accept();
     until_absent(&mut tracking, "it says nothing");
     drop(silent);
-    // Garbage behind a good beginning; lengths that are none.
+    // Garbage behind a good beginning, with impossible lengths.
     for garbage in [[0xff; 64], [0; 64]] {
         let mut client = server.greet();
         client.write_all(&[&descriptions()[..], &garbage].concat()).unwrap();
@@ -234,7 +233,7 @@ fn of_a_flood_the_newest_pose_survives() {
     let mut tracking = Loop::track(&server.url());
     let mut client = server.greet();
     client.write_all(&descriptions()).unwrap();
-    // Nobody drains while 20 MB come, many times what the queue holds; cookie and descriptions are long lost.
+    // The stream of 20 MB is not drained, many times what the queue holds; cookie and descriptions are long lost.
     let many: Vec<u8> = (0..1000).flat_map(|number| pose(number, 0.0)).collect();
     for _ in 0..230 {
         client.write_all(&many).unwrap();
@@ -246,5 +245,5 @@ fn of_a_flood_the_newest_pose_survives() {
         std::thread::sleep(Duration::from_millis(1));
     }
     until_at(&mut tracking, 0.099);
-    assert_eq!(tracking.desk.faults(Source::Vrpn).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
 }

@@ -1,32 +1,32 @@
-//! A DTrack controller on a real UDP socket, played by the test.
+//! Tests with a DTrack controller on a real UDP socket, played by the test.
 //!
-//! Frames must give their poses; garbage, truncated and endless datagrams and floods must be survived,
-//! and a body that the cameras lose must stay where it was. A wrong program would send the head to the
-//! origin or turn it the other way.
+//! Frames must give their poses; garbage, truncated and endless datagrams and floods must be survived, and a body
+//! that the cameras lose must stay at its place. A wrong program would send the head to the origin or turn it the
+//! other way.
 
 use std::net::UdpSocket;
 use std::time::Duration;
 
-use crate::frames::Loop;
-use input::Source;
-use input::devices::State;
+use super::frames::Loop;
+use input::SampleSource;
+use input::devices::DeviceState;
 use input::head::Tracking;
 
-/// A controller, and where it sends to.
+/// Controller, and the address that it sends to.
 struct Controller {
     socket: UdpSocket,
     port: u16,
 }
 
 impl Controller {
-    /// Chooses a port that nobody listens at.
+    /// Chooses a port without a listener.
     fn start() -> Self {
         let port = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         Self { socket: UdpSocket::bind("127.0.0.1:0").unwrap(), port }
     }
 
     fn send(&self, datagram: impl AsRef<[u8]>) {
-        // Linux tells on the next sending that nobody listened to the last one.
+        // Linux reports at the next sending that the last one had no listener.
         let _ = self.socket.send_to(datagram.as_ref(), ("127.0.0.1", self.port));
     }
 }
@@ -67,7 +67,7 @@ fn a_frame_gives_what_the_stock_vrpn_server_makes_of_it() {
     for (found, expected) in head.orientation.to_array().into_iter().zip([0.0, 0.0, 0.258_819, 0.965_926]) {
         assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
     }
-    assert_eq!(tracking.devices.status()[0].source, Source::Dtrack);
+    assert_eq!(tracking.devices.status()[0].source, SampleSource::Dtrack);
 }
 
 #[test]
@@ -87,8 +87,8 @@ fn a_body_that_is_lost_stays() {
     });
     let head = tracking.head();
     assert_eq!((head.position_m.to_array(), head.velocity_m_s.to_array()), ([0.019, 0.2, 0.3], [0.0; 3]));
-    assert_eq!(tracking.devices.status()[0].state, State::Open);
-    assert_eq!(tracking.desk.faults(Source::Dtrack).number(), 0);
+    assert_eq!(tracking.devices.status()[0].state, DeviceState::Open);
+    assert_eq!(tracking.desk.faults(SampleSource::Dtrack).number(), 0);
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn garbage_is_counted_and_the_next_frame_used() {
     for datagram in garbage {
         controller.send(datagram);
     }
-    tracking.until("the garbage", |it| it.desk.faults(Source::Dtrack).number() == 4);
+    tracking.until("the garbage", |it| it.desk.faults(SampleSource::Dtrack).number() == 4);
     assert_eq!(tracking.head().position_m.x, 0.1);
     controller.send(good);
     until_at(&mut tracking, 0.11);
@@ -113,14 +113,14 @@ fn garbage_is_counted_and_the_next_frame_used() {
 fn of_a_flood_the_newest_pose_survives() {
     let controller = Controller::start();
     let mut tracking = track(&controller);
-    // Nobody drains while they come.
+    // The frames are not drained while they come.
     for number in 0..20_000 {
         controller.send(frame(number, 1.0));
     }
     std::thread::sleep(Duration::from_millis(100));
     controller.send(frame(20_001, 2.0));
     until_at(&mut tracking, 0.002);
-    assert_eq!(tracking.desk.faults(Source::Dtrack).number(), 0);
+    assert_eq!(tracking.desk.faults(SampleSource::Dtrack).number(), 0);
 }
 
 #[test]
@@ -129,12 +129,12 @@ fn a_port_in_use_and_a_foreign_address_are_told() {
     let port = taken.local_addr().unwrap().port();
     for (url, expected) in [
         (format!("dtrack://127.0.0.1:{port}"), "another program listens at"),
-        // Reserved for documents.
+        // An address that is reserved for documents.
         (format!("dtrack://192.0.2.1:{port}"), "is no address of this machine"),
     ] {
         Loop::track(&url).until(expected, |it| match &it.devices.status()[0].state {
-            State::Absent(why) => why.contains(expected),
-            State::Open => false,
+            DeviceState::Absent(why) => why.contains(expected),
+            DeviceState::Open => false,
         });
     }
 }
@@ -149,9 +149,9 @@ fn a_multicast_group_is_joined_where_the_system_has_a_way_to_it() {
         let _ = controller.socket.send_to(frame(number, 1.0).as_bytes(), ("225.1.1.1", controller.port));
         controller.send(frame(number, 1.0));
         match &it.devices.status()[0].state {
-            State::Open => it.head().tracked == Tracking::Tracked,
-            // A machine without a network has none.
-            State::Absent(why) => why.contains("cannot listen at"),
+            DeviceState::Open => it.head().tracked == Tracking::Tracked,
+            // A machine without a network has no such group.
+            DeviceState::Absent(why) => why.contains("cannot listen at"),
         }
     });
 }

@@ -1,16 +1,15 @@
-//! A ride with a tracked head: a recording of it must give the same head to the last bit, whatever
-//! the tracker sent; what it sent must never make a head that no replay could read back; and
-//! recordings of before there was a head must open.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! A recording of a ride with a tracked head must give the same head to the last bit, whatever the tracker sent; no
+//! sample may make a head that a replay could not read back; and recordings from before heads were tracked must open.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use input::head::{Tracking, VelocityFilter};
-use input::recording::{ControlsRecord, Entry, Header, Recorder, Recording};
-use input::vrpn::wire::{COOKIE, DESCRIBES_SENDER, DESCRIBES_TYPE, Message, description};
+use input::recording::{ControlsRecord, Recorder, Recording, RecordingEntry, RideHeader};
+use input::vrpn::wire::{COOKIE, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnMessage, description};
 use input::{
-    Controls, Desk, DeskConfig, HeadConfig, MouseButton, MouseEvent, Nanos, SECOND, Sample, Source, VehicleKind, vrpn,
+    Controls, Desk, DeskConfig, HeadConfig, MouseButton, MouseEvent, Nanos, SECOND, Sample, SampleSource, VehicleKind,
+    vrpn,
 };
 use proptest::prelude::*;
 
@@ -31,8 +30,8 @@ fn config(url: &str, velocity: VelocityFilter) -> DeskConfig {
     DeskConfig { head: Some(head), ..DeskConfig::default() }
 }
 
-fn header(desk: DeskConfig) -> Header {
-    Header {
+fn header(desk: DeskConfig) -> RideHeader {
+    RideHeader {
         build: "0.1.0 (test)".to_owned(),
         scene: "town".to_owned(),
         speed_of_light_m_s: 30.0 / 3.6,
@@ -44,7 +43,7 @@ fn header(desk: DeskConfig) -> Header {
     }
 }
 
-/// Feeds the samples, asks after each, and records it.
+/// Feeds the samples, and reads and records the controls after each.
 fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
     let mut desk = Desk::new(config.clone()).unwrap();
     let mut recorder = Recorder::create(path, &header(config.clone())).unwrap();
@@ -60,7 +59,7 @@ fn ride(path: &Path, config: &DeskConfig, samples: &[Sample]) -> Vec<Controls> {
     ridden
 }
 
-/// Every number of a head, as bits.
+/// Bits of every number of a head.
 fn bits(controls: &Controls) -> Vec<u64> {
     let head = controls.head.unwrap();
     let numbers =
@@ -68,53 +67,59 @@ fn bits(controls: &Controls) -> Vec<u64> {
     numbers.into_iter().map(f64::to_bits).collect()
 }
 
-/// Rides a recording again and compares.
+/// Replays a recording and compares.
 fn assert_same_again(path: &Path, ridden: &[Controls]) {
     let recording = Recording::open(path).unwrap();
     let mut desk = Desk::new(recording.header().desk.clone()).unwrap();
     let mut frames = 0;
     for entry in recording {
         match entry.unwrap() {
-            Entry::Sample(sample) => desk.feed(&sample),
-            Entry::Controls(record) => {
+            RecordingEntry::Sample(sample) => desk.feed(&sample),
+            RecordingEntry::Controls(record) => {
                 let again = desk.controls(record.at);
                 assert_eq!(again, ridden[frames], "frame {frames}");
                 assert_eq!((&record.controls, bits(&record.controls)), (&again, bits(&ridden[frames])));
                 frames += 1;
             }
-            Entry::Frame(_) => {}
+            RecordingEntry::Frame(_) => {}
         }
     }
     assert_eq!(frames, ridden.len());
 }
 
-/// A pose of a 100 Hz tracker as a VRPN server sends it, number 5 of sender 3.
+/// Pose of a 100 Hz tracker as a VRPN server sends it, number 5 of sender 3.
 fn vrpn_pose(frame: u32, x: f64) -> Vec<u8> {
     let mut payload = vec![0; 8];
     let turn = 0.01 * f64::from(frame);
     for value in [x, 1.7, -x / 3.0, 0.0, turn.sin(), 0.0, turn.cos()] {
         payload.extend_from_slice(&value.to_be_bytes());
     }
-    Message { seconds: 1000 + frame / 100, microseconds: frame % 100 * 10_000, sender: 3, kind: 5, payload: &payload }
-        .to_bytes()
+    VrpnMessage {
+        seconds: 1000 + frame / 100,
+        microseconds: frame % 100 * 10_000,
+        sender: 3,
+        kind: 5,
+        payload: &payload,
+    }
+    .to_bytes()
 }
 
-/// A walk of three seconds as this source's samples.
-fn walk(source: Source) -> Vec<Sample> {
+/// Samples of a walk of three seconds for this source.
+fn walk(source: SampleSource) -> Vec<Sample> {
     let step = SECOND / 100;
     let mut samples = vec![Sample::opened(0, source)];
     let sway = |frame: u32| 0.3 * (0.05 * f64::from(frame)).sin();
     match source {
-        Source::Vrpn => {
+        SampleSource::Vrpn => {
             let mut stream = COOKIE.to_vec();
             stream.extend(description(DESCRIBES_SENDER, 3, "Head"));
             stream.extend(description(DESCRIBES_TYPE, 5, vrpn::POSE));
             (0..300).for_each(|frame| stream.extend(vrpn_pose(frame, sway(frame))));
-            // Cut without regard to the messages.
+            // The stream is cut without regard to the messages.
             samples
                 .extend((1..).zip(stream.chunks(61)).map(|(chunk, bytes)| Sample::bytes(chunk * step, source, bytes)));
         }
-        Source::Dtrack => samples.extend((0..300_u32).map(|frame| {
+        SampleSource::Dtrack => samples.extend((0..300_u32).map(|frame| {
             let text = format!(
                 "fr {frame}\r\nts2 {} {} 4000\r\n6d 1 [0 1.0][{} 170.0 -99.0 0 0 0][1 0 0 0 1 0 0 0 1]\r\n",
                 1000 + frame / 100,
@@ -137,7 +142,7 @@ fn walk(source: Source) -> Vec<Sample> {
     }
     let end = samples.last().unwrap().at;
     samples.push(Sample::closed(end, source));
-    samples.extend((1..50).map(|frame| Sample::closed(end + frame * step, Source::Keyboard)));
+    samples.extend((1..50).map(|frame| Sample::closed(end + frame * step, SampleSource::Keyboard)));
     samples
 }
 
@@ -165,7 +170,7 @@ fn every_source_tracks_and_a_tracker_that_goes_loses_the_head() {
         let config = config(url, VelocityFilter::default());
         let source = config.head.as_ref().unwrap().url.source();
         let mut desk = Desk::new(config).unwrap();
-        assert_eq!(desk.controls(0).head.unwrap().tracked == Tracking::Never, source != Source::Mouse);
+        assert_eq!(desk.controls(0).head.unwrap().tracked == Tracking::Never, source != SampleSource::Mouse);
         let samples = walk(source);
         let closed = samples.iter().position(|sample| *sample == Sample::closed(sample.at, source)).unwrap();
         samples[..closed].iter().for_each(|sample| desk.feed(sample));
@@ -174,9 +179,9 @@ fn every_source_tracks_and_a_tracker_that_goes_loses_the_head() {
         assert_eq!(before.tracked, Tracking::Tracked, "{url}");
         desk.feed(&samples[closed]);
         let lost = desk.controls(at).head.unwrap().tracked == Tracking::Fading;
-        assert_eq!(lost, source != Source::Mouse, "{url}");
+        assert_eq!(lost, source != SampleSource::Mouse, "{url}");
         let after = desk.controls(at + SECOND).head.unwrap();
-        if source != Source::Mouse {
+        if source != SampleSource::Mouse {
             assert_eq!((after.tracked, after.position_m), (Tracking::Lost, before.position_m));
         }
         assert!(after.velocity_m_s.length() < 1e-3, "{url}: {after:?}");
@@ -189,7 +194,7 @@ fn a_head_listens_to_its_own_tracker_alone() {
         let config = config(url, VelocityFilter::default());
         let own = config.head.as_ref().unwrap().url.source();
         let mut desk = Desk::new(config).unwrap();
-        for other in [Source::Vrpn, Source::Dtrack, Source::Mouse] {
+        for other in [SampleSource::Vrpn, SampleSource::Dtrack, SampleSource::Mouse] {
             let before = desk.controls(0).head;
             if other != own {
                 walk(other).iter().for_each(|sample| desk.feed(sample));
@@ -202,13 +207,13 @@ fn a_head_listens_to_its_own_tracker_alone() {
 #[test]
 fn without_a_tracker_there_is_no_head() {
     let mut desk = Desk::new(DeskConfig::default()).unwrap();
-    for source in [Source::Vrpn, Source::Dtrack, Source::Mouse] {
+    for source in [SampleSource::Vrpn, SampleSource::Dtrack, SampleSource::Mouse] {
         walk(source).iter().for_each(|sample| desk.feed(sample));
         assert_eq!(desk.controls(10 * SECOND).head, None);
     }
 }
 
-/// The texts of a recording that was made before heads were tracked.
+/// Record from a recording that was made before heads were tracked.
 #[test]
 fn recordings_of_before_the_head_open() {
     let mut desk = serde_json::to_value(DeskConfig::default()).unwrap();
@@ -228,7 +233,7 @@ fn a_tracker_that_cannot_be_is_refused_at_the_door() {
     assert_eq!(error, "tracker.fade_s is 0: expected a positive number from 1e-6 to 1e6");
 }
 
-/// A number as a tracker may send it, sound or not.
+/// Number as a tracker may send it, sound or not.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![4 => -3.0..3.0, 1 => any::<f64>(), 1 => Just(0.0), 1 => Just(1.0)]
 }
@@ -239,7 +244,7 @@ fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
         |(seconds, microseconds, numbers, sensor)| {
             let mut payload = [sensor.to_be_bytes(), [0; 4]].concat();
             numbers.iter().for_each(|number| payload.extend_from_slice(&number.to_be_bytes()));
-            let pose = Message { seconds: seconds % 3, microseconds, sender: 3, kind: 5, payload: &payload };
+            let pose = VrpnMessage { seconds: seconds % 3, microseconds, sender: 3, kind: 5, payload: &payload };
             let begin =
                 [&COOKIE[..], &description(DESCRIBES_SENDER, 3, "Head"), &description(DESCRIBES_TYPE, 5, vrpn::POSE)];
             [begin.concat(), pose.to_bytes()].concat()
@@ -254,7 +259,7 @@ fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![vrpn, dtrack, mouse, wheel, proptest::collection::vec(any::<u8>(), 0..80)]
 }
 
-fn any_sample(source: Source) -> impl Strategy<Value = Sample> {
+fn any_sample(source: SampleSource) -> impl Strategy<Value = Sample> {
     (any::<Nanos>(), any_bytes(), 0..20_u8).prop_map(move |(at, bytes, kind)| match kind {
         0 => Sample::opened(at % (5 * SECOND), source),
         1 => Sample::closed(at % (5 * SECOND), source),
@@ -262,7 +267,7 @@ fn any_sample(source: Source) -> impl Strategy<Value = Sample> {
     })
 }
 
-/// A source's place, and a filter, and samples.
+/// Address of a tracker, a filter, and samples.
 fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sample>)> {
     (proptest::sample::select(URLS.to_vec()), proptest::sample::select(filters().to_vec())).prop_flat_map(
         |(url, filter)| {
@@ -275,7 +280,8 @@ fn any_track() -> impl Strategy<Value = (&'static str, VelocityFilter, Vec<Sampl
 proptest! {
     #![proptest_config(ProptestConfig { cases: 192, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever a tracker sends, the head is somewhere, some way up and of some speed, and is the same again.
+    /// Any samples of a tracker must give a head with finite place, turn and velocity, and the same again in a
+    /// replay.
     #[test]
     fn any_noise_gives_a_sound_head_and_the_same_again((url, filter, samples) in any_track()) {
         let directory = tempfile::tempdir().unwrap();

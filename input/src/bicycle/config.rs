@@ -1,0 +1,90 @@
+//! Settings of the instrumented bicycle.
+
+use serde::{Deserialize, Serialize};
+
+use crate::config_error::{ConfigError, not_zero, positive};
+
+/// Meaning of a line with a single number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BareNumber {
+    /// Speed in km/h.
+    #[default]
+    KilometresPerHour,
+    /// Turns of the wheel a minute.
+    WheelTurnsPerMinute,
+}
+
+/// Geometry and calibration of the instrumented bicycle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BicycleConfig {
+    /// Distance that the bicycle covers in one turn of the wheel, metres.
+    pub wheel_circumference_m: f64,
+    /// Number of magnets on the wheel.
+    pub pulses_per_wheel_turn: f64,
+    /// Number of magnets on the crank.
+    pub pulses_per_crank_turn: f64,
+    /// Highest speed that can be ridden, m/s. Faster pulses are bounces, larger numbers are faults.
+    pub fastest_m_s: f64,
+    /// Time without a pulse or a number after which the wheel counts as standing, seconds.
+    pub stop_after_s: f64,
+    /// Reading of the steering sensor straight ahead.
+    pub steer_straight: f64,
+    /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
+    pub steer_rad_per_unit: f64,
+    /// Reading of the brake sensor with the lever released.
+    pub brake_released: f64,
+    /// Reading of the brake sensor with the lever pulled through.
+    pub brake_full: f64,
+    /// Angle for a steering of 1 in a four-field line, radians; negative where 1 is to the right.
+    pub four_field_steer_rad: f64,
+    /// Brake in a four-field line with the lever pulled through.
+    pub four_field_brake_full: f64,
+    /// Meaning of a line with a single number.
+    pub bare_number: BareNumber,
+}
+
+impl Default for BicycleConfig {
+    /// Settings for a 28-inch wheel with one magnet, and potentiometers on a ten-bit converter with 270 degrees of
+    /// travel.
+    fn default() -> Self {
+        Self {
+            wheel_circumference_m: 2.1,
+            pulses_per_wheel_turn: 1.0,
+            pulses_per_crank_turn: 1.0,
+            fastest_m_s: 30.0,
+            stop_after_s: 2.0,
+            steer_straight: 512.0,
+            steer_rad_per_unit: -270.0_f64.to_radians() / 1023.0,
+            brake_released: 0.0,
+            brake_full: 1023.0,
+            four_field_steer_rad: -0.6,
+            four_field_brake_full: 1.0,
+            bare_number: BareNumber::default(),
+        }
+    }
+}
+
+impl BicycleConfig {
+    /// Distance that the bicycle covers between two pulses, metres.
+    pub fn metres_per_pulse(&self) -> f64 {
+        self.wheel_circumference_m / self.pulses_per_wheel_turn
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ConfigError> {
+        positive("bicycle.wheel_circumference_m", self.wheel_circumference_m)?;
+        positive("bicycle.pulses_per_wheel_turn", self.pulses_per_wheel_turn)?;
+        positive("bicycle.pulses_per_crank_turn", self.pulses_per_crank_turn)?;
+        positive("bicycle.fastest_m_s", self.fastest_m_s)?;
+        positive("bicycle.stop_after_s", self.stop_after_s)?;
+        not_zero("bicycle.steer_rad_per_unit", self.steer_rad_per_unit)?;
+        not_zero("bicycle.four_field_steer_rad", self.four_field_steer_rad)?;
+        positive("bicycle.four_field_brake_full", self.four_field_brake_full)?;
+        if !self.steer_straight.is_finite() {
+            let value = self.steer_straight.to_string();
+            return Err(ConfigError { key: "bicycle.steer_straight", value, expected: "a finite number" });
+        }
+        not_zero("bicycle.brake_full - bicycle.brake_released", self.brake_full - self.brake_released)
+    }
+}

@@ -1,0 +1,35 @@
+//! Settings of the devices to look for.
+
+use std::path::PathBuf;
+
+use crate::head::url::TrackerUrl;
+
+/// Devices to look for, and their places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DevicesConfig {
+    /// Serial port of the bicycle, as `/dev/ttyACM0` or `COM3`.
+    pub bicycle: Option<String>,
+    /// Speed of the serial port, baud.
+    pub baud: u32,
+    /// True if a SpaceMouse is looked for.
+    pub space_mouse: bool,
+    /// Socket of spacenavd, for a SpaceMouse that may not be read directly.
+    pub spacenavd_socket: PathBuf,
+    /// True if a gamepad or joystick is looked for.
+    pub gamepad: bool,
+    /// Tracker of the head.
+    pub tracker: Option<TrackerUrl>,
+}
+
+impl Default for DevicesConfig {
+    fn default() -> Self {
+        Self {
+            bicycle: None,
+            baud: 115_200,
+            space_mouse: true,
+            spacenavd_socket: PathBuf::from("/run/spnav.sock"),
+            gamepad: true,
+            tracker: None,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The tracked head: poses in; place, turn and velocity out.
+
+use glam::{DQuat, DVec3};
+
+use super::config::HeadConfig;
+use super::placement::{FARTHEST_M, UNIT_LENGTHS};
+use super::rigid::Rigid;
+use super::seen::{PoseError, PoseInterval, SeenPose};
+use super::state::{HeadState, Tracking};
+use super::tracked_pose::TrackedPose;
+use super::velocity::TrackVelocity;
+use crate::clock::{Nanos, seconds_between};
+use crate::config_error::ConfigError;
+use crate::faults::Faults;
+
+/// Age of a pose at which its velocity begins to fade, seconds: three frames at 60 Hz.
+const GRACE_S: f64 = 0.05;
+/// Age of a pose at which its velocity begins to fade, in intervals of a slow tracker; the larger of both counts.
+const GRACE_FRAMES: f64 = 1.5;
+/// Tracked head. Poses are fed in the order in which they came, and the state is read once a frame.
+#[derive(Debug)]
+pub struct TrackedHead {
+    config: HeadConfig,
+    room_from_tracker: Rigid,
+    sensor_from_head: Rigid,
+    last: Option<SeenPose>,
+    /// Pose that leapt away, which the next one may confirm.
+    leapt: Option<SeenPose>,
+    velocity: TrackVelocity,
+    /// Last interval between poses of one track, seconds.
+    rhythm_s: f64,
+    /// Time at which the tracker went.
+    gone: Option<Nanos>,
+    rejected: Faults,
+}
+
+impl TrackedHead {
+    /// Head that has not been seen yet.
+    ///
+    /// # Errors
+    /// A setting that cannot be used.
+    pub fn new(config: HeadConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            room_from_tracker: config.room_from_tracker.rigid(),
+            sensor_from_head: config.head_from_sensor.rigid().inverse(),
+            last: None,
+            leapt: None,
+            velocity: TrackVelocity::new(config.velocity),
+            rhythm_s: 0.0,
+            gone: None,
+            rejected: Faults::default(),
+            config,
+        })
+    }
+
+    /// Settings of the head.
+    pub fn config(&self) -> &HeadConfig {
+        &self.config
+    }
+
+    /// Poses that were rejected so far, and the reason for the last one.
+    pub fn rejected(&self) -> &Faults {
+        &self.rejected
+    }
+
+    /// Takes a pose; poses of other sensors are passed over.
+    pub fn pose(&mut self, pose: &TrackedPose) {
+        if pose.sensor != self.config.sensor {
+            return;
+        }
+        if let Err(error) = self.accept(pose) {
+            self.rejected.count(error.to_string());
+        }
+    }
+
+    /// Marks the head as lost until it is seen again: the tracker came or went.
+    pub fn gone(&mut self, at: Nanos) {
+        self.gone.get_or_insert(at);
+    }
+
+    fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {
+        let mut seen = self.sound(pose)?;
+        let Some(last) = self.last else {
+            self.velocity.restart(seen.room_from_head.position, DVec3::ZERO);
+            return self.see(seen);
+        };
+
+        // Keep the sign of the quaternion, so that neighbours can be compared.
+        if last.room_from_head.orientation.dot(seen.room_from_head.orientation) < 0.0 {
+            seen.room_from_head.orientation = -seen.room_from_head.orientation;
+        }
+
+        // Accept a leap once a second pose confirms it.
+        let interval = last.until(&seen).ok_or(PoseError::Stale)?;
+        if let Err(leap) = last.reaches(&seen, interval) {
+            let confirmed = match &self.leapt {
+                None => false,
+                Some(leapt) => {
+                    let interval = leapt.until(&seen).ok_or(PoseError::Stale)?;
+                    leapt.reaches(&seen, interval).is_ok()
+                }
+            };
+            if !confirmed {
+                self.leapt = Some(seen);
+                return Err(leap);
+            }
+            // The leap itself is no motion.
+            self.velocity.restart(seen.room_from_head.position, self.velocity.value());
+            return self.see(seen);
+        }
+
+        match interval {
+            PoseInterval::Steady(interval_s) => {
+                self.velocity.push(interval_s, seen.room_from_head.position);
+                self.rhythm_s = interval_s;
+            }
+            PoseInterval::Gap(_) => {
+                let (_, share) = self.belief(&last, seen.at);
+                self.velocity.restart(seen.room_from_head.position, self.velocity.value() * share);
+            }
+        }
+        self.see(seen)
+    }
+
+    fn see(&mut self, seen: SeenPose) -> Result<(), PoseError> {
+        (self.last, self.leapt, self.gone) = (Some(seen), None, None);
+        Ok(())
+    }
+
+    /// Pose of the head, if the sensor's is possible.
+    fn sound(&self, pose: &TrackedPose) -> Result<SeenPose, PoseError> {
+        let length = pose.orientation.length();
+        if !UNIT_LENGTHS.contains(&length) {
+            return Err(PoseError::Quaternion(length));
+        }
+        if !pose.position_m.is_finite() || pose.position_m.abs().max_element() > FARTHEST_M {
+            return Err(PoseError::Place(pose.position_m));
+        }
+        let tracker_from_sensor = Rigid { position: pose.position_m, orientation: pose.orientation.normalize() };
+        let room_from_head = self.room_from_tracker * tracker_from_sensor * self.sensor_from_head;
+        let measured_s = pose.measured_s.filter(|seconds| seconds.is_finite());
+        Ok(SeenPose { at: pose.at, measured_s, room_from_head })
+    }
+
+    /// Reliability of a pose at the time `at`, and the remaining share of its velocity, 0 to 1.
+    fn belief(&self, last: &SeenPose, at: Nanos) -> (Tracking, f64) {
+        let unseen_s = seconds_between(last.at, at) - GRACE_S.max(GRACE_FRAMES * self.rhythm_s);
+        let gone_s = self.gone.map_or(f64::NEG_INFINITY, |gone| seconds_between(gone, at));
+        let fading_s = unseen_s.max(gone_s);
+        if fading_s <= 0.0 && self.gone.is_none() {
+            (Tracking::Tracked, 1.0)
+        } else if fading_s < self.config.fade_s {
+            (Tracking::Fading, 1.0 - fading_s.max(0.0) / self.config.fade_s)
+        } else {
+            (Tracking::Lost, 0.0)
+        }
+    }
+
+    /// Head at the time `at`.
+    pub fn state(&self, at: Nanos) -> HeadState {
+        let Some(last) = &self.last else {
+            return HeadState {
+                position_m: DVec3::from_array(self.config.home),
+                orientation: DQuat::IDENTITY,
+                velocity_m_s: DVec3::ZERO,
+                tracked: Tracking::Never,
+            };
+        };
+        let (tracked, share) = self.belief(last, at);
+        let Rigid { position, orientation } = last.room_from_head;
+        HeadState { position_m: position, orientation, velocity_m_s: self.velocity.value() * share, tracked }
+    }
+}

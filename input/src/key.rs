@@ -1,0 +1,100 @@
+//! Keys with a meaning, and the bytes of a key event.
+//!
+//! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every system) and 1 for
+//! pressed, 0 for released. Several may follow one another in a sample.
+
+macro_rules! keys {
+    ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
+        /// Key with a meaning, by its place on the USB keyboard.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u8)]
+        pub enum KeyboardKey {
+            $($(#[$doc])* $name = $code),*
+        }
+
+        impl KeyboardKey {
+            /// All keys with a meaning.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            /// Bytes of a key event.
+            pub fn to_bytes(self, pressed: bool) -> [u8; 2] {
+                [self as u8, u8::from(pressed)]
+            }
+
+            /// Key with this number on the USB.
+            pub fn from_code(code: u8) -> Option<Self> {
+                match code {
+                    $($code => Some(Self::$name),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+keys! {
+    /// The key A.
+    A = 0x04,
+    /// The key C.
+    C = 0x06,
+    /// The key D.
+    D = 0x07,
+    /// The key E.
+    E = 0x08,
+    /// The key F.
+    F = 0x09,
+    /// The key H.
+    H = 0x0b,
+    /// The key P.
+    P = 0x13,
+    /// The key Q.
+    Q = 0x14,
+    /// The key R.
+    R = 0x15,
+    /// The key S.
+    S = 0x16,
+    /// The key V.
+    V = 0x19,
+    /// The key W.
+    W = 0x1a,
+    /// The key 1 above the letters.
+    One = 0x1e,
+    /// The key 2 above the letters.
+    Two = 0x1f,
+    /// The key 3 above the letters.
+    Three = 0x20,
+    /// The backspace key.
+    Backspace = 0x2a,
+    /// The space bar.
+    Space = 0x2c,
+    /// The key − above the letters.
+    Minus = 0x2d,
+    /// The key = above the letters.
+    Equal = 0x2e,
+    /// The key of the full stop.
+    Period = 0x37,
+    /// The key F1.
+    F1 = 0x3a,
+    /// The arrow to the right.
+    Right = 0x4f,
+    /// The arrow to the left.
+    Left = 0x50,
+    /// The arrow downward.
+    Down = 0x51,
+    /// The arrow upward.
+    Up = 0x52,
+    /// Either shift key.
+    Shift = 0xe1,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_survives_its_bytes() {
+        for &key in KeyboardKey::ALL {
+            assert_eq!(KeyboardKey::from_code(key.to_bytes(true)[0]), Some(key));
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Decoder of the actions that the program's own interface sends.
+
+use crate::action::Action;
+use crate::clock::Nanos;
+use crate::decoder::{Actions, Decoder};
+use crate::faults::Faults;
+
+/// Decoder of [`SampleSource::Settings`](crate::SampleSource::Settings): one JSON action a sample.
+#[derive(Debug, Default)]
+pub struct ActionDecoder {
+    faults: Faults,
+}
+
+impl Decoder for ActionDecoder {
+    fn reset(&mut self, _at: Nanos) {}
+
+    fn bytes(&mut self, _at: Nanos, bytes: &[u8], actions: &mut Actions) {
+        match serde_json::from_slice::<Action>(bytes) {
+            Ok(action) if action.is_sound() => actions.push(action),
+            Ok(action) => self.faults.count(format!("{action:?} is out of range")),
+            Err(error) => self.faults.count(format!("not an action: {error}")),
+        }
+    }
+
+    fn faults(&self) -> &Faults {
+        &self.faults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! An action must survive its own text, and a text that is no action must have no effect.
+    use super::*;
+    use crate::action::VehicleKind;
+
+    fn decode(bytes: &[u8]) -> (Vec<Action>, u64) {
+        let mut actions = Actions::default();
+        let mut settings = ActionDecoder::default();
+        settings.bytes(0, bytes, &mut actions);
+        (actions.take(), settings.faults().number())
+    }
+
+    #[test]
+    fn actions_survive_their_text() {
+        for action in [
+            Action::TogglePause,
+            Action::Step,
+            Action::TimeScale(0.1),
+            Action::ScaleTime(0.5),
+            Action::SpeedOfLight(30.0 / 3.6),
+            Action::Vehicle(VehicleKind::Fly),
+            Action::Restart,
+        ] {
+            assert_eq!(decode(&action.to_bytes()), (vec![action], 0));
+        }
+    }
+
+    #[test]
+    fn texts_that_are_no_action_are_counted_and_do_nothing() {
+        let bad: [&[u8]; 6] =
+            [b"", b"\"fly\"", b"{\"time_scale\":-1}", b"{\"scale_time\":0}", b"{\"time_scale\":1e999}", b"\xff\xfe"];
+        for bytes in bad {
+            assert_eq!(decode(bytes), (vec![], 1), "{bytes:?}");
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Live devices on real terminals and sockets; the head of each file says which behaviour it tests.
+
+mod dtrack;
+mod frames;
+mod listing;
+#[cfg(target_os = "linux")]
+mod serial;
+#[cfg(unix)]
+mod spacenavd;
+mod vrpn;
