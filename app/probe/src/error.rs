@@ -9,7 +9,7 @@ use physics::perceived::PerceivedError;
 use physics::worldline::WorldlineError;
 use thiserror::Error;
 
-use super::{LONGEST_LINE, MOST_STEPS};
+use crate::limits::{LONGEST_LINE, MOST_STEPS};
 
 /// Reason for which a line has no answer. Keys are given with their path, as in `observer.position` or
 /// `legs[2].duration`.

@@ -6,7 +6,7 @@ use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::ProbeError;
+use crate::error::ProbeError;
 
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]

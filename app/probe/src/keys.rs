@@ -6,8 +6,8 @@ use glam::DVec3;
 use physics::colour::{Spectrum, SpectrumError};
 use physics::{Beta, Celerity, CelerityError, Event, Observer};
 
-use super::ProbeError;
-use super::json::{Node, quoted};
+use crate::error::ProbeError;
+use crate::json::{Node, quoted};
 
 const NUMBER: &str = "a number";
 const VECTOR: &str = "a list of three numbers [x, y, z]";

@@ -1,6 +1,5 @@
 //! Questions of the probe: each reads its keys, asks the physics, and names the results.
 
-use clap::ValueEnum;
 use physics::aberration::Aberration;
 use physics::colour::rgb_from_xyz;
 use physics::eyes::{Eyes, eyes};
@@ -10,11 +9,13 @@ use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, State, Thrust, t
 use physics::{Boost, Celerity, Composition, FourVector, Source, apparent, compose};
 use serde_json::Value;
 
-use super::json::Node;
-use super::keys::{Keys, Place};
-use super::results::Answer;
-use super::{MOST_STEPS, ProbeError};
-use crate::vehicle::IntegratorKind;
+use ride::IntegratorKind;
+
+use crate::error::ProbeError;
+use crate::json::Node;
+use crate::keys::{Keys, Place};
+use crate::limits::MOST_STEPS;
+use crate::results::Answer;
 
 const QUESTIONS: &str = "one of aberration, boost, compose, apparent, eyes, worldline, perceived, colour";
 
@@ -146,7 +147,7 @@ fn worldline(question: &Keys<'_>) -> Result<Answer, ProbeError> {
 
 fn integrator_of(name: &Place<'_>) -> Result<Box<dyn Integrator>, ProbeError> {
     const NAMES: &str = "\"rk4\", \"exact\" or \"dopri5\"";
-    match IntegratorKind::from_str(name.text(NAMES)?, false).map_err(|_| name.wrong(NAMES))? {
+    match IntegratorKind::from_name(name.text(NAMES)?).ok_or_else(|| name.wrong(NAMES))? {
         IntegratorKind::Rk4 => Ok(Box::new(Rk4)),
         IntegratorKind::Exact => Ok(Box::new(Exact)),
         IntegratorKind::DormandPrince => {

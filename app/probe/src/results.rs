@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use physics::{Event, FourVector};
 use serde_json::{Map, Value};
 
-use super::ProbeError;
+use crate::error::ProbeError;
 
 /// An answer that is filled key by key. A number that is not finite has no JSON form and is an error.
 #[derive(Debug, Default)]

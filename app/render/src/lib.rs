@@ -28,3 +28,4 @@ pub use scene_renderer::{SceneRenderer, TransformReport};
 pub use stats::{CutStats, MapStats};
 pub use subject::Subject;
 pub use textures::{from_rows, view_from_rows};
+pub use view_matrix::shader_view;

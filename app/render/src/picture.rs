@@ -61,7 +61,7 @@ impl Darkroom {
 }
 
 /// A texture whose contents can be fetched from the device.
-pub(crate) struct Sheet {
+pub struct Sheet {
     texture: wgpu::Texture,
     readback: wgpu::Buffer,
     row_bytes: u32,
@@ -69,7 +69,7 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
+    pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
@@ -91,12 +91,12 @@ impl Sheet {
         Self { texture, readback, row_bytes, padded_row_bytes }
     }
 
-    pub(crate) fn view(&self) -> wgpu::TextureView {
+    pub fn view(&self) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
     /// Submits the commands that draw on the sheet, and fetches its bytes, row by row.
-    pub(crate) fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
+    pub fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
         encoder.copy_texture_to_buffer(

@@ -5,7 +5,7 @@
 
 use crate::frame::RideFrame;
 use input::Sample;
-use input::recording::{ControlsRecord, Entry, Header, Recorder, RecordingError};
+use input::recording::{ControlsRecord, RecordingEntry, RideHeader, Recorder, RecordingError};
 use std::path::Path;
 use thiserror::Error;
 
@@ -25,15 +25,15 @@ pub enum LogError {
 
 /// Log of the ride so far: in memory as long as it is short enough, and in a file if one is wanted.
 pub struct RideLog {
-    header: Header,
+    header: RideHeader,
     /// Entries since the beginning; `None` once there were too many.
-    kept: Option<Vec<Entry>>,
+    kept: Option<Vec<RecordingEntry>>,
     file: Option<Recorder>,
 }
 
 impl RideLog {
     /// Creates the log at the beginning of the ride.
-    pub fn new(header: Header) -> Self {
+    pub fn new(header: RideHeader) -> Self {
         Self { header, kept: Some(Vec::new()), file: None }
     }
 
@@ -50,9 +50,9 @@ impl RideLog {
     pub fn frame(&mut self, samples: &[Sample], frame: &RideFrame) -> Result<(), LogError> {
         let (number, at) = (frame.record.frame, frame.record.at);
         if let Some(entries) = &mut self.kept {
-            entries.extend(samples.iter().cloned().map(Entry::Sample));
-            entries.push(Entry::Controls(ControlsRecord { frame: number, at, controls: frame.controls.clone() }));
-            entries.push(Entry::Frame(frame.record.clone()));
+            entries.extend(samples.iter().cloned().map(RecordingEntry::Sample));
+            entries.push(RecordingEntry::Controls(ControlsRecord { frame: number, at, controls: frame.controls.clone() }));
+            entries.push(RecordingEntry::Frame(frame.record.clone()));
             if entries.len() >= MOST_ENTRIES {
                 self.kept = None;
             }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use input::recording::{Difference, Entry, Recording, RecordingError};
+use input::recording::{FrameDifference, RecordingEntry, Recording, RecordingError};
 use input::{Controls, Sample};
 use thiserror::Error;
 
@@ -33,7 +33,7 @@ impl Replay<Recording> {
     }
 }
 
-impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
+impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<Entries> {
     /// Begins a replay with entries from another source.
     ///
     /// # Errors
@@ -56,9 +56,9 @@ impl<Entries: Iterator<Item = Result<Entry, RecordingError>>> Replay<Entries> {
         let mut controls = None;
         for entry in self.entries.by_ref() {
             match entry {
-                Ok(Entry::Sample(sample)) => samples.push(sample),
-                Ok(Entry::Controls(record)) => controls = Some(record.controls),
-                Ok(Entry::Frame(recorded)) => {
+                Ok(RecordingEntry::Sample(sample)) => samples.push(sample),
+                Ok(RecordingEntry::Controls(record)) => controls = Some(record.controls),
+                Ok(RecordingEntry::Frame(recorded)) => {
                     let frame = self.simulation.frame(recorded.at, &samples);
                     let difference = controls
                         .and_then(|controls| controls_difference(&controls, &frame.controls))
@@ -92,11 +92,11 @@ pub struct Replayed {
     /// Simulated frame.
     pub frame: RideFrame,
     /// First difference from the recorded frame, if any.
-    pub difference: Option<Difference>,
+    pub difference: Option<FrameDifference>,
 }
 
-fn controls_difference(recorded: &Controls, replayed: &Controls) -> Option<Difference> {
-    (recorded != replayed).then(|| Difference {
+fn controls_difference(recorded: &Controls, replayed: &Controls) -> Option<FrameDifference> {
+    (recorded != replayed).then(|| FrameDifference {
         field: "controls".to_owned(),
         recorded: format!("{recorded:?}"),
         replayed: format!("{replayed:?}"),
@@ -115,7 +115,7 @@ pub enum ReplayError {
         /// Number of the first frame that differs.
         frame: u64,
         /// First field of the frame that differs.
-        difference: Difference,
+        difference: FrameDifference,
     },
     /// A recording that cannot be read further.
     #[error("after {frames} frames: {cause}")]

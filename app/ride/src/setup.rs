@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
-use input::recording::Header;
+use input::recording::RideHeader;
 use input::{DeskConfig, VehicleKind};
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, CelerityError, Event};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -52,11 +52,11 @@ impl RideStart {
         Self { position: position.to_array(), celerity: [0.0; 3], orientation: orientation.to_array() }
     }
 
-    /// State of the vehicle at the start.
+    /// WorldlineState of the vehicle at the start.
     ///
     /// # Errors
     /// [`SetupError`] if a number is not finite, the celerity is too large, or the orientation is not a rotation.
-    pub fn state(&self) -> Result<State, SetupError> {
+    pub fn state(&self) -> Result<WorldlineState, SetupError> {
         /// Largest deviation from length 1 of a quaternion that was written as a rotation.
         const LENGTH_TOLERANCE: f64 = 1e-6;
         let position = DVec3::from_array(self.position);
@@ -69,20 +69,20 @@ impl RideStart {
         if !is_rotation {
             return Err(SetupError::Orientation { orientation: self.orientation });
         }
-        Ok(State::new(Event { ct: 0.0, position }, celerity, orientation))
+        Ok(WorldlineState::new(Event { ct: 0.0, position }, celerity, orientation))
     }
 }
 
-/// Key of the header's setting that holds [`VehicleSettings`] as JSON.
+/// KeyboardKey of the header's setting that holds [`VehicleSettings`] as JSON.
 const VEHICLE: &str = "vehicle";
-/// Key of the header's setting that holds [`RideStart`] as JSON.
+/// KeyboardKey of the header's setting that holds [`RideStart`] as JSON.
 const START: &str = "start";
 
 impl Setup {
-    /// Header of a recording of this ride. The caller has to add what is needed to find the scene again.
-    pub fn header(&self, build: &str, scene: &str) -> Header {
+    /// RideHeader of a recording of this ride. The caller has to add what is needed to find the scene again.
+    pub fn header(&self, build: &str, scene: &str) -> RideHeader {
         let json = |value: serde_json::Result<String>| value.expect("plain numbers and names are always JSON");
-        Header {
+        RideHeader {
             build: build.to_owned(),
             scene: scene.to_owned(),
             speed_of_light_m_s: self.light_speed.speed_of_light_m_s(),
@@ -102,7 +102,7 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] if something is missing, cannot be read or cannot be used, or if the ride was integrated in
     /// other steps than this program takes.
-    pub fn from_header(header: &Header) -> Result<Self, SetupError> {
+    pub fn from_header(header: &RideHeader) -> Result<Self, SetupError> {
         let vehicle: VehicleSettings = setting(header, VEHICLE)?;
         let step_s = 1.0 / f64::from(TICKS_PER_SECOND);
         if header.step_s != step_s || header.integrator != vehicle.integrator.name() {
@@ -118,7 +118,7 @@ impl Setup {
     }
 }
 
-fn setting<T: for<'a> Deserialize<'a>>(header: &Header, key: &'static str) -> Result<T, SetupError> {
+fn setting<T: for<'a> Deserialize<'a>>(header: &RideHeader, key: &'static str) -> Result<T, SetupError> {
     let text = header.settings.get(key).ok_or(SetupError::Missing { key })?;
     serde_json::from_str(text).map_err(|cause| SetupError::Unreadable { key, cause: cause.to_string() })
 }
@@ -153,13 +153,13 @@ pub enum SetupError {
     /// A setting that is missing in the header.
     #[error("the recording's header has no setting \"{key}\": it was not made by a ride of this program")]
     Missing {
-        /// Key of the setting.
+        /// KeyboardKey of the setting.
         key: &'static str,
     },
     /// A setting of the header that cannot be read.
     #[error("the recording's setting \"{key}\" cannot be read: {cause}")]
     Unreadable {
-        /// Key of the setting.
+        /// KeyboardKey of the setting.
         key: &'static str,
         /// Reason, as the reader words it.
         cause: String,

@@ -9,7 +9,7 @@
 
 use glam::{DQuat, DVec3};
 use input::line::sealed;
-use input::{BicycleConfig, Nanos, SECOND, Sample, Source};
+use input::{BicycleConfig, Nanos, SECOND, Sample, SampleSource};
 
 use crate::route::Route;
 use crate::vehicle::Vehicle;
@@ -77,7 +77,7 @@ impl Tour {
     pub fn samples(&mut self, vehicle: &Vehicle, until: Nanos) -> Vec<Sample> {
         let mut samples = Vec::new();
         if self.lines == 0 {
-            samples.push(Sample::opened(0, Source::Bicycle));
+            samples.push(Sample::opened(0, SampleSource::Bicycle));
         }
         let due = until / (SECOND / LINES_PER_SECOND) + 1;
         if self.lines < due {
@@ -85,7 +85,7 @@ impl Tour {
             for line in self.lines..due {
                 let at = line * (SECOND / LINES_PER_SECOND);
                 self.pedal(at, wanted_m_s);
-                samples.push(Sample::bytes(at, Source::Bicycle, self.line(line, at, steer_rad, brake).into_bytes()));
+                samples.push(Sample::bytes(at, SampleSource::Bicycle, self.line(line, at, steer_rad, brake).into_bytes()));
             }
             self.lines = due;
         }

@@ -1,7 +1,7 @@
 //! Movable corners of channels: the chosen corner, the places of all corners, and the action of each key. No window
 //! and no device is used here.
 
-use crate::room::{Corners, Display, NotConvex, Warp};
+use room::{Corners, Display, NotConvex, Warp};
 use glam::DVec2;
 use thiserror::Error;
 

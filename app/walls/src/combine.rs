@@ -1,11 +1,11 @@
 //! Combines the pictures of both eyes on the same pixels: alternating rows or columns, a chequered pattern, or
 //! red–cyan anaglyphs.
 
-use super::passes::{Pass, UNFILTERED, UNIFORM, contents};
-use crate::gpu::Gpu;
-use crate::room::Combine;
 use bytemuck::bytes_of;
 use glam::Vec2;
+use render::Gpu;
+use render::display::{Pass, UNFILTERED, UNIFORM, contents, encodes};
+use room::Combine;
 
 /// Pass that combines a left and a right picture on a screen.
 pub struct Combiner(Pass);
@@ -25,7 +25,7 @@ impl Combiner {
         let overrides = [
             ("COMBINE", f64::from(way)),
             ("SWAP_EYES", f64::from(u8::from(swap_eyes))),
-            ("ENCODE", f64::from(u8::from(super::encodes(screen)))),
+            ("ENCODE", f64::from(u8::from(encodes(screen)))),
         ];
         Some(Self(Pass::new(gpu, &shaders::COMBINE, &overrides, &[UNFILTERED, UNFILTERED, UNIFORM], screen)))
     }

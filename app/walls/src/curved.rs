@@ -1,15 +1,15 @@
 //! Channels on curved screens or behind a projector's lens: drawn as flat pictures, in which every pixel looks up its
 //! place.
 
-use super::facet::{Facet, Grid, facets};
-use crate::gpu::Gpu;
-use crate::renderers::display::Pass;
-use crate::renderers::target::{Format, Radiance, texture};
-use crate::room::{Channel, Display};
+use crate::facet::{Facet, Grid, facets};
 use bytemuck::bytes_of;
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use render::display::Pass;
+use render::target::{Format, Radiance, texture};
+use render::{Gpu, view_from_rows};
+use room::{Channel, Display};
+use wgpu::util::DeviceExt;
 
 /// Cells along each side of the grid by which facets are chosen.
 const GRID: usize = 48;
@@ -31,18 +31,8 @@ impl Curved {
         let size @ [width, height] = channel.size();
         let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
         let texels: Vec<[f32; 4]> = channel.points(display, size).into_iter().map(texel).collect();
-        let descriptor = wgpu::TextureDescriptor {
-            label: Some("points"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        };
-        let bytes = bytemuck::cast_slice(&texels);
-        let points = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
+        let (format_of_points, bytes) = (wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels));
+        let points = view_from_rows(gpu, "points", [width, height, 1], format_of_points, bytes);
 
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
         let place = |index: usize| channel.point(display, DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
@@ -53,7 +43,7 @@ impl Curved {
         };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         Self {
-            points: points.create_view(&wgpu::TextureViewDescriptor::default()),
+            points,
             grid,
             facets: Vec::new(),
             shown: texture(gpu, "shown on a surface", size, format.colour, 1, usage),

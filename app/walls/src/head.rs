@@ -1,9 +1,9 @@
 //! Head that stands or walks in the vehicle, and its eyes.
 
-use crate::room::{Eye, Viewer};
 use glam::{DMat3, DQuat, DVec3};
 use physics::worldline::State;
 use physics::{Celerity, Observer};
+use room::{Eye, Viewer};
 
 /// Head in the room, whose axes are those of the vehicle (x right, y up, −z ahead).
 #[derive(Clone, Copy, Debug, PartialEq)]

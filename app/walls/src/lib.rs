@@ -1,0 +1,28 @@
+//! Pictures on the surfaces around a viewer: every channel of a display, drawn for a head in the vehicle.
+//!
+//! # How it works
+//! 1. An [`Occupant`] gives the place of each eye, in the world and in the room (`head`).
+//! 2. The photo-surface of an eye does not depend on the direction of view, so it is computed once for all channels
+//!   of that eye (W 6.4.1).
+//! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other channel is drawn into
+//!   flat pictures around the eye (`facet`), in which every pixel of the channel then looks up its place
+//!   (`curved`).
+//! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
+//!   developed, multiplied by its projector's gains, and put into its window.
+
+pub mod calibration;
+mod combine;
+mod curved;
+mod facet;
+mod gains;
+mod head;
+mod picture;
+pub mod preview;
+mod quality;
+mod show;
+mod test_grid;
+mod walls;
+
+pub use head::{Head, Occupant, OccupantEye};
+pub use quality::Quality;
+pub use walls::{DrawnChannels, Walls};

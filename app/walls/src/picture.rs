@@ -1,18 +1,17 @@
 //! One channel's picture: its targets, and how it is drawn for an eye.
 
-use super::Quality;
-use super::curved::Curved;
-use super::facet::Facet;
-use super::head::OccupantEye;
-use crate::gpu::Gpu;
-use crate::renderers::certainty::Certainty;
-use crate::renderers::display::{self, Accumulator, Pass, Stored};
-use crate::renderers::target::Radiance;
-use crate::renderers::{Effects, SceneRenderer, Shot};
-use crate::room::{Channel, Display, EyeBehind, frustum};
-use crate::views::{Camera, Field, Tangents, sample_offset};
+use crate::curved::Curved;
+use crate::facet::Facet;
+use crate::gains;
+use crate::head::OccupantEye;
+use crate::quality::Quality;
 use glam::{DMat3, DQuat, DVec2};
-use physics::photo_surface::Eye as Vantage;
+use render::certainty::Certainty;
+use render::display::{Accumulator, Developer, Pass, clear};
+use render::target::Radiance;
+use render::{Gpu, SceneRenderer};
+use room::{Channel, Display, EyeBehind, frustum};
+use view::{Camera, Effects, Field, Shot, Stored, Tangents, sample_offset};
 
 /// Side of the square of pixels that share one computed gain, pixels.
 const COARSER_GAINS: u32 = 4;
@@ -43,13 +42,11 @@ pub struct Sitting<'a> {
     /// Fineness of the pictures.
     pub quality: &'a Quality,
     /// Passes that add up samples.
-    pub passes: &'a display::Display,
+    pub passes: &'a Developer,
     /// Pass that resamples flat pictures onto a curved surface.
     pub resample: &'a Pass,
     /// Eye of the occupant.
     pub eye: OccupantEye,
-    /// Place and celerity of the eye, for the renderers.
-    pub vantage: Vantage,
     /// Relativistic effects on the picture.
     pub effects: Effects,
 }
@@ -60,8 +57,7 @@ impl Sitting<'_> {
         let observer_from_eye = self.eye.observer_from_room * DQuat::from_mat3(&room_from_eye);
         Shot {
             camera: Camera { observer_from_eye, field: Field::Screen(tangents) },
-            eye: self.vantage,
-            ct: self.eye.observer.event.ct,
+            observer: self.eye.observer,
             effects: self.effects,
             stored_scale: None,
         }
@@ -70,7 +66,7 @@ impl Sitting<'_> {
 
 impl Picture {
     /// Creates the targets and tables of a channel.
-    pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &display::Display) -> Self {
+    pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &Developer) -> Self {
         let size = channel.size();
         let way = match channel.flat(display) {
             Some(_) => Way::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
@@ -87,7 +83,7 @@ impl Picture {
         // Measured maps have edges and need every pixel. Computed gains are smooth.
         let measured = channel.alpha.is_some() || channel.beta.is_some();
         let finest = if measured { channel.size() } else { channel.size().map(|side| side.div_ceil(COARSER_GAINS)) };
-        self.gains = channel.gains(display, finest).map(|gains| display::gains(gpu, &gains));
+        self.gains = channel.gains(display, finest).map(|gains| gains::upload(gpu, &gains));
     }
 
     /// Light of the newest sample.
@@ -195,7 +191,7 @@ impl Picture {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match &self.way {
             Way::Flat(target) => drop(target.begin(&mut encoder)),
-            Way::Curved(curved) => drop(display::clear(&mut encoder, &curved.shown)),
+            Way::Curved(curved) => drop(clear(&mut encoder, &curved.shown)),
         }
         if let Some(sum) = &self.sum {
             sum.blacken(&mut encoder);

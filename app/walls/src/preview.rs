@@ -5,16 +5,18 @@
 //! that the inside can be seen from outside. Screens seen from the front do not hide each other in a convex room, so
 //! there is no depth buffer.
 
-use super::{Occupant, Walls};
-use crate::gpu::Gpu;
-use crate::renderers::display::{self, Development, Pass};
-use crate::renderers::target::texture;
-use crate::room::{Channel, Eye};
-use crate::views::Camera;
+use crate::head::Occupant;
+use crate::walls::Walls;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
 use physics::Celerity;
+use render::Gpu;
+use render::display::{self, Development, Pass};
+use render::shader_view;
+use render::target::texture;
+use room::{Channel, Eye};
 use std::f64::consts::TAU;
+use view::Camera;
 use wgpu::util::DeviceExt;
 
 /// Number of cells along each side of the net of a channel whose screen is not flat.
@@ -76,7 +78,7 @@ impl Onlooker {
 
     fn clip_from_room(&self, size: [u32; 2]) -> DMat4 {
         let camera = Camera::looking(self.towards_m - self.from_m, DVec3::Y, self.fov_degrees.to_radians());
-        let view = camera.view(size, DVec2::ZERO, Celerity::ZERO, false, 1.0);
+        let view = shader_view(&camera, size, DVec2::ZERO, Celerity::ZERO, false, 1.0);
         view.clip_from_observer.as_dmat4() * DMat4::from_translation(-self.from_m)
     }
 }

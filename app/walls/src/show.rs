@@ -1,14 +1,15 @@
 //! Output of the channels' light to windows and pictures.
 
-use super::preview::{Onlooker, Preview};
-use super::test_grid::DEVELOPMENT;
-use super::{Occupant, Walls};
-use crate::gpu::{Gpu, GpuError};
-use crate::renderers::display::{self, Development, Part};
-use crate::renderers::picture::{SCREEN_FORMAT, Sheet};
-use crate::renderers::target::texture;
-use crate::room::{Combine, Eye};
+use crate::head::Occupant;
+use crate::preview::{Onlooker, Preview};
+use crate::test_grid::DEVELOPMENT;
+use crate::walls::Walls;
 use image::RgbaImage;
+use render::display::{DevelopedPart, Development, LINEAR_FORMAT, clear};
+use render::picture::{SCREEN_FORMAT, Sheet};
+use render::target::texture;
+use render::{Gpu, GpuError};
+use room::{Combine, Eye};
 
 impl Walls {
     /// Shows all channels of a window in it. `first_pixel` is the place of the window's upper left pixel on its
@@ -50,7 +51,7 @@ impl Walls {
             over = true;
         }
         if !over {
-            drop(display::clear(encoder, screen));
+            drop(clear(encoder, screen));
         }
     }
 
@@ -115,7 +116,7 @@ impl Walls {
     ) -> wgpu::TextureView {
         let [width, height] = self.display.channels[channel].size();
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let made = || texture(gpu, "developed", [width, height], display::LINEAR_FORMAT, 1, usage);
+        let made = || texture(gpu, "developed", [width, height], LINEAR_FORMAT, 1, usage);
         let linear = self.pictures[channel].developed.get_or_insert_with(made).clone();
         std::mem::swap(&mut self.passes, &mut self.linear_passes);
         self.show(gpu, encoder, channel, development, &linear, [0, 0, width, height], false);
@@ -141,13 +142,13 @@ impl Walls {
         let exposure = (first / picture.stored.scale) as f32;
         let projector = self.display.channels[channel].projector(&self.display);
         let gamma = projector.and_then(|projector| projector.gamma);
-        let part = Part { viewport, over, exposure, gains: picture.gains.as_ref(), gamma };
+        let part = DevelopedPart { viewport, over, exposure, gains: picture.gains.as_ref(), gamma };
         match &self.grids {
             None => {
                 self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
             }
             Some(grids) => {
-                let part = Part { exposure: 1.0, ..part };
+                let part = DevelopedPart { exposure: 1.0, ..part };
                 let light = &grids.lights[channel];
                 self.passes.show_part(gpu, encoder, light, &grids.adaptation, &DEVELOPMENT, screen, &part);
             }

@@ -3,14 +3,14 @@
 //! A grid is drawn on the picture, so corners and measured warps bend it as they bend the picture. Then it passes
 //! through gains and the projector's curve like all light, but with a fixed exposure.
 
-use super::calibration::Calibration;
-use crate::gpu::Gpu;
-use crate::renderers::display::{self, Adaptation, Development, Exposure, Gamut, Seen, Stored, Tone};
-use crate::room::{Channel, Display, Eye};
+use crate::calibration::Calibration;
 use glam::{DVec2, DVec3};
 use half::f16;
 use rayon::prelude::*;
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use render::display::{Adaptation, Developer, Development, Exposure, Gamut, LINEAR_FORMAT, Seen, Tone};
+use render::{Gpu, view_from_rows};
+use room::{Channel, Display, Eye};
+use view::Stored;
 
 /// Development of test grids: light is shown as it is.
 pub const DEVELOPMENT: Development = Development { exposure: Exposure::WHITE, tone: Tone::Linear, gamut: Gamut::Clamp };
@@ -43,7 +43,7 @@ pub struct Grids {
 
 impl Grids {
     /// Creates the grids of all channels of a display.
-    pub fn new(gpu: &Gpu, display: &Display, passes: &display::Display, calibration: &Calibration) -> Self {
+    pub fn new(gpu: &Gpu, display: &Display, passes: &Developer, calibration: &Calibration) -> Self {
         let light = |channel: usize| light(gpu, &display.channels[channel], marked(calibration, channel));
         let lights: Vec<_> = (0..display.channels.len()).map(light).collect();
         let mut adaptation = Adaptation::new(gpu);
@@ -70,21 +70,8 @@ fn marked(calibration: &Calibration, channel: usize) -> Option<usize> {
 /// Texture with a channel's grid.
 fn light(gpu: &Gpu, channel: &Channel, chosen: Option<usize>) -> wgpu::TextureView {
     let [width, height] = channel.size();
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("test grid"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: display::LINEAR_FORMAT,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
     let texels = texels(channel, chosen);
-    let bytes = bytemuck::cast_slice(&texels);
-    gpu.device
-        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes)
-        .create_view(&wgpu::TextureViewDescriptor::default())
+    view_from_rows(gpu, "test grid", [width, height, 1], LINEAR_FORMAT, bytemuck::cast_slice(&texels))
 }
 
 /// Linear light of the pixels of a channel's viewport, row by row from the upper left; black outside the picture.
@@ -144,7 +131,7 @@ mod tests {
     //! corners, or mark another corner than the one that keys move.
 
     use super::*;
-    use crate::room::{Corners, Warp};
+    use room::{Corners, Warp};
 
     /// Channel of 200 × 100 pixels.
     fn channel() -> Channel {

@@ -16,7 +16,7 @@
 
 use glam::DVec3;
 use physics::Celerity;
-use physics::worldline::{Control, State, Thrust};
+use physics::worldline::{Control, WorldlineState, Thrust};
 
 use super::ground::{GroundCourse, upright};
 use super::settings::BicycleSettings;
@@ -110,7 +110,7 @@ impl<'a> BicycleControl<'a> {
 }
 
 impl Control for BicycleControl<'_> {
-    fn thrust(&self, state: &State) -> Thrust {
+    fn thrust(&self, state: &WorldlineState) -> Thrust {
         let nose = state.orientation * DVec3::NEG_Z;
         let u = state.orientation.inverse() * state.celerity.vector();
         let speed = self.light_speed.metres_per_own_second(u.z.abs());
@@ -133,7 +133,7 @@ fn brake_m_s2(settings: &BicycleSettings, lever: f64) -> f64 {
 }
 
 /// Puts the celerity along the nose and removes roll: wheels do not slip sideways, and the rider stays upright.
-pub(super) fn roll(state: &mut State) {
+pub(super) fn roll(state: &mut WorldlineState) {
     /// Largest lean that rounding makes; a smaller one is left alone.
     const ROUNDING: f64 = 1e-14;
     let nose = state.orientation * DVec3::NEG_Z;

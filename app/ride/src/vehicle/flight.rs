@@ -8,7 +8,7 @@
 //! there is any.
 
 use glam::DVec3;
-use physics::worldline::{Control, FacingMotion, State, Thrust, Transport};
+use physics::worldline::{Control, FacingMotion, WorldlineState, Thrust, Transport};
 
 use super::ground::{GroundCourse, heading, upright};
 use super::settings::{FlightSettings, Nose};
@@ -52,7 +52,7 @@ impl<'a> FlightControl<'a> {
     }
 
     /// Acceleration that keeps a driven vehicle on the ground, world axes, per second of own time.
-    fn ground_per_s(&self, course: &GroundCourse, state: &State) -> DVec3 {
+    fn ground_per_s(&self, course: &GroundCourse, state: &WorldlineState) -> DVec3 {
         let Some(direction) = state.celerity.direction() else { return DVec3::ZERO };
         let u = state.celerity.magnitude();
         let slope = direction.y.clamp(-1.0, 1.0).asin();
@@ -62,7 +62,7 @@ impl<'a> FlightControl<'a> {
 }
 
 impl Control for FlightControl<'_> {
-    fn thrust(&self, state: &State) -> Thrust {
+    fn thrust(&self, state: &WorldlineState) -> Thrust {
         let c = self.light_speed.speed_of_light_m_s();
         let pilot_from_world = state.orientation.inverse();
         let u = pilot_from_world * state.celerity.vector();
@@ -94,7 +94,7 @@ impl Control for FlightControl<'_> {
 }
 
 /// Keeps a driven vehicle level, whatever the ground does.
-pub(super) fn level(state: &mut State) {
+pub(super) fn level(state: &mut WorldlineState) {
     /// Largest tilt that rounding makes; a smaller one is left alone.
     const ROUNDING: f64 = 1e-14;
     let up = state.orientation * DVec3::Y;

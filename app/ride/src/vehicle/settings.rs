@@ -145,6 +145,11 @@ pub enum IntegratorKind {
 }
 
 impl IntegratorKind {
+    /// Integrator of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::value_variants().iter().copied().find(|kind| kind.name() == name)
+    }
+
     /// Name in recordings and on the command line.
     pub fn name(self) -> &'static str {
         match self {

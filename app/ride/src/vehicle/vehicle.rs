@@ -3,7 +3,7 @@
 use glam::DVec3;
 use input::{Controls, VehicleKind};
 use physics::Celerity;
-use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, State};
+use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, WorldlineState};
 use scene::{Surroundings, Wall};
 use view::Gaze;
 
@@ -32,7 +32,7 @@ pub struct Vehicle {
     light_speed: LightSpeed,
     kind: VehicleKind,
     settings: VehicleSettings,
-    state: State,
+    state: WorldlineState,
     odometer: Odometer,
     /// True if a wall blocks the way ahead.
     blocked: bool,
@@ -48,7 +48,7 @@ impl Vehicle {
     pub fn new(
         light_speed: LightSpeed,
         kind: VehicleKind,
-        state: State,
+        state: WorldlineState,
         settings: VehicleSettings,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
@@ -56,9 +56,9 @@ impl Vehicle {
         Ok(Self { light_speed, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
     }
 
-    /// State of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
+    /// WorldlineState of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
     /// pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &WorldlineState {
         &self.state
     }
 

@@ -2,7 +2,7 @@
 //! wrong program would move another corner, lose a fraction of a pixel at each press, or turn a picture inside out.
 
 use super::*;
-use crate::room::{Corners, Warp};
+use room::{Corners, Warp};
 
 /// Display with two channels: the built-in stereo wall.
 fn wall() -> Display {
@@ -108,7 +108,7 @@ fn a_corner_beyond_the_others_is_refused_and_stays() {
 fn corners_of_a_measured_warp_stay() {
     let mut display = wall();
     let places = vec![DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
-    display.channels[0].warp = Some(Warp::Grid(crate::room::Measured::new(2, 2, places)));
+    display.channels[0].warp = Some(Warp::Grid(room::Measured::new(2, 2, places)));
     let mut calibration = Calibration::new(&display);
     let refused = calibration.press(Key::Down, false);
     assert_eq!(refused, Err(CalibrationError::Measured { channel: "left".into() }));
