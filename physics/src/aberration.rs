@@ -39,7 +39,7 @@ impl Aberration {
     ///
     /// *Equation:* D = γ + u·n for a unit n; across the motion n'⊥ = n⊥ / D (W 4.2, B eq. 2.8).
     ///
-    /// *Accuracy:* 1e-15 rad and a few units in the last place of D, γ to 1e12 (`tests/high_precision.rs`).
+    /// *Accuracy:* 1e-15 rad and a few units in the last place of D, γ to 1e12 (`tests/physics/high_precision.rs`).
     pub fn observer_from_world(&self, n: DVec3) -> (DVec3, f64) {
         let image = self.0.image(n.into());
         (image.direction(), image.doppler)

@@ -43,7 +43,7 @@ pub struct Apparent {
 ///
 /// *Equation:* the image of d = point − observer, [`Aberration`](crate::aberration::Aberration); emitted at ct − r.
 ///
-/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12 (`tests/high_precision.rs`).
+/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12 (`tests/physics/high_precision.rs`).
 /// Coordinates up to 1e150 m.
 ///
 /// # Example
@@ -71,7 +71,7 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
 /// the two forms of the positive root the one without a difference is taken. D is that of the observer at d over that
 /// of the source at d.
 ///
-/// *Accuracy:* as [`at_rest`] (`tests/high_precision.rs`).
+/// *Accuracy:* as [`at_rest`] (`tests/physics/high_precision.rs`).
 pub fn moving(observer: &Observer, source: &PointSource) -> Apparent {
     let time = DoubleDouble::from(observer.event.ct);
     let celerity = DoubleDoubleVec3::from(source.celerity.vector());

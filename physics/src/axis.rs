@@ -78,7 +78,7 @@ impl BoostAxis {
     /// [`crate::light_cone`].
     ///
     /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every
-    /// direction and γ to 1e12 (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
+    /// direction and γ to 1e12 (`tests/physics/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
     /// zero and D = γ.
     pub(crate) fn image(&self, displacement: DoubleDoubleVec3) -> Image {
         let scale = power_of_two_below(displacement.high.abs().max_element());

@@ -125,7 +125,7 @@ impl TriangleInterpolation {
     /// *Equation:* (δ/r) F / (1 − (δ/r) w/D), each at its worst in the ball of √3/2 L about the middle, which holds all such triangles. The
     /// denominator is for places astern, which are drawn nearer than they appear.
     ///
-    /// *Accuracy:* held against points of random triangles (`tests/interpolation_error.rs`).
+    /// *Accuracy:* held against points of random triangles (`tests/physics/interpolation_error.rs`).
     pub fn bound(&self, middle: DVec3, length: f64) -> InterpolationBound {
         let (distance, radius) = (middle.length(), REACH * length);
         if radius >= distance || !(radius / distance).is_finite() {

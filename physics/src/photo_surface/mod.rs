@@ -15,7 +15,7 @@
 //!
 //! # What can be relied on
 //! - Directions are within 7e-7 rad of exact for γ ≤ 1e9 at distances of 1e-3 to 1e6 m, and within 4e-4 rad for γ ≤ 1e12
-//!   (`tests/photo_surface_accuracy.rs`).
+//!   (`tests/physics/photo_surface_accuracy.rs`).
 //! - The output of an eye at rest is p − o, rounded, and D = 1 exactly.
 //! - The bits do not depend on the number of threads, on how a mesh's output is aligned, or on whether AVX2 or AVX-512
 //!   computed it; [`Instructions::Portable`] may differ in the last bits on processors without fused operations.

@@ -18,7 +18,7 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// Exact for constant thrust and turn rate; a control that varies is taken at the middle of the step (second order).
 ///
-/// *Accuracy:* rapidity to 3e-14 over 10 units (`tests/worldline.rs`); celerity, place and orientation to 6e-14 after a
+/// *Accuracy:* rapidity to 3e-14 over 10 units (`tests/physics/worldline.rs`); celerity, place and orientation to 6e-14 after a
 /// thousand turns at γ = 1000 (`rapidity measure --extremes`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;

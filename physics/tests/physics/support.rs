@@ -1,6 +1,4 @@
 //! Seeded random vectors and celerities for the tests of this crate.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-#![allow(dead_code, reason = "each test binary uses its own part of this module")]
 
 use physics::Celerity;
 use physics::glam::{DQuat, DVec3};

@@ -1,17 +1,14 @@
 //! Law: the plain textbook formulas, evaluated in 600-bit arithmetic, where what cancels has bits to spare. A program
 //! that computes them in f64 would be off by ε γ² in direction astern, which is everything from γ = 1e8 on.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
 
 use std::ops::{Add, Mul, Sub};
 
+use crate::support::{EPSILON, celerity, direction, direction_off, seeded, size, vector};
 use dashu_float::FBig;
 use physics::glam::DVec3;
 use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent, compose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use support::{EPSILON, celerity, direction, direction_off, seeded, size, vector};
 
 type Real = FBig;
 

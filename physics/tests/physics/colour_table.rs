@@ -1,14 +1,11 @@
 //! Law: the shift table looks up what direct integration gives, for every kind of light and at every Doppler factor. A wrong
 //! program would show bands of colour ahead, or a brightness that jumps where the table's nodes lie.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-mod support;
-
+use crate::support::{relative_difference, seeded};
 use physics::colour::difference::{delta_e_2000, lab_from_xyz};
 use physics::colour::{Carrier, ShiftTable, Spectrum, xyz_from_rgb};
 use physics::glam::{DMat3, DVec3};
 use rand::RngExt;
-use support::seeded;
 
 /// ΔE2000, of which 1 is just noticeable. Measured: 0.09 to 0.14, where a pure primary falls off steeply.
 const LARGEST_DIFFERENCE: f64 = 0.5;
@@ -124,10 +121,7 @@ fn texels_are_the_colours_of_their_nodes() {
         let [red, green, blue, log2_luminance] = texel.map(f64::from);
         let stored = DVec3::new(red, green, blue) * log2_luminance.exp2();
         // A logarithm of 64 is rounded by 4e-6.
-        assert!(
-            support::relative_difference(stored, direct) < 1e-5,
-            "row {row}, D = {doppler}: {stored}, not {direct}"
-        );
+        assert!(relative_difference(stored, direct) < 1e-5, "row {row}, D = {doppler}: {stored}, not {direct}");
     }
 }
 
@@ -139,7 +133,7 @@ fn beyond_the_ends_the_colour_stays_and_brightness_goes_on_straight() {
     // As far from the last node, in ln D, as that is from the one before.
     let luminance = (2.0 * end[3] - middle[3]).exp2();
     let expected = DVec3::new(end[0], end[1], end[2]) * luminance;
-    assert!(support::relative_difference(seen, expected) < 1e-12, "{seen}, not {expected}");
+    assert!(relative_difference(seen, expected) < 1e-12, "{seen}, not {expected}");
 }
 
 #[test]

@@ -1,14 +1,11 @@
 //! Law: a colour's spectrum is that colour at rest, positive and smooth everywhere, fades into grey when it is shifted far,
 //! and is never black; white stays near-neutral (Δu'v' from D65) at every shift. A wrong program would tint the picture at
 //! rest, or turn grey walls black ahead.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-mod support;
-
+use crate::support::seeded;
 use physics::colour::{Carrier, Spectrum, luminance, rgb_from_xyz, shares, white, xyz_from_rgb};
 use physics::glam::{DMat3, DVec2, DVec3};
 use rand::RngExt;
-use support::seeded;
 
 /// Of a sum of 471 products, each rounded, and a matrix that multiplies them by 3.
 const EXACT: f64 = 1e-12;

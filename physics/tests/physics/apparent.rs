@@ -1,14 +1,11 @@
 //! Law: an observer sees what his past light cone meets. A wrong program would take a source where it is instead of
 //! where it was, swap red for blue, or lose the companion that flies along.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-mod support;
-
+use crate::support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
 use physics::glam::DVec3;
 use physics::{Aberration, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
 
 fn observer(celerity: DVec3) -> Observer {
     Observer { event: Event::default(), celerity: Celerity::new(celerity).unwrap() }

@@ -1,15 +1,12 @@
 //! Law: light shifted by D is D⁵ L(Dλ), so a black body seen with the Doppler factor D is one of temperature D·T, and its
 //! radiance of all wavelengths together grows by D⁴. A wrong program would lose a power of D, or shift the wrong way.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
 
 use std::f64::consts::PI;
 
+use crate::support::{EPSILON, relative_difference, seeded, size};
 use physics::colour::{Carrier, ShiftTable, Spectrum};
 use physics::glam::DVec3;
 use rand::RngExt;
-use support::{EPSILON, relative_difference, seeded, size};
 
 fn planck(kelvin: f64) -> Spectrum {
     Spectrum::planck(kelvin).unwrap()

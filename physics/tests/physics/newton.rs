@@ -1,7 +1,6 @@
 //! Law: a bracketed root is found to the last bit, whatever Newton's own steps would do; and a search that finds none says
 //! why. A wrong program would run out of the bracket on a flat stretch, go round in a cycle, or return its last guess as
 //! if it were a root.
-#![allow(clippy::unwrap_used, reason = "a failed search is a failed test")]
 
 use std::convert::Infallible;
 

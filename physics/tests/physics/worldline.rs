@@ -1,19 +1,16 @@
 //! Law: rapidity adds up proper acceleration, gyroscopes precess by Thomas' angle, and each integrator is as exact as
 //! it says. A wrong program would reach the speed of light, turn the gyroscope the other way, lose the mass shell, or
 //! drift while coasting.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
 
 use std::f64::consts::TAU;
 
+use crate::support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
 use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
     Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, Thrust, Transport, WorldlineError, WorldlineState,
     travel,
 };
 use physics::{Boost, Celerity, Event, FourVector, Observer};
-use support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
     [("rk4", Box::new(Rk4)), ("exact", Box::new(Exact)), ("dopri5", Box::new(DormandPrince::new(1e-10).unwrap()))]

@@ -4,15 +4,14 @@
 //! A wrong program would shift a mesh that does not fill its last line, flicker as the number of
 //! threads changes, draw a spike to infinity, or write past the end of its memory.
 
-#![expect(clippy::unwrap_used, reason = "a helper that fails, fails its test")]
-
 use glam::{DVec3, Vec3};
 use physics::photo_surface::{
     CHUNK, Instructions, Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Stores, Vertices,
 };
 use physics::{Celerity, Event, Observer};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
+
+use crate::support::seeded;
 
 /// Two roundings of f32.
 const ROUNDING: f32 = 1.2e-7;
@@ -65,7 +64,7 @@ fn eyes() -> [PhotoSurfaceEye; 4] {
 }
 
 fn town(count: usize) -> Vertices {
-    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut random = seeded(11);
     let mut coordinate = move || random.random_range(-200.0..200.0);
     Vertices::from_world(DVec3::ZERO, (0..count).map(|_| DVec3::new(coordinate(), coordinate() / 20.0, coordinate())))
         .unwrap()
@@ -279,7 +278,7 @@ fn a_vertex_at_the_eye_has_no_direction_and_no_shift() {
 
 #[test]
 fn finite_garbage_never_panics() {
-    let mut random = ChaCha8Rng::seed_from_u64(12);
+    let mut random = seeded(12);
     let mut garbage = || f64::from_bits(random.random());
     let mut vector = || DVec3::from_array(std::array::from_fn(|_| garbage()));
     for _ in 0..2000 {
