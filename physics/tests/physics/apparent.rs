@@ -1,11 +1,13 @@
 //! Law: an observer sees what his past light cone meets. A wrong program would take a source where it is instead of
 //! where it was, swap red for blue, or lose the companion that flies along.
 
-use crate::support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
+use exact_reference::random::{direction, seeded, size, vector};
 use physics::glam::DVec3;
 use physics::{Aberration, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+
+use crate::support::{EPSILON, celerity, relative_difference};
 
 fn observer(celerity: DVec3) -> Observer {
     Observer { event: Event::default(), celerity: Celerity::new(celerity).unwrap() }

@@ -3,10 +3,12 @@
 
 use std::f64::consts::PI;
 
-use crate::support::{EPSILON, relative_difference, seeded, size};
+use exact_reference::random::{seeded, size};
 use physics::colour::{Carrier, ShiftTable, Spectrum};
 use physics::glam::DVec3;
 use rand::RngExt;
+
+use crate::support::{EPSILON, relative_difference};
 
 fn planck(kelvin: f64) -> Spectrum {
     Spectrum::planck(kelvin).unwrap()

@@ -2,7 +2,7 @@
 //! and is never black; white stays near-neutral (Δu'v' from D65) at every shift. A wrong program would tint the picture at
 //! rest, or turn grey walls black ahead.
 
-use crate::support::seeded;
+use exact_reference::random::seeded;
 use physics::colour::{Carrier, Spectrum, luminance, rgb_from_xyz, shares, white, xyz_from_rgb};
 use physics::glam::{DMat3, DVec2, DVec3};
 use rand::RngExt;

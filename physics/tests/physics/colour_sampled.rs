@@ -1,10 +1,12 @@
 //! Law: measured spectra are straight lines between their samples and constant beyond them, and nothing in them is passed over,
 //! however far the Doppler effect squeezes it. A wrong program would sum over a grid and let lines flicker as they shift.
 
-use crate::support::{relative_difference, seeded, size};
+use exact_reference::random::{seeded, size};
 use physics::colour::{Carrier, SampledSpectrum, Spectrum, SpectrumError};
 use physics::glam::DVec3;
 use rand::RngExt;
+
+use crate::support::relative_difference;
 
 fn sampled(samples: &[[f64; 2]]) -> Spectrum {
     Spectrum::sampled(samples).unwrap()

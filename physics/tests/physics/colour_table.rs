@@ -1,11 +1,13 @@
 //! Law: the shift table looks up what direct integration gives, for every kind of light and at every Doppler factor. A wrong
 //! program would show bands of colour ahead, or a brightness that jumps where the table's nodes lie.
 
-use crate::support::{relative_difference, seeded};
+use exact_reference::random::seeded;
 use physics::colour::difference::{delta_e_2000, lab_from_xyz};
 use physics::colour::{Carrier, ShiftTable, Spectrum, xyz_from_rgb};
 use physics::glam::{DMat3, DVec3};
 use rand::RngExt;
+
+use crate::support::relative_difference;
 
 /// ΔE2000, of which 1 is just noticeable. Measured: 0.09 to 0.14, where a pure primary falls off steeply.
 const LARGEST_DIFFERENCE: f64 = 0.5;

@@ -1,11 +1,12 @@
 //! Law: both eyes look at one moment of the observer's time (B 5.2). A wrong program would take the eyes at one moment of
 //! the world.
 
+use exact_reference::random::{direction, seeded};
 use physics::eyes::{EyesError, eyes};
 use physics::glam::DVec3;
 use physics::{Celerity, Event, Observer};
 
-use crate::support::{EPSILON, celerity, direction, seeded};
+use crate::support::{EPSILON, celerity};
 
 #[test]
 fn eyes_along_the_motion_are_apart_by_gamma_and_one_later() {

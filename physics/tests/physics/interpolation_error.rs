@@ -2,12 +2,11 @@
 //! bound's cone. A wrong program would show: with F taken at the ball's middle only, places beside dead astern beyond the bound; with a
 //! cone about the middle's own direction, places ahead or astern outside it.
 
+use exact_reference::random::{direction, seeded};
 use glam::DVec3;
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Event, Observer, apparent};
 use rand::RngExt;
-
-use crate::support::{direction, seeded};
 
 /// Relative: what rounding may add to either side of a bound, and to a cone in radians.
 const ROUNDING: f64 = 1e-7;

@@ -4,14 +4,13 @@
 //! A wrong program would shift a mesh that does not fill its last line, flicker as the number of
 //! threads changes, draw a spike to infinity, or write past the end of its memory.
 
+use exact_reference::random::seeded;
 use glam::{DVec3, Vec3};
 use physics::photo_surface::{
     CHUNK, Instructions, Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Stores, Vertices,
 };
 use physics::{Celerity, Event, Observer};
 use rand::RngExt;
-
-use crate::support::seeded;
 
 /// Two roundings of f32.
 const ROUNDING: f32 = 1.2e-7;

@@ -6,12 +6,11 @@
 //! carried as a sum of two f64, with cross products that do not cancel; where the textbook form is still
 //! good, it must agree with that, too.
 
+use exact_reference::random::{direction, direction_off, seeded, size};
 use glam::DVec3;
 use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-
-use crate::support::{direction, direction_off, seeded, size};
 
 /// A few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves. NUMERICS: 7e-7.
 const DIRECTION_RAD: f64 = 7e-7;

@@ -5,12 +5,11 @@
 
 use std::cell::Cell;
 
+use exact_reference::random::seeded;
 use physics::glam::DVec3;
 use physics::retarded::{NotSeen, Worldline, retarded};
 use physics::{Beta, Celerity, Event, Observer, PointSource, apparent};
 use rand::RngExt;
-
-use crate::support::seeded;
 
 /// Metres, relative to the distance of the event.
 const TOLERANCE: f64 = 1e-9;

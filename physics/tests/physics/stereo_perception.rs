@@ -1,11 +1,12 @@
 //! Law: two eyes see a moving source at two of its moments, and perceive it where the sight lines come closest (B 3.4).
 //! A wrong program would perceive a passing source where it is.
 
+use exact_reference::random::{seeded, size, vector};
 use physics::glam::DVec3;
 use physics::stereo_perception::{StereoPerceptionError, perceived_place};
 use physics::{Celerity, Event, Observer, PointSource, apparent};
 
-use crate::support::{celerity, relative_difference, seeded, size, vector};
+use crate::support::{celerity, relative_difference};
 
 /// Half the distance of the eyes.
 const HALF: f64 = 0.5;

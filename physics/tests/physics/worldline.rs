@@ -4,13 +4,15 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
+use exact_reference::random::{direction, orientation, seeded, size, vector};
 use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
     Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, Thrust, Transport, WorldlineError, WorldlineState,
     travel,
 };
 use physics::{Boost, Celerity, Event, FourVector, Observer};
+
+use crate::support::{EPSILON, celerity, relative_difference};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
     [("rk4", Box::new(Rk4)), ("exact", Box::new(Exact)), ("dopri5", Box::new(DormandPrince::new(1e-10).unwrap()))]
