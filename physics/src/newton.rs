@@ -13,18 +13,18 @@ use thiserror::Error;
 pub enum RootInterval {
     /// An interval whose ends have values of opposite signs, so that a root lies between them.
     Bracket {
-        /// Lower end.
+        /// Lower end of the interval.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval.
         high: f64,
         /// A number with the sign that the function has at the lower end.
         sign_at_low: f64,
     },
     /// An interval that may hold a root or not.
     Range {
-        /// Lower end.
+        /// Lower end of the interval.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval.
         high: f64,
     },
 }
@@ -60,7 +60,7 @@ pub enum NewtonError<E> {
     NotConverged {
         /// Place that the last step led to.
         x: f64,
-        /// Steps taken.
+        /// Number of steps taken.
         steps: usize,
     },
 }

@@ -45,19 +45,19 @@ impl RealVec {
         Self([0, 1, 2].map(|i| f(&self.0[i], &other.0[i])))
     }
 
-    /// The scalar product.
+    /// Scalar product of two vectors.
     pub fn dot(&self, other: &Self) -> Real {
         let [x, y, z] = self.map2(other, |a, b| a * b).0;
         x + y + z
     }
 
-    /// The vector product.
+    /// Vector product of two vectors.
     pub fn cross(&self, other: &Self) -> Self {
         let ([a, b, c], [d, e, f]) = (&self.0, &other.0);
         Self([b * f - c * e, c * d - a * f, a * e - b * d])
     }
 
-    /// The length.
+    /// Length of the vector.
     pub fn length(&self) -> Real {
         self.dot(self).sqrt()
     }

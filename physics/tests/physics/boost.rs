@@ -1,5 +1,5 @@
-//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the twin
-//! who stays, let null vectors leave the light cone, or turn the head's axes the wrong way round a curve.
+//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the
+//! twin that stays, let null vectors leave the light cone, or turn the head's axes the wrong way round a curve.
 
 use exact_reference::random::{direction, seeded, size, vector};
 use physics::glam::{DQuat, DVec3};

@@ -1,5 +1,6 @@
-//! Law: measured spectra are straight lines between their samples and constant beyond them, and nothing in them is passed over,
-//! however far the Doppler effect squeezes it. A wrong program would sum over a grid and let lines flicker as they shift.
+//! Law: measured spectra are straight lines between their samples and constant beyond them, and nothing in them is
+//! passed over, however far the Doppler effect squeezes it. A wrong program would sum over a grid and let lines
+//! flicker as they shift.
 
 use exact_reference::random::{seeded, size};
 use physics::colour::{Carrier, SampledSpectrum, Spectrum, SpectrumError};
@@ -30,7 +31,7 @@ fn values_are_straight_between_samples_and_constant_beyond() {
 /// Illuminant E: 683 lm/W times the table's sum of ȳ, and the three functions were made to have equal sums.
 #[test]
 fn equal_energy_has_its_chromaticity() {
-    /// What is left of that in the table.
+    /// Remainder of that in the table.
     const UNEVEN: f64 = 1e-4;
     let xyz = sampled(&[[555.0, 1e9]]).xyz(1.0);
     assert!((xyz.y / (683.0 * 106.8569) - 1.0).abs() < 1e-5, "{xyz}");
@@ -46,10 +47,11 @@ fn daylight_has_its_chromaticity() {
     assert!((xyz.x / sum - 0.312_72).abs() < 2e-5 && (xyz.y / sum - 0.329_03).abs() < 2e-5, "{}", xyz / sum);
 }
 
-/// A line of 0.01 nm and one of 1e-6 nm, anywhere between the steps of the observer's table: luminance is that of its wavelength.
+/// A line of 0.01 nm and one of 1e-6 nm, anywhere between the steps of the observer's table: luminance is that of its
+/// wavelength.
 #[test]
 fn a_narrow_line_is_seen_whole_wherever_it_is_shifted() {
-    /// How far a straight piece of the table bends within the line, and the halves of its steps.
+    /// Difference between the line and a straight piece of the table, and the halves of its steps.
     const TOLERANCE: f64 = 1e-3;
     let matching = numbers(include_str!("../../src/colour/data/cie-1931-2deg-1nm.csv"));
     let mut random = seeded(81);

@@ -1,5 +1,5 @@
-//! Law: both eyes look at one moment of the observer's time (B 5.2). A wrong program would take the eyes at one moment of
-//! the world.
+//! Law: both eyes look at one moment of the observer's time (B 5.2). A wrong program would take the eyes at one moment
+//! of the world.
 
 use exact_reference::random::{direction, seeded};
 use physics::eyes::{EyesError, eyes};

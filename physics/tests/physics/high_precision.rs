@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::support::{EPSILON, celerity};
 
-/// The largest errors met.
+/// Largest errors met.
 #[derive(Debug, Default)]
 struct Worst {
     direction: f64,
@@ -29,9 +29,9 @@ impl Worst {
     }
 
     fn check(&self, what: &str) {
-        /// Rounding of the three components, of the split and of the last sum.
+        /// Angle of the rounding of the three components, of the split and of the last sum; radians.
         const DIRECTION: f64 = 1e-15;
-        /// Some ten roundings.
+        /// Relative error of some ten roundings.
         const RELATIVE: f64 = 12.0 * EPSILON;
         println!("{what}: {self:?}");
         assert!(self.direction < DIRECTION, "{what}: {self:?}");
@@ -39,7 +39,7 @@ impl Worst {
     }
 }
 
-/// Isotropic, dead ahead, dead astern, and 1e-10 to 1 rad off astern.
+/// A displacement in any direction, dead ahead, dead astern, or 1e-12 to 1 rad off astern, by turns.
 fn displacement(random: &mut ChaCha8Rng, u: Celerity, case: u32) -> DVec3 {
     let distance = size(random, -6.0..9.0);
     let astern = -u.vector().normalize();
@@ -151,7 +151,7 @@ fn moving_source_appears_where_600_bits_put_it() {
 fn boosted_vector_is_that_of_600_bits() {
     /// A few roundings of the larger of time and place.
     const TOLERANCE: f64 = 8.0 * EPSILON;
-    /// What t − h loses at 106 bits, to be multiplied by κ.
+    /// Loss of t − h at 106 bits, to be multiplied by κ.
     const SPLIT: f64 = EPSILON * EPSILON;
     let mut random = seeded(25);
     for case in 0..800 {

@@ -1,6 +1,7 @@
-//! Law: no place of a flat triangle is drawn further from where light says than the bound of its longest edge, and none is seen outside the
-//! bound's cone. A wrong program would show: with F taken at the ball's middle only, places beside dead astern beyond the bound; with a
-//! cone about the middle's own direction, places ahead or astern outside it.
+//! Law: no place of a flat triangle is drawn further from where its light says than the bound of its longest edge, and
+//! none is seen outside the bound's cone. A wrong program would show places beside dead astern beyond the bound, if it
+//! took F at the ball's middle only; and places ahead or astern outside the cone, if it took a cone about the middle's
+//! own direction.
 
 use exact_reference::random::{direction, seeded};
 use glam::DVec3;
@@ -8,16 +9,16 @@ use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Event, Observer, apparent};
 use rand::RngExt;
 
-/// Relative: what rounding may add to either side of a bound, and to a cone in radians.
+/// Share that rounding may add to either side of a bound, and to a cone in radians.
 const ROUNDING: f64 = 1e-7;
 
-/// Between two vectors of any length.
+/// Angle between two vectors of any length, radians.
 fn angle(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (a.normalize(), b.normalize());
     a.cross(b).length().atan2(a.dot(b))
 }
 
-/// The largest F, times what is lost where a place is drawn nearer than it appears.
+/// Largest F, times the loss if a place is drawn nearer than it appears.
 fn bend_of_rounding(rapidity: f64) -> f64 {
     8.0 * (2.0 * rapidity).exp()
 }
@@ -30,7 +31,7 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
         let (motion, rapidity) = (direction(&mut random), random.random_range(0.0..14.5_f64));
         let celerity = Celerity::new(motion * rapidity.sinh()).unwrap();
         let interpolation = TriangleInterpolation::new(celerity);
-        // Anywhere, or as near to astern as that is enlarged.
+        // Put the triangle anywhere, or as near to astern as that is enlarged.
         let near = random.random_range(0..2) == 0;
         let scale = if near { (2.0 - rapidity).min(0.0).exp() } else { 1.0 };
         let middle = if near { -motion + 2.0 * scale * direction(&mut random) } else { direction(&mut random) };
@@ -66,7 +67,7 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
             assert!(aside <= bound.radius_rad + 1e-6, "{aside} > {} at rapidity {rapidity}", bound.radius_rad);
             let said = interpolation
                 .error(place, corners.into_iter().zip(shares).map(|(at, share)| at.length() * share).sum());
-            // At the highest speeds δ is the last digits of a distance.
+            // The lengthening δ is the last digits of a distance at the highest speeds.
             let lost = 1e-15 * bend_of_rounding(rapidity);
             assert!((said - error).abs() < 1e-3 * error + lost, "{said} is not {error} at rapidity {rapidity}");
         }

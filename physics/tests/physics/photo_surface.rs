@@ -12,7 +12,7 @@ use physics::photo_surface::{
 use physics::{Celerity, Event, Observer};
 use rand::RngExt;
 
-/// Two roundings of f32.
+/// Relative error of two roundings of f32.
 const ROUNDING: f32 = 1.2e-7;
 
 /// A photo-surface in ordinary memory.
@@ -33,7 +33,7 @@ impl WrittenSurface {
     }
 }
 
-/// Written before each transform: whatever remains of it was forgotten.
+/// Value written before each transform: any that remains was forgotten.
 const UNTOUCHED: f32 = -7.0;
 
 fn see<'e, E>(kernel: Kernel, vertices: &Vertices, eye: &'e E) -> WrittenSurface
@@ -52,7 +52,7 @@ fn moving(celerity: DVec3) -> PhotoSurfaceEye {
     PhotoSurfaceEye::new(DVec3::new(0.5, 1.7, -0.3), celerity).unwrap()
 }
 
-/// Some speeds that choose each of the formulas.
+/// Eyes at speeds that choose each of the formulas.
 fn eyes() -> [PhotoSurfaceEye; 4] {
     [
         moving(DVec3::ZERO),

@@ -12,15 +12,15 @@ use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, PhotoSurface
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// A few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves. NUMERICS: 7e-7.
+/// Angle of a few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves; radians.
 const DIRECTION_RAD: f64 = 7e-7;
-/// A few roundings of f32, relative.
+/// Relative error of a few roundings of f32.
 const RELATIVE: f64 = 2e-6;
-/// Beyond γ = 1e9 the roundings of f64 in d × e show, multiplied by 2γ. NUMERICS: 2e-4 at 1e12.
+/// Angle beyond γ = 1e9, where the roundings of f64 in d × e show, multiplied by 2γ; radians. Measured 2e-4 at 1e12.
 const EXTREME_DIRECTION_RAD: f64 = 4e-4;
-/// Distance and D suffer with them where they are least, dead astern.
+/// Relative error of distance and D there: they suffer where they are least, dead astern.
 const EXTREME_RELATIVE: f64 = 2e-4;
-/// The textbook form loses γ² roundings of f64; γ ≤ 10 here.
+/// Relative error of the textbook form, which loses γ² roundings of f64; γ ≤ 10 here.
 const TEXTBOOK: f64 = 1e-12;
 
 /// a b − c d to 1.5 units in the last place (Kahan).
@@ -80,7 +80,7 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     cross(a, b).length().atan2(a.dot(b))
 }
 
-/// Isotropic, dead ahead, dead astern, or 1e-10 to 1 rad off astern, for a motion along `ahead`.
+/// A direction: any, dead ahead, dead astern, or 1e-10 to 1 rad off astern, for a motion along `ahead`.
 fn around(random: &mut ChaCha8Rng, ahead: DVec3) -> DVec3 {
     match random.random_range(0..8) {
         0 => ahead,
@@ -93,7 +93,7 @@ fn around(random: &mut ChaCha8Rng, ahead: DVec3) -> DVec3 {
     }
 }
 
-/// Kernel results for a mesh of one vertex, so that its own place alone chooses the formula.
+/// Result of the kernel for a mesh of one vertex, so that its own place alone chooses the formula.
 fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Reference {
     let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
     let surface =
@@ -103,7 +103,7 @@ fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Reference 
     Reference { position: DVec3::new(x[0].into(), y[0].into(), z[0].into()), doppler: doppler[0].into() }
 }
 
-/// The worst errors over `cases` random cases: direction in rad, distance and D relative.
+/// Worst errors over `cases` random cases: direction in rad, distance and D relative.
 fn worst(kernel: Kernel, seed: u64, cases: usize, gamma: (f64, f64), origin_distance: f64) -> [f64; 3] {
     let mut random = seeded(seed);
     let mut worst = [0.0_f64; 3];
@@ -135,7 +135,7 @@ fn worst(kernel: Kernel, seed: u64, cases: usize, gamma: (f64, f64), origin_dist
     worst
 }
 
-/// Random cases for every range of γ and distance of the origin.
+/// Number of random cases for every range of γ and distance of the origin.
 const CASES: usize = 20_000;
 
 fn assert_accurate(gamma: (f64, f64), direction_bound: f64, relative_bound: f64) {

@@ -8,7 +8,7 @@ use physics::{Celerity, Event, Observer, PointSource, apparent};
 
 use crate::support::{celerity, relative_difference};
 
-/// Half the distance of the eyes.
+/// Half the distance between the eyes, metres.
 const HALF: f64 = 0.5;
 
 fn pair() -> [DVec3; 2] {
@@ -17,7 +17,7 @@ fn pair() -> [DVec3; 2] {
 
 #[test]
 fn source_at_rest_is_perceived_where_it_is() {
-    /// Rounding over the angle between the sight lines, 1e-3 at the least.
+    /// Rounding over the angle between the sight lines, which is at least 1e-3.
     const TOLERANCE: f64 = 1e-12;
     let mut random = seeded(42);
     for _ in 0..500 {
@@ -70,7 +70,7 @@ fn perceived_place_is_midway_between_the_sight_lines() {
         let time = size(&mut random, -1.0..0.5);
         let seen = perceived_place(pair(), &source, time).unwrap();
         widest = widest.max(seen.gap);
-        // From the middle, half a gap to one line and half a gap the opposite way to the other, square to both.
+        // The middle is half a gap from one line and half a gap the opposite way from the other, square to both.
         let [first, second] = pair().map(|eye| {
             let observer = Observer { event: Event { ct: time, position: eye }, celerity: Celerity::ZERO };
             let line = apparent::moving(&observer, &source).position.normalize();
