@@ -33,7 +33,7 @@ pub enum RootInterval {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newton {
     /// A step this small, as a share of |x|, ends the search. 0 goes on until the function is zero or the bracket holds
-    /// no other f64.
+    /// no other f64. A [`RootInterval::Range`] needs a few roundings: the last steps may alternate between neighbours.
     pub tolerance: f64,
     /// Largest number of values of the function that are asked for.
     pub most_steps: usize,
@@ -115,7 +115,6 @@ impl Newton {
                     }
                     middle
                 }
-                RootInterval::Range { .. } if newton == x => return Ok(x),
                 RootInterval::Range { low, high } if !(low..=high).contains(&newton) => {
                     return Err(NewtonError::Left { x, low, high });
                 }
