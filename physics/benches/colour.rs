@@ -1,5 +1,5 @@
-//! What the shift table costs and saves: integrating one colour against looking it up, and building the table of a carrier, for
-//! white, thermal light, and a measured paint in thermal light.
+//! Cost and gain of the shift table: integrating one colour against looking it up, and building the table of a
+//! carrier, for white, thermal light, and a measured paint in thermal light.
 
 use std::hint::black_box;
 use std::slice;
@@ -9,7 +9,7 @@ use physics::colour::{Carrier, ShiftTable, Spectrum};
 
 fn carriers() -> [(&'static str, Carrier); 3] {
     let planck = Spectrum::Planck { kelvin: 5900.0 };
-    // As many samples as a spectrometer gives.
+    // Number of samples that a spectrometer gives.
     let samples: Vec<_> = (300..2500).map(|nm| [f64::from(nm), 0.5 + 0.4 * (f64::from(nm) / 80.0).sin()]).collect();
     let paint = Spectrum::sampled(samples).expect("ascending wavelengths, positive values");
     [

@@ -1,6 +1,6 @@
-//! What it costs that parts of a scene move, each on its own: the same vertices in one group, and in many with an eye each.
+//! Cost of moving parts of a scene: the same vertices in one group, and in many groups with an eye each.
 //!
-//! The alternatives take turns; the ratio of the medians says whether moving objects cost more than resting ones.
+//! The alternatives take turns; the ratio of the medians tells if moving objects cost more than resting ones.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed benchmark")]
 
 use std::hint::black_box;
@@ -29,7 +29,7 @@ fn groups(count: usize) -> Vec<Vertices> {
         .collect()
 }
 
-/// The observer as each group has him.
+/// The observer in each group's own frame.
 fn eyes(count: usize) -> Vec<PhotoSurfaceEye> {
     (0..count)
         .map(|group| PhotoSurfaceEye::new(DVec3::Y, DVec3::new(0.75, 0.0, 0.001 * group as f64)).unwrap())
@@ -37,7 +37,7 @@ fn eyes(count: usize) -> Vec<PhotoSurfaceEye> {
 }
 
 fn main() {
-    // Not when cargo only tests that the benchmark runs.
+    // Take a single round if cargo only tests that the benchmark runs.
     let rounds = if std::env::args().any(|argument| argument == "--bench") { ROUNDS } else { 1 };
     let scenes: Vec<_> = GROUPS.iter().map(|&count| (groups(count), eyes(count))).collect();
     let mut output = [0, 1, 2].map(|_| vec![0.0_f32; VERTICES]);

@@ -22,16 +22,16 @@ use physics::photo_surface::{CHUNK, Instructions, Kernel, PhotoSurfaceEye, Photo
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-/// Vertices: a small scene, the old town, and a large one; in L2, beyond it, and far beyond it.
+/// Numbers of vertices: a small scene, the old town, and a large one; in L2, beyond it, and far beyond it.
 const SIZES: [usize; 3] = [21_000, 136_000, 1_000_000];
 const THREADS: [usize; 2] = [1, 2];
 const ROUNDS: usize = 101;
-/// Repetitions within a round last at least this long together.
+/// Least time that the repetitions within a round take together.
 const SPAN: Duration = Duration::from_micros(500);
-/// Written between repetitions that shall find a cold second-level cache.
+/// Bytes written between repetitions that shall find a cold second-level cache.
 const FLUSH_BYTES: usize = 4 << 20;
 
-/// Speeds at which every chunk takes the f32 form, and at which those astern take the exact one.
+/// Celerities at which every chunk takes the f32 form, and at which those astern take the exact one.
 const CELERITIES: [f64; 2] = [0.75, 100.0];
 
 /// A town in square tiles of a chunk each, 40 m wide, around the eye; rows of vertices, near each other as in a mesh.
@@ -80,7 +80,7 @@ enum Work {
     Kernel { instructions: Instructions, stores: Stores, celerity: f64 },
 }
 
-/// One repetition.
+/// Runs one repetition of the work.
 fn run(work: Work, vertices: &Vertices, memory: &mut Memory, doppler: bool, threads: usize) {
     let Memory { input, output } = memory;
     match work {
@@ -103,7 +103,7 @@ fn run(work: Work, vertices: &Vertices, memory: &mut Memory, doppler: bool, thre
                 .into_iter()
                 .flat_map(|(to, from)| to.chunks_mut(CHUNK).zip(from.chunks(CHUNK)).enumerate())
                 .collect();
-            // All streams of a chunk together, as the kernel works.
+            // Copy all streams of a chunk together, as the kernel works.
             chunks.sort_by_key(|(index, _)| *index);
             let copy = |(_, (to, from)): (usize, (&mut [f32], &[f32]))| {
                 if work == Work::CopyStreamed {
@@ -121,7 +121,7 @@ fn run(work: Work, vertices: &Vertices, memory: &mut Memory, doppler: bool, thre
     }
 }
 
-/// Copies past the caches.
+/// Copies values past the caches.
 #[cfg(target_arch = "x86_64")]
 fn streamed_copy(to: &mut [f32], from: &[f32]) {
     use std::arch::x86_64::*;
@@ -256,7 +256,7 @@ fn criterion_figures(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// What the figures belong to.
+/// Prints the commit and the processor that the figures belong to.
 fn print_heading() {
     let commit = Command::new("git").args(["describe", "--always", "--dirty"]).output();
     let commit =
@@ -272,7 +272,7 @@ fn print_heading() {
 }
 
 fn main() {
-    // Not when cargo only tests that the benchmark runs.
+    // Print nothing if cargo only tests that the benchmark runs.
     if std::env::args().any(|argument| argument == "--bench") {
         print_heading();
         print_shares();

@@ -1,4 +1,4 @@
-//! What a step along a worldline costs, by integrator: per step, and for the same error.
+//! Cost of a step along a worldline, by integrator: per step, and for the same error.
 //!
 //! The first group answers whether an integrator can run at 240 Hz or faster in real time; the second which one is
 //! cheapest for a given accuracy: one unit of proper time at 10 units of thrust, in as few steps as keep the rapidity
@@ -42,7 +42,7 @@ fn one_step(criterion: &mut Criterion) {
 }
 
 fn equal_error(criterion: &mut Criterion) {
-    /// Of the rapidity, which should be 10.
+    /// Largest error of the rapidity, which should be 10.
     const LARGEST_ERROR: f64 = 1e-7;
     let thrust = Thrust { acceleration: DVec3::new(6.0, 0.0, 8.0), turn_rate: DVec3::ZERO };
     let strict = DormandPrince::new(1e-9).expect("a tolerance within bounds");

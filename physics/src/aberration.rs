@@ -1,4 +1,5 @@
-//! Aberration and Doppler factor: where in the sky light is seen, and by how much its frequency is raised.
+//! Aberration and Doppler factor: the direction in which light is seen, and the factor by which its frequency is
+//! raised.
 //!
 //! A direction is a null vector without its length, so aberration is the image of a point one metre away, by the
 //! light-cone form that the apparent position uses too: exact ahead, astern and 1e-12 rad from astern at every γ, with
@@ -13,7 +14,7 @@ use crate::celerity::Celerity;
 ///
 /// # Example
 ///
-/// At β = 0.6 light that comes from abeam in the world is seen ahead of abeam: cos θ' = 0.6.
+/// Light that comes from abeam in the world is seen ahead of abeam at β = 0.6: cos θ' = 0.6.
 ///
 /// ```
 /// use physics::{Celerity, aberration::Aberration, glam::DVec3};
@@ -39,7 +40,7 @@ impl Aberration {
     ///
     /// *Equation:* D = γ + u·n for a unit n; across the motion n'⊥ = n⊥ / D (W 4.2, B eq. 2.8).
     ///
-    /// *Accuracy:* 1e-15 rad and a few units in the last place of D, γ to 1e12 (`tests/high_precision.rs`).
+    /// *Accuracy:* 1e-15 rad and a few units in the last place of D, γ to 1e12 (`tests/physics/high_precision.rs`).
     pub fn observer_from_world(&self, n: DVec3) -> (DVec3, f64) {
         let image = self.0.image(n.into());
         (image.direction(), image.doppler)
@@ -48,7 +49,7 @@ impl Aberration {
     /// The direction n in the world of light that the observer sees in `n'`, and the Doppler factor D = ν_observed /
     /// ν_world.
     ///
-    /// The reverse of [`Aberration::observer_from_world`], with the same properties.
+    /// Inverse of [`Aberration::observer_from_world`], with the same properties.
     pub fn world_from_observer(&self, n: DVec3) -> (DVec3, f64) {
         let image = self.0.reversed().image(n.into());
         (image.direction(), 1.0 / image.doppler)

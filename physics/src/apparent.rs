@@ -1,5 +1,5 @@
-//! Where a point appears: the place in the observer's frame from which its light comes, and the light's age and colour
-//! shift.
+//! Apparent positions: the place in the observer's frame from which a point's light comes, and the light's age and
+//! colour shift.
 //!
 //! Light that arrives now left the source at a retarded event on the observer's past light cone. For a point at rest in
 //! the world that event is (−r, d), d being the displacement and r its length; [`crate::aberration`] says how the boost
@@ -19,13 +19,13 @@ pub use self::PointSource as Source; // until app is moved
 /// A point source in uniform motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointSource {
-    /// Place at world time 0, metres.
+    /// Position at world time 0, metres.
     pub position: DVec3,
     /// Celerity in the world.
     pub celerity: Celerity,
 }
 
-/// What an observer sees of a point.
+/// Appearance of a point to an observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apparent {
     /// Apparent position relative to the observer, in the axes of the pure boost into that frame, metres. The light
@@ -37,14 +37,14 @@ pub struct Apparent {
     pub emitted_at: f64,
 }
 
-/// What an observer sees of a point that rests in the world.
+/// Appearance of a point that rests in the world.
 ///
 /// *Frames:* `point` in the world.
 ///
 /// *Equation:* the image of d = point − observer, [`Aberration`](crate::aberration::Aberration); emitted at ct − r.
 ///
-/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12 (`tests/high_precision.rs`).
-/// Coordinates up to 1e150 m.
+/// *Accuracy:* of the displacement, which is formed without rounding: 1e-15 rad, γ to 1e12
+/// (`tests/physics/high_precision.rs`). Coordinates up to 1e150 m.
 ///
 /// # Example
 ///
@@ -62,7 +62,7 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
     Apparent { position, doppler, emitted_at: observer.event.ct - world_distance }
 }
 
-/// What an observer sees of a source in uniform motion.
+/// Appearance of a source in uniform motion.
 ///
 /// *Frames:* source and observer in the world.
 ///
@@ -71,7 +71,7 @@ pub fn at_rest(observer: &Observer, point: DVec3) -> Apparent {
 /// the two forms of the positive root the one without a difference is taken. D is that of the observer at d over that
 /// of the source at d.
 ///
-/// *Accuracy:* as [`at_rest`] (`tests/high_precision.rs`).
+/// *Accuracy:* as [`at_rest`] (`tests/physics/high_precision.rs`).
 pub fn moving(observer: &Observer, source: &PointSource) -> Apparent {
     let time = DoubleDouble::from(observer.event.ct);
     let celerity = DoubleDoubleVec3::from(source.celerity.vector());

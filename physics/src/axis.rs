@@ -1,10 +1,10 @@
-//! The axis of a boost: how any vector splits into a part along the motion and a part across it, and what the boost
-//! does to light.
+//! The axis of a boost: the split of a vector into parts along and across the motion, and the effect of the boost on
+//! light.
 //!
 //! A boost multiplies the light-cone coordinate t + h by e^(−η), t − h by e^η, and leaves the part across alone. In
-//! these coordinates nothing cancels, provided the split itself does not: the direction of motion is therefore held to
-//! about 106 bits, and the part across is formed as e × (d × e), which keeps its relative precision however close d is
-//! to the axis.
+//! these coordinates nothing cancels if the split itself does not. Therefore the direction of motion is held to about
+//! 106 bits, and the part across is formed as e × (d × e), which keeps its relative precision however close d is to
+//! the axis.
 
 use glam::DVec3;
 
@@ -15,19 +15,19 @@ use crate::light_cone::LightConeCoordinates;
 /// The direction and size of a celerity, prepared for use on many vectors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoostAxis {
-    /// e, the unit vector of the motion; +x for an observer at rest, where any will do.
+    /// Unit vector e of the motion; +x for an observer at rest, for whom any direction serves.
     pub(crate) direction: DoubleDoubleVec3,
-    /// w = |u|.
+    /// Magnitude w = |u| of the celerity.
     pub(crate) magnitude: f64,
-    /// κ = γ + w = e^η: the Doppler factor dead ahead.
+    /// κ = γ + w = e^η, the Doppler factor dead ahead.
     pub(crate) kappa: f64,
 }
 
 /// A vector split by an [`BoostAxis`].
 pub(crate) struct Split {
-    /// h = e·d.
+    /// Part along the motion, h = e·d.
     pub(crate) along: DoubleDouble,
-    /// d − h e, to its own relative precision.
+    /// Part across the motion, d − h e, to its own relative precision.
     pub(crate) across: DVec3,
 }
 
@@ -35,9 +35,9 @@ pub(crate) struct Split {
 pub(crate) struct Image {
     /// Apparent position relative to the observer, in the observer's frame.
     pub(crate) position: DVec3,
-    /// |position|.
+    /// Length of the position.
     pub(crate) distance: f64,
-    /// Distance of the point in the world, r.
+    /// Distance r of the point in the world.
     pub(crate) world_distance: f64,
     /// D = distance / world_distance.
     pub(crate) doppler: f64,
@@ -78,8 +78,8 @@ impl BoostAxis {
     /// [`crate::light_cone`].
     ///
     /// *Accuracy:* a few units in the last place in distance and Doppler factor and 1e-15 rad in direction, for every
-    /// direction and γ to 1e12 (`tests/high_precision.rs`). A point nearer than 1e-308 is at the eye: its image is
-    /// zero and D = γ.
+    /// direction and γ to 1e12 (`tests/physics/high_precision.rs`). A point nearer than 1e-308 is at the eye: its
+    /// image is zero and D = γ.
     pub(crate) fn image(&self, displacement: DoubleDoubleVec3) -> Image {
         let scale = power_of_two_below(displacement.high.abs().max_element());
         if scale == 0.0 {

@@ -9,7 +9,7 @@ use crate::event::FourVector;
 ///
 /// # Example
 ///
-/// A clock that rests in the world for one metre of light time is seen to run slow by γ.
+/// A clock that rests in the world is seen to run slow by γ: its tick of one metre of light time takes 1.25 m.
 ///
 /// ```
 /// use physics::{Boost, Celerity, FourVector, glam::DVec3};
@@ -27,12 +27,12 @@ impl Boost {
         Self(BoostAxis::new(celerity))
     }
 
-    /// `world_from_observer` of an `observer_from_world`, and the reverse.
+    /// Inverse boost: `world_from_observer` of an `observer_from_world`, and the reverse.
     pub fn inverse(self) -> Self {
         Self(self.0.reversed())
     }
 
-    /// Transforms a four-vector.
+    /// Transforms a four-vector into the boost's target frame.
     ///
     /// *Equation:* t' = γ t − w h, h' = γ h − w t (W 4.1), written with γ = w + 1/κ as t' = t/κ + w (t − h), h' = h/κ −
     /// w (t − h). The only difference left, t − h, is taken at 106 bits, so what error there is comes from the f64

@@ -1,4 +1,4 @@
-//! Velocity as celerity, u = γβ, and as β for reading and showing.
+//! Velocity as celerity, u = γβ, and as β for reading and showing numbers.
 //!
 //! The speed of light is an asymptote for β but not for u, so no value of u needs a clamp and γ = √(1 + |u|²) is exact
 //! to rounding at every speed. β carries only what is left of 1 − β: from γ of about 5e7 on, it cannot tell one
@@ -13,8 +13,8 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
 /// A velocity as the spatial part of the four-velocity in units of c: u = γβ = dx/dτ.
 ///
-/// Always finite, and at most [`Celerity::LIMIT`] where it was given from outside; what [`compose`](crate::compose)
-/// makes of two such is still finite.
+/// Always finite, and at most [`Celerity::LIMIT`] where it was given from outside; the composition of two such
+/// celerities ([`compose`](crate::compose)) is still finite.
 ///
 /// # Example
 ///
@@ -29,14 +29,14 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 pub struct Celerity(DVec3);
 
 impl Celerity {
-    /// Rest.
+    /// Celerity of an observer at rest.
     pub const ZERO: Self = Self(DVec3::ZERO);
 
     /// The largest magnitude accepted, a rapidity of 173. Two celerities within it compose to one whose square is still
     /// finite.
     pub const LIMIT: f64 = 1e75;
 
-    /// Takes u = γβ.
+    /// Checks a vector u = γβ.
     ///
     /// # Errors
     ///
@@ -52,7 +52,8 @@ impl Celerity {
         Ok(Self(vector))
     }
 
-    /// Takes a direction of any length and a rapidity η: |u| = sinh η. A negative rapidity is motion the other way.
+    /// Celerity along a direction of any length with a rapidity η: |u| = sinh η. A negative rapidity is motion the
+    /// other way.
     ///
     /// # Errors
     ///
@@ -67,23 +68,23 @@ impl Celerity {
         Self(vector)
     }
 
-    /// u, a dimensionless vector in the axes of the frame it was measured in.
+    /// The vector u, dimensionless, in the axes of the frame it was measured in.
     pub fn vector(self) -> DVec3 {
         self.0
     }
 
-    /// |u| = sinh η, without underflow of small components.
+    /// Magnitude |u| = sinh η, without underflow of small components.
     pub fn magnitude(self) -> f64 {
         let largest = self.0.abs().max_element();
         if largest == 0.0 { 0.0 } else { largest * (self.0 / largest).length() }
     }
 
-    /// γ = √(1 + |u|²) = cosh η.
+    /// Lorentz factor γ = √(1 + |u|²) = cosh η.
     pub fn gamma(self) -> f64 {
         (1.0 + self.0.length_squared()).sqrt()
     }
 
-    /// κ = γ + |u| = e^η: the Doppler factor dead ahead. Dead astern it is 1/κ.
+    /// Doppler factor dead ahead, κ = γ + |u| = e^η. Dead astern it is 1/κ.
     ///
     /// *Equation:* a boost multiplies the light-cone coordinate r + h by κ and r − h by 1/κ
     /// ([`crate::light_cone`]; W 4.5, B 2.6.1). *Accuracy:* a sum of like signs, two units in the last place.
@@ -91,18 +92,18 @@ impl Celerity {
         self.gamma() + self.magnitude()
     }
 
-    /// η = asinh |u|, the proper acceleration summed along a straight start from rest.
+    /// Rapidity η = asinh |u|, the proper acceleration summed along a straight start from rest.
     pub fn rapidity(self) -> f64 {
         self.magnitude().asinh()
     }
 
-    /// The unit vector of the motion, none at rest.
+    /// The unit vector of the motion; `None` at rest.
     pub fn direction(self) -> Option<DVec3> {
         unit_vector(self.0)
     }
 
-    /// β = u/γ. Where that rounds to the speed of light or beyond, the next shorter vector, so that |β| < 1 always
-    /// holds.
+    /// Velocity β = u/γ. If that rounds to the speed of light or beyond, the next shorter vector, so that |β| < 1
+    /// always holds.
     pub fn beta(self) -> Beta {
         /// Two units in the last place: more than the rounding of γ and of the quotient together.
         const SHORTER: f64 = 1.0 - 2.0 * f64::EPSILON;
@@ -110,7 +111,7 @@ impl Celerity {
         Beta::new(vector).unwrap_or(Beta(vector * SHORTER))
     }
 
-    /// The same motion with its rapidity cut to `limit` (η ≥ 0); unchanged below it.
+    /// Celerity of the same direction with the rapidity cut to `limit` (η ≥ 0); unchanged below it.
     ///
     /// A vehicle calls this after each step, and compares, to tell the rider that the limit is reached.
     pub fn capped(self, limit: f64) -> Self {
@@ -137,7 +138,7 @@ impl From<Beta> for Celerity {
 pub struct Beta(DVec3);
 
 impl Beta {
-    /// Takes v/c.
+    /// Checks a vector v/c.
     ///
     /// # Errors
     ///
@@ -154,12 +155,12 @@ impl Beta {
         }
     }
 
-    /// v/c, in the axes of the frame it was measured in.
+    /// The vector v/c, in the axes of the frame it was measured in.
     pub fn vector(self) -> DVec3 {
         self.0
     }
 
-    /// u = β/√(1 − β²).
+    /// Celerity u = β/√(1 − β²).
     ///
     /// # Example
     ///
@@ -174,7 +175,7 @@ impl Beta {
         Celerity::from_finite(vector.scaled(DoubleDouble::from(1.0) / self.gamma_squared_inverse().sqrt()).rounded())
     }
 
-    /// 1 − β², to 106 bits.
+    /// 1/γ² = 1 − β², to 106 bits.
     fn gamma_squared_inverse(self) -> DoubleDouble {
         // A component beyond 1 decides alone, and its square might overflow.
         if self.0.abs().max_element() >= 1.0 {
@@ -185,39 +186,39 @@ impl Beta {
     }
 }
 
-/// The unit vector along `vector`, whatever its length; none if it is zero or not finite.
+/// The unit vector along `vector`, whatever its length; `None` if it is zero or not finite.
 pub(crate) fn unit_vector(vector: DVec3) -> Option<DVec3> {
     // A quotient of zeros or infinities is not a number and has no unit vector.
     (vector / vector.abs().max_element()).try_normalize()
 }
 
-/// Why a vector is not a velocity.
+/// The reasons why a vector is not a velocity.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum CelerityError {
     /// A component is infinite or not a number.
     #[error("the velocity {vector} has a component that is not a finite number; give three finite numbers")]
     NotFinite {
-        /// What was given.
+        /// The vector given.
         vector: DVec3,
     },
-    /// |u| > [`Celerity::LIMIT`].
+    /// A celerity beyond [`Celerity::LIMIT`].
     #[error("the celerity {vector} is longer than {limit:e}, the fastest that is computed", limit = Celerity::LIMIT)]
     TooFast {
-        /// What was given.
+        /// The vector given.
         vector: DVec3,
     },
-    /// |β| ≥ 1.
+    /// A velocity of |β| ≥ 1.
     #[error(
         "the velocity {vector} is not slower than light: |beta| must be below 1; a celerity (gamma beta) may have any length"
     )]
     NotSlowerThanLight {
-        /// What was given.
+        /// The vector given.
         vector: DVec3,
     },
     /// A direction of no length.
     #[error("{vector} has no direction; give a finite vector that is not zero")]
     NoDirection {
-        /// What was given.
+        /// The vector given.
         vector: DVec3,
     },
 }

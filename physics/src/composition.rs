@@ -1,4 +1,4 @@
-//! One boost after another: a head that moves within a vehicle that moves through the world (W 6.3).
+//! Composition of two boosts, as of a head that moves within a vehicle that moves through the world (W 6.3).
 //!
 //! Two boosts in different directions make a boost and a rotation, Wigner's. As spinors a boost is (1 + t·σ) up to a
 //! factor, t = u/(1 + γ), and the product (1 + t₁·σ)(1 + t₂·σ) = 1 + t₁·t₂ + (t₁ + t₂)·σ + i (t₁ × t₂)·σ shows the
@@ -28,7 +28,7 @@ pub struct Composition {
 ///
 /// # Example
 ///
-/// Along one line rapidities add, and nothing turns.
+/// Rapidities add along one line, and nothing turns.
 ///
 /// ```
 /// use physics::{Celerity, compose, glam::{DQuat, DVec3}};

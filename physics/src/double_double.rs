@@ -1,9 +1,9 @@
 //! Numbers of about 106 bits, as an unevaluated sum of two f64.
 //!
-//! Where a boost multiplies a small difference of large inputs by γ, the inputs' own 53 bits suffice but an
-//! intermediate's do not. The few such intermediates are carried as `high + low`, with |low| at most half a unit in the
-//! last place of `high`. The error-free sum is Knuth's, the error-free product uses the fused multiply-add; see T. J.
-//! Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
+//! A boost multiplies small differences of large inputs by γ: there the inputs' own 53 bits suffice, but an
+//! intermediate's do not. The few such intermediates are carried as `high + low`, with |low| at most half a unit in
+//! the last place of `high`. The error-free sum is Knuth's, the error-free product uses the fused multiply-add; see T.
+//! J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -49,7 +49,7 @@ impl DoubleDouble {
         Self::ordered_sum(root, remainder.high / (2.0 * root))
     }
 
-    /// The nearest f64.
+    /// The f64 nearest to the sum.
     pub(crate) fn rounded(self) -> f64 {
         self.high + self.low
     }
@@ -146,14 +146,14 @@ impl DoubleDoubleVec3 {
         product(0) + product(1) + product(2)
     }
 
-    /// This vector times a number.
+    /// Product of this vector and a number.
     pub(crate) fn scaled(self, factor: DoubleDouble) -> Self {
         let high = self.high * factor.high;
         let rounding = self.high.mul_add(DVec3::splat(factor.high), -high);
         Self::ordered_sum(high, rounding + (self.high * factor.low + self.low * factor.high))
     }
 
-    /// This vector times a power of two: exact, unless it underflows.
+    /// Product of this vector and a power of two: exact, unless it underflows.
     pub(crate) fn times_power_of_two(self, factor: f64) -> Self {
         Self { high: self.high * factor, low: self.low * factor }
     }
@@ -179,7 +179,7 @@ impl DoubleDoubleVec3 {
         Self { high: DVec3::new(x.high, y.high, z.high), low: DVec3::new(x.low, y.low, z.low) }
     }
 
-    /// The nearest f64 vector.
+    /// The f64 vector nearest to the sum.
     pub(crate) fn rounded(self) -> DVec3 {
         self.high + self.low
     }

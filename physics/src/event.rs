@@ -1,7 +1,7 @@
 //! Events, and the four-vectors between them.
 //!
-//! An event is a place and a time and has no length; the difference of two events is a four-vector and has one. Keeping
-//! the types apart lets the compiler refuse the boost of an absolute position.
+//! An event has a position and a time and no length; the difference of two events is a four-vector and has one.
+//! Keeping the types apart lets the compiler refuse the boost of an absolute position.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -12,9 +12,9 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 /// A point of spacetime.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Event {
-    /// ct in metres.
+    /// Time ct, metres of light travel.
     pub ct: f64,
-    /// Place in metres.
+    /// Position, metres.
     pub position: DVec3,
 }
 
@@ -31,19 +31,19 @@ pub struct Event {
 pub struct FourVector {
     /// Time component, in metres for a displacement.
     pub t: f64,
-    /// Space components.
+    /// Space components, in metres for a displacement.
     pub r: DVec3,
 }
 
 impl FourVector {
-    /// The scalar product, signature (+, −, −, −): t₁ t₂ − r₁·r₂. Rounded only once, so that it is exact to the last
-    /// bit for null vectors too.
+    /// Scalar product t₁ t₂ − r₁·r₂, signature (+, −, −, −). Rounded only once, so that it is exact to the last bit
+    /// for null vectors too.
     pub fn dot(self, other: Self) -> f64 {
         let times = DoubleDouble::product(self.t, other.t);
         (times - DoubleDoubleVec3::from(self.r).dot(other.r.into())).rounded()
     }
 
-    /// The squared interval t² − |r|²: positive if timelike, zero on the light cone, negative if spacelike.
+    /// Squared interval t² − |r|²: positive if timelike, zero on the light cone, negative if spacelike.
     pub fn interval(self) -> f64 {
         self.dot(self)
     }

@@ -1,8 +1,8 @@
 //! Two eyes: the pair of events from which a stereo picture is taken.
 //!
-//! The eyes of one observer look at the same moment of the observer's own time. In the world the two events are further
-//! apart along the motion than the eyes are, by γ, and the one ahead is later, so each eye sees a world of its own age
-//! (B 5.2).
+//! The eyes of one observer look at the same moment of the observer's own time. In the world the two events are
+//! further apart along the motion than the eyes are, by γ, and the event ahead is later, so each eye sees the world at
+//! a time of its own (B 5.2).
 
 use glam::DVec3;
 use thiserror::Error;
@@ -14,13 +14,13 @@ use crate::observer::Observer;
 /// The events of both eyes, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Eyes {
-    /// Left eye.
+    /// Event of the left eye.
     pub left: Event,
-    /// Right eye.
+    /// Event of the right eye.
     pub right: Event,
 }
 
-/// The eyes of an observer whose head's middle is the observer's event.
+/// Events of the two eyes of an observer whose event is at the middle of the head.
 ///
 /// *Frames, units:* `separation` in metres of the observer's frame; `right` points from the left eye to the right one
 /// in the axes of the pure boost into that frame, and may have any length; the events are in the world.
@@ -31,7 +31,7 @@ pub struct Eyes {
 ///
 /// # Example
 ///
-/// Eyes one behind the other, at β = 0.6:
+/// Two eyes, one behind the other, at β = 0.6:
 ///
 /// ```
 /// use physics::{Celerity, Event, Observer, eyes::eyes, glam::DVec3};
@@ -49,19 +49,19 @@ pub fn eyes(observer: &Observer, separation: f64, right: DVec3) -> Result<Eyes, 
     Ok(Eyes { left: observer.at_offset(-half).event, right: observer.at_offset(half).event })
 }
 
-/// Why there is no pair of eyes.
+/// The reasons why there is no pair of eyes.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum EyesError {
-    /// The distance of the eyes is no distance.
+    /// A separation that is negative or not finite.
     #[error("the separation of the eyes must be a finite number of metres, 0 or more, not {separation}")]
     Separation {
-        /// What was given.
+        /// The value given.
         separation: f64,
     },
-    /// The direction towards the right eye is none.
+    /// A direction towards the right eye that is zero or not finite.
     #[error("the direction towards the right eye must be finite and not zero, not {right}")]
     Right {
-        /// What was given.
+        /// The value given.
         right: DVec3,
     },
 }

@@ -1,12 +1,15 @@
-//! How far a flat triangle between apparent positions is from where light says.
+//! The error of flat triangles between apparent positions: the angle between where a place is drawn and where its
+//! light says.
 //!
-//! A point at displacement d appears at x' = Λd + u r, with Λ linear (the boost of d without its light-travel time) and r = |d|. A triangle
-//! drawn flat between its corners' apparent positions interpolates Λd rightly and r linearly. r is convex, so every place of the triangle is
-//! drawn too far along the motion, by u δ with δ = r interpolated − r ≥ 0: outlines, and the texture between them, err by this and nothing else.
+//! A point at displacement d appears at x' = Λd + u r, with Λ linear (the boost of d without its light-travel time)
+//! and r = |d|. A triangle drawn flat between its corners' apparent positions interpolates Λd rightly and r linearly.
+//! Since r is convex, every place of the triangle is drawn too far along the motion, by u δ with δ = r interpolated −
+//! r ≥ 0. Outlines, and the texture between them, err by this and nothing else.
 //!
-//! δ is the error of interpolating a function whose second derivative is at most 1/r: in a triangle with no edge longer than L it is at most
-//! L²/(6r). Seen from the eye u δ is an angle (δ/r) F, F = w sin θ / D², which is largest not dead astern but beside it; F has one maximum
-//! over θ, so that its largest value in a ball is known without a search.
+//! The lengthening δ is the error of interpolating a function whose second derivative is at most 1/r: in a triangle
+//! with no edge longer than L it is at most L²/(6r). Seen from the eye u δ is an angle (δ/r) F, F = w sin θ / D². F is
+//! largest not dead astern but beside it; it has one maximum over θ, so that its largest value in a ball is known
+//! without a search.
 
 use std::f64::consts::PI;
 
@@ -17,52 +20,54 @@ use crate::light_cone::LightConeCoordinates;
 
 pub use self::{InterpolationBound as Bound, TriangleInterpolation as Bend}; // until app is moved
 
-/// Share of an edge's length within which of its middle every triangle lies that has no longer edge: √3/2.
+/// Radius around the middle of an edge, as a share of the edge's length, that holds every triangle of which the edge
+/// is the longest: √3/2.
 const REACH: f64 = 0.866_025_403_784_438_7;
 
-/// δ of a triangle is at most L²/r times this.
+/// Bound of δ as a multiple of L²/r.
 const INTERPOLATION: f64 = 1.0 / 6.0;
 
-/// Beyond this share of its own apparent distance a place is drawn so far forward that no bound is claimed.
+/// Largest share of its own apparent distance by which a place may be drawn too far forward; beyond it no bound is
+/// claimed.
 const LARGEST_SHARE: f64 = 0.5;
 
-/// Bounds for an observer of one celerity.
+/// Interpolation between apparent positions for an observer of one celerity, and bounds of its error.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleInterpolation {
     direction: DVec3,
-    /// |u|.
+    /// Magnitude |u| of the celerity.
     w: f64,
     kappa: f64,
-    /// Where F is largest, radians from ahead, and how large.
+    /// Angle from ahead at which F is largest, radians, and F there.
     worst: (f64, f64),
 }
 
-/// What is claimed of every triangle of which an edge is the longest.
+/// Bound for every triangle of which one edge is the longest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterpolationBound {
-    /// The angle by which any of its places may be drawn wrongly, radians; infinite where nothing is claimed.
+    /// Largest angle by which a place of the triangle may be drawn wrongly, radians; infinite if nothing is claimed.
     pub error_rad: f64,
-    /// Middle of a cone in which all its places are truly seen (unit vector, observer's axes).
+    /// Axis of a cone in which all places of the triangle are truly seen; unit vector, observer's axes.
     pub direction: DVec3,
-    /// Half the angle of that cone; π where nothing is claimed.
+    /// Half the angle of that cone, radians; π if nothing is claimed.
     pub radius_rad: f64,
 }
 
 impl InterpolationBound {
-    /// Nothing is claimed.
+    /// The bound that claims nothing.
     const NONE: Self = Self { error_rad: f64::INFINITY, direction: DVec3::ZERO, radius_rad: PI };
 }
 
 impl TriangleInterpolation {
-    /// For an observer of this celerity.
+    /// Interpolation for an observer of this celerity.
     pub fn new(celerity: Celerity) -> Self {
         let (w, gamma) = (celerity.magnitude(), celerity.gamma());
         let direction = celerity.direction().unwrap_or(DVec3::NEG_Z);
         let mut interpolation = Self { direction, w, kappa: celerity.kappa(), worst: (PI, 0.0) };
         if w > 0.0 {
-            // dF/dθ = 0: w c² − γ c − 2w = 0, of whose roots the other one is no cosine.
+            // Solve dF/dθ = 0, w c² − γ c − 2w = 0 for the cosine c; the other root is no cosine.
             let cosine = (-4.0 * w / (gamma + (gamma * gamma + 8.0 * w * w).sqrt())).max(-1.0);
-            // At high speeds the angle from astern is 1/(√3 γ), which this cosine is too coarse for.
+            // The angle from astern is 1/(√3 γ) at high speeds, for which this cosine is too coarse.
             let astern = if gamma > 1e3 { 1.0 / (3.0_f64.sqrt() * gamma) } else { PI - cosine.acos() };
             let angle = PI - astern;
             interpolation.worst = (angle, interpolation.sensitivity(angle));
@@ -70,11 +75,13 @@ impl TriangleInterpolation {
         interpolation
     }
 
-    /// Where a place at rest appears, relative to the observer, in his axes; `displacement` from him in the world.
+    /// Apparent position of a place at rest, relative to the observer, observer's axes, metres; `displacement` from
+    /// the observer to the place, world axes, metres.
     ///
     /// *Equation:* the light-cone form of [`crate::light_cone`].
     ///
-    /// *Accuracy:* ε/D ≤ 4e-16 γ rad, which is enough for pictures up to γ = 1e12 and ten times as fast as [`crate::apparent`].
+    /// *Accuracy:* ε/D ≤ 4e-16 γ rad, which is enough for pictures up to γ = 1e12 and ten times as fast as
+    /// [`crate::apparent`].
     pub fn apparent(&self, displacement: DVec3) -> DVec3 {
         if self.w == 0.0 {
             return displacement;
@@ -85,34 +92,36 @@ impl TriangleInterpolation {
         across + seen.along() * self.direction
     }
 
-    /// D at an angle from ahead, in the world.
+    /// Doppler factor D at an angle from ahead in the world, radians.
     fn doppler(&self, angle: f64) -> f64 {
         let (sine, cosine) = (0.5 * angle).sin_cos();
         self.kappa * cosine * cosine + sine * sine / self.kappa
     }
 
-    /// F: the angle, for each part of its distance, by which a place is drawn wrongly.
+    /// Sensitivity F at an angle from ahead in the world: the angle by which a place is drawn wrongly, over the share
+    /// δ/r by which its distance is taken to be too long.
     fn sensitivity(&self, angle: f64) -> f64 {
         let (sine, cosine) = (0.5 * angle).sin_cos();
         let doppler = self.doppler(angle);
         2.0 * self.w * sine * cosine / (doppler * doppler)
     }
 
-    /// F of a direction of the world, of any length: by what angle a place there is drawn wrongly for each part of its distance by which
-    /// that is taken to be too long.
+    /// Sensitivity F of a direction of the world, of any length: the angle by which a place there is drawn wrongly,
+    /// over the share δ/r by which its distance is taken to be too long.
     pub fn steepness(&self, direction: DVec3) -> f64 {
         let along = self.direction.dot(direction);
         self.sensitivity(self.direction.cross(direction).length().atan2(along))
     }
 
-    /// The observed angle from ahead of a world angle, also of one beyond π.
+    /// Observed angle from ahead of a world angle, radians; world angles beyond π are allowed.
     fn observed(&self, angle: f64) -> f64 {
         let (sine, cosine) = (0.5 * angle).sin_cos();
         2.0 * sine.atan2(self.kappa * cosine)
     }
 
-    /// What [`TriangleInterpolation::bound`] claims at most of an edge of such a length at such a distance, whichever way it lies; infinite where that is
-    /// nothing. It takes no angle, and most edges of a scene are small enough for it.
+    /// Upper limit of the error that [`TriangleInterpolation::bound`] gives for an edge of this length at this
+    /// distance, whichever way it lies; infinite if nothing is claimed. It takes no angle, and most edges of a scene
+    /// are small enough for it.
     pub fn bound_anywhere(&self, distance: f64, length: f64) -> f64 {
         let nearest = distance - REACH * length;
         let excess = INTERPOLATION * (length / nearest).powi(2);
@@ -120,12 +129,13 @@ impl TriangleInterpolation {
         if nearest > 0.0 && share < LARGEST_SHARE { excess * self.worst.1 / (1.0 - share) } else { f64::INFINITY }
     }
 
-    /// What can be claimed of triangles of which an edge is the longest: `middle` is the displacement of its middle from the observer.
+    /// Bound for all triangles of which an edge of this `length` is the longest; `middle` is the displacement from the
+    /// observer to the middle of the edge. World axes, metres.
     ///
-    /// *Equation:* (δ/r) F / (1 − (δ/r) w/D), each at its worst in the ball of √3/2 L about the middle, which holds all such triangles. The
-    /// denominator is for places astern, which are drawn nearer than they appear.
+    /// *Equation:* (δ/r) F / (1 − (δ/r) w/D), each at its worst in the ball of √3/2 L about the middle, which holds
+    /// all such triangles. The denominator is for places astern, which are drawn nearer than they appear.
     ///
-    /// *Accuracy:* held against points of random triangles (`tests/interpolation_error.rs`).
+    /// *Accuracy:* held against points of random triangles (`tests/physics/interpolation_error.rs`).
     pub fn bound(&self, middle: DVec3, length: f64) -> InterpolationBound {
         let (distance, radius) = (middle.length(), REACH * length);
         if radius >= distance || !(radius / distance).is_finite() {
@@ -139,7 +149,7 @@ impl TriangleInterpolation {
         let across = middle - along * self.direction;
         let (angle, reach) = (across.length().atan2(along), (radius / distance).asin());
 
-        // The cone in which the ball is seen: circles stay circles, and their extremes along the meridian stay opposite.
+        // Cone in which the ball is seen: circles stay circles, and their extremes along the meridian stay opposite.
         let (low, high) = (self.observed(angle - reach), self.observed(angle + reach));
         let (sine, cosine) = (0.5 * (low + high)).sin_cos();
         let direction = sine * across.normalize_or_zero() + cosine * self.direction;
@@ -162,7 +172,7 @@ impl TriangleInterpolation {
         InterpolationBound { error_rad, ..bound }
     }
 
-    /// The angle by which a place is drawn wrongly if its distance is taken to be `interpolated` instead, radians.
+    /// Angle by which a place is drawn wrongly if its distance is taken to be `interpolated` instead, radians.
     ///
     /// *Equation:* tan of the angle between x' and x' + u δ, by their cross and dot products.
     pub fn error(&self, displacement: DVec3, interpolated: f64) -> f64 {

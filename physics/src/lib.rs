@@ -5,10 +5,10 @@
 //! - **Axes** are right-handed, y up, forward −z, as in glTF.
 //! - **Units.** Metres. Time is carried as ct in metres, so c = 1 everywhere in this crate; only the edge of the
 //!   program knows a speed of light in metres per second.
-//! - **Velocity** is carried as [`Celerity`], u = γβ: it is unbounded and loses nothing at any speed. [`Beta`] reads
-//!   and shows.
+//! - **Velocity** is carried as [`Celerity`], u = γβ: it is unbounded and loses nothing at any speed. [`Beta`] is for
+//!   reading and showing.
 //! - **Doppler factor** D = ν_observed / ν_emitted; D > 1 is approach.
-//! - **A direction** `n` points from the observer to where the light comes from. For light from a world at rest D = γ +
+//! - **A direction** `n` points from the observer to the source of the light. For light from a world at rest D = γ +
 //!   u·n, n in world axes.
 //! - **Metric** signature (+, −, −, −): the interval of a timelike [`FourVector`] is positive.
 //! - **Transforms** are named `target_from_source` and applied right to left, boosts too. A boost is *pure*: it turns
@@ -18,6 +18,8 @@
 //!
 //! Sources are cited as W (Weiskopf, *Visualization of Four-Dimensional Spacetimes*, Tübingen 2001) and B (Borchers,
 //! *Interaktive und stereoskopische Visualisierung in der speziellen Relativitätstheorie*, Tübingen 2005).
+
+#![deny(clippy::print_stdout, clippy::print_stderr)] // libraries return, the program reports
 
 mod axis;
 mod double_double;

@@ -5,7 +5,8 @@
 //! A boost along the axis multiplies the first by κ = γ + |u| and the second by 1/κ, and leaves the part across alone:
 //!
 //! ```text
-//! r = √(h² + q)    larger = r + |h|    smaller = q / larger    (ahead, behind) = h ≥ 0 ? (larger, smaller) : (smaller, larger)
+//! r = √(h² + q)    larger = r + |h|    smaller = q / larger
+//! (ahead, behind) = h ≥ 0 ? (larger, smaller) : (smaller, larger)
 //! h' = (κ ahead − behind / κ) / 2    r' = (κ ahead + behind / κ) / 2    D = r' / r
 //! ```
 //!
@@ -28,14 +29,15 @@
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightConeCoordinates {
-    /// r + h.
+    /// Coordinate r + h.
     pub ahead: f64,
-    /// r − h.
+    /// Coordinate r − h.
     pub behind: f64,
 }
 
 impl LightConeCoordinates {
-    /// Coordinates of a point with a part `along` the axis, h, and the square `across_squared` of the part across it, q.
+    /// Coordinates of a point with a part `along` the axis, h, and the square `across_squared` of the part across it,
+    /// q.
     ///
     /// *Accuracy:* two units in the last place of each, however different the two are. Both are zero for a point at the
     /// origin. Inputs whose squares overflow or underflow are for the caller to scale.
@@ -57,12 +59,12 @@ impl LightConeCoordinates {
         Self { ahead: kappa * self.ahead, behind: self.behind / kappa }
     }
 
-    /// Part along the axis, h.
+    /// Part h of the displacement along the axis.
     pub fn along(self) -> f64 {
         0.5 * (self.ahead - self.behind)
     }
 
-    /// Distance r.
+    /// Distance r of the point.
     pub fn distance(self) -> f64 {
         0.5 * (self.ahead + self.behind)
     }

@@ -13,18 +13,18 @@ use thiserror::Error;
 pub enum RootInterval {
     /// An interval whose ends have values of opposite signs, so that a root lies between them.
     Bracket {
-        /// Lower end.
+        /// Lower end of the interval.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval.
         high: f64,
         /// A number with the sign that the function has at the lower end.
         sign_at_low: f64,
     },
     /// An interval that may hold a root or not.
     Range {
-        /// Lower end.
+        /// Lower end of the interval.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval.
         high: f64,
     },
 }
@@ -33,7 +33,7 @@ pub enum RootInterval {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newton {
     /// A step this small, as a share of |x|, ends the search. 0 goes on until the function is zero or the bracket holds
-    /// no other f64.
+    /// no other f64. A [`RootInterval::Range`] needs a few roundings: the last steps may alternate between neighbours.
     pub tolerance: f64,
     /// Largest number of values of the function that are asked for.
     pub most_steps: usize,
@@ -60,7 +60,7 @@ pub enum NewtonError<E> {
     NotConverged {
         /// Place that the last step led to.
         x: f64,
-        /// Steps taken.
+        /// Number of steps taken.
         steps: usize,
     },
 }
@@ -115,7 +115,6 @@ impl Newton {
                     }
                     middle
                 }
-                RootInterval::Range { .. } if newton == x => return Ok(x),
                 RootInterval::Range { low, high } if !(low..=high).contains(&newton) => {
                     return Err(NewtonError::Left { x, low, high });
                 }

@@ -26,8 +26,8 @@ impl Observer {
     /// *Frames, units:* `offset` in the axes of the pure boost into this observer's frame, metres; the result in the
     /// world. Every eye aboard a vehicle and each eye of a pair is worked out here.
     ///
-    /// *Equation:* the event is this one plus B(−u)(0, offset): along the motion the offset is longer by γ in the world,
-    /// and later by u·offset (B 5.2).
+    /// *Equation:* the event is this one plus B(−u)(0, offset): along the motion the offset is longer by γ in the
+    /// world, and later by u·offset (B 5.2).
     ///
     /// # Example
     ///

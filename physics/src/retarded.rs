@@ -1,9 +1,9 @@
-//! Where an accelerated point is seen: its retarded event, found on whatever worldline it has.
+//! The retarded event of an accelerated point: where and when its worldline crosses the observer's past light cone.
 //!
-//! An observer sees a point at the event where its worldline crosses his past light cone. With t the world's time, x(t) the worldline and
-//! o the observer, that is the root of f(t) = (t_o − t) − |x(t) − o|. Slower than light, |dx/dt| < 1, makes f strictly
-//! decreasing: there is at most one root, and it stays bracketed while Newton's method, f' = −1 − n·β, closes in on it (the theses solve
-//! uniform motion only, W 5.1.2).
+//! An observer sees a point at the event at which the point's worldline crosses the observer's past light cone. With t
+//! the world's time, x(t) the worldline and o the observer, that is the root of f(t) = (t_o − t) − |x(t) − o|. A point
+//! slower than light, |dx/dt| < 1, makes f strictly decreasing: there is at most one root, and it stays bracketed
+//! while Newton's method, f' = −1 − n·β, closes in on it. (The theses solve uniform motion only, W 5.1.2.)
 
 use glam::DVec3;
 use thiserror::Error;
@@ -15,13 +15,13 @@ use crate::newton::{Newton, NewtonError, RootInterval};
 /// takes.
 const MOST_LOOKS: usize = 200;
 
-/// Where a point is at each time of the world.
+/// The worldline of a point: its position and velocity as functions of world time.
 pub trait Worldline {
     /// Position in metres and velocity v/c at world time `ct`, metres.
     fn at(&self, ct: f64) -> (DVec3, DVec3);
 }
 
-/// The event at which an observer sees a point.
+/// Event at which an observer sees a point, with the point's velocity there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Retarded {
     /// World time at which the light left, metres.
@@ -32,18 +32,18 @@ pub struct Retarded {
     pub beta: DVec3,
 }
 
-/// Why a point is not seen.
+/// The reasons why a point is not seen.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum NotSeen {
-    /// The worldline is faster than light somewhere on the way back to the light cone.
+    /// A worldline that is faster than light somewhere on the way back to the light cone.
     #[error("it moves at {speed} times the speed of light at ct = {ct} m")]
     FasterThanLight {
-        /// World time, metres.
+        /// World time at which it is, metres.
         ct: f64,
-        /// |v|/c.
+        /// Speed there, |v|/c.
         speed: f64,
     },
-    /// The worldline gives no finite place, or never crosses the light cone.
+    /// A worldline that gives no finite position, or never crosses the light cone.
     #[error("its worldline does not cross the past light cone after ct = {ct} m")]
     Never {
         /// Earliest world time looked at, metres.
@@ -57,7 +57,7 @@ pub enum NotSeen {
     },
 }
 
-/// Finds the event at which `observer` sees what moves along `worldline`.
+/// The event at which `observer` sees the point that moves along `worldline`.
 ///
 /// *Frames:* all in the world. *Errors:* [`NotSeen`].
 pub fn retarded(observer: Event, worldline: &impl Worldline) -> Result<Retarded, NotSeen> {

@@ -1,8 +1,8 @@
-//! Where two eyes together believe a moving source to be.
+//! Stereo perception: the place at which two eyes together see a moving source.
 //!
 //! Stereo vision intersects the two sight lines. But light that reaches both eyes at once left a moving source at two
-//! different places, so the lines point at two retarded positions and, unless the motion keeps to a plane through both
-//! eyes, do not even meet: the source is then perceived midway between them where they come closest (B 3.4).
+//! different places, so the lines point at two retarded positions. Unless the motion keeps to a plane through both
+//! eyes, the lines do not even meet: the source is then perceived midway between them where they come closest (B 3.4).
 
 use glam::DVec3;
 use thiserror::Error;
@@ -12,14 +12,15 @@ use crate::celerity::{Celerity, unit_vector};
 use crate::event::Event;
 use crate::observer::Observer;
 
-pub use self::{StereoPerception as Perceived, StereoPerceptionError as PerceivedError, perceived_place as perceived}; // until app is moved
+// until app is moved
+pub use self::{StereoPerception as Perceived, StereoPerceptionError as PerceivedError, perceived_place as perceived};
 
 /// A place perceived by both eyes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StereoPerception {
-    /// The middle of the shortest line between the two sight lines. Behind the eyes if the lines diverge.
+    /// Middle of the shortest line between the two sight lines, metres. Behind the eyes if the lines diverge.
     pub position: DVec3,
-    /// The length of that line; where it is large, two images are seen.
+    /// Length of that line, metres; where it is large, two images are seen.
     pub gap: f64,
 }
 
@@ -40,7 +41,7 @@ pub fn perceived_place(
     source: &PointSource,
     time: f64,
 ) -> Result<StereoPerception, StereoPerceptionError> {
-    /// A sine that the rounding of two parallel unit vectors can make.
+    /// Largest sine that the rounding of two parallel unit vectors can make.
     const PARALLEL: f64 = 4.0 * f64::EPSILON;
     if !(eyes.iter().all(|eye| eye.is_finite()) && source.position.is_finite() && time.is_finite()) {
         return Err(StereoPerceptionError::NotFinite);
@@ -55,42 +56,42 @@ pub fn perceived_place(
     if sine_squared <= PARALLEL * PARALLEL {
         return Err(StereoPerceptionError::Parallel { direction: first });
     }
-    // Both feet of the common perpendicular.
+    // Find both feet of the common perpendicular.
     let along_first = baseline.cross(second).dot(normal) / sine_squared;
     let along_second = baseline.cross(first).dot(normal) / sine_squared;
     let feet = [eyes[0] + first * along_first, eyes[1] + second * along_second];
     Ok(StereoPerception { position: feet[0].midpoint(feet[1]), gap: baseline.dot(normal).abs() / sine_squared.sqrt() })
 }
 
-/// The direction in which an eye at rest sees the source.
+/// Direction in which an eye at rest sees the source.
 fn sight_line(eye: DVec3, source: &PointSource, time: f64) -> Result<DVec3, StereoPerceptionError> {
     let observer = Observer { event: Event { ct: time, position: eye }, celerity: Celerity::ZERO };
     let seen = apparent::moving(&observer, source);
     unit_vector(seen.position).ok_or(StereoPerceptionError::SourceAtEye { position: eye })
 }
 
-/// Why nothing is perceived at one place.
+/// The reasons why nothing is perceived at one place.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum StereoPerceptionError {
     /// A place or the time is infinite or not a number.
     #[error("the places of eyes and source and the time must all be finite")]
     NotFinite,
-    /// Two eyes at one place see no depth.
+    /// Eyes at one place, which see no depth.
     #[error("both eyes are at {position}; they must be apart")]
     EyesCoincide {
-        /// Their place.
+        /// Position of both eyes, metres.
         position: DVec3,
     },
-    /// The light left the source at the eye itself, so it has no direction.
+    /// A source whose light left it at the eye itself, so that it has no direction.
     #[error("the source is at the eye at {position} when its light is seen there, so it is seen in no direction")]
     SourceAtEye {
-        /// The eye's place.
+        /// Position of the eye, metres.
         position: DVec3,
     },
-    /// The sight lines have no closest point.
+    /// Sight lines without a closest point.
     #[error("both eyes see the source in the direction {direction}; parallel sight lines give no distance")]
     Parallel {
-        /// Their common direction.
+        /// Common direction of the sight lines.
         direction: DVec3,
     },
 }

@@ -5,7 +5,7 @@ use crate::declarations::declarations;
 /// A shader module: an entry of [`MODULES`].
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
-    /// For labels and error messages.
+    /// Name of the module in labels and error messages.
     pub name: &'static str,
     files: &'static [&'static str],
 }
@@ -30,24 +30,24 @@ const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 const PHOTO_SURFACE: &str = include_str!("../wgsl/photo_surface.wgsl");
 const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
 
-/// Triangles of the photo-surface (or of the plain world) under sun and sky.
+/// Module that draws triangles of the photo-surface (or of the plain world) under sun and sky.
 pub const SURFACE: Module = Module {
     name: "surface",
     files: &[SHARED, ABERRATION, SHIFT, PHOTO_SURFACE, include_str!("../wgsl/surface.wgsl")],
 };
-/// The sky behind everything, per pixel.
+/// Module that draws the sky behind everything, per pixel.
 pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
-/// From the map of the world around the eye to what the observer sees.
+/// Module that draws the picture that the observer sees from the map of the world around the eye.
 pub const WARP: Module =
     Module { name: "warp", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/warp.wgsl")] };
-/// The sun's depth map, in the world frame.
+/// Module that draws the sun's depth map, in the world frame.
 pub const SHADOW: Module = Module { name: "shadow", files: &[SHARED, include_str!("../wgsl/shadow.wgsl")] };
-/// The mean of several samples.
+/// Module that takes the mean of several samples.
 pub const ACCUMULATE: Module =
     Module { name: "accumulate", files: &[FULLSCREEN, include_str!("../wgsl/accumulate.wgsl")] };
-/// Radiance as it is.
+/// Module that copies radiance as it is.
 pub const COPY: Module = Module { name: "copy", files: &[FULLSCREEN, include_str!("../wgsl/copy.wgsl")] };
-/// What the eye adapts to: exposure, white and the histogram's curve.
+/// Module of the light meter: exposure, white and the histogram's curve, which the eye adapts to.
 pub const METER: Module = Module {
     name: "meter",
     files: &[
@@ -57,7 +57,7 @@ pub const METER: Module = Module {
         include_str!("../wgsl/equalise.wgsl"),
     ],
 };
-/// Linear radiance to the screen's sRGB.
+/// Module that shows linear radiance on a screen of sRGB.
 pub const DISPLAY: Module = Module {
     name: "display",
     files: &[
@@ -69,19 +69,20 @@ pub const DISPLAY: Module = Module {
         include_str!("../wgsl/display.wgsl"),
     ],
 };
-/// Both eyes' pictures on the same pixels.
+/// Module that combines both eyes' pictures on the same pixels.
 pub const COMBINE: Module =
     Module { name: "combine", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/combine.wgsl")] };
-/// A room seen from anywhere.
+/// Module that draws a room seen from anywhere.
 pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/room.wgsl")] };
 /// Linear light as a screen takes it.
 pub const ENCODED: Module =
     Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
-/// From flat pictures to a surface that is not flat.
+/// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
-/// The shared functions alone, called from a compute shader so that they can be held against their Rust twins.
+/// Module of the shared functions alone, called from a compute shader so that they can be held against their Rust
+/// twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
-/// Every module, for validation.
+/// Every module, for tests that validate them.
 pub const MODULES: [Module; 13] =
     [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, PROBE];

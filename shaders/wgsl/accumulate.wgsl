@@ -1,4 +1,4 @@
-// Adds one sample to the sum of those before it.
+// Adds one sample to the sum of the samples before it.
 
 struct AccumulateUniforms {
     weight: f32,

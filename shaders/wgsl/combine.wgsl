@@ -1,4 +1,4 @@
-// Both eyes' pictures on the same pixels: by turns, or by colours.
+// Combines both eyes' pictures on the same pixels: by turns, or by colours.
 
 override COMBINE: u32 = COMBINE_ROWS;
 override SWAP_EYES: bool = false;
@@ -7,7 +7,8 @@ override SWAP_EYES: bool = false;
 @group(0) @binding(1) var second: texture_2d<f32>;
 @group(0) @binding(2) var<uniform> placement: PlacementUniforms;
 
-// What of each eye reaches the screen's red, green and blue: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001.
+// Share of each eye in the screen's red, green and blue: E. Dubois, "A projection method to generate anaglyph stereo
+// images", ICASSP 2001.
 fn dubois(left: vec3<f32>, right: vec3<f32>) -> vec3<f32> {
     return vec3(
         dot(DUBOIS_LEFT_RED, left) + dot(DUBOIS_RIGHT_RED, right),
@@ -16,7 +17,7 @@ fn dubois(left: vec3<f32>, right: vec3<f32>) -> vec3<f32> {
     );
 }
 
-// `placement.odd` is 1 where the window's first row lies on an odd one of the monitor, plus 2 for its first column.
+// `placement.odd` is 1 if the window's first row lies on an odd row of the monitor, plus 2 for its first column.
 fn is_odd(at: vec2<f32>) -> vec2<bool> {
     let monitor = vec2<u32>(at) + vec2(u32(placement.odd) >> 1u, u32(placement.odd) & 1u);
     return (monitor & vec2(1u)) == vec2(1u);

@@ -1,4 +1,4 @@
-// A texture in another format.
+// Copies a texture into another format.
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
 

@@ -1,11 +1,11 @@
-// From radiance to a pixel: exposure, tone, gamut, the projector's brightness, then the sRGB curve (IEC 61966-2-1).
+// Turns radiance into a pixel: exposure, tone, gamut, the projector's brightness, then the sRGB curve (IEC 61966-2-1).
 
-// What a pipeline is made for, so that no pixel pays for the other curves.
+// Curves that a pipeline is made for, so that no pixel pays for the others.
 override TONE: u32 = TONE_REINHARD;
 override GAMUT: u32 = GAMUT_DESATURATE;
-// Each pixel is multiplied by a factor of its own, and something is added to it.
+// True if each pixel is multiplied by a factor of its own, and a value is added to it.
 override GAINS: bool = false;
-// The screen's signal is its light to this power; 0: as sRGB has it.
+// Power of its light that is the screen's signal; 0 for the sRGB curve.
 override SIGNAL_POWER: f32 = 0.0;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
@@ -14,7 +14,7 @@ override SIGNAL_POWER: f32 = 0.0;
 @group(0) @binding(3) var<uniform> placement: PlacementUniforms;
 @group(0) @binding(4) var gains: texture_2d<f32>;
 
-// Gains are even enough to be tabled more coarsely than the picture, and mixed.
+// Gain at a pixel, mixed from a table: gains vary so little that the table is coarser than the picture.
 fn gain_at(place: vec2<f32>) -> vec4<f32> {
     let size = vec2<f32>(textureDimensions(gains));
     let scaled = clamp(place * size / vec2<f32>(textureDimensions(radiance)) - 0.5, vec2(0.0), size - 1.0);

@@ -1,4 +1,4 @@
-// The curve of an sRGB screen (IEC 61966-2-1), and where on it a picture is.
+// The curve of an sRGB screen (IEC 61966-2-1), and the placement of a picture on it.
 
 struct PlacementUniforms {
     origin: vec2<f32>,
@@ -6,7 +6,7 @@ struct PlacementUniforms {
     odd: f32,
 }
 
-// Whether the target does not encode by itself.
+// True if the target does not encode by itself.
 override ENCODE: bool = true;
 
 fn srgb(linear: vec3<f32>) -> vec3<f32> {

@@ -1,4 +1,4 @@
-// Linear light as a screen takes it.
+// Encodes linear light for a screen.
 
 @group(0) @binding(0) var linear: texture_2d<f32>;
 

@@ -39,7 +39,7 @@ fn equalise(@builtin(local_invocation_index) thread: u32) {
     }
     workgroupBarrier();
 
-    // Each bin's share of the screen's range; below the darkest sample the curve goes on linearly.
+    // Give each bin its share of the screen's range; below the darkest sample the curve goes on linearly.
     let width = 1.0 / METER_BINS_PER_OCTAVE;
     let remaining = f32(atomicLoad(&left));
     let darkest = atomicLoad(&darkest_bin);

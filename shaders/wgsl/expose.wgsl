@@ -4,7 +4,7 @@ var<workgroup> below: array<u32, THREADS>;
 var<workgroup> samples: u32;
 var<workgroup> bright: f32;
 
-// The trimmed mean, and the value that all but the brightest samples keep below.
+// Finds the trimmed mean, and the value that all but the brightest samples keep below.
 @compute @workgroup_size(THREADS)
 fn expose(@builtin(local_invocation_index) thread: u32) {
     // Take the thread's bins, leaving them empty for the next frame, and number the samples from the darkest up.
@@ -38,7 +38,8 @@ fn expose(@builtin(local_invocation_index) thread: u32) {
         from_below = end;
     }
     workgroupBarrier();
-    // What is far darker than the brightest could not be shown beside it: it counts as that dark and no darker.
+    // Sum the gains. A value far darker than the brightest could not be shown beside it: it counts as that dark and no
+    // darker.
     from_below = below[thread];
     for (var own = 0u; own < OWN; own++) {
         let end = from_below + counts[own];

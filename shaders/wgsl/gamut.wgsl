@@ -1,6 +1,7 @@
-// Colours that the screen has no light for, brought to ones that it has (W 3.2.5, fig. 3.5). The others pass as they are.
+// Brings colours that the screen has no light for to colours that it has (W 3.2.5, fig. 3.5). The others pass as they
+// are.
 
-// Towards the grey of the same luminance, as little as will do.
+// The colour moved towards the grey of its luminance, as little as suffices.
 fn desaturated(rgb: vec3<f32>) -> vec3<f32> {
     let grey = clamp(luminance(rgb), 0.0, 1.0);
     let colour = rgb - grey;
@@ -9,7 +10,7 @@ fn desaturated(rgb: vec3<f32>) -> vec3<f32> {
     return clamp(grey + min(min(shares.r, shares.g), shares.b) * colour, vec3(0.0), vec3(1.0));
 }
 
-// White is added until nothing is negative; then all is darkened until nothing is above one.
+// The colour with white added until nothing is negative, then darkened until nothing is above one.
 fn whitened(rgb: vec3<f32>) -> vec3<f32> {
     let lifted = rgb - min(0.0, min(min(rgb.r, rgb.g), rgb.b));
     return lifted / max(1.0, max(max(lifted.r, lifted.g), lifted.b));

@@ -1,5 +1,5 @@
-// The light meter: histograms of a frame, and what the eye makes of them. Integers only are shared between threads, so that the sums do not
-// depend on the order in which threads come by.
+// The light meter: histograms of a frame, and the adaptation that follows from them. Only integers are shared between
+// threads, so that the sums do not depend on the order in which threads arrive.
 
 struct MeteringUniforms {
     exposure: f32,
@@ -13,7 +13,8 @@ struct MeteringUniforms {
     rows: u32,
 }
 
-// A bin of a histogram of base-2 logarithms. `rest` sums how far its samples lie above its lower edge, in 65536ths of its width.
+// A bin of a histogram of base-2 logarithms. `rest` sums how far its samples lie above its lower edge, in 65536ths of
+// its width.
 struct Bin {
     count: atomic<u32>,
     rest: atomic<u32>,
@@ -27,7 +28,7 @@ var<workgroup> sums: array<f32, THREADS>;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> metering: MeteringUniforms;
-// First the bins of the gain, then those of the luminance.
+// Bins of the gain, then those of the luminance.
 @group(0) @binding(2) var<storage, read_write> bins: array<Bin>;
 @group(0) @binding(3) var<storage, read_write> adaptation: AdaptationState;
 @group(0) @binding(4) var<storage, read_write> curve: array<f32>;

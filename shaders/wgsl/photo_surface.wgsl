@@ -1,7 +1,7 @@
-// The photo-surface of a vertex: the f32 twin of physics::photo_surface's light-cone form.
+// The photo-surface of a vertex: the f32 twin of physics::light_cone.
 
-// Where a vertex appears to the eye, observer's axes; `world`: relative to the scene's origin. Within 14.5 degrees of dead astern the part across
-// the motion loses its digits.
+// Apparent position of a vertex relative to the eye, observer's axes; `world`: its position relative to the scene's
+// origin. Within 14.5 degrees of dead astern the part across the motion loses its digits.
 fn apparent_position(world: vec3<f32>) -> vec3<f32> {
     let e = view.motion.xyz;
     let kappa = view.motion.w;

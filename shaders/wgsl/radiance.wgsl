@@ -1,4 +1,4 @@
-// What meter and display know of radiance. Mirrors of shaders/src/layout.rs.
+// Radiance and adaptation, as meter and display share them. Mirrors of shaders/src/layout.rs.
 
 struct AdaptationState {
     exposure: f32,
@@ -8,8 +8,8 @@ struct AdaptationState {
     bright: f32,
 }
 
-// A texel that can be reckoned with: what is not a number is dark, what is infinite very bright. By bits, since a compiler may take
-// every float for finite; among those of one sign, floats are ordered as their bits are.
+// The texel with finite values only: a value that is not a number becomes dark, an infinite one very bright. By bits,
+// since a compiler may take every float for finite; among floats of one sign, the order is that of their bits.
 fn sound(texel: vec4<f32>) -> vec4<f32> {
     let bits = bitcast<vec4<u32>>(texel);
     let magnitude = bits & vec4(0x7fffffffu);

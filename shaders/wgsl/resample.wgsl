@@ -1,4 +1,5 @@
-// From a flat picture to a surface that is not flat: each pixel's point on the surface, seen from the eye, finds its place in the picture.
+// Shows a flat picture on a surface that is not flat: each pixel's point on the surface, seen from the eye, finds its
+// place in the picture.
 
 struct FacetUniforms {
     eye: vec4<f32>,
@@ -8,10 +9,10 @@ struct FacetUniforms {
     texel: vec4<f32>,
 }
 
-// Whether texels are mixed, or the nearest one is taken.
+// True if texels are mixed, false if the nearest one is taken.
 override SMOOTH: bool = true;
 
-// Of each pixel, in the room; w = 0 where the projector meets no surface.
+// Point of the surface for each pixel, room's axes, metres; w = 0 if the projector meets no surface.
 @group(0) @binding(0) var points: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> facet: FacetUniforms;
 @group(0) @binding(2) var picture: texture_2d<f32>;
@@ -26,7 +27,7 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let direction = point.xyz - facet.eye.xyz;
     let across = vec2(dot(direction, facet.right.xyz), dot(direction, facet.up.xyz));
     let ahead = dot(direction, facet.forward.xyz);
-    // Another facet shows it, or none.
+    // Leave points of other facets, and of none, untouched.
     if (point.w == 0.0 || max(abs(across.x), abs(across.y)) > facet.eye.w * ahead) {
         discard;
     }

@@ -1,10 +1,10 @@
-// A room seen from anywhere: its screens with what they show, those that turn their backs as outlines.
+// Draws a room seen from anywhere: its screens with their pictures; screens seen from behind are outlines.
 
 struct RoomViewUniforms {
     clip_from_room: mat4x4<f32>,
 }
 
-// Nothing but lines: of a grid on the ground, and of a head.
+// True if only lines are drawn: those of a grid on the ground, and of a head.
 override LINES: bool = false;
 
 @group(0) @binding(0) var<uniform> room: RoomViewUniforms;
@@ -16,7 +16,8 @@ struct Corner {
     @location(1) edge: f32,
 }
 
-// `place`: in the channel's picture, x right and y down; of lines, their brightness. `edge`: 0 where the picture's edge is drawn, else 1.
+// `place`: position in the channel's picture, x right and y down; for lines, their brightness. `edge`: 0 at the
+// picture's edge, else 1.
 @vertex
 fn vertex(@location(0) point: vec3<f32>, @location(1) place: vec2<f32>, @location(2) edge: f32) -> Corner {
     return Corner(room.clip_from_room * vec4(point, 1.0), place, edge);

@@ -3,6 +3,6 @@
 @vertex
 fn vertex(@location(3) world: vec3<f32>) -> @builtin(position) vec4<f32> {
     let place = lighting.shadow_from_world * vec4(world, 1.0);
-    // From texture coordinates (y down) back to clip coordinates (y up).
+    // Turn texture coordinates (y down) back into clip coordinates (y up).
     return vec4(place.x * 2.0 - 1.0, 1.0 - place.y * 2.0, place.z, 1.0);
 }

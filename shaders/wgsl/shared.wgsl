@@ -1,4 +1,4 @@
-// What every drawing shader is given. Mirrors of shaders/src/layout.rs.
+// Inputs of every drawing shader. Mirrors of shaders/src/layout.rs.
 
 struct ViewUniforms {
     clip_from_observer: mat4x4<f32>,

@@ -1,9 +1,10 @@
-// The colour and the brightness that light of the world has for the observer: the f32 twin of physics::colour::ShiftTable.
+// Colour and brightness for the observer of light from the world: the f32 twin of physics::colour::ShiftTable.
 //
-// A radiance is three weights on a carrier spectrum. The table holds, over ln D, the colour of each weight alone with its wavelengths
-// shifted: the ratios red/Y, green/Y, blue/Y, and log2 Y, which stays straight where Y itself spans all of f32.
+// A radiance is three weights on a carrier spectrum. The table holds, over ln D, the colour of each weight alone with
+// its wavelengths shifted: the ratios red/Y, green/Y, blue/Y, and log2 Y, which stays straight where Y itself spans
+// all of f32.
 
-// Which effects a pipeline shows; `IDENTITY`: at D = 1 the weights are the colour.
+// Effects that a pipeline shows; `IDENTITY`: at D = 1 the weights are the colour.
 override GEOMETRY: bool = true;
 override DOPPLER: bool = true;
 override SEARCHLIGHT: bool = true;
@@ -15,7 +16,7 @@ override LARGEST: f32 = HALF_LIMIT;
 
 // Linear sRGB relative to the white at rest, times the view's scale; and the luminance at rest, unscaled.
 fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
-    // At rest: the middle of the table.
+    // Take the light at rest from the middle of the table.
     var at_rest = dot(weights, LUMINANCE);
     var colour = weights;
     if (!IDENTITY) {
@@ -27,7 +28,8 @@ fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
         colour = shifted(weights, carrier, f32(SHIFT_NODES / 2u) + log2(doppler) * SHIFT_NODES_PER_OCTAVE).rgb;
     }
     if (SEARCHLIGHT) {
-        // In logarithms: the fourth power of a large factor times a small scale must not pass through infinity.
+        // Multiply in logarithms: the fourth power of a large factor times a small scale must not pass through
+        // infinity.
         colour *= exp2(min(4.0 * log2(doppler) + log2(view.shift.y), LARGEST_LOG2));
     } else {
         colour *= view.shift.y;
@@ -35,7 +37,8 @@ fn observed_light(weights: vec3<f32>, carrier: u32, doppler: f32) -> vec4<f32> {
     return vec4(clamp(colour, vec3(-LARGEST), vec3(LARGEST)), at_rest);
 }
 
-// The colour of weights at a place in the table, and its luminance. Beyond its ends the colour stays, and the luminance goes on as a power.
+// Colour of weights at a place in the table, and its luminance. Beyond the table's ends the colour stays, and the
+// luminance goes on as a power.
 fn shifted(weights: vec3<f32>, carrier: u32, place: f32) -> vec4<f32> {
     let node = u32(clamp(place, 0.0, f32(SHIFT_NODES - 2u)));
     let fraction = place - f32(node);
@@ -63,6 +66,7 @@ fn pixel_doppler(at: vec2<f32>) -> f32 {
     if (GEOMETRY) {
         return world_from_observer(direction, motion).doppler;
     }
-    // Light of what moves had another frequency in the world to begin with; what rests divides by one.
+    // Light of a moving object had another frequency in the world to begin with; for an object at rest this divides by
+    // one.
     return doppler_of_world(direction, motion) / doppler_of_world(direction, view.source);
 }

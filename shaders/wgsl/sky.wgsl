@@ -1,10 +1,11 @@
-// Behind everything: each pixel's direction is taken from the observer's axes to the world's, and the sky or the panorama looked up there.
+// Draws what is behind everything: each pixel's direction is taken from the observer's axes to the world's, and the
+// sky or the panorama is looked up there.
 
-// Weights for the map instead of the light that an observer sees.
+// True if weights for the map are drawn instead of the light that an observer sees.
 override MAP: bool = false;
-// Places of surfaces are drawn, and here is none.
+// True if places of surfaces are drawn; here is none.
 override PLACES: bool = false;
-// What is shown instead of sky, haze and sun: a picture, or one colour.
+// True if a picture, or one colour, is shown instead of sky, haze and sun.
 override PANORAMA: bool = false;
 override BACKGROUND: bool = false;
 
@@ -33,7 +34,7 @@ fn sky(direction: vec3<f32>) -> vec3<f32> {
     return haze + glow * lighting.sun.rgb;
 }
 
-// Where a world direction lies in an equirectangular picture, 0 to 1; its middle is -z.
+// Place of a world direction in an equirectangular picture, 0 to 1; its middle is -z.
 fn place_in_panorama(direction: vec3<f32>) -> vec2<f32> {
     let longitude = atan2(direction.x, -direction.z);
     let latitude = atan2(direction.y, length(direction.xz));
@@ -42,7 +43,8 @@ fn place_in_panorama(direction: vec3<f32>) -> vec2<f32> {
 
 // The mean of the panorama over the footprint of a pixel: `right` and `down` are the directions of its neighbours.
 //
-// Aberration stretches footprints without bound (W 5.5.4): several looks along the longer side, each filtered over the shorter one.
+// Aberration stretches footprints without bound (W 5.5.4): several looks along the longer side, each filtered over the
+// shorter one.
 fn surrounding(middle: vec3<f32>, right: vec3<f32>, down: vec3<f32>) -> vec3<f32> {
     let size = vec2<f32>(textureDimensions(panorama));
     let across = right - middle;
@@ -51,7 +53,7 @@ fn surrounding(middle: vec3<f32>, right: vec3<f32>, down: vec3<f32>) -> vec3<f32
     let longer = max(dot(across, across), dot(along, along));
     let axis = select(along, across, dot(across, across) > dot(along, along));
     let looks = clamp(ceil(sqrt(longer / max(shorter, 1e-20))), 1.0, PANORAMA_LOOKS);
-    // Texels of the picture to the radian, at its equator.
+    // Mip level by texels of the picture per radian, at its equator.
     let level = log2(max(max(sqrt(shorter), sqrt(longer) / looks) * size.x / TURN, 1.0));
     var sum = vec3(0.0);
     for (var look = 0.0; look < looks; look += 1.0) {

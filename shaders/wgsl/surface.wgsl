@@ -1,5 +1,6 @@
-// Triangles: apparent positions come in three streams, everything else as the world has it.
-// The radiance that leaves a surface is worked out in its own frame: the world's, or that of what moves, with the light that falls on it there.
+// Draws triangles. Apparent positions come in three streams, everything else in the scene's own coordinates. The
+// radiance that leaves a surface is worked out in the surface's own frame, the world's or that of a moving object,
+// with the light that falls on it there.
 
 struct MaterialUniforms {
     base_colour: vec4<f32>,
@@ -7,24 +8,26 @@ struct MaterialUniforms {
     carriers: vec4<f32>,
 }
 
-// What a pipeline is made for: a branch on these costs nothing, and what a material cannot show is not computed.
+// Properties that a pipeline is made for: a branch on these costs nothing, and terms that a material does not have are
+// not computed.
 override LIT: bool = true;
 override SHADOWED: bool = true;
 override EMISSIVE: bool = true;
 override MASKED: bool = true;
-// A spectrum takes the colours' place: only their luminance counts.
+// True if a spectrum takes the colours' place: only their luminance counts.
 override SPECTRAL: bool = false;
-// Emitted light has another carrier than reflected light.
+// True if emitted light has another carrier than reflected light.
 override SPLIT: bool = false;
-// Mixed with what is there, by alpha.
+// True if the surface is mixed with the picture behind it, by alpha.
 override BLENDED: bool = false;
-// Weights for the map instead of the light that an observer sees.
+// True if weights for the map are drawn instead of the light that an observer sees.
 override MAP: bool = false;
-// Vertices are bent here, but for those that the CPU has bent.
+// True if apparent positions are worked out here, but for vertices that the CPU has worked out.
 override BENDS: bool = false;
-// Every vertex brings its own Doppler factor, that of its own motion.
+// True if every vertex brings its own Doppler factor, that of its own motion.
 override ANIMATED: bool = false;
-// Where the surface is, instead of any light, and what it belongs to: 1 for what rests, and so many more for what moves.
+// True if the position of the surface is drawn instead of light, and its object: 1 + view.layer.x, which is 1 for the
+// resting scene.
 override PLACES: bool = false;
 
 @group(0) @binding(2) var shadow_map: texture_depth_2d;
@@ -63,7 +66,7 @@ fn vertex(in: Vertex) -> Fragment {
     return Fragment(clip, in.world, in.normal, in.uv, in.colour);
 }
 
-// The same of what is animated: log2 D of each vertex in a stream of its own.
+// A fragment of an animated body: log2 D of each vertex comes in a stream of its own.
 struct AnimatedFragment {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
@@ -79,7 +82,7 @@ fn vertex_animated(in: Vertex, @location(7) log2_doppler: f32) -> AnimatedFragme
     return AnimatedFragment(clip, in.world, in.normal, in.uv, in.colour, log2_doppler);
 }
 
-// Share of the sun that reaches a point: four filtered looks into the sun's depth map.
+// Share of the sun that reaches a point: four filtered samples of the sun's depth map.
 fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
     let place = lighting.shadow_from_world * vec4(world + normal * SHADOW_NORMAL_OFFSET_M, 1.0);
     let texel = SHADOW_FILTER_TEXELS / vec2<f32>(textureDimensions(shadow_map));
@@ -92,7 +95,7 @@ fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
     return sum * 0.25;
 }
 
-// Light on a surface, as weights: the hemisphere, and the sun where it is seen.
+// Irradiance of a surface, as weights: from the hemisphere, and from the sun if it is visible.
 fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let facing_all = vec4(normal, 1.0);
     var light = max(vec3(0.0), vec3(
@@ -103,7 +106,8 @@ fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let facing = dot(normal, lighting.sun_direction.xyz);
     if (facing > 0.0) {
         var visible = 1.0;
-        // Not a condition that all pixels share: for each value of one lavapipe compiles a shader, and keeps it.
+        // The condition differs from pixel to pixel on purpose: for each value of a uniform one lavapipe compiles a
+        // shader, and keeps it.
         if (SHADOWED && lighting.sun_direction.w * facing > 0.0) {
             visible = sunlit(world, normal);
         }
@@ -122,7 +126,7 @@ fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -
     return seen(Fragment(in.clip, in.world, in.normal, in.uv, in.colour), front, in.log2_doppler);
 }
 
-// What a fragment shows.
+// Radiance, weights or position that a fragment shows.
 fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
     let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
     var emitted = vec3(0.0);

@@ -1,6 +1,6 @@
 // Tone curves T(L). Each function returns T(L) / L for a luminance above zero, since a colour is scaled as a whole.
 
-// Value of the histogram's curve, base-2 logarithms: scene luminance to the screen's.
+// Value of the histogram's curve in base-2 logarithms: from scene luminance to the screen's.
 fn equalised(log2_scene: f32) -> f32 {
     let position = clamp((log2_scene + METER_OCTAVES) * METER_BINS_PER_OCTAVE, 0.0, f32(METER_BINS));
     let bin = min(u32(position), METER_BINS - 1u);

@@ -1,4 +1,5 @@
-// From the map of the world around the eye to what the observer sees: a pixel's direction, bent, finds its pane, and the pane its light.
+// Draws what the observer sees from the map of the world around the eye: a pixel's direction, aberrated, finds its
+// tile, and the tile its light.
 
 struct AtlasTile {
     corner: vec2<f32>,
@@ -11,20 +12,20 @@ struct MapUniforms {
     cube_from_observer: mat4x4<f32>,
 }
 
-// How many carriers the map has, and whether texels are mixed or the nearest one is taken.
+// Number of carriers of the map; true if texels are mixed, false if the nearest one is taken.
 override LAYERS: u32 = 1u;
 override SMOOTH: bool = true;
-// The map holds places of surfaces instead of weights.
+// True if the map holds places of surfaces instead of weights.
 override PLACES: bool = false;
 
 @group(1) @binding(0) var<uniform> map: MapUniforms;
-// Which pane is where: one layer for each quarter of a face, and one for each of their cells that is cut further.
+// Index of the tile for each cell: one layer for each quarter of a face, and one for each cell that is cut further.
 @group(1) @binding(1) var cells: texture_2d_array<i32>;
-// Two texels each: corner and scale, low and high.
+// Tiles, two texels each: corner and scale, low and high.
 @group(1) @binding(2) var panes: texture_2d<f32>;
 @group(1) @binding(3) var atlas: texture_2d_array<f32>;
 @group(1) @binding(4) var atlas_sampler: sampler;
-// Of the map, reversed; only where something is drawn over the picture.
+// Reversed depth of the map; used only if something is drawn over the picture.
 @group(1) @binding(5) var depths: texture_depth_2d;
 
 @vertex
@@ -34,11 +35,11 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
 
 struct OnCube {
     face: u32,
-    // Tangents from the face's middle, right and up for one who looks at it from within.
+    // Tangents from the face's middle, right and up as seen from within.
     tangent: vec2<f32>,
 }
 
-// Where a direction meets the cube. Faces: +z, -z, +x, -x, +y, -y.
+// Place at which a direction meets the cube. Faces: +z, -z, +x, -x, +y, -y.
 fn on_cube(direction: vec3<f32>) -> OnCube {
     let size = abs(direction);
     if (size.z >= size.x && size.z >= size.y) {
@@ -53,8 +54,8 @@ fn on_cube(direction: vec3<f32>) -> OnCube {
     return OnCube(select(5u, 4u, above), select(direction.zx, direction.xz, above) / size.y);
 }
 
-// The pane that holds a place on the cube. Each quarter of a face is counted from its middle outwards, so that nothing is added to a
-// place beside the motion's axis, and no digit lost.
+// The tile that holds a place on the cube. Each quarter of a face is counted from its middle outwards, so that nothing
+// is added to a place beside the motion's axis, and no digit lost.
 fn pane_at(place: OnCube) -> AtlasTile {
     let side = f32(MAP_CELLS);
     let quarter = select(0u, 1u, place.tangent.x < 0.0) + select(0u, 2u, place.tangent.y < 0.0);
@@ -74,29 +75,30 @@ fn nearest_texel(place: vec2<f32>, pane: AtlasTile) -> vec2<i32> {
     return vec2<i32>(clamp(floor(place), pane.low, pane.high - 1.0));
 }
 
-// Weights of one carrier at a place in the atlas, within a pane.
+// Weights of one carrier at a place in the atlas, within a tile.
 fn weights_at(place: vec2<f32>, pane: AtlasTile, layer: u32) -> vec3<f32> {
     if (!SMOOTH) {
         return textureLoad(atlas, nearest_texel(place, pane), layer, 0).rgb;
     }
-    // Panes are drawn one texel beyond their edges, so that there is always a neighbour.
+    // Tiles are drawn one texel beyond their edges, so that there is always a neighbour.
     let within = clamp(place, pane.low, pane.high) / vec2<f32>(textureDimensions(atlas));
     return textureSampleLevel(atlas, atlas_sampler, within, layer, 0.0).rgb;
 }
 
-// Where a pixel looks into the map.
+// Place at which a pixel looks into the map.
 struct Look {
     pane: AtlasTile,
-    // In the atlas, texels.
+    // Place in the atlas, texels.
     place: vec2<f32>,
     doppler: f32,
-    // Length of the pixel's direction, the picture's middle being one away, and of that on the cube.
+    // Length of the pixel's direction, the picture's middle being one away, and length of that on the cube.
     observed_length: f32,
     cube_length: f32,
 }
 
 fn look(at: vec2<f32>) -> Look {
-    // In the cube's axes the motion is along z: a boost changes z alone, and x and y keep every digit beside the stern.
+    // The motion is along z in the cube's axes: a boost changes z alone, and x and y keep every digit beside the
+    // stern.
     let direction = pixel_direction(at);
     let observed = (map.cube_from_observer * vec4(direction, 0.0)).xyz;
     let seen = world_from_observer(observed, vec4(0.0, 0.0, 1.0, view.motion.w));
@@ -128,8 +130,9 @@ struct Shown {
     @builtin(frag_depth) depth: f32,
 }
 
-// The same with the depth that a photo-surface would have there. At a distance r the map's is near / (r / cube_length), the picture's
-// (near / kappa) / (r D / observed_length), since r D is the apparent distance; where nothing is, both are zero.
+// Draws the picture with the depth that a photo-surface would have there. At a distance r the map's depth is near / (r
+// / cube_length), and the picture's (near / kappa) / (r D / observed_length), since r D is the apparent distance;
+// where nothing is, both are zero.
 @fragment
 fn fragment_with_depth(@builtin(position) at: vec4<f32>) -> Shown {
     let look = look(at.xy);

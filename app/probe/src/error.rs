@@ -5,7 +5,7 @@ use std::str::Utf8Error;
 use physics::CelerityError;
 use physics::colour::SpectrumError;
 use physics::eyes::EyesError;
-use physics::perceived::PerceivedError;
+use physics::stereo_perception::StereoPerceptionError;
 use physics::worldline::WorldlineError;
 use thiserror::Error;
 
@@ -107,7 +107,7 @@ pub enum ProbeError {
     Eyes(#[from] EyesError),
     /// Two sight lines without a perceived point.
     #[error(transparent)]
-    Perceived(#[from] PerceivedError),
+    Perceived(#[from] StereoPerceptionError),
     /// A worldline that leads beyond what is computed.
     #[error("leg {leg} of `legs` fails: {reason}")]
     Worldline {

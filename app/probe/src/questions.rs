@@ -4,7 +4,7 @@ use physics::aberration::Aberration;
 use physics::colour::rgb_from_xyz;
 use physics::eyes::{Eyes, eyes};
 use physics::glam::{DQuat, DVec3};
-use physics::perceived::{Perceived, perceived};
+use physics::stereo_perception::{StereoPerception, perceived_place};
 use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, State, Thrust, travel};
 use physics::{Boost, Celerity, Composition, FourVector, Source, apparent, compose};
 use serde_json::Value;

@@ -1,13 +1,13 @@
 //! Certainty of a picture: an estimate of how far from their exact places things are drawn, from a few hundred edges
 //! of the scene.
 //!
-//! Two errors are estimated. First, straight edges should bend ([`physics::bend`]), and a map has texels of finite
+//! Two errors are estimated. First, straight edges should bend ([`physics::interpolation_error`]), and a map has texels of finite
 //! size. Second, f32 has 24 bits, and in the map the boost enlarges the rounding errors of the world astern. The
 //! largest error of each kind found in the picture is reported.
 
 use glam::{DVec2, DVec3};
 use physics::Aberration;
-use physics::bend::Bend;
+use physics::interpolation_error::TriangleInterpolation;
 
 use scene::Scene;
 use scene::cut::{Chord, Cut, Sight};

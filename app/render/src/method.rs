@@ -92,7 +92,7 @@ pub struct Sample<'a> {
     /// Picture that the sample belongs to.
     pub shot: &'a Shot,
     /// View 0 is of the resting scene, view 1 + i of motion i.
-    pub views: Vec<shaders::View>,
+    pub views: Vec<shaders::ViewUniforms>,
     /// View of each motion from the observer.
     pub sights: &'a [Sight],
     /// Content of the picture.

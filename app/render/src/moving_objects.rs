@@ -33,7 +33,7 @@ fn in_frame_of(motion: &Motion, observer: &Observer) -> Observer {
 }
 
 /// View of a moving body, for the picture whose view of the resting world is `at_rest`.
-pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes: Axes) -> shaders::View {
+pub fn view(at_rest: &shaders::ViewUniforms, motion: &Motion, observer: &Observer, axes: Axes) -> shaders::ViewUniforms {
     let seen = seen_by(motion, observer);
     let group_from_observer = seen.observer_from_group.conjugate();
     let turned = |vector: Vec4| turn(group_from_observer, vector);
@@ -42,7 +42,7 @@ pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes:
         Axes::Group => at_rest.clip_from_observer * matrix(&DMat4::from_quat(seen.observer_from_group)),
     };
     let along = along(seen.celerity);
-    shaders::View {
+    shaders::ViewUniforms {
         clip_from_observer,
         forward: turned(at_rest.forward),
         right: turned(at_rest.right),
@@ -57,7 +57,7 @@ pub fn view(at_rest: &shaders::View, motion: &Motion, observer: &Observer, axes:
 /// `origin`. It is drawn at its place at the observer's time, contracted along its motion.
 ///
 /// *Equation:* r = a + q − (1 − 1/γ)(q·n) n + β (ct − ct_a), q from the anchor in the body's frame.
-pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::View {
+pub fn plain_view(at_eye: &shaders::ViewUniforms, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::ViewUniforms {
     let uniform = match motion {
         Motion::Uniform(uniform) => uniform,
         Motion::Animated(animated) => return plain_pose(at_eye, animated, observer),
@@ -77,7 +77,7 @@ pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, 
         contraction.z_axis.extend(0.0),
         DVec4::from((place, 1.0)),
     );
-    shaders::View {
+    shaders::ViewUniforms {
         clip_from_observer: at_eye.clip_from_observer * matrix(&eye_from_group),
         source: along(celerity),
         ..*at_eye
@@ -86,10 +86,10 @@ pub fn plain_view(at_eye: &shaders::View, motion: &Motion, observer: &Observer, 
 
 /// View of an animated body in a picture of the plain world: the body at the observer's time. The velocity of its
 /// middle shifts the light of the whole body.
-fn plain_pose(at_eye: &shaders::View, animated: &Animated, observer: &Observer) -> shaders::View {
+fn plain_pose(at_eye: &shaders::ViewUniforms, animated: &Animated, observer: &Observer) -> shaders::ViewUniforms {
     let pose = animated.as_seen(observer, false);
     let eye_from_world = DMat4::from_translation(-observer.event.position);
-    shaders::View {
+    shaders::ViewUniforms {
         clip_from_observer: at_eye.clip_from_observer * matrix(&(eye_from_world * DMat4::from(pose.world_from_body))),
         source: along(animated.celerity(&pose)),
         ..*at_eye

@@ -203,7 +203,7 @@ impl SceneRenderer {
             } else {
                 moving_objects::plain_view(&resting, motion, observer, self.world.origin)
             };
-            views.push(shaders::View { layer: Vec4::X * (1 + number) as f32, ..view });
+            views.push(shaders::ViewUniforms { layer: Vec4::X * (1 + number) as f32, ..view });
         }
         if !bent {
             // Positions of the plain world are relative to its origin, not to the eye.

@@ -15,7 +15,7 @@ pub const NEAR_M: f64 = 0.02;
 /// * `motion` — the eye's celerity.
 /// * `geometry` — whether its aberration is to be drawn.
 /// * `scale` — what radiance is multiplied by, so that the target can hold it.
-pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::View {
+pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::ViewUniforms {
     let [width, height] = size.map(f64::from);
     let tangents = camera.tangents(size);
     let (middle, half) = (tangents.middle(), tangents.half());
@@ -40,7 +40,7 @@ pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celer
     let up = camera.observer_from_eye * DVec3::Y * half.y;
     let forward = camera.observer_from_eye * middle.extend(-1.0) - shift.x * right - shift.y * up;
     let along = motion.vector().normalize_or(DVec3::NEG_Z);
-    shaders::View {
+    shaders::ViewUniforms {
         clip_from_observer: matrix(&clip_from_observer),
         forward: forward.as_vec3().extend(0.0),
         right: right.as_vec3().extend(0.0),

@@ -46,7 +46,7 @@ impl Combiner {
     ) {
         let [x, y, ..] = viewport.map(|pixels| pixels as f32);
         let [column, row] = first_pixel.map(|pixel| pixel.rem_euclid(2) as f32);
-        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: 1.0, odd: row + 2.0 * column };
+        let placement = shaders::PlacementUniforms { origin: Vec2::new(x, y), exposure: 1.0, odd: row + 2.0 * column };
         let placement = contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM);
         let resources = [
             wgpu::BindingResource::TextureView(left),

@@ -70,7 +70,7 @@ impl Curved {
             let axis = |axis: DVec3| axis.as_vec3().extend(0.0);
             let focal_length = facet.tangents.focal_length(facet.size);
             let straight = DVec2::new(-facet.tangents.low.x, facet.tangents.high.y) * focal_length;
-            let uniform = shaders::Facet {
+            let uniform = shaders::FacetUniforms {
                 eye: eye.as_vec3().extend(facet.limit as f32),
                 right: axis(axes.x_axis),
                 up: axis(axes.y_axis),

@@ -172,7 +172,7 @@ impl Preview {
         let fits = self.linear.take().filter(|linear| linear.texture().size() == extent);
         let linear = fits.unwrap_or_else(|| texture(gpu, "room", size, display::LINEAR_FORMAT, 1, usage));
 
-        let uniform = shaders::RoomView { clip_from_room: onlooker.clip_from_room(size).as_mat4() };
+        let uniform = shaders::RoomViewUniforms { clip_from_room: onlooker.clip_from_room(size).as_mat4() };
         let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("room"),
             contents: bytes_of(&uniform),

@@ -1,8 +1,8 @@
-//! What shines: the spectrum that the colours of a surface are carried by.
+//! Carriers: the spectra that the colours of a surface are carried by.
 //!
-//! A renderer knows three weights per point, from textures, vertex colours and lamps. Their light is
-//! L(λ) = Q(λ) Σ cᵢ Sᵢ(λ): the three shares of white ([`shares`]) of the carrier Q. For an ordinary scene Q is white,
-//! and the weights are an sRGB colour; where equal weights are used, the light is Q itself, whatever it may be.
+//! A renderer knows three weights per point, from textures, vertex colours and lamps. Their light is L(λ) = Q(λ) Σ cᵢ
+//! Sᵢ(λ): the three shares of white ([`shares`]) of the carrier Q. For an ordinary scene Q is white, and the weights
+//! are an sRGB colour; where equal weights are used, the light is Q itself, whatever its spectrum.
 
 use glam::{DMat3, DVec3};
 
@@ -18,7 +18,7 @@ pub struct Carrier {
 }
 
 impl Carrier {
-    /// White, of 1 cd/m²: the carrier of sRGB colours.
+    /// White light of 1 cd/m², the carrier of sRGB colours.
     pub fn white() -> Self {
         Self::emitted(Spectrum::Gray)
     }
@@ -30,13 +30,13 @@ impl Carrier {
 
     /// Light of an illuminant from a surface: reflectance × illuminant (W 3.3; B 2.4).
     ///
-    /// Without a reflectance the surface returns all wavelengths alike; without an illuminant the light is white.
+    /// A missing reflectance returns all wavelengths alike; a missing illuminant is white.
     pub fn reflected(reflectance: Option<Spectrum>, illuminant: Option<Spectrum>) -> Self {
         let light = illuminant.unwrap_or(Spectrum::Gray);
         Self { light, reflectance: reflectance.filter(|reflectance| *reflectance != Spectrum::Gray) }
     }
 
-    /// Q(λ). *Units:* nm; W sr⁻¹ m⁻³.
+    /// Spectral radiance Q(λ). *Units:* nm; W sr⁻¹ m⁻³.
     pub fn radiance(&self, wavelength_nm: f64) -> f64 {
         self.lifted_radiance(wavelength_nm, [0.0; 2])
     }
@@ -56,8 +56,8 @@ impl Carrier {
         srgb::rgb_from_xyz() * self.xyz_from_weights(doppler)
     }
 
-    /// e^lift times [`xyz_from_weights`](Self::xyz_from_weights), and the lift, which is such that light too faint for
-    /// any number keeps its colour.
+    /// Product of e^lift and [`xyz_from_weights`](Self::xyz_from_weights), and the lift, which is such that light too
+    /// faint for any f64 keeps its colour.
     pub(super) fn lifted_xyz_from_weights(&self, doppler: f64) -> (DMat3, f64) {
         // Thermal light beyond Wien's maximum is strongest at the red end.
         let red_end = doppler * matching::LONGEST_NM;
@@ -72,7 +72,7 @@ impl Carrier {
             * self.reflectance.as_ref().map_or(1.0, |spectrum| spectrum.lifted_reflectance(nm, reflectance))
     }
 
-    /// Where measured values meet, among the wavelengths that are seen at this D, ascending. *Units:* nm.
+    /// Wavelengths at which measured values meet, among those that are seen at this D, ascending. *Units:* nm.
     fn bends(&self, doppler: f64) -> Vec<f64> {
         let seen = || doppler * matching::SHORTEST_NM..doppler * matching::LONGEST_NM;
         let mut bends: Vec<f64> = self.light.bends_within(seen()).collect();
@@ -85,11 +85,11 @@ impl Carrier {
 }
 
 impl Spectrum {
-    /// Tristimulus values (CIE 1931 2°) of this light as an observer sees it who meets it with the Doppler factor D:
-    /// colour and brightness.
+    /// Tristimulus values (CIE 1931 2°), colour and brightness, of this light for an observer with the Doppler factor
+    /// D.
     ///
-    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only where
-    /// D⁵ L is beyond all numbers.
+    /// *Equation:* 683 ∫ D⁵ L(Dλ) x̄(λ) dλ over 360 … 830 nm, and so Y, Z (B 2.12). *Units:* cd/m². Not finite only
+    /// where D⁵ L is beyond all numbers.
     pub fn xyz(&self, doppler: f64) -> DVec3 {
         Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
     }

@@ -1,4 +1,4 @@
-//! How different two colours look: CIELAB and the CIEDE2000 colour difference.
+//! The difference of two colours: CIELAB and the CIEDE2000 colour difference.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ pub fn lab_from_xyz(xyz: DVec3, white: DVec3) -> DVec3 {
 /// *Source:* Sharma, Wu and Dalal, *The CIEDE2000 Color-Difference Formula*, Color Research and Application 30 (2005),
 /// equations 2 to 22, k_L = k_C = k_H = 1.
 pub fn delta_e_2000(first: DVec3, second: DVec3) -> f64 {
-    /// 25⁷.
+    /// The constant 25⁷ of the saturation.
     const TWENTY_FIVE: f64 = 6_103_515_625.0;
     let saturation = |chroma: f64| (chroma.powi(7) / (chroma.powi(7) + TWENTY_FIVE)).sqrt();
 
@@ -31,7 +31,7 @@ pub fn delta_e_2000(first: DVec3, second: DVec3) -> f64 {
     let [chroma1, chroma2] = [plane1.length(), plane2.length()];
     let [hue1, hue2] = [plane1, plane2].map(|plane| plane.y.atan2(plane.x).rem_euclid(TAU));
 
-    // Differences; hues are taken the short way round, and have no meaning for a grey.
+    // Take differences; hues the short way round, and none for a grey.
     let grey = chroma1 * chroma2 == 0.0;
     let apart = (hue2 - hue1).abs() > 0.5 * TAU;
     let hue_turn = match hue2 - hue1 {
@@ -44,7 +44,7 @@ pub fn delta_e_2000(first: DVec3, second: DVec3) -> f64 {
     let chroma_difference = chroma2 - chroma1;
     let hue_difference = 2.0 * (chroma1 * chroma2).sqrt() * (0.5 * hue_turn).sin();
 
-    // Means.
+    // Take means.
     let lightness = 0.5 * (first.x + second.x);
     let chroma = 0.5 * (chroma1 + chroma2);
     let hue = match hue1 + hue2 {
@@ -54,7 +54,7 @@ pub fn delta_e_2000(first: DVec3, second: DVec3) -> f64 {
         sum => 0.5 * (sum - TAU),
     };
 
-    // Weights: how far the eye tells differences apart there.
+    // Weigh by how well the eye tells differences apart there.
     let cosine = |times: f64, degrees: f64| (times * hue - degrees.to_radians()).cos();
     let hue_weight =
         1.0 - 0.17 * cosine(1.0, 30.0) + 0.24 * cosine(2.0, 0.0) + 0.32 * cosine(3.0, -6.0) - 0.20 * cosine(4.0, 63.0);

@@ -1,7 +1,7 @@
-//! A spectrum for every colour: one smooth white, and how red, green and blue share it.
+//! The spectra of colours: one smooth white, and the shares of it that red, green and blue have.
 //!
-//! A picture says three numbers where a moving observer needs a whole spectrum. Ours is W(λ) Σ cᵢ Sᵢ(λ) for the linear
-//! sRGB colour c. What it must do, and how it does it:
+//! A picture gives three numbers where a moving observer needs a whole spectrum. The spectrum taken here is W(λ) Σ cᵢ
+//! Sᵢ(λ) for the linear sRGB colour c. Its properties, and how they are reached:
 //!
 //! - **At rest it is that colour, exactly.** W is D65 white, and each Sᵢ W is the primary; the last rounding is taken
 //!   out when the tables are read, by one 3 × 3 system.
@@ -10,10 +10,10 @@
 //!   least.
 //! - **Nothing goes black.** Shares are nowhere less than 0.0059, they sum to 1, and each is 1/3 in the far ultraviolet
 //!   and infrared, where all colours fade into grey.
-//! - **Colours change gracefully.** Of all shares of this kind, ours bend least: they minimise ∑ ∫ (d²Sᵢ/d(ln λ)²)²
-//!   d(ln λ), in cubic B-splines over ln λ with knots 0.02 apart, subject to Sᵢ ≥ 0.006, the primaries at D = 1, and
-//!   1/3 below 270 and above 1150 nm. This is a convex problem, so there is one answer. sRGB's primaries are so vivid
-//!   that a floor above 0.016 has no solution at all, and a higher one makes the shares steep.
+//! - **Colours change gracefully.** Among all shares of this kind, these bend least: they minimise ∑ ∫ (d²Sᵢ/d(ln
+//!   λ)²)² d(ln λ), in cubic B-splines over ln λ with knots 0.02 apart, subject to Sᵢ ≥ 0.006, the primaries at D = 1,
+//!   and 1/3 below 270 and above 1150 nm. This is a convex problem, so there is one answer. The primaries of sRGB are
+//!   so vivid that a floor above 0.016 has no solution at all, and a higher one makes the shares steep.
 //!
 //! Mallett & Yuksel, *Spectral Primary Decomposition for Rendering with sRGB Reflectance* (EGSR 2019), find shares of
 //! this kind for reflectances at rest.
@@ -28,17 +28,17 @@ use super::{matching, srgb, table};
 const WHITE_EXPONENT: f64 = -0.622_553_245_054_623;
 /// Height of the bump; with the exponent, it gives D65's two chromaticities.
 const BUMP: f64 = 0.153_504_351_113_035_15;
-/// Where the bump is. *Units:* nm.
+/// Wavelength of the bump. *Units:* nm.
 const BUMP_NM: f64 = 520.0;
-/// Its standard deviation, over ln λ.
+/// Standard deviation of the bump, over ln λ.
 const BUMP_WIDTH: f64 = 0.08;
 
 /// Wavelength of the spline's knot 0. *Units:* nm.
 const KNOT_NM: f64 = 545.0;
-/// Distance of its knots, over ln λ.
+/// Distance of the spline's knots, over ln λ.
 const KNOT_STEP: f64 = 0.02;
 
-/// What white must be multiplied with to have the luminance of 1 cd/m².
+/// Factor that gives white the luminance of 1 cd/m².
 static WHITE_SCALE: LazyLock<f64> =
     LazyLock::new(|| matching::xyz(1.0, None, |nm| DVec3::X * white_shape(nm)).x_axis.y.recip());
 
@@ -48,13 +48,13 @@ static SPLINE: LazyLock<(f64, Vec<DVec3>)> = LazyLock::new(|| {
     (rows[0][0], rows.into_iter().map(|[_, red, green, blue]| DVec3::new(red, green, blue)).collect())
 });
 
-/// Makes shares whose colours at rest are the primaries out of those that are stored.
+/// Matrix that turns the stored shares into shares whose colours at rest are exactly the primaries.
 static CORRECTION: LazyLock<DMat3> = LazyLock::new(|| {
     let xyz = matching::xyz(1.0, None, |nm| white(nm) * stored_shares(nm));
     (srgb::rgb_from_xyz() * xyz).inverse().transpose()
 });
 
-/// W(λ): the spectrum of white. At D = 1 it is D65 with a luminance of 1 cd/m².
+/// Spectrum of white, W(λ). At D = 1 it is D65 with a luminance of 1 cd/m².
 ///
 /// *Units:* nm; W sr⁻¹ m⁻³. *Accuracy:* shifted by D = 1/4 … 4, its Δu'v' from D65 is 0.0149 at most, at D = 1.19
 /// (`colour_rgb.rs`).
@@ -62,7 +62,7 @@ pub fn white(wavelength_nm: f64) -> f64 {
     *WHITE_SCALE * white_shape(wavelength_nm)
 }
 
-/// S_i(λ): the shares of white that red, green and blue have. They are positive, and sum to 1.
+/// Shares Sᵢ(λ) of white that red, green and blue have. They are positive, and sum to 1.
 ///
 /// *Units:* nm.
 pub fn shares(wavelength_nm: f64) -> [f64; 3] {

@@ -1,11 +1,11 @@
 //! The shift table: the colour of every carrier at every Doppler factor, looked up instead of integrated.
 //!
 //! A pixel has weights c, a carrier and a Doppler factor D; its colour after the shift of wavelengths is linear in the
-//! weights, so the table holds one colour per carrier, weight and D. Nodes are even in ln D from 1e-6 to 1e6. Brightness
-//! runs over hundreds of orders of magnitude there, and chromaticity hardly changes, so a texel holds the linear sRGB
-//! colour divided by its luminance Y, and log₂ Y; all four are interpolated linearly. Beyond the ends the colour stays
-//! and log₂ Y goes on in a straight line: the power law in which white, thermal light and a measured spectrum end, if
-//! nothing was measured in gamma rays or radio waves.
+//! weights, so the table holds one colour per carrier, weight and D. Nodes are even in ln D from 1e-6 to 1e6.
+//! Brightness runs over hundreds of orders of magnitude there, and chromaticity hardly changes, so a texel holds the
+//! linear sRGB colour divided by its luminance Y, and log₂ Y; all four are interpolated linearly. Beyond the ends the
+//! colour stays and log₂ Y goes on in a straight line: the power law in which white, thermal light and a measured
+//! spectrum end, if nothing was measured in gamma rays or radio waves.
 
 use std::f64::consts::{LN_2, LN_10};
 
@@ -22,18 +22,19 @@ pub struct ShiftTable {
     texels: Vec<[f32; 4]>,
 }
 
-/// What a texel says where there is no light, or none that a number could hold: 2⁻¹⁰⁰⁰ cd/m² of white.
+/// Texel for no light, or for light too faint for an f64: 2⁻¹⁰⁰⁰ cd/m² of white.
 const DARK: [f32; 4] = [1.0, 1.0, 1.0, LOG2_DARKEST];
 const LOG2_DARKEST: f32 = -1000.0;
 
 impl ShiftTable {
-    /// The table's first and last node are at ln D = ∓ this: D = 1e-6 and 1e6.
+    /// Limit of ln D: the table's first and last node are at ∓ this, D = 1e-6 and 1e6.
     pub const LN_LIMIT: f64 = 6.0 * LN_10;
 
-    /// Nodes that are enough, 0.0034 apart in ln D, and no more than a texture may be wide (8192) where nothing else is known.
+    /// Number of nodes that suffices, 0.0034 apart in ln D, and no more than a texture may be wide (8192) on any
+    /// graphics card.
     ///
-    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of 0.15
-    /// at most over D = 0.05 … 20 (`colour_table.rs`); the error goes with the square of the distance.
+    /// *Accuracy:* looked up with these, colours of all kinds of light differ from direct integration by a ΔE2000 of
+    /// 0.15 at most over D = 0.05 … 20 (`colour_table.rs`); the error goes with the square of the distance.
     pub const NODES: usize = 8191;
 
     /// Integrates the colours of these carriers, on all cores.
@@ -53,21 +54,21 @@ impl ShiftTable {
         Self { nodes, texels }
     }
 
-    /// How many nodes there are over ln D: the texture's width.
+    /// Number of nodes over ln D: the texture's width.
     pub fn nodes(&self) -> usize {
         self.nodes
     }
 
-    /// Texels by rows: row 3 × carrier + weight, one texel per node: red, green and blue divided by Y, and log₂ Y, with Y in
-    /// cd/m².
+    /// Texels by rows: row 3 × carrier + weight, one texel per node: red, green and blue divided by Y, and log₂ Y,
+    /// with Y in cd/m².
     pub fn texels(&self) -> &[[f32; 4]] {
         &self.texels
     }
 
     /// Linear sRGB of each weight alone, as columns: [`Carrier::rgb_from_weights`] as a shader looks it up.
     ///
-    /// *Equation:* with p = (ln D / LN_LIMIT + 1) / 2 · (nodes − 1), i = ⌊p⌋ held within 0 … nodes − 2 and f = p − i, the colour
-    /// is mix(texelᵢ, texelᵢ₊₁, f held within 0 … 1).rgb · exp2(mix(texelᵢ, texelᵢ₊₁, f).w).
+    /// *Equation:* with p = (ln D / LN_LIMIT + 1) / 2 · (nodes − 1), i = ⌊p⌋ held within 0 … nodes − 2 and f = p − i,
+    /// the colour is mix(texelᵢ, texelᵢ₊₁, f held within 0 … 1).rgb · exp2(mix(texelᵢ, texelᵢ₊₁, f).w).
     pub fn rgb_from_weights(&self, carrier: usize, doppler: f64) -> DMat3 {
         let place = (doppler.ln() / Self::LN_LIMIT + 1.0) * 0.5 * (self.nodes - 1) as f64;
         let node = place.floor().clamp(0.0, (self.nodes - 2) as f64);

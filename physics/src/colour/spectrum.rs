@@ -1,7 +1,7 @@
 //! The spectra that a material or a light may have.
 //!
-//! One type serves for light and for reflectance, since a scene file says either in the same words: what a Planck
-//! spectrum, say, means as a reflectance is told at [`Spectrum::reflectance`].
+//! One type serves for light and for reflectance, since a scene file gives either in the same words;
+//! [`Spectrum::reflectance`] says what a Planck spectrum, say, means as a reflectance.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use super::shares::{shares, white};
 
 pub use self::SampledSpectrum as Sampled; // until app is moved
 
-/// A spectrum: of light that is sent out, or of the share of light that a surface returns.
+/// The spectrum of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spectrum {
     /// A black body of this temperature.
@@ -22,11 +22,11 @@ pub enum Spectrum {
         /// Kelvin, above 0 and finite.
         kelvin: f64,
     },
-    /// Measured values.
+    /// Values measured at given wavelengths.
     Sampled(SampledSpectrum),
     /// The smooth spectrum of a linear sRGB colour.
     Rgb([f64; 3]),
-    /// The same at every wavelength as far as the eye can tell: white light, or an even reflectance of 1.
+    /// An even spectrum, as far as the eye can tell: white light, or a reflectance of 1 at every wavelength.
     Gray,
 }
 
@@ -36,38 +36,38 @@ pub struct SampledSpectrum {
     samples: Arc<[[f64; 2]]>,
 }
 
-/// Why numbers are no spectrum.
+/// The reasons why numbers are no spectrum.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SpectrumError {
-    /// No body is that cold, or that hot.
+    /// A temperature that is zero, negative or not finite.
     #[error("expected a temperature in kelvin, a finite number above 0, not {kelvin}")]
     Temperature {
-        /// As given.
+        /// Value given.
         kelvin: f64,
     },
-    /// Too few samples.
+    /// A list without samples.
     #[error("expected at least one sample of [wavelength in nm, value]")]
     Empty,
-    /// A wavelength that is none, or out of order.
+    /// A wavelength that is not a positive number, or out of order.
     #[error("expected wavelengths in nm, above 0 and ascending, but sample {index} is at {nm}")]
     Wavelength {
-        /// Which sample, from 0.
+        /// Index of the sample, from 0.
         index: usize,
-        /// As given.
+        /// Value given.
         nm: f64,
     },
-    /// A value below zero or beyond all numbers.
+    /// A value below zero or not finite.
     #[error("expected values of 0 or more, but sample {index} is {value}")]
     Value {
-        /// Which sample, from 0.
+        /// Index of the sample, from 0.
         index: usize,
-        /// As given.
+        /// Value given.
         value: f64,
     },
-    /// A colour that no light has.
+    /// A colour with a channel that is negative or not finite.
     #[error("expected three finite numbers of 0 or more as colour, not {rgb:?}")]
     Colour {
-        /// As given.
+        /// Value given.
         rgb: [f64; 3],
     },
 }
@@ -88,7 +88,7 @@ impl Spectrum {
     /// Samples of [wavelength in nm, value], ascending.
     ///
     /// # Errors
-    /// What is wrong with the first bad sample.
+    /// [`SpectrumError`], about the first bad sample.
     pub fn sampled(samples: impl Into<Arc<[[f64; 2]]>>) -> Result<Self, SpectrumError> {
         SampledSpectrum::new(samples).map(Self::Sampled)
     }
@@ -105,7 +105,7 @@ impl Spectrum {
         }
     }
 
-    /// L(λ), the spectral radiance where this is the spectrum of light.
+    /// Spectral radiance L(λ), if this is the spectrum of light.
     ///
     /// A black body's is that of its temperature, measured values are taken as they are, and colours are parts of
     /// [`white`]. *Units:* nm; W sr⁻¹ m⁻³.
@@ -113,7 +113,7 @@ impl Spectrum {
         self.lifted_radiance(wavelength_nm, 0.0)
     }
 
-    /// ρ(λ), the share of light that is returned where this is the spectrum of a surface.
+    /// Reflectance ρ(λ), the share of light that is returned, if this is the spectrum of a surface.
     ///
     /// Measured values are taken as they are, also above 1; a colour returns Σ cᵢ Sᵢ, and a thermal spectrum what it is
     /// of its own maximum. *Units:* nm.
@@ -121,7 +121,7 @@ impl Spectrum {
         self.lifted_reflectance(wavelength_nm, 0.0)
     }
 
-    /// e^lift times the radiance.
+    /// Radiance, times e^lift.
     pub(super) fn lifted_radiance(&self, nm: f64, lift: f64) -> f64 {
         match self {
             Self::Planck { kelvin } => planck::radiance(*kelvin, nm, lift),
@@ -130,7 +130,7 @@ impl Spectrum {
         }
     }
 
-    /// e^lift times the reflectance.
+    /// Reflectance, times e^lift.
     pub(super) fn lifted_reflectance(&self, nm: f64, lift: f64) -> f64 {
         match self {
             Self::Planck { kelvin } => planck::share(*kelvin, nm, lift),
@@ -140,7 +140,7 @@ impl Spectrum {
         }
     }
 
-    /// The logarithm by which Wien's law takes light of this wavelength down; 0 for what is not thermal.
+    /// Logarithm by which Wien's law takes light of this wavelength down; 0 for a spectrum that is not thermal.
     pub(super) fn wien_exponent(&self, nm: f64) -> f64 {
         match self {
             Self::Planck { kelvin } => planck::exponent(*kelvin, nm),
@@ -159,10 +159,10 @@ impl Spectrum {
 }
 
 impl SampledSpectrum {
-    /// Checks and keeps samples of [wavelength in nm, value].
+    /// Checks samples of [wavelength in nm, value] and keeps them.
     ///
     /// # Errors
-    /// What is wrong with the first bad sample.
+    /// [`SpectrumError`], about the first bad sample.
     pub fn new(samples: impl Into<Arc<[[f64; 2]]>>) -> Result<Self, SpectrumError> {
         let samples = samples.into();
         if samples.is_empty() {

@@ -1,4 +1,4 @@
-//! Linear sRGB: the colours of its primaries and its white, and what follows from them.
+//! Linear sRGB: its primaries and its white, and the matrices that follow from them.
 
 use std::sync::LazyLock;
 

@@ -8,16 +8,16 @@ use super::line::{LINE, VertexLine};
 use super::plan::{FormulaChoice, FramePlan};
 use super::simd;
 
-/// What one call of the kernel works on.
+/// Work of one call of the kernel.
 pub(super) struct KernelChunk<'a> {
     pub(super) plan: FramePlan,
     pub(super) form: FormulaChoice,
     pub(super) input: [&'a [VertexLine]; 3],
-    /// A value of each for every vertex.
+    /// Apparent positions x, y, z, a value of each for every vertex.
     pub(super) position: [&'a mut [MaybeUninit<f32>]; 3],
-    /// A value for every vertex, or none at all where D is not wanted.
+    /// Doppler factors, a value for every vertex; empty if they are not wanted.
     pub(super) doppler: &'a mut [MaybeUninit<f32>],
-    /// Whether to write past the caches where the memory is aligned.
+    /// True to write past the caches where the memory is aligned.
     pub(super) streaming: bool,
 }
 
@@ -25,7 +25,7 @@ impl LaneWork for KernelChunk<'_> {
     /// Number of results that are not finite.
     type Output = usize;
 
-    /// Transforms the chunk.
+    /// Transforms the chunk with the formula that it needs.
     #[inline(always)]
     fn run<L: Lanes>(self) -> usize {
         match self.form {
@@ -47,7 +47,7 @@ impl KernelChunk<'_> {
         let lines = x.len();
         let left_over = x_end.len();
 
-        // Transform the whole lines, past the caches where that is asked for and possible.
+        // Transform the whole lines, past the caches if asked for and possible.
         let mut not_finite = if self.streaming {
             match simd::aligned([x, y, z, doppler]) {
                 Ok(target) => {
@@ -61,7 +61,8 @@ impl KernelChunk<'_> {
             transform_lines(&formula, self.input, [x, y, z, doppler])
         };
 
-        // Transform the vertices that do not fill a line by way of one, and copy what belongs to them.
+        // Transform the vertices that do not fill a line by way of a line of their own, and copy the part that belongs
+        // to them.
         if left_over > 0 {
             let mut target = [[MaybeUninit::uninit(); LINE]; 4];
             let [x, y, z, doppler] = &mut target;
@@ -95,7 +96,7 @@ impl LineTarget for AlignedLine {
     }
 }
 
-/// Transforms as many lines as there are in the first target; returns how many results are not finite.
+/// Transforms as many lines as the first target holds; returns the number of results that are not finite.
 #[inline(always)]
 fn transform_lines<L: Lanes, F: Formula<L>, T: LineTarget>(
     formula: &F,
@@ -118,7 +119,8 @@ fn transform_lines<L: Lanes, F: Formula<L>, T: LineTarget>(
     not_finite
 }
 
-/// Transforms a line; returns a set bit for every vertex whose result is finite. The others are written as zeros.
+/// Transforms a line; returns a set bit for every vertex whose result is finite. The other vertices are written as
+/// zeros.
 #[inline(always)]
 fn transform_line<L: Lanes, F: Formula<L>, T: LineTarget>(
     formula: &F,

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::instructions::Instructions;
 use crate::celerity::Celerity;
 
-/// What cannot be transformed.
+/// The reasons why vertices cannot be transformed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum PhotoSurfaceError {
     /// A position or a celerity of the eye that is not finite, or a celerity beyond the limit.
@@ -15,33 +15,33 @@ pub enum PhotoSurfaceError {
         limit = Celerity::LIMIT
     )]
     Eye {
-        /// As given; world frame, metres.
+        /// Position given; world frame, metres.
         position: DVec3,
-        /// As given.
+        /// Celerity given; world axes.
         celerity: DVec3,
     },
-    /// The vertices have no origin.
+    /// An origin of the vertices that is not finite.
     #[error("the vertices' origin {origin} m must be finite: take a point near the middle of the mesh")]
     Origin {
-        /// As given; world frame, metres.
+        /// Origin given; world frame, metres.
         origin: DVec3,
     },
-    /// The memory for the results does not fit the mesh.
+    /// Memory for the results that does not fit the mesh.
     #[error(
         "the output stream {stream} holds {length} values and the mesh has {vertices} vertices: they must be as many"
     )]
     OutputLength {
-        /// `x`, `y`, `z` or `doppler`.
+        /// Name of the stream: `x`, `y`, `z` or `doppler`.
         stream: &'static str,
-        /// Values in the stream.
+        /// Number of values in the stream.
         length: usize,
-        /// Vertices in the mesh.
+        /// Number of vertices in the mesh.
         vertices: usize,
     },
-    /// This processor cannot compute as asked.
+    /// Instructions that this processor does not have.
     #[error("this processor has no {instructions:?} instructions: take Instructions::fastest()")]
     Instructions {
-        /// As asked for.
+        /// Instructions asked for.
         instructions: Instructions,
     },
 }

@@ -33,7 +33,7 @@ pub struct PhotoSurfaceEye {
 impl PhotoSurfaceEye {
     /// An eye at `position` (world frame, metres) that moves with `celerity` u = γβ (world axes).
     ///
-    /// Where an [`Observer`] is at hand, [`PhotoSurfaceEye::from`] needs no check.
+    /// [`PhotoSurfaceEye::from`] makes an eye from an [`Observer`] without a check.
     ///
     /// # Errors
     /// [`PhotoSurfaceError::Eye`] if either is not finite, or the celerity is beyond [`Celerity::LIMIT`].

@@ -8,31 +8,31 @@
 //! x' = d⊥ + (A − C) e    D = (A + C) / r
 //! ```
 //!
-//! Nothing in them cancels, so only d⊥ = d − h e can lose digits; near astern, where x' is so
-//! short that they matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for
-//! vertices that lie there: neighbours in a mesh mostly are neighbours in space, so that few do.
+//! No difference in them cancels, so only d⊥ = d − h e can lose digits. Near astern, where x' is so short that they
+//! matter, [`ExactAstern`] takes d⊥ = e × (d × e) with d and d × e in f64. It asks each register for vertices that lie
+//! there: neighbours in a mesh mostly are neighbours in space, so that few registers have any.
 
 use super::lanes::{Lanes, WideLanes, each};
 use super::plan::{FramePlan, REAR_CONE_COTANGENT_SQUARED};
 
-/// Above this a length or a squared length counts as not finite: the next operation might overflow.
+/// Length or squared length above which a result counts as not finite: the next operation might overflow.
 const LARGEST: f32 = 1e38;
 
-/// What big · r is clamped to, so that a vertex at the eye divides by something.
+/// Lower limit of r (r + |h|), so that a vertex at the eye divides by something.
 const SMALLEST: f32 = f32::MIN_POSITIVE;
 
-/// What a form says of a register's worth of vertices.
+/// Apparent positions of a register's worth of vertices.
 pub(super) struct ApparentLanes<L> {
-    /// x', observer's rest frame, axes of the world after a pure boost; metres.
+    /// Apparent position x', observer's rest frame, axes of the world after a pure boost; metres.
     pub(super) position: [L; 3],
-    /// D.
+    /// Doppler factor D.
     pub(super) doppler: L,
-    /// Set where the numbers above are finite.
+    /// Bits of the vertices whose numbers above are finite.
     pub(super) finite: u32,
 }
 
 impl<L: Lanes> ApparentLanes<L> {
-    /// The same with zeros where it is not finite.
+    /// The result with zeros for vertices that are not finite.
     #[inline(always)]
     pub(super) fn collapsed(self) -> Self {
         let zero = L::splat(0.0);
@@ -45,13 +45,13 @@ impl<L: Lanes> ApparentLanes<L> {
     }
 }
 
-/// One of the formulas, its constants spread over registers.
+/// A formula with its constants spread over registers.
 pub(super) trait Formula<L: Lanes> {
     fn new(plan: &FramePlan) -> Self;
     fn seen(&self, vertex: [L; 3]) -> ApparentLanes<L>;
 }
 
-/// The eye's offset from the mesh's origin as f32 high and low parts, 48 bits together.
+/// Offset of the eye from the mesh's origin, as f32 high and low parts, 48 bits together.
 struct LaneOffset<L> {
     high: [L; 3],
     low: [L; 3],
@@ -65,14 +65,14 @@ impl<L: Lanes> LaneOffset<L> {
         Self { high: each!(L::splat, high.to_array()), low: each!(L::splat, low.to_array()) }
     }
 
-    /// d = (p − o_high) − o_low.
+    /// Displacement d = (p − o_high) − o_low.
     #[inline(always)]
     fn displacement(&self, [x, y, z]: [L; 3]) -> [L; 3] {
         [x - self.high[0] - self.low[0], y - self.high[1] - self.low[1], z - self.high[2] - self.low[2]]
     }
 }
 
-/// x' = d and D = 1.
+/// The formula for an eye at rest: x' = d and D = 1.
 pub(super) struct AtRest<L>(LaneOffset<L>);
 
 impl<L: Lanes> Formula<L> for AtRest<L> {
@@ -89,7 +89,7 @@ impl<L: Lanes> Formula<L> for AtRest<L> {
     }
 }
 
-/// κ and e, and the steps that both moving forms share.
+/// Direction of motion and κ, and the steps that both moving forms share.
 struct LaneBoost<L> {
     direction: [L; 3],
     half_kappa: L,
@@ -106,21 +106,21 @@ impl<L: Lanes> LaneBoost<L> {
         }
     }
 
-    /// h = e·d.
+    /// Part along the motion, h = e·d.
     #[inline(always)]
     fn along(&self, [x, y, z]: [L; 3]) -> L {
         let [ex, ey, ez] = self.direction;
         z.mul_add(ez, y.mul_add(ey, x * ex))
     }
 
-    /// Scales the light-cone coordinates and puts x' and D together.
+    /// Scales the light-cone coordinates, and puts x' and D together from them.
     #[inline(always)]
     fn seen(&self, along: L, across: [L; 3]) -> ApparentLanes<L> {
         let [ax, ay, az] = across;
         let across_squared = length_squared(across);
         let distance = along.mul_add(along, across_squared).sqrt();
 
-        // One division serves both q / big and 1 / r.
+        // One division serves both q / (r + |h|) and 1 / r.
         let big = distance + along.abs();
         let product = big * distance;
         let inverse = L::splat(1.0) / product.or_at_least(L::splat(SMALLEST));
@@ -146,7 +146,7 @@ pub(super) struct LightCone<L> {
 }
 
 impl<L: Lanes> LightCone<L> {
-    /// h and d⊥ = d − h e.
+    /// Parts along and across the motion, h and d⊥ = d − h e.
     #[inline(always)]
     fn along_and_across(&self, vertex: [L; 3]) -> (L, [L; 3]) {
         let displacement = self.offset.displacement(vertex);
@@ -180,14 +180,14 @@ pub(super) struct ExactAstern<L: Lanes> {
 }
 
 impl<L: Lanes> ExactAstern<L> {
-    /// A bit for every vertex in the rear cone.
+    /// Bits of the vertices in the rear cone.
     #[inline(always)]
     fn astern(along: L, across: [L; 3]) -> u32 {
         let steepness = L::splat(REAR_CONE_COTANGENT_SQUARED);
         length_squared(across).mul_add(steepness, along * along.abs()).below(L::splat(0.0))
     }
 
-    /// d⊥ = e × (d × e), with d and d × e in f64.
+    /// Part across the motion, d⊥ = e × (d × e), with d and d × e in f64.
     #[inline(always)]
     fn across(&self, vertex: [L; 3]) -> [L; 3] {
         let [x, y, z] = each!(L::widen, vertex);
@@ -222,19 +222,19 @@ impl<L: Lanes> Formula<L> for ExactAstern<L> {
     }
 }
 
-/// |a|².
+/// Squared length |a|².
 #[inline(always)]
 fn length_squared<L: Lanes>([x, y, z]: [L; 3]) -> L {
     z.mul_add(z, y.mul_add(y, x * x))
 }
 
-/// a × b in f64, rounded to f32 at the end.
+/// Cross product a × b in f64, rounded to f32 at the end.
 #[inline(always)]
 fn cross_wide<L: Lanes>([ax, ay, az]: [L::Wide; 3], [bx, by, bz]: [L::Wide; 3]) -> [L; 3] {
     [L::narrow(ay.mul_sub(bz, az * by)), L::narrow(az.mul_sub(bx, ax * bz)), L::narrow(ax.mul_sub(by, ay * bx))]
 }
 
-/// a × b.
+/// Cross product a × b in f32.
 #[inline(always)]
 fn cross<L: Lanes>([ax, ay, az]: [L; 3], [bx, by, bz]: [L; 3]) -> [L; 3] {
     [az.negated_mul_add(by, ay * bz), ax.negated_mul_add(bz, az * bx), ay.negated_mul_add(bx, ax * by)]

@@ -3,19 +3,19 @@
 /// The instructions that a [`Kernel`](super::Kernel) computes with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Instructions {
-    /// What every processor of the target has: SSE2 on x86-64, NEON on AArch64.
+    /// The instructions that every processor of the target has: SSE2 on x86-64, NEON on AArch64.
     Portable,
-    /// AVX2 and FMA, eight vertices at a time.
+    /// AVX2 and FMA: eight vertices at a time.
     Avx2,
-    /// AVX-512, sixteen vertices at a time.
+    /// AVX-512: sixteen vertices at a time.
     Avx512,
 }
 
 impl Instructions {
-    /// All of them, the slowest first.
+    /// Instruction sets, the slowest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// Whether this processor has them.
+    /// True if this processor has them.
     pub fn are_available(self) -> bool {
         match self {
             Self::Portable => true,
@@ -28,7 +28,7 @@ impl Instructions {
         }
     }
 
-    /// The widest that this processor has.
+    /// Widest instructions that this processor has.
     pub fn fastest() -> Self {
         Self::ALL.into_iter().rfind(|instructions| instructions.are_available()).unwrap_or(Self::Portable)
     }

@@ -11,26 +11,26 @@ use super::mesh::PhotoSurfaceMesh;
 use super::simd;
 use super::stats::Stats;
 
-/// Whether results go through the caches.
+/// Way of writing results: through the caches or past them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Stores {
-    /// Past them where a frame's results would not stay in them anyway.
+    /// Past the caches if a frame's results would not stay in them anyway.
     #[default]
     Automatic,
-    /// Always through them.
+    /// Always through the caches.
     Cached,
-    /// Always past them, where the output is aligned to 64 bytes.
+    /// Always past the caches, where the output is aligned to 64 bytes.
     Streamed,
 }
 
-/// Fewer vertices than this are done before help arrives: another thread is awake after 50 to 100 µs, and a vertex
+/// Number of vertices below which one thread works alone: another thread is awake after 50 to 100 µs, and a vertex
 /// takes 1 ns. Two threads broke even at 80,000 to 100,000 vertices.
 const SERIAL_BELOW: usize = 10 * CHUNK;
 
-/// More bytes of results than this leave the second-level cache before they are read.
+/// Bytes of results above which they leave the second-level cache before they are read.
 const STREAMED_ABOVE_BYTES: usize = 1 << 20;
 
-/// How transforms are carried out. The default is the fastest way on this machine.
+/// Instructions and stores by which transforms are carried out. The default is the fastest way on this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kernel {
     instructions: Instructions,
@@ -56,13 +56,13 @@ impl Kernel {
         }
     }
 
-    /// The same kernel with a given kind of stores, to compare them.
+    /// The kernel with a given kind of stores, to compare them.
     #[must_use]
     pub fn with_stores(self, stores: Stores) -> Self {
         Self { stores, ..self }
     }
 
-    /// The instructions it computes with.
+    /// Instructions that the kernel computes with.
     pub fn instructions(&self) -> Instructions {
         self.instructions
     }
@@ -118,7 +118,7 @@ impl Kernel {
     }
 }
 
-/// Takes the next item from a queue. What a thread that panicked left behind is as good as before.
+/// The next item of a queue. A thread that panicked leaves the queue as good as before.
 fn next<I: Iterator>(queue: &Mutex<I>) -> Option<I::Item> {
     queue.lock().unwrap_or_else(PoisonError::into_inner).next()
 }

@@ -1,8 +1,8 @@
-//! What the equations ask of a vector register, and the portable answer to it.
+//! The operations that the equations need of a vector register, and their portable implementation.
 //!
-//! Every operation rounds once, as IEEE 754 says, and there is no approximate reciprocal: so all widths that
-//! fuse a·b + c agree to the bit. The portable form fuses where the target always can and otherwise rounds
-//! twice, since a fused operation in software costs a hundred times as much.
+//! Every operation rounds once, as IEEE 754 says, and there is no approximate reciprocal: so all widths that fuse
+//! a·b + c agree to the bit. The portable form fuses if the target always can, and otherwise rounds twice, since a
+//! fused operation in software costs a hundred times as much.
 
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
@@ -12,7 +12,7 @@ use super::line::LINE;
 /// A line of the caller's memory, written and never read.
 pub(super) type OutputLine = [MaybeUninit<f32>; LINE];
 
-/// The same, aligned to a cache line: it can be written past the caches.
+/// A line of the caller's memory that is aligned to a cache line, so that it can be written past the caches.
 #[repr(align(64))]
 pub(super) struct AlignedLine(pub(super) OutputLine);
 
@@ -20,9 +20,9 @@ pub(super) struct AlignedLine(pub(super) OutputLine);
 pub(super) trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// As many f64 values.
+    /// Register of as many f64 values.
     type Wide: WideLanes;
-    /// Values in the register; divides [`LINE`].
+    /// Number of values in the register; divides [`LINE`].
     const COUNT: usize;
     /// A set bit for every value.
     const ALL: u32 = u32::MAX >> (u32::BITS as usize - Self::COUNT);
@@ -34,18 +34,18 @@ pub(super) trait Lanes:
     fn store(self, target: &mut [MaybeUninit<f32>]);
     /// Writes past the caches, from value `first` of the line, a multiple of [`Lanes::COUNT`].
     fn stream(self, target: &mut AlignedLine, first: usize);
-    /// Makes all streamed values visible to whoever is told next that they are there.
+    /// Makes all streamed values visible to other threads that are told of them next.
     fn finish_streaming();
 
-    /// self · factor + term.
+    /// self · factor + term, rounded once if the target fuses.
     fn mul_add(self, factor: Self, term: Self) -> Self;
     /// term − self · factor.
     fn negated_mul_add(self, factor: Self, term: Self) -> Self;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
-    /// The larger of both, and `least` if self is not a number.
+    /// The larger of self and `least`; `least` if self is not a number.
     fn or_at_least(self, least: Self) -> Self;
-    /// A bit for every value that is less than `limit`; none for what is not a number.
+    /// A bit for every value below `limit`; none for a value that is not a number.
     fn below(self, limit: Self) -> u32;
     /// `negative` where self is below zero, else `other`.
     fn if_negative(self, negative: Self, other: Self) -> Self;
@@ -68,15 +68,15 @@ pub(super) trait LaneWork {
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
-/// As many f64 values as [`Lanes`] has f32 values.
+/// A register of as many f64 values as [`Lanes`] has f32 values.
 pub(super) trait WideLanes: Copy + Sub<Output = Self> + Mul<Output = Self> {
     fn splat(value: f64) -> Self;
     /// self · factor − term.
     fn mul_sub(self, factor: Self, term: Self) -> Self;
 }
 
-/// An operation on each coordinate. No function can do this: one that is handed over is compiled on its own first,
-/// without the instructions that its caller has enabled, and registers then travel through memory.
+/// An operation on each coordinate. No function can do this: a function that is handed over is compiled on its own
+/// first, without the instructions that its caller has enabled, and registers then travel through memory.
 macro_rules! each {
     ($operation:expr, $coordinates:expr) => {{
         let [x, y, z] = $coordinates;
@@ -85,10 +85,10 @@ macro_rules! each {
 }
 pub(super) use each;
 
-/// Whether a fused multiply-add is an instruction wherever this build runs.
+/// True if a fused multiply-add is an instruction on every processor that this build runs on.
 const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
-/// Values in the portable register: what SSE2 and NEON hold.
+/// Number of values in the portable register: what SSE2 and NEON hold.
 const PORTABLE: usize = 4;
 
 /// [`Lanes`] as an array, left to the compiler.

@@ -10,10 +10,10 @@ use super::plan::FramePlan;
 use super::simd;
 use super::vertices::Vertices;
 
-/// One mesh and where to write its apparent positions and, if wanted, Doppler factors.
+/// A mesh, and the memory for its apparent positions and, if wanted, Doppler factors.
 ///
-/// The memory is the caller's and is only written. It may be part of a mapped GPU buffer; streams that begin
-/// at a multiple of 64 bytes are written fastest.
+/// The memory is the caller's and is only written. It may be part of a mapped GPU buffer; streams that begin at a
+/// multiple of 64 bytes are written fastest.
 #[derive(Debug)]
 pub struct PhotoSurfaceMesh<'a> {
     vertices: &'a Vertices,
@@ -30,7 +30,7 @@ impl<'a> PhotoSurfaceMesh<'a> {
         Self::in_write_only(vertices, position.map(simd::write_only))
     }
 
-    /// The same in memory that cannot be read, such as a mapped buffer.
+    /// As above, in memory that cannot be read, such as a mapped buffer.
     ///
     /// # Errors
     /// As [`PhotoSurfaceMesh::new`].
@@ -52,7 +52,7 @@ impl<'a> PhotoSurfaceMesh<'a> {
         self.with_write_only_doppler(simd::write_only(doppler))
     }
 
-    /// The same in memory that cannot be read, such as a mapped buffer.
+    /// As above, in memory that cannot be read, such as a mapped buffer.
     ///
     /// # Errors
     /// As [`PhotoSurfaceMesh::with_doppler`].
@@ -61,7 +61,7 @@ impl<'a> PhotoSurfaceMesh<'a> {
         Ok(Self { doppler, ..self })
     }
 
-    /// The mesh.
+    /// Vertices of the mesh.
     pub fn vertices(&self) -> &'a Vertices {
         self.vertices
     }
@@ -81,7 +81,7 @@ impl<'a> PhotoSurfaceMesh<'a> {
         let plan = FramePlan::new(eye, vertices.origin());
         let [in_x, in_y, in_z] = vertices.streams().map(|stream| stream.chunks(CHUNK / LINE));
         let position = x.chunks_mut(CHUNK).zip(y.chunks_mut(CHUNK)).zip(z.chunks_mut(CHUNK));
-        // An iterator of Doppler chunks that goes on with empty ones if D is not wanted.
+        // Go on with empty Doppler chunks if D is not wanted.
         let doppler = doppler.chunks_mut(CHUNK).chain(std::iter::repeat_with(<&mut [_]>::default));
         let input = in_x.zip(in_y).zip(in_z);
         vertices.spheres().iter().zip(input).zip(position).zip(doppler).map(

@@ -1,9 +1,9 @@
-//! The photo-surface of things at rest in the world: where their vertices appear to an eye that moves.
+//! The photo-surface of objects at rest in the world: the apparent positions of their vertices for a moving eye.
 //!
-//! Light that reaches the eye together left the vertices at different times, from the eye's past light cone.
-//! In the eye's own rest frame those emission events lie at the *apparent positions*; the surface they make is
-//! the photo-surface (Weiskopf 2001, 5.1). Drawing it like any other mesh, with the eye at the origin, gives
-//! the picture that the moving observer sees, aberration and light-travel time included.
+//! Light that reaches the eye together left the vertices at different times, from the eye's past light cone. In the
+//! eye's own rest frame those emission events lie at the *apparent positions*; the surface they make is the
+//! photo-surface (W 5.1). Drawing it like any other mesh, with the eye at the origin, gives the picture that the
+//! moving observer sees, aberration and light-travel time included.
 //!
 //! # How it works
 //! [`Vertices`] keeps a mesh as three f32 streams about an f64 origin. Once a frame the eye's velocity becomes
@@ -14,16 +14,16 @@
 //! the chunks of all meshes.
 //!
 //! # What can be relied on
-//! - Directions are within 7e-7 rad of exact for γ ≤ 1e9 at distances of 1e-3 to 1e6 m, and within 4e-4 rad for γ ≤ 1e12
-//!   (`tests/photo_surface_accuracy.rs`).
+//! - Directions are within 7e-7 rad of exact for γ ≤ 1e9 at distances of 1e-3 to 1e6 m, and within 4e-4 rad for γ ≤
+//!   1e12 (`tests/physics/photo_surface_accuracy.rs`).
 //! - The output of an eye at rest is p − o, rounded, and D = 1 exactly.
 //! - The bits do not depend on the number of threads, on how a mesh's output is aligned, or on whether AVX2 or AVX-512
 //!   computed it; [`Instructions::Portable`] may differ in the last bits on processors without fused operations.
 //! - Output memory is only written, never read, so that it may be a mapped GPU buffer.
-//! - A vertex without a finite result, because its coordinates are not finite, or it is or appears further away
-//!   than 5e18 m, is written as zeros with D = 0, and counted in [`Stats`].
+//! - A vertex without a finite result is written as zeros with D = 0 and counted in [`Stats`]: its coordinates or the
+//!   eye's position are not finite, or it is or appears further away than 5e18 m.
 //! - A vertex at a moving eye has no direction: it is written as zeros with D = 0. Nearer than 1e-18 m D is not
-//!   reliable; everywhere else D > 0.
+//!   reliable; at every other distance D > 0.
 //!
 //! # Example
 //! ```

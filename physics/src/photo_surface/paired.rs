@@ -1,8 +1,8 @@
-//! Two registers as one.
+//! Two registers that work as one.
 //!
-//! From load to store the equations are a chain of some 130 cycles, square root and division included, and a
-//! processor looks ahead no further than the next vector or two. Two registers taken through the chain
-//! side by side give it something to do while it waits.
+//! The equations are a chain of some 130 cycles from load to store, square root and division included, and a processor
+//! looks ahead no further than the next vector or two. Two registers taken through the chain side by side give it
+//! something to do while it waits.
 
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};

@@ -1,8 +1,8 @@
-//! What the kernel needs to know about a frame, computed once in f64.
+//! Constants of a frame for the kernel, computed once in f64.
 //!
-//! A boost scales the two light-cone coordinates of an emission event by κ = γ + |u| and 1/κ and leaves the
-//! part across the motion alone. So all that a frame needs is κ, the direction of motion e, and where the eye
-//! is relative to each mesh's origin.
+//! A boost scales the two light-cone coordinates of an emission event by κ = γ + |u| and 1/κ and leaves the part
+//! across the motion alone ([`crate::light_cone`]). All that a frame needs is κ, the direction of motion e, and the
+//! position of the eye relative to each mesh's origin.
 
 use glam::DVec3;
 
@@ -10,19 +10,19 @@ use super::eye::PhotoSurfaceEye;
 use super::sphere::BoundingSphere;
 use crate::double_double::DoubleDoubleVec3;
 
-/// The f32 form serves wherever D is at least this: its direction error is a few roundings divided by D.
+/// Least D for which the f32 form serves: its direction error is a few roundings divided by D.
 ///
-/// D = γ − |u| cos δ at an angle δ off astern. Over all directions the least D is 1/κ, so that a slow eye needs nothing
-/// else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone astern of 14.5°.
+/// D = γ − |u| cos δ at an angle δ off astern. Over all directions the least D is 1/κ, so that a slow eye needs
+/// nothing else; over all speeds it is sin δ, so that at any speed the f32 form serves outside a cone of 14.5° astern.
 const LEAST_DOPPLER: f64 = 0.25;
 
-/// (h / |d⊥|)² on the surface of that cone: 1 / sin² δ − 1.
+/// Square of h / |d⊥| on the surface of that cone: 1 / sin² δ − 1.
 pub(super) const REAR_CONE_COTANGENT_SQUARED: f32 = (1.0 / (LEAST_DOPPLER * LEAST_DOPPLER) - 1.0) as f32;
 
-/// Which formula a chunk gets.
+/// Formula for a chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FormulaChoice {
-    /// The eye is at rest: positions are only shifted, exactly.
+    /// A shift of the positions, exactly, for an eye at rest.
     AtRest,
     /// The light-cone form in f32.
     LightCone,
@@ -30,21 +30,21 @@ pub(super) enum FormulaChoice {
     ExactAstern,
 }
 
-/// The frame as one mesh sees it.
+/// Constants of a frame for one mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FramePlan {
-    /// The eye's position relative to the mesh's origin.
+    /// Position of the eye relative to the mesh's origin, metres.
     pub(super) offset: DVec3,
-    /// What `offset` was rounded by: it counts where the eye is near a vertex and both are far from the origin.
+    /// Remainder of the rounding of `offset`: it counts if the eye is near a vertex and both are far from the origin.
     pub(super) offset_rest: DVec3,
-    /// e = u/|u|, zero at rest.
+    /// Direction of motion e = u/|u|, zero at rest.
     pub(super) direction: DVec3,
     /// κ = γ + |u|.
     pub(super) kappa: f64,
 }
 
 impl FramePlan {
-    /// FramePlan for a mesh whose coordinates are relative to `origin` (world frame, metres).
+    /// Constants for a mesh whose coordinates are relative to `origin` (world frame, metres).
     pub(super) fn new(eye: &PhotoSurfaceEye, origin: DVec3) -> Self {
         let celerity = eye.celerity();
         let offset = DoubleDoubleVec3::difference(eye.position(), origin);
@@ -67,7 +67,7 @@ impl FramePlan {
         }
     }
 
-    /// Whether the distance from the rear cone, whose tip is the eye, to the sphere's centre is within its radius.
+    /// True if the distance from the rear cone, whose tip is the eye, to the sphere's centre is within its radius.
     fn touches_rear_cone(&self, sphere: &BoundingSphere) -> bool {
         let centre = sphere.centre - self.offset;
         let astern = -centre.dot(self.direction);
@@ -81,8 +81,8 @@ impl FramePlan {
 
 #[cfg(test)]
 mod tests {
-    //! The choice of formula. A wrong one would spend f64 work on what lies ahead, or, worse, leave vertices
-    //! astern to the form that loses their direction.
+    //! Law: each chunk gets the cheapest formula that keeps its directions. A wrong choice would spend f64 work on
+    //! what lies ahead, or, worse, leave vertices astern to the form that loses their direction.
 
     use super::*;
     use crate::celerity::Celerity;

@@ -1,8 +1,8 @@
-//! Everything that needs `unsafe`: x86 vector registers, stores past the caches, and write-only memory.
+//! All `unsafe` code of the kernel: x86 vector registers, stores past the caches, and write-only memory.
 //!
-//! The register types implement `Lanes` by one instruction an operation. They are safe to use because they
-//! are private to the kernel and only `x86::avx2` and `x86::avx512` name them: every method is inlined into one
-//! of these two, which are entered after the processor was asked (see [`Instructions`]).
+//! The register types implement `Lanes` by one instruction an operation. They are safe to use because they are private
+//! to this file and only `x86::avx2` and `x86::avx512` name them: every method is inlined into one of these two, which
+//! are entered after the processor was asked (see [`Instructions`]).
 
 use std::mem::MaybeUninit;
 
@@ -26,14 +26,14 @@ pub(super) fn run<W: LaneWork>(instructions: Instructions, work: W) -> W::Output
     }
 }
 
-/// Memory that is only written, as what it is.
+/// Memory that is only written, typed as memory that need not be initialised.
 pub(super) fn write_only(memory: &mut [f32]) -> &mut [MaybeUninit<f32>] {
     let (start, length) = (memory.as_mut_ptr().cast(), memory.len());
     // SAFETY: same memory, same layout, same borrow. The kernel only ever writes initialised values to it.
     unsafe { std::slice::from_raw_parts_mut(start, length) }
 }
 
-/// The lines as aligned lines, if all of them are.
+/// The lines as aligned lines if all of them are aligned; otherwise the lines as they are.
 pub(super) fn aligned<const N: usize>(
     mut streams: [&mut [OutputLine]; N],
 ) -> Result<[&mut [AlignedLine]; N], [&mut [OutputLine]; N]> {

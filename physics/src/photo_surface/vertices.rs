@@ -1,10 +1,10 @@
 //! The vertices of a mesh at rest in the world, laid out for the kernel.
 //!
-//! Three streams of f32 hold the coordinates relative to one f64 origin, so that a mesh a million metres from
-//! the world's origin keeps its detail. Streams are made of lines, as many vertices as the kernel takes at a
-//! time, the last one padded: it loads whole aligned lines and needs no special case at the end. Every
-//! chunk of [`CHUNK`] vertices carries a bounding sphere, which tells the kernel once per frame whether any
-//! of them lies so nearly astern that the exact form is needed.
+//! Three streams of f32 hold the coordinates relative to one f64 origin, so that a mesh a million metres from the
+//! world's origin keeps its detail. Streams are made of lines, as many vertices as the kernel takes at a time, the
+//! last one padded: the kernel loads whole aligned lines and needs no special case at the end. Every chunk of
+//! [`CHUNK`] vertices carries a bounding sphere, which tells the kernel once per frame if any of them lies so nearly
+//! astern that the exact form is needed.
 
 use glam::{DVec3, Vec3};
 
@@ -84,7 +84,7 @@ impl Vertices {
         self.count += 1;
     }
 
-    /// The sphere about the middle of the box around the chunk's finite vertices.
+    /// Sphere about the middle of the box around the chunk's finite vertices.
     fn bounding_sphere(&self, first: usize) -> BoundingSphere {
         let finite =
             || (first..self.count.min(first + CHUNK)).map(|index| self.offset(index)).filter(|p| p.is_finite());
@@ -125,13 +125,13 @@ impl Vertices {
         self.count == 0
     }
 
-    /// The point that the f32 coordinates are relative to; world frame, metres.
+    /// Origin of the f32 coordinates; world frame, metres.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Indices of the vertices that are not finite, in rising order. Nothing that uses one can be drawn: leave
-    /// its triangles out, and say how many.
+    /// Indices of the vertices that are not finite, in rising order. A triangle that uses one cannot be drawn: leave
+    /// it out, and say how many.
     pub fn not_finite(&self) -> &[usize] {
         &self.not_finite
     }
@@ -147,7 +147,8 @@ impl Vertices {
 
 #[cfg(test)]
 mod tests {
-    //! A sphere that missed a vertex would leave it to the form that loses directions astern.
+    //! Law: a chunk's sphere holds all its finite vertices. A sphere that missed one would leave it to the form that
+    //! loses directions astern.
 
     use super::*;
 

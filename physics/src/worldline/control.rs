@@ -1,4 +1,4 @@
-//! What moves a vehicle: thrust and turn rate as its pilot feels them, constant or depending on the state.
+//! Controls: thrust and turn rate as the pilot feels them, constant or depending on the state.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use super::state::WorldlineState;
 use super::thrust::Thrust;
 
 impl Thrust {
-    /// A push given in the axes of the pure boost from the world to the vehicle's frame, without a turn.
+    /// Thrust for a push given in the axes of the pure boost from the world to the vehicle's frame, without a turn.
     pub fn in_boost_axes(state: &WorldlineState, acceleration: DVec3) -> Self {
         Self { acceleration: state.orientation.inverse() * acceleration, turn_rate: DVec3::ZERO }
     }
@@ -20,7 +20,7 @@ pub trait Control {
     /// The thrust in this state.
     fn thrust(&self, state: &WorldlineState) -> Thrust;
 
-    /// Whether the thrust is the same in every state, which saves [`Exact`](super::Exact) half its work.
+    /// True if the thrust is the same in every state, which saves [`Exact`](super::Exact) half its work.
     fn is_constant(&self) -> bool {
         false
     }
@@ -42,7 +42,7 @@ impl<F: Fn(&WorldlineState) -> Thrust> Control for F {
     }
 }
 
-/// Asks the control, and passes on only what is finite.
+/// The thrust that the control asks for, if it is finite.
 #[inline]
 pub(super) fn finite_thrust(control: &dyn Control, state: &WorldlineState) -> Result<Thrust, WorldlineError> {
     let thrust = control.thrust(state);

@@ -1,9 +1,9 @@
 //! The method of Dormand and Prince, order 5 with an embedded order 4, as an adaptive integrator (DOPRI5).
 //!
-//! Each step asked for is cut into as many as the tolerance needs. The difference of the two orders estimates the error
-//! of the lower, the higher is kept. The last stage is the first of the next step. Coefficients: J. R. Dormand, P. J.
-//! Prince, "A family of embedded Runge–Kutta formulae", J. Comp. Appl. Math. 6 (1980); step control: E. Hairer et al.,
-//! *Solving Ordinary Differential Equations I*, II.4.
+//! Each step asked for is cut into as many as the tolerance needs. The difference of the two orders estimates the
+//! error of the lower one; the result of the higher one is kept. The last stage is the first of the next step.
+//! Coefficients: J. R. Dormand, P. J. Prince, "A family of embedded Runge–Kutta formulae", J. Comp. Appl. Math. 6
+//! (1980); step control: E. Hairer et al., *Solving Ordinary Differential Equations I*, II.4.
 
 use super::control::Control;
 use super::error::WorldlineError;
@@ -31,14 +31,15 @@ const TABLEAU: Tableau<7> = Tableau {
     ],
 };
 
-/// Order 5; also the last row of the tableau.
+/// Weights of order 5, also the last row of the tableau.
 const WEIGHTS: [f64; 7] = [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0];
 
-/// Order 5 less order 4.
+/// Weights of order 5 less those of order 4.
 const ERROR_WEIGHTS: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
-/// Trials, taken or rejected, before a step is given up: more than any control that is worth following needs.
+/// Largest number of trials, taken or rejected, before a step is given up: more than any control that is worth
+/// following needs.
 const MOST_TRIALS: usize = 100_000;
 
 impl DormandPrince {
@@ -91,8 +92,8 @@ impl Integrator for DormandPrince {
                 Err(WorldlineError::Overflow { .. }) => f64::INFINITY,
                 Err(error) => return Err(error),
             };
-            // The error grows with the fifth power of the step; aim a little lower, and change by no more than five
-            // times.
+            // Choose the next trial: the error grows with the fifth power of the step. Aim a little lower, and change
+            // by no more than five times.
             trial *= (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
             if trial.abs() >= remaining.abs() {
                 trial = remaining;
@@ -109,10 +110,10 @@ impl Integrator for DormandPrince {
 
 /// An inner step that may or may not be taken.
 struct Attempt {
-    /// The largest error as a share of the tolerance.
+    /// Largest error as a share of the tolerance.
     error: f64,
     end: WorldlineState,
-    /// The rates at the end.
+    /// Rates at the end of the step.
     last: Rates,
 }
 

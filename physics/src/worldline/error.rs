@@ -1,4 +1,4 @@
-//! What can go wrong on the way along a worldline.
+//! The errors of a step or a journey along a worldline.
 
 use thiserror::Error;
 
@@ -6,27 +6,27 @@ use super::limits::{LEAST_TOLERANCE, MOST_STEPS};
 use super::thrust::Thrust;
 use crate::celerity::Celerity;
 
-/// Why a step was not taken. The state before it is still good.
+/// The reasons why a step was not taken. The state before it is still good.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum WorldlineError {
-    /// The step is infinite or not a number.
+    /// A step that is infinite or not a number.
     #[error("a step of proper time must be finite, not {step}")]
     StepNotFinite {
         /// The step asked for, metres.
         step: f64,
     },
-    /// The control gave a thrust that is infinite or not a number.
+    /// A thrust asked for by the control that is infinite or not a number.
     #[error(
         "the control asked for an acceleration of {} and a turn rate of {} at proper time {proper_time} m; both must be finite",
         thrust.acceleration, thrust.turn_rate
     )]
     ThrustNotFinite {
-        /// What the control gave.
+        /// Thrust that the control asked for.
         thrust: Thrust,
-        /// When, metres of proper time.
+        /// Proper time at that moment, metres.
         proper_time: f64,
     },
-    /// Celerity, place or time would leave the range that is computed.
+    /// A celerity, position or time beyond the range that is computed.
     #[error(
         "a step of {step} m from proper time {proper_time} m leads beyond what can be computed (celerities to {limit:e}); \
          take shorter steps, thrust less, or cap the rapidity",
@@ -35,10 +35,10 @@ pub enum WorldlineError {
     Overflow {
         /// Proper time at the start of the step, metres.
         proper_time: f64,
-        /// The step, metres.
+        /// Length of the step, metres of proper time.
         step: f64,
     },
-    /// An adaptive integrator cannot reach its tolerance.
+    /// An adaptive integrator that cannot reach its tolerance.
     #[error(
         "from proper time {proper_time} m the next {remaining} m do not converge to a tolerance of {tolerance:e}; \
          loosen it, or make the control vary less abruptly"
@@ -46,9 +46,9 @@ pub enum WorldlineError {
     NotConverged {
         /// Proper time reached, metres.
         proper_time: f64,
-        /// What was left of the step, metres.
+        /// Rest of the step, metres of proper time.
         remaining: f64,
-        /// The tolerance asked for.
+        /// Tolerance asked for.
         tolerance: f64,
     },
     /// A tolerance that cannot be met.

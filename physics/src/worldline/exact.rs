@@ -1,8 +1,8 @@
 //! The exact step for thrust and turn rate that are constant in the pilot's own axes.
 //!
-//! In the frame that moves along at the start of the step the motion is exp(τ G) for a constant generator G of boosts
-//! and rotations: four-velocity and displacement are its Taylor series on the time axis, the change of orientation is
-//! the unitary part of the spinor exp(τ (a − iω)·σ/2). Boosting the three by the tetrad at the start gives the end.
+//! The motion in the frame that moves along at the start of the step is exp(τ G) for a constant generator G of boosts
+//! and rotations: four-velocity and displacement are its Taylor series on the time axis, and the change of orientation
+//! is the unitary part of the spinor exp(τ (a − iω)·σ/2). Boosting the three by the tetrad at the start gives the end.
 //! Nothing is approximated but by rounding, at every γ; and rounding is at 106 bits, because a circle multiplies an
 //! error of celerity or orientation by γ².
 
@@ -16,10 +16,11 @@ use super::state::{Increment, LowParts, WorldlineState};
 use super::thrust::Thrust;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 
-/// Exact for constant thrust and turn rate; a control that varies is taken at the middle of the step (second order).
+/// Integrator that is exact for constant thrust and turn rate; a control that varies is taken at the middle of the
+/// step (second order).
 ///
-/// *Accuracy:* rapidity to 3e-14 over 10 units (`tests/worldline.rs`); celerity, place and orientation to 6e-14 after a
-/// thousand turns at γ = 1000 (`rapidity measure --extremes`).
+/// *Accuracy:* rapidity to 3e-14 over 10 units (`tests/physics/worldline.rs`); celerity, place and orientation to
+/// 6e-14 after a thousand turns at γ = 1000 (`rapidity measure --extremes`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
@@ -43,7 +44,7 @@ impl Integrator for Exact {
     }
 }
 
-/// A step in as many spans as the series needs to converge.
+/// The state after a step of constant thrust, taken in as many spans as the series needs to converge.
 fn constant_thrust(start: &WorldlineState, step: f64, thrust: &Thrust) -> Result<WorldlineState, WorldlineError> {
     let rate = thrust.acceleration.length() + thrust.turn_rate.length();
     let spans = (step.abs() * rate / LONGEST_SPAN).ceil().max(1.0);
@@ -61,13 +62,13 @@ fn constant_thrust(start: &WorldlineState, step: f64, thrust: &Thrust) -> Result
 
 /// The motion over one span, seen from the comoving frame and in the pilot's axes at its start, to about 106 bits.
 struct SpanMotion {
-    /// dt.
+    /// Time dt, metres.
     time: DoubleDouble,
-    /// dx.
+    /// Displacement dx, metres.
     way: DoubleDoubleVec3,
-    /// v, the celerity reached.
+    /// Celerity v reached.
     celerity: DoubleDoubleVec3,
-    /// q₂, the rotation that remains when the boost to v is taken off.
+    /// Rotation q₂ that remains when the boost to v is taken off.
     rotation: Rotation,
 }
 
@@ -102,13 +103,13 @@ impl SpanMotion {
     }
 }
 
-/// Below this share of a sum a term changes no digit of it.
+/// Share of a sum below which a term changes no digit of it.
 const NEGLIGIBLE: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
 
 /// The Taylor series of exp(τ G) (1, 0) and of its integral: displacement in time and space, and celerity, in the
 /// comoving frame.
 fn four_velocity_series(thrust: &Thrust, span: f64) -> (DoubleDouble, DoubleDoubleVec3, DoubleDoubleVec3) {
-    /// 0.6ⁿ/n! has fallen below rounding before.
+    /// Number of terms after which 0.6ⁿ/n! has fallen below rounding.
     const MOST_TERMS: u32 = 32;
     let acceleration = DoubleDoubleVec3::from(thrust.acceleration);
     let turn_rate = DoubleDoubleVec3::from(thrust.turn_rate);

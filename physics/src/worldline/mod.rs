@@ -1,4 +1,4 @@
-//! Worldlines: how a vehicle that is pushed and turned moves through spacetime, on its own clock.
+//! Worldlines: the motion of a vehicle under thrust and turn, on its own clock.
 //!
 //! # The equations
 //!
@@ -22,10 +22,10 @@
 //! | [`Exact`] | no error but rounding while thrust and turn rate are constant in the pilot's axes |
 //! | [`DormandPrince`] | a tolerance instead of a step: controls that vary by an unknown amount |
 //!
-//! All answer the same trait, so their cost and error can be compared (`tests/worldline.rs`, `benches/worldline.rs`).
-//! Each step ends in a finite state or in an error; event and clock carry what rounding left over, so that a billion
-//! steps of coasting go as far as one. The exact steps carry it in celerity and orientation too: a rounding of either
-//! shifts the frame in which a circle closes by γ² as much.
+//! The integrators share one trait, so that their cost and error can be compared (`tests/physics/worldline.rs`,
+//! `benches/worldline.rs`). Each step ends in a finite state or in an error. Event and clock carry what rounding left
+//! over, so that a billion steps of coasting go as far as one. The exact steps carry it in celerity and orientation
+//! too: a rounding of either shifts the frame in which a circle closes by γ² as much.
 
 mod control;
 mod dormand_prince;

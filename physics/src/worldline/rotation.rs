@@ -1,4 +1,5 @@
-//! Rotations of about 106 bits: what f64 drops from an orientation, a fast circle multiplies by γ² a turn after turn.
+//! Rotations of about 106 bits. The digits that f64 drops from an orientation are multiplied by γ² turn after turn on
+//! a fast circle.
 
 use glam::DVec4;
 
@@ -12,7 +13,7 @@ pub(super) struct Rotation {
 }
 
 impl Rotation {
-    /// This rotation after another.
+    /// The rotation that is `first` and then this one.
     pub(super) fn after(self, first: Self) -> Self {
         let (a, b) = (self, first);
         Self {
@@ -21,14 +22,15 @@ impl Rotation {
         }
     }
 
-    /// The vector turned; the quaternion's length does not matter.
+    /// The vector turned by this rotation; the quaternion's length does not matter.
     pub(super) fn turn(self, vector: DoubleDoubleVec3) -> DoubleDoubleVec3 {
         let across = self.vector.precise_cross(vector);
         let half = across.scaled(self.scalar) + self.vector.precise_cross(across);
         vector + half.scaled(DoubleDouble::from(2.0) / self.length_squared())
     }
 
-    /// At length 1. Divided, so that no rotation stays exactly none.
+    /// The rotation as a quaternion of length 1. The components are divided, so that the identity stays exactly
+    /// itself.
     pub(super) fn normalised(self) -> Self {
         let length = self.length_squared().sqrt();
         Self { vector: self.vector.scaled(DoubleDouble::from(1.0) / length), scalar: self.scalar / length }
@@ -38,7 +40,7 @@ impl Rotation {
         self.scalar * self.scalar + self.vector.dot(self.vector)
     }
 
-    /// The components (x, y, z, w) in f64, and what they leave.
+    /// Components (x, y, z, w) rounded to f64, and the remainders of that rounding.
     pub(super) fn split(self) -> (DVec4, DVec4) {
         let (vector, scalar) = (self.vector, self.scalar);
         (vector.high.extend(scalar.high), vector.low.extend(scalar.low))

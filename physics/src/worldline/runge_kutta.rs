@@ -15,12 +15,12 @@ pub(super) struct Rates {
     pub(super) ct: f64,
     pub(super) position: DVec3,
     pub(super) celerity: DVec3,
-    /// Of the quaternion's four components.
+    /// Rates of the quaternion's four components.
     pub(super) orientation: DQuat,
 }
 
 impl Rates {
-    /// The equations at the head of [`super`].
+    /// Rates by the equations at the head of [`super`].
     #[inline]
     pub(super) fn of(state: &WorldlineState, control: &dyn Control) -> Result<Self, WorldlineError> {
         let thrust = finite_thrust(control, state)?;
@@ -36,7 +36,7 @@ impl Rates {
         })
     }
 
-    /// The sum of `weights` times `rates`.
+    /// Sum of `weights` times `rates`.
     #[inline]
     pub(super) fn weighted<const N: usize>(weights: &[f64; N], rates: &[Self; N]) -> Self {
         let mut sum = Self { orientation: DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0), ..Self::default() };
@@ -67,14 +67,14 @@ impl Rates {
 
 /// The coefficients of an explicit method of N stages.
 pub(super) struct Tableau<const N: usize> {
-    /// Node c of each stage, as a share of the step.
+    /// Nodes c of the stages, as shares of the step.
     pub(super) nodes: [f64; N],
-    /// Row i weighs the stages before i.
+    /// Weights of the earlier stages, row i for stage i.
     pub(super) stages: [[f64; N]; N],
 }
 
 impl<const N: usize> Tableau<N> {
-    /// The rates at all stages, the first of them given.
+    /// Rates at all stages, the first of them given.
     #[inline]
     pub(super) fn rates(
         &self,

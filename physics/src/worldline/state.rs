@@ -1,4 +1,4 @@
-//! A point of a worldline, and how an increment is added to it without losing what rounding drops.
+//! A point of a worldline, and the addition of increments to it without losing what rounding drops.
 
 use glam::{DQuat, DVec3, DVec4};
 
@@ -10,22 +10,22 @@ use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 use crate::event::Event;
 use crate::observer::Observer;
 
-/// Where a vehicle is in spacetime, how fast it moves, and how it is turned.
+/// Event, celerity and orientation of a vehicle, with its clock.
 ///
 /// The fields may be set at will (a wall, a cap); the orientation has to stay a unit quaternion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorldlineState {
-    /// τ, the time on the vehicle's own clock, metres.
+    /// Proper time τ on the vehicle's own clock, metres.
     pub proper_time: f64,
-    /// ct in the world, metres.
+    /// World time ct, metres.
     pub ct: f64,
-    /// Place in the world, metres.
+    /// Position in the world, metres.
     pub position: DVec3,
-    /// Celerity in the world.
+    /// Celerity, measured in the world.
     pub celerity: Celerity,
     /// Rotation from the pilot's axes to the axes of the pure boost from the world.
     pub orientation: DQuat,
-    /// What the other fields have lost to rounding.
+    /// Remainders of the other fields, lost to rounding.
     remainder: Remainder,
 }
 
@@ -37,15 +37,15 @@ struct Remainder {
     rest: LowParts,
 }
 
-/// What a step adds to a state.
+/// The change that a step makes to a state.
 pub(super) struct Increment {
     pub(super) ct: f64,
     pub(super) position: DVec3,
-    /// The new celerity, not a difference.
+    /// New celerity, not a difference.
     pub(super) celerity: DVec3,
-    /// The new orientation; its length is corrected.
+    /// New orientation, not a difference; its length is corrected.
     pub(super) orientation: DQuat,
-    /// What the new celerity and orientation leave, for a step that knows them that well.
+    /// Remainders of the new celerity and orientation, from a step that knows them that well.
     pub(super) rest: LowParts,
 }
 
@@ -57,13 +57,13 @@ pub(super) struct LowParts {
 }
 
 impl WorldlineState {
-    /// A vehicle at an event, its own clock at zero.
+    /// State of a vehicle at an event, its own clock at zero.
     pub fn new(event: Event, celerity: Celerity, orientation: DQuat) -> Self {
         let Event { ct, position } = event;
         Self { ct, position, celerity, orientation, ..Self::default() }
     }
 
-    /// The event.
+    /// Event of the vehicle's reference point.
     pub fn event(&self) -> Event {
         Event { ct: self.ct, position: self.position }
     }
@@ -81,8 +81,8 @@ impl WorldlineState {
         self.observer().at_offset(self.orientation * place)
     }
 
-    /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest there
-    /// is [`WorldlineState::observer_at`] with the vehicle's orientation.
+    /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest
+    /// there is [`WorldlineState::observer_at`] with the vehicle's orientation.
     ///
     /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
     /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
@@ -99,7 +99,7 @@ impl WorldlineState {
     /// The celerity to about 106 bits.
     pub(super) fn precise_celerity(&self) -> DoubleDoubleVec3 {
         let (high, low) = (self.celerity.vector(), self.remainder.rest.celerity);
-        // A component that was set since keeps nothing of the old one's that would show.
+        // A component that was set since keeps nothing of the remainder of its old value.
         DoubleDoubleVec3 { high, low: DVec3::select((high + low).cmpeq(high), low, DVec3::ZERO) }
     }
 
@@ -139,7 +139,7 @@ impl WorldlineState {
         }
     }
 
-    /// A state within a step, only to ask a control and take rates there.
+    /// The state within a step, only for asking a control and taking rates there.
     #[inline]
     pub(super) fn staged(&self, span: f64, increment: &Increment) -> Result<Self, WorldlineError> {
         Ok(Self {
@@ -150,7 +150,7 @@ impl WorldlineState {
         })
     }
 
-    /// This state with the increment's celerity and orientation.
+    /// The state with the increment's celerity and orientation.
     #[inline]
     fn turned(&self, step: f64, increment: &Increment) -> Result<Self, WorldlineError> {
         let celerity = Celerity::new(increment.celerity).map_err(|_| self.overflow(step))?;
@@ -163,7 +163,7 @@ impl WorldlineState {
     }
 }
 
-/// The quaternion at length 1; untouched, to the bit, where it is that long already.
+/// The quaternion at length 1; untouched, to the bit, if it is that long already.
 #[inline]
 fn unit_quaternion(quaternion: DQuat) -> Option<DQuat> {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;

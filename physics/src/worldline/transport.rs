@@ -1,4 +1,4 @@
-//! How the pilot's axes are carried along: like gyroscopes, or turned so that the front window faces the motion.
+//! Transport of the pilot's axes: like gyroscopes, or turned so that the front window faces the motion.
 
 use glam::DVec3;
 
@@ -8,27 +8,27 @@ use super::thrust::Thrust;
 /// The pilot's forward direction, in the pilot's axes.
 const NOSE: DVec3 = DVec3::NEG_Z;
 
-/// The rule by which the vehicle turns of itself under a thrust.
+/// Rule by which the vehicle turns of itself under a thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transport {
-    /// Fermi–Walker transport: no turn against gyroscopes. Against the world they precess (Thomas).
+    /// Fermi–Walker transport: no turn against gyroscopes. Against the world the axes precess (Thomas).
     Gyroscopic,
-    /// The nose follows the direction of motion (W 6.2).
+    /// Transport with the nose on the direction of motion (W 6.2).
     FacingMotion(FacingMotion),
 }
 
-/// The nose on the direction of motion, or right against it in reverse.
+/// Parameters of the transport with the nose on the direction of motion, or right against it in reverse.
 ///
-/// Exactly so while |u| is well above `softening`. Near rest, where the direction of motion has no meaning and may turn
-/// at any rate, the turn fades to nothing, and what angle is left when speed returns decays at the rate `alignment`, to
-/// whichever end of the vehicle is nearer. So the turn rate is a smooth function of the state everywhere: a stop, a
-/// start and a reversal turn nothing suddenly.
+/// The nose is exactly there while |u| is well above `softening`. Near rest the direction of motion has no meaning and
+/// may turn at any rate: the turn fades to nothing, and the angle that is left when speed returns decays at the rate
+/// `alignment`, towards whichever end of the vehicle is nearer. The turn rate is thus a smooth function of the state
+/// everywhere: a stop, a start and a reversal turn nothing suddenly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacingMotion {
-    /// The celerity below which the nose no longer follows, above zero. The turn rate stays below |a| / (2 softening)
-    /// + alignment / 2.
+    /// Celerity below which the nose no longer follows, above zero. The turn rate stays below |a| / (2 softening) +
+    /// alignment / 2.
     pub softening: f64,
-    /// The rate at which a left-over angle decays, radians per radian and metre of proper time. 0 leaves it.
+    /// Rate at which a left-over angle decays, radians per radian and metre of proper time. 0 leaves it.
     pub alignment: f64,
 }
 
@@ -44,7 +44,7 @@ impl Transport {
 }
 
 impl FacingMotion {
-    /// The turn rate in the pilot's axes.
+    /// Turn rate in the pilot's axes, radians per metre of proper time.
     ///
     /// *Equation:* in the axes of the pure boost the direction of motion e turns at e × a/w. Less the Thomas rate (a ×
     /// u)/(1 + γ), which the axes turn by in any case, that is γ (u × a)/w². Softened, w² + s² stands for w²; the

@@ -59,7 +59,7 @@ impl Adaptation {
         };
         let bins = shaders::METER_BINS as usize;
         Self {
-            state: buffer("adaptation", size_of::<shaders::Adaptation>()),
+            state: buffer("adaptation", size_of::<shaders::AdaptationState>()),
             curve: buffer("curve", (bins + 1) * size_of::<f32>()),
             bins: buffer("bins", 2 * bins * size_of::<[u32; 2]>()),
             metered: Metered::default(),
@@ -114,7 +114,7 @@ impl Meter {
         let stops = development.exposure.stops();
         let exposure = factor(f64::from(stops).exp2() / stored.scale);
         if !now.gains {
-            let state = shaders::Adaptation {
+            let state = shaders::AdaptationState {
                 exposure,
                 white: stops.exp2().max(1.0),
                 log2_exposure: stops,
@@ -133,7 +133,7 @@ impl Meter {
         let side = (pictures.len() as f64).sqrt();
         let [columns, rows] = shaders::METER_GRID.map(|pixels| ((f64::from(pixels) / side) as u32).max(1));
         let groups = pictures.iter().map(|picture| {
-            let metering = shaders::Metering {
+            let metering = shaders::MeteringUniforms {
                 exposure,
                 log2_exposure: stops,
                 log2_scale: picture.stored.scale.log2() as f32,

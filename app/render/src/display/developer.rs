@@ -61,7 +61,7 @@ impl Developer {
             clear(encoder, &sum.sums[sum.current]);
             sum.filled = true;
         }
-        let uniform = shaders::Accumulate { weight: 1.0 / count as f32 };
+        let uniform = shaders::AccumulateUniforms { weight: 1.0 / count as f32 };
         let uniform = contents(gpu, "accumulate", bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let before = sum.current;
         sum.current = 1 - before;
@@ -130,7 +130,7 @@ impl Developer {
         part: &DevelopedPart<'_>,
     ) {
         let [x, y, ..] = part.viewport.map(|pixels| pixels as f32);
-        let placement = shaders::Placement { origin: Vec2::new(x, y), exposure: part.exposure, odd: 0.0 };
+        let placement = shaders::PlacementUniforms { origin: Vec2::new(x, y), exposure: part.exposure, odd: 0.0 };
         let placement = contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM);
         let resources = [
             wgpu::BindingResource::TextureView(radiance),

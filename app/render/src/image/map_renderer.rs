@@ -18,7 +18,7 @@ use view::{Effects, Shot};
 use wgpu::util::DeviceExt;
 
 /// Length of a pane's entry in the table of panes, texels.
-const PANE_TEXELS: u32 = (size_of::<shaders::Pane>() / 16) as u32;
+const PANE_TEXELS: u32 = (size_of::<shaders::AtlasTile>() / 16) as u32;
 /// Fixed cost of drawing a pane besides its own texels, in texels.
 const PANE_COST: f64 = 20e3;
 /// Fixed cost of drawing a pane where the CPU draws and a change of pipeline costs more, in texels.
@@ -120,7 +120,7 @@ impl MapRenderer {
             plan.placed.iter().map(|pane| pane.view(&picture_map.cube_from_world, from_eye, NEAR_M)).collect();
         let of_layer = |layer: u32| {
             let layer = Vec4::new(layer as f32, 0.0, 0.0, 0.0);
-            views.iter().map(move |(view, _)| shaders::View { layer, ..*view })
+            views.iter().map(move |(view, _)| shaders::ViewUniforms { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
         world.prepare(gpu, mode, false, format);
@@ -175,7 +175,7 @@ impl MapRenderer {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
         // No texture may be empty, and a picture that sees nothing of the cube has no panes.
-        let panes = if plan.panes.is_empty() { &[shaders::Pane::default()] } else { plan.panes.as_slice() };
+        let panes = if plan.panes.is_empty() { &[shaders::AtlasTile::default()] } else { plan.panes.as_slice() };
         let map = buffer("map", bytes_of(&plan.map), wgpu::BufferUsages::UNIFORM);
         let side = shaders::MAP_CELLS;
         let cells = [side, side, plan.cells.len() as u32];

@@ -101,11 +101,11 @@ impl VertexStage {
     }
 
     /// View for the vertex stage: `view` with the place of this observer.
-    fn view(&self, view: shaders::View, observer: &Observer) -> shaders::View {
+    fn view(&self, view: shaders::ViewUniforms, observer: &Observer) -> shaders::ViewUniforms {
         let offset = observer.event.position - self.origin;
         let rounded = offset.as_vec3();
         let rest = (offset - rounded.as_dvec3()).as_vec3();
-        shaders::View { eye: Vec4::from((rounded, 0.0)), eye_rest: Vec4::from((rest, 0.0)), ..view }
+        shaders::ViewUniforms { eye: Vec4::from((rounded, 0.0)), eye_rest: Vec4::from((rest, 0.0)), ..view }
     }
 }
 

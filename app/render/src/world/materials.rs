@@ -72,7 +72,7 @@ fn bind(
 ) -> wgpu::BindGroup {
     let threshold = if let Alpha::Mask(threshold) = material.alpha { threshold } else { 0.0 };
     let [red, green, blue] = material.emissive;
-    let uniform = shaders::Material {
+    let uniform = shaders::MaterialUniforms {
         base_colour: Vec4::from_array(material.base_colour),
         emissive: Vec4::new(red, green, blue, threshold),
         carriers: Vec4::new(surface.0, emission.0, surface.1, emission.1),

@@ -34,7 +34,7 @@ pub struct World {
     lightings: Vec<wgpu::Buffer>,
     /// Light of the scene that every picture needs: it falls on animated bodies differently each time.
     light: Lighting,
-    lit_at_rest: shaders::Lighting,
+    lit_at_rest: shaders::LightingUniforms,
     /// Animated body of each motion, if it is animated.
     animated: Vec<Option<Arc<Animated>>>,
     bindings: Bindings,
@@ -136,7 +136,7 @@ impl World {
         let sky = &self.spectra.carriers[self.spectra.sky];
         // No shadow falls on what moves.
         let sun_direction = self.lit_at_rest.sun_direction.with_w(0.0);
-        let lighting = shaders::Lighting { sun_direction, ..self.lit_at_rest };
+        let lighting = shaders::LightingUniforms { sun_direction, ..self.lit_at_rest };
         for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
             let Some(animated) = animated else { continue };
             let falling = Falling::on_animated(&self.light, animated, observer, delayed, sky);
@@ -155,7 +155,7 @@ impl World {
     }
 
     /// Writes the views of the next submission, numbered in order. A submission sees only one writing.
-    pub fn write_views(&mut self, gpu: &Gpu, written: &[shaders::View]) {
+    pub fn write_views(&mut self, gpu: &Gpu, written: &[shaders::ViewUniforms]) {
         let stride = view_stride(gpu);
         if written.len() as u64 * stride > self.views.size() {
             self.views = views(gpu, (written.len() as u64).next_power_of_two());
@@ -163,7 +163,7 @@ impl World {
         }
         let mut bytes = vec![0; written.len() * stride as usize];
         for (place, view) in bytes.chunks_exact_mut(stride as usize).zip(written) {
-            place[..size_of::<shaders::View>()].copy_from_slice(bytes_of(view));
+            place[..size_of::<shaders::ViewUniforms>()].copy_from_slice(bytes_of(view));
         }
         gpu.queue.write_buffer(&self.views, 0, &bytes);
     }
@@ -259,7 +259,7 @@ fn ranges(draw: &Draw, part: &TargetPart, eye: DVec3) -> Vec<Range<u32>> {
 /// Bytes from one view to the next.
 fn view_stride(gpu: &Gpu) -> u64 {
     let alignment = u64::from(gpu.device.limits().min_uniform_buffer_offset_alignment);
-    (size_of::<shaders::View>() as u64).next_multiple_of(alignment)
+    (size_of::<shaders::ViewUniforms>() as u64).next_multiple_of(alignment)
 }
 
 fn views(gpu: &Gpu, count: u64) -> wgpu::Buffer {
@@ -292,7 +292,7 @@ impl Bindings {
         let one_view = wgpu::BufferBinding {
             buffer: views,
             offset: 0,
-            size: wgpu::BufferSize::new(size_of::<shaders::View>() as u64),
+            size: wgpu::BufferSize::new(size_of::<shaders::ViewUniforms>() as u64),
         };
         let resources = [
             wgpu::BindingResource::Buffer(one_view),

@@ -25,8 +25,8 @@ const MAP_SIZE: u32 = 4096;
 /// Light of a scene, for the shaders.
 pub struct Light {
     /// Light that falls on what rests.
-    pub at_rest: shaders::Lighting,
-    /// Uniforms [`shaders::Lighting`]: one for what rests, then one for each of the scene's motions.
+    pub at_rest: shaders::LightingUniforms,
+    /// Uniforms [`shaders::LightingUniforms`]: one for what rests, then one for each of the scene's motions.
     pub uniforms: Vec<wgpu::Buffer>,
     /// Reversed depth, seen from the sun.
     pub map: wgpu::TextureView,
@@ -82,7 +82,7 @@ impl Light {
         // The layout needs a view as well; the shadow shader does not read it.
         let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("unused view"),
-            size: size_of::<shaders::View>() as u64,
+            size: size_of::<shaders::ViewUniforms>() as u64,
             usage: wgpu::BufferUsages::UNIFORM,
             mapped_at_creation: false,
         });
@@ -128,11 +128,11 @@ fn lighting(
     shadowed: bool,
     spectra: &Spectra,
     background: Option<[f32; 3]>,
-) -> shaders::Lighting {
+) -> shaders::LightingUniforms {
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
     let (shadow_from_world, depth_m) = shadow_from_world(scene);
-    let of_scene = shaders::Lighting {
+    let of_scene = shaders::LightingUniforms {
         shadow_from_world: matrix(&shadow_from_world),
         sun_direction: Vec4::W * f32::from(u8::from(shadowed)),
         sun: Vec4::W * (shaders::SHADOW_BIAS_M / depth_m as f32),
@@ -148,9 +148,9 @@ fn lighting(
 }
 
 /// Lighting with other light that falls.
-pub fn with_falling(lighting: &shaders::Lighting, falling: &Falling) -> shaders::Lighting {
+pub fn with_falling(lighting: &shaders::LightingUniforms, falling: &Falling) -> shaders::LightingUniforms {
     let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
-    shaders::Lighting {
+    shaders::LightingUniforms {
         sun_direction: falling.sun_direction.as_vec3().extend(lighting.sun_direction.w),
         sun: falling.sun.as_vec3().extend(lighting.sun.w),
         ambient_red,

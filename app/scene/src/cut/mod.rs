@@ -1,7 +1,7 @@
 //! A scene cut for one observer: as finely as his picture needs, and no finer.
 //!
 //! [`crate::refine`] cuts every edge to one length; here an edge is cut where straight lines would leave the light's by more than a part of a
-//! pixel (W 7.2 left this as future work). What decides is the edge alone, seen by one observer: [`physics::bend::Bend::bound`] of it bounds every triangle
+//! pixel (W 7.2 left this as future work). What decides is the edge alone, seen by one observer: [`physics::interpolation_error::TriangleInterpolation::bound`] of it bounds every triangle
 //! of which it is the longest edge, inside too. So two triangles that share an edge cut it alike, whatever mesh they belong to, and a
 //! triangle with no edge left to cut is good everywhere.
 //!

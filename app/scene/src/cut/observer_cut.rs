@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DVec3, Vec2, Vec3};
 use physics::Observer;
-use physics::bend::Bound;
+use physics::interpolation_error::InterpolationBound;
 use rayon::prelude::*;
 
 use super::sight::{Chord, Sight};

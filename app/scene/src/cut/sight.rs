@@ -1,7 +1,7 @@
 //! Sights: how an observer sees the resting scene, a uniformly moving frame or an animated body.
 
 use glam::{DQuat, DVec3};
-use physics::bend::Bend;
+use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Observer};
 
 use crate::scene::Scene;

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use physics::bend::Bend;
+use physics::interpolation_error::TriangleInterpolation;
 use physics::retarded::retarded;
 use physics::{Aberration, Beta, Celerity, Event, Observer};
 

@@ -1,5 +1,6 @@
-//! Law: CIEDE2000 gives the published differences of the published pairs of colours, which its authors chose so that every
-//! branch of the formula counts. A wrong program would have a hue turned the long way round, or a discontinuity misplaced.
+//! Law: CIEDE2000 gives the published differences of the published pairs of colours, which its authors chose so that
+//! every branch of the formula counts. A wrong program would have a hue turned the long way round, or a discontinuity
+//! misplaced.
 
 use physics::colour::difference::{delta_e_2000, lab_from_xyz};
 use physics::glam::DVec3;
@@ -8,7 +9,8 @@ use physics::glam::DVec3;
 const PRINTED: f64 = 5e-5;
 
 /// Sharma, Wu and Dalal, *The CIEDE2000 Color-Difference Formula: Implementation Notes, Supplementary Test Data, and
-/// Mathematical Observations*, Color Research and Application 30 (2005), table 1: two colours in CIELAB, and their difference.
+/// Mathematical Observations*, Color Research and Application 30 (2005), table 1: two colours in CIELAB, and their
+/// difference.
 #[rustfmt::skip]
 const PUBLISHED: [([f64; 3], [f64; 3], f64); 34] = [
     ([50.0, 2.6772, -79.7751], [50.0, 0.0, -82.7485], 2.0425),

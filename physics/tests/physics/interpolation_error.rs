@@ -1,51 +1,42 @@
-//! Law: no place of a flat triangle is drawn further from where light says than the bound of its longest edge, and none is seen outside the
-//! bound's cone. A wrong program would show: with F taken at the ball's middle only, places beside dead astern beyond the bound; with a
-//! cone about the middle's own direction, places ahead or astern outside it.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+//! Law: no place of a flat triangle is drawn further from where its light says than the bound of its longest edge, and
+//! none is seen outside the bound's cone. A wrong program would show places beside dead astern beyond the bound, if it
+//! took F at the ball's middle only; and places ahead or astern outside the cone, if it took a cone about the middle's
+//! own direction.
 
+use exact_reference::random::{direction, seeded};
 use glam::DVec3;
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Event, Observer, apparent};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
 
-/// Relative: what rounding may add to either side of a bound, and to a cone in radians.
+/// Share that rounding may add to either side of a bound, and to a cone in radians.
 const ROUNDING: f64 = 1e-7;
 
-/// Between two vectors of any length.
+/// Angle between two vectors of any length, radians.
 fn angle(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (a.normalize(), b.normalize());
     a.cross(b).length().atan2(a.dot(b))
 }
 
-fn unit(random: &mut ChaCha8Rng) -> DVec3 {
-    loop {
-        let at = DVec3::from_array([0, 1, 2].map(|_| random.random_range(-1.0..=1.0)));
-        if (0.01..=1.0).contains(&at.length()) {
-            return at.normalize();
-        }
-    }
-}
-
-/// The largest F, times what is lost where a place is drawn nearer than it appears.
+/// Largest F, times the loss if a place is drawn nearer than it appears.
 fn bend_of_rounding(rapidity: f64) -> f64 {
     8.0 * (2.0 * rapidity).exp()
 }
 
 #[test]
 fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
-    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut random = seeded(5);
     let (mut claimed, mut tight, mut astern) = (0, 0.0_f64, 0);
     for _ in 0..60_000 {
-        let (motion, rapidity) = (unit(&mut random), random.random_range(0.0..14.5_f64));
+        let (motion, rapidity) = (direction(&mut random), random.random_range(0.0..14.5_f64));
         let celerity = Celerity::new(motion * rapidity.sinh()).unwrap();
         let interpolation = TriangleInterpolation::new(celerity);
-        // Anywhere, or as near to astern as that is enlarged.
+        // Put the triangle anywhere, or as near to astern as that is enlarged.
         let near = random.random_range(0..2) == 0;
         let scale = if near { (2.0 - rapidity).min(0.0).exp() } else { 1.0 };
-        let middle = if near { -motion + 2.0 * scale * unit(&mut random) } else { unit(&mut random) };
+        let middle = if near { -motion + 2.0 * scale * direction(&mut random) } else { direction(&mut random) };
         let size = scale * 10.0_f64.powf(random.random_range(-3.0..0.3));
-        let corners = [0, 1, 2].map(|_| middle + size * unit(&mut random));
+        let corners = [0, 1, 2].map(|_| middle + size * direction(&mut random));
         let [a, b, c] = corners;
         let edges = [(a, b), (b, c), (c, a)];
         let (from, to) = edges.into_iter().max_by(|x, y| x.0.distance(x.1).total_cmp(&y.0.distance(y.1))).unwrap();
@@ -76,7 +67,7 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
             assert!(aside <= bound.radius_rad + 1e-6, "{aside} > {} at rapidity {rapidity}", bound.radius_rad);
             let said = interpolation
                 .error(place, corners.into_iter().zip(shares).map(|(at, share)| at.length() * share).sum());
-            // At the highest speeds δ is the last digits of a distance.
+            // The lengthening δ is the last digits of a distance at the highest speeds.
             let lost = 1e-15 * bend_of_rounding(rapidity);
             assert!((said - error).abs() < 1e-3 * error + lost, "{said} is not {error} at rapidity {rapidity}");
         }

@@ -1,15 +1,15 @@
-//! Law: light shifted by D is D⁵ L(Dλ), so a black body seen with the Doppler factor D is one of temperature D·T, and its
-//! radiance of all wavelengths together grows by D⁴. A wrong program would lose a power of D, or shift the wrong way.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
+//! Law: light shifted by D is D⁵ L(Dλ), so a black body seen with the Doppler factor D is one of temperature D·T, and
+//! its radiance of all wavelengths together grows by D⁴. A wrong program would lose a power of D, or shift the wrong
+//! way.
 
 use std::f64::consts::PI;
 
+use exact_reference::random::{seeded, size};
 use physics::colour::{Carrier, ShiftTable, Spectrum};
 use physics::glam::DVec3;
 use rand::RngExt;
-use support::{EPSILON, relative_difference, seeded, size};
+
+use crate::support::{EPSILON, relative_difference};
 
 fn planck(kelvin: f64) -> Spectrum {
     Spectrum::planck(kelvin).unwrap()
@@ -44,7 +44,7 @@ fn over_all_wavelengths(peak_nm: f64, radiance: impl Fn(f64) -> f64) -> f64 {
 fn radiance_of_all_wavelengths_grows_by_the_fourth_power() {
     /// Stefan's and Boltzmann's constant, CODATA 2018. *Units:* W m⁻² K⁻⁴.
     const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
-    /// Its ten digits.
+    /// Rounding of the ten digits.
     const PRINTED: f64 = 2e-10;
     let mut random = seeded(72);
     for _ in 0..100 {
@@ -58,11 +58,12 @@ fn radiance_of_all_wavelengths_grows_by_the_fourth_power() {
     }
 }
 
-/// The candela was defined so, from 1946 to 1979: 60 cd/cm² from a black body at the freezing point of platinum, 2041.4 K.
+/// The candela was defined so, from 1946 to 1979: 60 cd/cm² from a black body at the freezing point of platinum,
+/// 2041.4 K.
 #[test]
 fn black_body_at_the_freezing_point_of_platinum_has_sixty_candela_per_square_centimetre() {
     let luminance = planck(2041.4).xyz(1.0).y;
-    /// What a degree more or less would make; the temperature was not known better.
+    /// Effect of a degree more or less; the temperature was not known better.
     const MEASURED: f64 = 1e-2;
     assert!((luminance / 60e4 - 1.0).abs() < MEASURED, "{luminance} cd/m²");
 }

@@ -1,19 +1,18 @@
 //! Law: rapidity adds up proper acceleration, gyroscopes precess by Thomas' angle, and each integrator is as exact as
 //! it says. A wrong program would reach the speed of light, turn the gyroscope the other way, lose the mass shell, or
 //! drift while coasting.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
 
 use std::f64::consts::TAU;
 
+use exact_reference::random::{direction, orientation, seeded, size, vector};
 use physics::glam::{DQuat, DVec3};
 use physics::worldline::{
     Control, DormandPrince, Exact, FacingMotion, Integrator, Rk4, Thrust, Transport, WorldlineError, WorldlineState,
     travel,
 };
 use physics::{Boost, Celerity, Event, FourVector, Observer};
-use support::{EPSILON, celerity, direction, orientation, relative_difference, seeded, size, vector};
+
+use crate::support::{EPSILON, celerity, relative_difference};
 
 fn integrators() -> [(&'static str, Box<dyn Integrator>); 3] {
     [("rk4", Box::new(Rk4)), ("exact", Box::new(Exact)), ("dopri5", Box::new(DormandPrince::new(1e-10).unwrap()))]
@@ -66,7 +65,7 @@ fn circle(w: f64, a: f64, tau: f64) -> (WorldlineState, Thrust, WorldlineState) 
     let gamma = (1.0 + w * w).sqrt();
     let start =
         WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w)).unwrap(), DQuat::IDENTITY);
-    // To the right: forward −z × right x = −y.
+    // A force to the right: forward −z × right x = −y.
     let thrust = Thrust { acceleration: DVec3::new(a, 0.0, 0.0), turn_rate: DVec3::new(0.0, -gamma * a / w, 0.0) };
     let (angle, radius) = (tau * a / w, w * w / a);
     let (sine, cosine) = angle.sin_cos();
@@ -130,8 +129,8 @@ fn ship_stopped_from_outside_rests_exactly() {
 
 #[test]
 fn gyroscope_on_a_circle_at_gamma_1000_reaches_the_tabled_accuracy() {
-    // The same circle with gyroscopic axes: now the thrust turns, once every 0.6 of proper time, and Thomas precession
-    // is all the rotation.
+    // This is the circle above with gyroscopic axes: now the thrust turns, once every 0.6 of proper time, and Thomas
+    // precession is all the rotation.
     let (start, turning, expected) = circle(1e3, 10.0, 1.0);
     let rate = turning.turn_rate.y;
     let thrust = |state: &WorldlineState| push(DQuat::from_rotation_y(rate * state.proper_time) * turning.acceleration);

@@ -1,23 +1,22 @@
-//! Law: light that arrives now left its source on the observer's past light cone. For uniform, hyperbolic and circular motion the event is known by
-//! other means: in closed form, or by plain bisection.
+//! Law: light that arrives now left its source on the observer's past light cone. For uniform, hyperbolic and circular
+//! motion the event is known by other means: in closed form, or by plain bisection.
 //!
 //! A wrong program shows a source where it is now, or where uniform motion would have had it.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use std::cell::Cell;
 
+use exact_reference::random::seeded;
 use physics::glam::DVec3;
 use physics::retarded::{NotSeen, Worldline, retarded};
 use physics::{Beta, Celerity, Event, Observer, PointSource, apparent};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
 
-/// Metres, relative to the distance of the event.
+/// Error of a position or time as a share of the distance of the event.
 const TOLERANCE: f64 = 1e-9;
-/// Looks at a worldline that a search may take: as many as bisecting an f64 to its last bit would.
+/// Number of looks at a worldline that a search may take: as many as bisecting an f64 to its last bit would.
 const LOOKS: usize = 64;
 
-/// Counts how often it is asked.
+/// A worldline that counts how often it is asked.
 struct Counted<W>(W, Cell<usize>);
 
 impl<W: Fn(f64) -> (DVec3, DVec3)> Worldline for Counted<W> {
@@ -31,7 +30,7 @@ fn counted<W: Fn(f64) -> (DVec3, DVec3)>(worldline: W) -> Counted<W> {
     Counted(worldline, Cell::new(0))
 }
 
-/// Constant proper acceleration along x from rest at the origin at ct = 0: x = (√(1 + a²t²) − 1)/a.
+/// Hyperbolic motion: constant proper acceleration along x from rest at the origin at ct = 0, x = (√(1 + a²t²) − 1)/a.
 fn hyperbolic(a: f64) -> impl Fn(f64) -> (DVec3, DVec3) {
     move |ct| {
         let root = (1.0 + (a * ct).powi(2)).sqrt();
@@ -39,7 +38,7 @@ fn hyperbolic(a: f64) -> impl Fn(f64) -> (DVec3, DVec3) {
     }
 }
 
-/// Round the z axis.
+/// Circular motion round the z axis.
 fn circular(radius: f64, rate: f64) -> impl Fn(f64) -> (DVec3, DVec3) {
     move |ct| {
         let (sine, cosine) = (rate * ct).sin_cos();
@@ -49,15 +48,16 @@ fn circular(radius: f64, rate: f64) -> impl Fn(f64) -> (DVec3, DVec3) {
 
 #[test]
 fn hyperbolic_motion_is_seen_where_its_closed_form_crosses_the_light_cone() {
-    // To the right of the source, light cone and hyperbola meet where x − t = X − T =: k; and (x + 1/a)² − t² = 1/a² makes
-    // (k + 1/a) (k + 1/a + 2t) = 1/a².
+    // Light cone and hyperbola meet, to the right of the source, where x − t = X − T =: k; and (x + 1/a)² − t² = 1/a²
+    // makes (k + 1/a) (k + 1/a + 2t) = 1/a².
     let mut seen_at_all = 0;
     for a in [1e-6, 0.1, 1.0, 50.0] {
         for (right, time) in [(3.0, 1.0), (100.0, 40.0), (1e4, 2e4), (5.0, -20.0), (7.0, 7.01)] {
             let sum = right - time + 1.0 / a;
             let exact = 0.5 * (1.0 / (a * a * sum) - sum);
             let (place, _) = hyperbolic(a)(exact);
-            // Beyond the horizon, or once the source has passed, its light comes from the other side.
+            // Skip observers beyond the horizon, and those that the source has passed: its light comes from the other
+            // side.
             if sum <= 0.0 || place.x > right {
                 continue;
             }
@@ -75,7 +75,7 @@ fn hyperbolic_motion_is_seen_where_its_closed_form_crosses_the_light_cone() {
 
 #[test]
 fn a_circling_source_is_seen_where_bisection_finds_it() {
-    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut random = seeded(3);
     for _ in 0..2000 {
         let radius = random.random_range(0.1..20.0);
         let speed: f64 = 1.0 - 10.0_f64.powf(random.random_range(-4.0..0.0));
@@ -105,7 +105,7 @@ fn from_the_middle_of_its_circle_a_source_is_seen_a_radius_late() {
 
 #[test]
 fn uniform_motion_is_seen_as_apparent_moving_has_it() {
-    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let mut random = seeded(4);
     for _ in 0..2000 {
         let mut vector = |size: f64| DVec3::from_array([0, 1, 2].map(|_| size * random.random_range(-1.0..1.0)));
         let (position, beta, place, ct) = (vector(50.0), vector(0.57), vector(50.0), vector(50.0).x);
@@ -128,7 +128,7 @@ fn what_is_faster_than_light_is_refused_and_what_touches_the_eye_is_seen_at_once
     assert_eq!(here.ct, 2.0);
     let nowhere = retarded(Event::default(), &counted(|_| (DVec3::splat(f64::NAN), DVec3::ZERO)));
     assert!(matches!(nowhere, Err(NotSeen::Never { .. })));
-    // Light as good as keeps up with this source, and its velocity is said to be the opposite one.
+    // This source is nearly as fast as its own light, and the velocity given is the opposite one.
     let speed = DVec3::X * 0.999_999;
     let lying = retarded(Event::default(), &counted(|ct| (DVec3::X * 10.0 - speed * ct, speed)));
     assert!(matches!(lying, Err(NotSeen::NotConverged { .. })), "{lying:?}");

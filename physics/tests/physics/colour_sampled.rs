@@ -1,13 +1,13 @@
-//! Law: measured spectra are straight lines between their samples and constant beyond them, and nothing in them is passed over,
-//! however far the Doppler effect squeezes it. A wrong program would sum over a grid and let lines flicker as they shift.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+//! Law: measured spectra are straight lines between their samples and constant beyond them, and nothing in them is
+//! passed over, however far the Doppler effect squeezes it. A wrong program would sum over a grid and let lines
+//! flicker as they shift.
 
-mod support;
-
+use exact_reference::random::{seeded, size};
 use physics::colour::{Carrier, SampledSpectrum, Spectrum, SpectrumError};
 use physics::glam::DVec3;
 use rand::RngExt;
-use support::{relative_difference, seeded, size};
+
+use crate::support::relative_difference;
 
 fn sampled(samples: &[[f64; 2]]) -> Spectrum {
     Spectrum::sampled(samples).unwrap()
@@ -31,7 +31,7 @@ fn values_are_straight_between_samples_and_constant_beyond() {
 /// Illuminant E: 683 lm/W times the table's sum of ȳ, and the three functions were made to have equal sums.
 #[test]
 fn equal_energy_has_its_chromaticity() {
-    /// What is left of that in the table.
+    /// Remainder of that in the table.
     const UNEVEN: f64 = 1e-4;
     let xyz = sampled(&[[555.0, 1e9]]).xyz(1.0);
     assert!((xyz.y / (683.0 * 106.8569) - 1.0).abs() < 1e-5, "{xyz}");
@@ -41,18 +41,19 @@ fn equal_energy_has_its_chromaticity() {
 /// CIE 15:2018, table 11.1, chromaticity of D65 for the 2° observer; the spectrum is CIE's own, in steps of 5 nm.
 #[test]
 fn daylight_has_its_chromaticity() {
-    let samples: Vec<_> = numbers(include_str!("data/cie-d65-5nm.csv")).iter().map(|row| [row[0], row[1]]).collect();
+    let samples: Vec<_> = numbers(include_str!("../data/cie-d65-5nm.csv")).iter().map(|row| [row[0], row[1]]).collect();
     let xyz = sampled(&samples).xyz(1.0);
     let sum = xyz.element_sum();
     assert!((xyz.x / sum - 0.312_72).abs() < 2e-5 && (xyz.y / sum - 0.329_03).abs() < 2e-5, "{}", xyz / sum);
 }
 
-/// A line of 0.01 nm and one of 1e-6 nm, anywhere between the steps of the observer's table: luminance is that of its wavelength.
+/// A line of 0.01 nm and one of 1e-6 nm, anywhere between the steps of the observer's table: luminance is that of its
+/// wavelength.
 #[test]
 fn a_narrow_line_is_seen_whole_wherever_it_is_shifted() {
-    /// How far a straight piece of the table bends within the line, and the halves of its steps.
+    /// Difference between the line and a straight piece of the table, and the halves of its steps.
     const TOLERANCE: f64 = 1e-3;
-    let matching = numbers(include_str!("../src/colour/data/cie-1931-2deg-1nm.csv"));
+    let matching = numbers(include_str!("../../src/colour/data/cie-1931-2deg-1nm.csv"));
     let mut random = seeded(81);
     for half_width in [5e-3, 5e-7] {
         for _ in 0..200 {

@@ -1,114 +1,17 @@
 //! Law: the plain textbook formulas, evaluated in 600-bit arithmetic, where what cancels has bits to spare. A program
 //! that computes them in f64 would be off by ε γ² in direction astern, which is everything from γ = 1e8 on.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-mod support;
-
-use std::ops::{Add, Mul, Sub};
-
-use dashu_float::FBig;
+use exact_reference::light::{boosted_light, retarded};
+use exact_reference::random::{direction, direction_off, seeded, size, vector};
+use exact_reference::real::{RealVec, angle, gamma, real, relative, to_f64};
 use physics::glam::DVec3;
 use physics::{Aberration, Beta, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent, compose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use support::{EPSILON, celerity, direction, direction_off, seeded, size, vector};
 
-type Real = FBig;
+use crate::support::{EPSILON, celerity};
 
-/// Enough for γ⁴ = 1e48 to cancel and leave 400 bits.
-const BITS: usize = 600;
-
-fn real(value: f64) -> Real {
-    Real::try_from(value).unwrap().with_precision(BITS).value()
-}
-
-fn to_f64(value: &Real) -> f64 {
-    value.to_f64().value()
-}
-
-#[derive(Clone, Debug)]
-struct RealVec([Real; 3]);
-
-impl RealVec {
-    fn new(vector: DVec3) -> Self {
-        Self(vector.to_array().map(real))
-    }
-
-    fn map2(&self, other: &Self, f: impl Fn(&Real, &Real) -> Real) -> Self {
-        Self([0, 1, 2].map(|i| f(&self.0[i], &other.0[i])))
-    }
-
-    fn dot(&self, other: &Self) -> Real {
-        let [x, y, z] = self.map2(other, |a, b| a * b).0;
-        x + y + z
-    }
-
-    fn cross(&self, other: &Self) -> Self {
-        let ([a, b, c], [d, e, f]) = (&self.0, &other.0);
-        Self([b * f - c * e, c * d - a * f, a * e - b * d])
-    }
-
-    fn length(&self) -> Real {
-        self.dot(self).sqrt()
-    }
-}
-
-impl Add for &RealVec {
-    type Output = RealVec;
-    fn add(self, other: Self) -> RealVec {
-        self.map2(other, |a, b| a + b)
-    }
-}
-
-impl Sub for &RealVec {
-    type Output = RealVec;
-    fn sub(self, other: Self) -> RealVec {
-        self.map2(other, |a, b| a - b)
-    }
-}
-
-impl Mul<&Real> for &RealVec {
-    type Output = RealVec;
-    fn mul(self, factor: &Real) -> RealVec {
-        RealVec([0, 1, 2].map(|i| &self.0[i] * factor))
-    }
-}
-
-fn gamma(u: &RealVec) -> Real {
-    (real(1.0) + u.dot(u)).sqrt()
-}
-
-/// Textbook: the event (−|d|, d) boosted, and D = |x'| / |d|.
-fn boosted_light(u: &RealVec, d: &RealVec) -> (RealVec, Real) {
-    let r = d.length();
-    let along = u.dot(d);
-    let image = d + &(u * &(&r + along / (real(1.0) + gamma(u))));
-    let doppler = image.length() / r;
-    (image, doppler)
-}
-
-/// Textbook: retarded displacement of a source, B eq. 2.22, and the light's travel time.
-fn retarded(d: &RealVec, u: &RealVec) -> (RealVec, Real) {
-    let gamma = gamma(u);
-    let beta = u * &(real(1.0) / &gamma);
-    let along = beta.dot(d);
-    let gamma_squared = &gamma * &gamma;
-    let age = &gamma_squared * (&along * real(-1.0) + (&along * &along + d.dot(d) / &gamma_squared).sqrt());
-    (d - &(&beta * &age), age)
-}
-
-/// The angle between a computed and the exact vector.
-fn angle(computed: DVec3, exact: &RealVec) -> f64 {
-    let computed = RealVec::new(computed);
-    to_f64(&(computed.cross(exact).length() / (computed.length() * exact.length())))
-}
-
-/// |computed/exact − 1|.
-fn relative(computed: f64, exact: &Real) -> f64 {
-    to_f64(&(real(computed) / exact - real(1.0))).abs()
-}
-
-/// The largest errors met.
+/// Largest errors met.
 #[derive(Debug, Default)]
 struct Worst {
     direction: f64,
@@ -126,9 +29,9 @@ impl Worst {
     }
 
     fn check(&self, what: &str) {
-        /// Rounding of the three components, of the split and of the last sum.
+        /// Angle of the rounding of the three components, of the split and of the last sum; radians.
         const DIRECTION: f64 = 1e-15;
-        /// Some ten roundings.
+        /// Relative error of some ten roundings.
         const RELATIVE: f64 = 12.0 * EPSILON;
         println!("{what}: {self:?}");
         assert!(self.direction < DIRECTION, "{what}: {self:?}");
@@ -136,7 +39,7 @@ impl Worst {
     }
 }
 
-/// Isotropic, dead ahead, dead astern, and 1e-10 to 1 rad off astern.
+/// A displacement in any direction, dead ahead, dead astern, or 1e-12 to 1 rad off astern, by turns.
 fn displacement(random: &mut ChaCha8Rng, u: Celerity, case: u32) -> DVec3 {
     let distance = size(random, -6.0..9.0);
     let astern = -u.vector().normalize();
@@ -248,7 +151,7 @@ fn moving_source_appears_where_600_bits_put_it() {
 fn boosted_vector_is_that_of_600_bits() {
     /// A few roundings of the larger of time and place.
     const TOLERANCE: f64 = 8.0 * EPSILON;
-    /// What t − h loses at 106 bits, to be multiplied by κ.
+    /// Loss of t − h at 106 bits, to be multiplied by κ.
     const SPLIT: f64 = EPSILON * EPSILON;
     let mut random = seeded(25);
     for case in 0..800 {

@@ -1,14 +1,13 @@
-//! Law: an observer sees what his past light cone meets. A wrong program would take a source where it is instead of
+//! Law: an observer sees the events on the past light cone. A wrong program would take a source where it is instead of
 //! where it was, swap red for blue, or lose the companion that flies along.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-mod support;
-
+use exact_reference::random::{direction, seeded, size, vector};
 use physics::glam::DVec3;
 use physics::{Aberration, Boost, Celerity, Event, FourVector, Observer, PointSource, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
+
+use crate::support::{EPSILON, celerity, relative_difference};
 
 fn observer(celerity: DVec3) -> Observer {
     Observer { event: Event::default(), celerity: Celerity::new(celerity).unwrap() }
@@ -16,7 +15,7 @@ fn observer(celerity: DVec3) -> Observer {
 
 #[test]
 fn straight_ahead_and_astern_keep_their_direction_at_every_speed() {
-    /// What the κ written here leaves out: 1e-9 at u = 1e-9.
+    /// Error of the κ written here: 1e-9 at u = 1e-9.
     const TOLERANCE: f64 = 2e-9;
     for (u, kappa) in [(0.75, 2.0), (0.0, 1.0), (1e-9, 1.0), (1e6, 2e6), (1e12, 2e12)] {
         let aberration = Aberration::new(Celerity::new(DVec3::new(0.0, 0.0, -u)).unwrap());
@@ -31,7 +30,7 @@ fn straight_ahead_and_astern_keep_their_direction_at_every_speed() {
 fn abeam_is_seen_at_the_arc_cosine_of_beta() {
     let aberration = Aberration::new(Celerity::new(DVec3::new(0.75, 0.0, 0.0)).unwrap());
     assert_eq!(aberration.observer_from_world(DVec3::Y), (DVec3::new(0.6, 0.8, 0.0), 1.25));
-    // What the observer sees abeam is behind in the world, and redshifted by γ.
+    // Light seen abeam comes from behind in the world, and is redshifted by γ.
     assert_eq!(aberration.world_from_observer(DVec3::Y), (DVec3::new(-0.6, 0.8, 0.0), 0.8));
 }
 
@@ -84,7 +83,7 @@ fn point_ahead_recedes_and_point_astern_comes_near() {
 
 #[test]
 fn approaching_source_is_seen_where_it_was() {
-    // At β = 0.6 towards an observer at rest, 4 m away now: light left it at −10 m, 10 m away. D = 2.
+    // A source at β = 0.6 towards an observer at rest, 4 m away now: light left it at −10 m, 10 m away. D = 2.
     let source = PointSource {
         position: DVec3::new(4.0, 0.0, 0.0),
         celerity: Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap(),
@@ -96,7 +95,7 @@ fn approaching_source_is_seen_where_it_was() {
 
 #[test]
 fn companion_looks_as_at_rest() {
-    // A source that shares the observer's motion keeps its place in his frame, and its colour, at every γ.
+    // A source that shares the observer's motion keeps its place in the observer's frame, and its colour, at every γ.
     let mut random = seeded(32);
     for _ in 0..500 {
         let u = celerity(&mut random, -3.0..12.0);

@@ -1,16 +1,13 @@
-//! Law: a colour's spectrum is that colour at rest, positive and smooth everywhere, fades into grey when it is shifted far,
-//! and is never black; white stays near-neutral (Δu'v' from D65) at every shift. A wrong program would tint the picture at
-//! rest, or turn grey walls black ahead.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+//! Law: a colour's spectrum is that colour at rest, positive and smooth everywhere, fades into grey when it is shifted
+//! far, and is never black; white stays near-neutral (Δu'v' from D65) at every shift. A wrong program would tint the
+//! picture at rest, or turn grey walls black ahead.
 
-mod support;
-
+use exact_reference::random::seeded;
 use physics::colour::{Carrier, Spectrum, luminance, rgb_from_xyz, shares, white, xyz_from_rgb};
 use physics::glam::{DMat3, DVec2, DVec3};
 use rand::RngExt;
-use support::seeded;
 
-/// Of a sum of 471 products, each rounded, and a matrix that multiplies them by 3.
+/// Rounding of a sum of 471 products, each rounded, and of a matrix that multiplies them by 3.
 const EXACT: f64 = 1e-12;
 
 /// Wavelengths from hard X-rays to radio waves, even in their logarithm. *Units:* nm.
@@ -72,7 +69,7 @@ fn shares_are_positive_and_sum_to_one_at_every_wavelength() {
 
 #[test]
 fn shares_are_even_in_far_ultraviolet_and_infrared() {
-    /// What the correction to the exact primaries leaves.
+    /// Remainder of the correction to the exact primaries.
     const EVEN: f64 = 1e-5;
     for nm in wavelengths().filter(|nm| !(270.0..1200.0).contains(nm)) {
         assert!(shares(nm).iter().all(|share| (share - 1.0 / 3.0).abs() < EVEN), "{:?} at {nm} nm", shares(nm));
@@ -81,7 +78,7 @@ fn shares_are_even_in_far_ultraviolet_and_infrared() {
 
 #[test]
 fn grey_stays_near_neutral_from_a_quarter_to_four() {
-    /// What white's bump in the green costs where it is shifted to the red, measured 0.0149.
+    /// Cost of white's bump in the green, shifted to the red: measured 0.0149.
     const FARTHEST: f64 = 0.0150;
     let neutral = chromaticity(xyz_from_rgb() * DVec3::ONE);
     for doppler in doppler_factors(4.0) {
@@ -100,10 +97,11 @@ fn shares_are_broad() {
     }
 }
 
-/// By the shift of wavelengths alone, for each primary.
+/// Largest change by the shift of wavelengths alone, for each primary.
 #[test]
 fn nothing_goes_black() {
-    /// Luminance with white at 1. Measured: 0.0141 for red at D = 0.87, 0.0198 for green at 0.72, 0.0087 for blue at 1.19.
+    /// Luminance with white at 1. Measured: 0.0141 for red at D = 0.87, 0.0198 for green at 0.72, 0.0087 for blue at
+    /// 1.19.
     const DARKEST: f64 = 0.0085;
     for doppler in doppler_factors(1e3).chain(doppler_factors(4.0)) {
         let luminance = Carrier::white().xyz_from_weights(doppler).row(1);

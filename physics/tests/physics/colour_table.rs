@@ -1,20 +1,19 @@
-//! Law: the shift table looks up what direct integration gives, for every kind of light and at every Doppler factor. A wrong
-//! program would show bands of colour ahead, or a brightness that jumps where the table's nodes lie.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+//! Law: the shift table looks up what direct integration gives, for every kind of light and at every Doppler factor. A
+//! wrong program would show bands of colour ahead, or a brightness that jumps where the table's nodes lie.
 
-mod support;
-
+use exact_reference::random::seeded;
 use physics::colour::difference::{delta_e_2000, lab_from_xyz};
 use physics::colour::{Carrier, ShiftTable, Spectrum, xyz_from_rgb};
 use physics::glam::{DMat3, DVec3};
 use rand::RngExt;
-use support::seeded;
+
+use crate::support::relative_difference;
 
 /// ΔE2000, of which 1 is just noticeable. Measured: 0.09 to 0.14, where a pure primary falls off steeply.
 const LARGEST_DIFFERENCE: f64 = 0.5;
 
-/// A leaf, green and bright beyond 700 nm, and a paint as green and dark there: wavelength in nm and reflectance, of the shape
-/// that measured ones have.
+/// A leaf, green and bright beyond 700 nm, and a paint as green and dark there: wavelength in nm and reflectance, of
+/// the shape that measured ones have.
 const LEAF: [[f64; 2]; 16] = [
     [300.0, 0.04],
     [400.0, 0.05],
@@ -53,8 +52,8 @@ fn sampled(samples: &[[f64; 2]]) -> Spectrum {
     Spectrum::sampled(samples).unwrap()
 }
 
-/// ΔE2000 of a colour looked up, with the brightness of the true one as white: the strictest reading, as brightness counts in
-/// full.
+/// ΔE2000 of a colour looked up, with the brightness of the true one as white: the strictest reading, as brightness
+/// counts in full.
 fn difference(looked_up: DVec3, direct: DVec3) -> f64 {
     let [looked_up, direct] = [looked_up, direct].map(|rgb| xyz_from_rgb() * rgb);
     let white = xyz_from_rgb() * DVec3::splat(direct.y);
@@ -124,10 +123,7 @@ fn texels_are_the_colours_of_their_nodes() {
         let [red, green, blue, log2_luminance] = texel.map(f64::from);
         let stored = DVec3::new(red, green, blue) * log2_luminance.exp2();
         // A logarithm of 64 is rounded by 4e-6.
-        assert!(
-            support::relative_difference(stored, direct) < 1e-5,
-            "row {row}, D = {doppler}: {stored}, not {direct}"
-        );
+        assert!(relative_difference(stored, direct) < 1e-5, "row {row}, D = {doppler}: {stored}, not {direct}");
     }
 }
 
@@ -136,10 +132,10 @@ fn beyond_the_ends_the_colour_stays_and_brightness_goes_on_straight() {
     let table = ShiftTable::new(&[Carrier::emitted(planck(5900.0))], 3);
     let [middle, end] = [1, 2].map(|node| table.texels()[node].map(f64::from));
     let seen = table.rgb_from_weights(0, 1e12).x_axis;
-    // As far from the last node, in ln D, as that is from the one before.
+    // Look as far beyond the last node, in ln D, as that is from the one before.
     let luminance = (2.0 * end[3] - middle[3]).exp2();
     let expected = DVec3::new(end[0], end[1], end[2]) * luminance;
-    assert!(support::relative_difference(seen, expected) < 1e-12, "{seen}, not {expected}");
+    assert!(relative_difference(seen, expected) < 1e-12, "{seen}, not {expected}");
 }
 
 #[test]

@@ -1,14 +1,12 @@
-//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the twin
-//! who stays, let null vectors leave the light cone, or turn the head's axes the wrong way round a curve.
+//! Law: boosts keep the interval and compose to a boost and a rotation. A program with a wrong sign would age the
+//! twin that stays, let null vectors leave the light cone, or turn the head's axes the wrong way round a curve.
 
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
-
-mod support;
-
+use exact_reference::random::{direction, seeded, size, vector};
 use physics::glam::{DQuat, DVec3};
 use physics::{Beta, Boost, Celerity, CelerityError, Event, FourVector, compose};
 use rand::RngExt;
-use support::{EPSILON, celerity, direction, relative_difference, seeded, size, vector};
+
+use crate::support::{EPSILON, celerity, relative_difference};
 
 /// β = 0.6 along −z.
 fn three_fifths() -> Celerity {

@@ -6,22 +6,21 @@
 //! carried as a sum of two f64, with cross products that do not cancel; where the textbook form is still
 //! good, it must agree with that, too.
 
-#![expect(clippy::unwrap_used, reason = "a helper that fails, fails its test")]
-
+use exact_reference::random::{direction, direction_off, seeded, size};
 use glam::DVec3;
 use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
-use rand::{Rng, RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// A few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves. NUMERICS: 7e-7.
+/// Angle of a few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves; radians.
 const DIRECTION_RAD: f64 = 7e-7;
-/// A few roundings of f32, relative.
+/// Relative error of a few roundings of f32.
 const RELATIVE: f64 = 2e-6;
-/// Beyond γ = 1e9 the roundings of f64 in d × e show, multiplied by 2γ. NUMERICS: 2e-4 at 1e12.
+/// Angle beyond γ = 1e9, where the roundings of f64 in d × e show, multiplied by 2γ; radians. Measured 2e-4 at 1e12.
 const EXTREME_DIRECTION_RAD: f64 = 4e-4;
-/// Distance and D suffer with them where they are least, dead astern.
+/// Relative error of distance and D there: they suffer where they are least, dead astern.
 const EXTREME_RELATIVE: f64 = 2e-4;
-/// The textbook form loses γ² roundings of f64; γ ≤ 10 here.
+/// Relative error of the textbook form, which loses γ² roundings of f64; γ ≤ 10 here.
 const TEXTBOOK: f64 = 1e-12;
 
 /// a b − c d to 1.5 units in the last place (Kahan).
@@ -81,33 +80,20 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     cross(a, b).length().atan2(a.dot(b))
 }
 
-fn unit(random: &mut impl Rng) -> DVec3 {
-    loop {
-        let v = DVec3::from_array(std::array::from_fn(|_| random.random_range(-1.0..1.0)));
-        if (1e-3..1.0).contains(&v.length_squared()) {
-            return v.normalize();
-        }
-    }
-}
-
-fn log_uniform(random: &mut impl Rng, low: f64, high: f64) -> f64 {
-    random.random_range(low.ln()..=high.ln()).exp()
-}
-
-/// Isotropic, dead ahead, dead astern, or 1e-10 to 1 rad off astern, for a motion along `ahead`.
-fn direction(random: &mut impl Rng, ahead: DVec3) -> DVec3 {
+/// A direction: any, dead ahead, dead astern, or 1e-10 to 1 rad off astern, for a motion along `ahead`.
+fn around(random: &mut ChaCha8Rng, ahead: DVec3) -> DVec3 {
     match random.random_range(0..8) {
         0 => ahead,
         1 => -ahead,
-        2 | 3 => unit(random),
+        2 | 3 => direction(random),
         _ => {
-            let off = log_uniform(random, 1e-10, 1.0);
-            off.sin() * ahead.cross(unit(random)).normalize() - off.cos() * ahead
+            let off = size(random, -10.0..0.0);
+            direction_off(random, -ahead, off)
         }
     }
 }
 
-/// Kernel results for a mesh of one vertex, so that its own place alone chooses the formula.
+/// Result of the kernel for a mesh of one vertex, so that its own place alone chooses the formula.
 fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Reference {
     let (mut x, mut y, mut z, mut doppler) = ([0.0], [0.0], [0.0], [0.0]);
     let surface =
@@ -117,19 +103,19 @@ fn seen(kernel: Kernel, vertices: &Vertices, eye: DVec3, u: DVec3) -> Reference 
     Reference { position: DVec3::new(x[0].into(), y[0].into(), z[0].into()), doppler: doppler[0].into() }
 }
 
-/// The worst errors over `cases` random cases: direction in rad, distance and D relative.
+/// Worst errors over `cases` random cases: direction in rad, distance and D relative.
 fn worst(kernel: Kernel, seed: u64, cases: usize, gamma: (f64, f64), origin_distance: f64) -> [f64; 3] {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut random = seeded(seed);
     let mut worst = [0.0_f64; 3];
     for _ in 0..cases {
-        let ahead = if random.random_bool(0.2) { DVec3::NEG_Z } else { unit(&mut random) };
-        let gamma = log_uniform(&mut random, gamma.0, gamma.1);
+        let ahead = if random.random_bool(0.2) { DVec3::NEG_Z } else { direction(&mut random) };
+        let gamma = size(&mut random, gamma.0.log10()..gamma.1.log10());
         let u = ahead * ((gamma - 1.0) * (gamma + 1.0)).sqrt().max(1e-8);
-        let distance = log_uniform(&mut random, 1e-3, 1e6);
-        let d = distance * direction(&mut random, ahead);
-        let origin = origin_distance * unit(&mut random);
-        let from_origin = distance * log_uniform(&mut random, 1e-3, 1e3);
-        let offset = (from_origin * unit(&mut random)).as_vec3();
+        let distance = size(&mut random, -3.0..6.0);
+        let d = distance * around(&mut random, ahead);
+        let origin = origin_distance * direction(&mut random);
+        let from_origin = distance * size(&mut random, -3.0..3.0);
+        let offset = (from_origin * direction(&mut random)).as_vec3();
         // Put the eye where the vertex lies in the direction chosen, as well as f64 can.
         let eye = origin + (offset.as_dvec3() - d);
 
@@ -149,7 +135,7 @@ fn worst(kernel: Kernel, seed: u64, cases: usize, gamma: (f64, f64), origin_dist
     worst
 }
 
-/// Random cases for every range of γ and distance of the origin.
+/// Number of random cases for every range of γ and distance of the origin.
 const CASES: usize = 20_000;
 
 fn assert_accurate(gamma: (f64, f64), direction_bound: f64, relative_bound: f64) {
@@ -180,11 +166,11 @@ fn directions_hold_at_extreme_speed() {
 
 #[test]
 fn reference_agrees_with_the_textbook_where_that_is_good() {
-    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let mut random = seeded(4);
     for _ in 0..1000 {
-        let u = unit(&mut random) * log_uniform(&mut random, 1e-3, 10.0);
-        let offset = (100.0 * unit(&mut random)).as_vec3();
-        let eye = unit(&mut random);
+        let u = direction(&mut random) * size(&mut random, -3.0..1.0);
+        let offset = (100.0 * direction(&mut random)).as_vec3();
+        let eye = direction(&mut random);
         let exact = reference(offset.as_dvec3(), DVec3::ZERO, eye, u);
         let textbook = textbook(offset.as_dvec3() - eye, u);
         assert!(angle(exact.position, textbook.position) < TEXTBOOK, "u = {u}");
@@ -194,11 +180,11 @@ fn reference_agrees_with_the_textbook_where_that_is_good() {
 
 #[test]
 fn chunks_of_many_vertices_are_as_accurate_as_single_ones() {
-    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut random = seeded(5);
     let origin = DVec3::new(3e6, 0.0, -4e6);
     let eye = origin + DVec3::new(0.5, 1.7, -0.25);
     let offsets: Vec<_> =
-        (0..20_000).map(|_| (unit(&mut random) * log_uniform(&mut random, 1.0, 1e4)).as_vec3()).collect();
+        (0..20_000).map(|_| (direction(&mut random) * size(&mut random, 0.0..4.0)).as_vec3()).collect();
     let vertices = Vertices::from_offsets(origin, offsets.iter().copied()).unwrap();
     for speed in [0.75, 30.0, 1e5] {
         let u = speed * DVec3::new(2.0, -1.0, 2.0) / 3.0;
