@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2};
-use rapidity::room::{Display, Eye, Surface, built_in, frustum};
+use room::{Display, Eye, Surface, built_in, frustum};
 
 #[test]
 fn each_is_read_and_says_what_it_is() {

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
-use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
+use room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
 use std::path::Path;
 
 /// Core of the file format; it must remain readable.
@@ -40,7 +40,7 @@ fn added(tail: &str) -> Result<Display, DisplayError> {
     parse(&format!("{CORE}{tail}"))
 }
 
-fn flat(display: &Display) -> rapidity::room::Flat {
+fn flat(display: &Display) -> room::Flat {
     let Surface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
     flat
 }
@@ -329,7 +329,7 @@ fn displays_are_found_by_name_or_by_path() {
 #[test]
 fn eyes_are_apart_along_the_heads_own_x() {
     let viewer = parse(CORE).unwrap().viewer;
-    let turned = rapidity::room::room_from_turned(90.0, 0.0, 0.0);
+    let turned = room::room_from_turned(90.0, 0.0, 0.0);
     let eye = |eye| viewer.eye_m(eye, DVec3::new(0.0, 1.6, 0.0), turned);
     assert_eq!(eye(Eye::Right) - eye(Eye::Left), DVec3::NEG_Z * 0.064);
     assert_eq!(eye(Eye::Centre), DVec3::new(0.0, 1.6, 0.0));

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
-use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface};
+use room::{Combine, Display, DisplayError, Eye, Monitor, Surface};
 use std::path::PathBuf;
 
 /// Tolerance, metres, for the f32 of the files.

@@ -4,8 +4,8 @@
 
 use glam::{DMat3, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use rapidity::room::projector::{Lens, Projector, Table};
-use rapidity::room::{Reflection, file, room_from_turned};
+use room::projector::{Lens, Projector, Table};
+use room::{Reflection, file, room_from_turned};
 
 /// Tolerance for the rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than
 /// a tenth of a pixel.

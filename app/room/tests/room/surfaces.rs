@@ -4,8 +4,8 @@
 
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use rapidity::room::surface::sweep;
-use rapidity::room::{Corners, Cylinder, Flat, Measured, Mesh, Sphere, Surface, Warp, frustum, room_from_turned};
+use room::surface::sweep;
+use room::{Corners, Cylinder, Flat, Measured, Mesh, Sphere, Surface, Warp, frustum, room_from_turned};
 
 /// Tolerance for the rounding of a few operations on metres.
 const ROUNDING: f64 = 1e-12;
@@ -245,7 +245,7 @@ fn meshes_are_read_from_obj_and_csv_alike() {
             "[[screen]]\nname = \"s\"\nmesh = \"{name}\"\n[[window]]\nname = \"w\"\nsize = [8, 8]\n\
              [[channel]]\nname = \"c\"\nscreen = \"s\"\nwindow = \"w\"\n"
         );
-        let display = rapidity::room::file::parse(&display, "d.toml", folder.path());
+        let display = room::file::parse(&display, "d.toml", folder.path());
         display.map(|mut display| display.screens.remove(0).surface).map_err(|error| error.to_string())
     };
     let obj = "# a wall\nv -1 0 -2\nv 1 0 -2\nv 1 2 -2\nv -1 2 -2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
