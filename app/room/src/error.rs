@@ -1,7 +1,8 @@
 //! Errors in displays. Each message says where the error is, what it is, and what to do.
 
-use super::frustum::EyeBehind;
-use super::surface::NotRectangle;
+use crate::built_in;
+use crate::frustum::EyeBehind;
+use crate::surface::flat::NotRectangle;
 use std::fmt;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -31,7 +32,7 @@ impl fmt::Display for At {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DisplayError {
     /// A name that is neither a built-in display nor a file.
-    #[error("there is no display {name:?}; name a file, or one of {}", super::built_in::NAMES.join(", "))]
+    #[error("there is no display {name:?}; name a file, or one of {}", built_in::NAMES.join(", "))]
     NoSuch {
         /// Name, as the user gave it.
         name: String,
@@ -153,7 +154,7 @@ fn listed(known: &[String]) -> String {
 }
 
 /// Known name that was probably meant: the one with the fewest edits, if these are at most a third of its letters.
-pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()
         .map(|candidate| (edits(name, candidate), candidate))

@@ -1,6 +1,6 @@
 //! Off-axis frusta for flat screens: the picture plane is the screen itself, and no map is needed.
 
-use super::Flat;
+use crate::surface::flat::Flat;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 

@@ -3,14 +3,15 @@
 //! Grids and meshes are linear within each triangle in both directions, so the inverse map undoes the map up to
 //! rounding.
 
+use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
 
 /// Largest amount by which rounding may take a barycentric coordinate below 0.
-const EDGE: f64 = 1e-9;
+pub(crate) const EDGE: f64 = 1e-9;
 
 /// Place within a triangle: the indices of the corners, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Within {
+pub(crate) struct Within {
     pub corners: [u32; 3],
     pub weights: DVec3,
 }
@@ -29,7 +30,7 @@ impl Within {
 /// Even grid over the unit square, row by row, with the first sample at (0, 0). Each cell is cut from its first
 /// corner to the opposite one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     /// Number of samples along a row.
     pub columns: u32,
     /// Number of rows.
@@ -39,8 +40,7 @@ pub(super) struct Grid {
 impl Grid {
     /// Triangle at a place, and the weights there; `None` outside 0 to 1.
     pub fn find(self, place: DVec2) -> Option<Within> {
-        let inside = place.cmpge(DVec2::splat(-EDGE)).all() && place.cmple(DVec2::splat(1.0 + EDGE)).all();
-        if !inside {
+        if !inside(place) {
             return None;
         }
         let cells = DVec2::new(f64::from(self.columns - 1), f64::from(self.rows - 1));
@@ -83,7 +83,7 @@ impl Grid {
 
 /// Triangles in the plane, sorted into buckets so that the triangle at a place is found quickly.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Net {
+pub(crate) struct Net {
     corners: Vec<DVec2>,
     triangles: Vec<[u32; 3]>,
     lowest: DVec2,

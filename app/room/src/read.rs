@@ -6,7 +6,7 @@ use std::path::Path;
 const MAX_FILE: u64 = 1 << 30;
 
 /// Bytes of a file. Error texts are worded to follow the file's name.
-pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     let cannot = |error: std::io::Error| format!("cannot be read: {error}");
     let metadata = std::fs::metadata(path).map_err(cannot)?;
     if !metadata.is_file() {
@@ -19,6 +19,6 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// Text of a file. Error texts are worded to follow the file's name.
-pub(super) fn text(path: &Path) -> Result<String, String> {
+pub(crate) fn text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes(path)?).map_err(|_| "cannot be read: it is not UTF-8 text".into())
 }

@@ -1,70 +1,79 @@
 //! Description of a display in words, for `rapidity check`.
 
-use super::{Channel, Combine, Display, Monitor, Screen, Surface};
+use crate::channel::Channel;
+use crate::display::{Display, Screen};
+use crate::surface::shape::Surface;
+use crate::window::{Combine, Monitor};
 use glam::{DMat3, DVec2, DVec3};
 use std::fmt::{Formatter, Result};
 
 /// Number of places, each way, at which screens and viewports are examined.
 const PROBES: u32 = 33;
 
-/// Writes the viewer, screens, projectors, windows, channels and notices.
-pub(super) fn write(display: &Display, f: &mut Formatter<'_>) -> Result {
-    let viewer = &display.viewer;
-    let head = viewer.head_m;
-    write!(f, "  eyes {} m apart, untracked head at {}, {}, {} m", viewer.eye_separation_m, head.x, head.y, head.z)?;
-    if viewer.eye_scale != 1.0 {
-        write!(f, ", {} times as far apart in the world", viewer.eye_scale)?;
-    }
-    for (index, screen) in display.screens.iter().enumerate() {
-        write!(f, "\n  screen {:?}: {}", screen.name, measure(screen))?;
-        let covered = 100.0 * covered(display, index);
-        let channels = display.channels.iter().filter(|channel| channel.screen == index).count();
-        write!(f, ", {covered:.0} % of it shown by {channels} channel{}", if channels == 1 { "" } else { "s" })?;
-    }
-    for projector in &display.projectors {
-        let place = projector.position_m;
-        write!(f, "\n  projector {:?} at {:.2}, {:.2}, {:.2} m", projector.name, place.x, place.y, place.z)?;
-    }
-    for window in &display.windows {
-        write!(f, "\n  window {:?}: {} × {} pixels", window.name, window.size[0], window.size[1])?;
-        match &window.monitor {
-            Some(Monitor::Name(name)) => write!(f, " on monitor {name:?}")?,
-            Some(Monitor::Index(index)) => write!(f, " on monitor {index}")?,
-            None => {}
-        }
-        if window.fullscreen {
-            write!(f, ", full screen")?;
-        }
-        if window.combine != Combine::None {
-            write!(f, ", eyes combined by {}", window.combine.name())?;
-        }
-    }
-    for channel in &display.channels {
-        let [x, y, width, height] = channel.viewport;
+impl std::fmt::Display for Display {
+    /// Writes the viewer, screens, projectors, windows, channels and notices.
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let viewer = &self.viewer;
+        let head = viewer.head_m;
         write!(
             f,
-            "\n  channel {:?}: screen {:?}, {} eye, window {:?} at {x}, {y}, {width} × {height} pixels",
-            channel.name,
-            display.screens[channel.screen].name,
-            channel.eye.name(),
-            display.windows[channel.window].name,
+            "  eyes {} m apart, untracked head at {}, {}, {} m",
+            viewer.eye_separation_m, head.x, head.y, head.z
         )?;
-        let seen = seen(display, channel);
-        match seen.densities.as_slice() {
-            [] => write!(f, ", lights nothing")?,
-            all => {
-                let (least, most) = (all[0], all[all.len() - 1]);
-                write!(f, ", {least:.1} to {most:.1} pixels per degree")?;
+        if viewer.eye_scale != 1.0 {
+            write!(f, ", {} times as far apart in the world", viewer.eye_scale)?;
+        }
+        for (index, screen) in self.screens.iter().enumerate() {
+            write!(f, "\n  screen {:?}: {}", screen.name, measure(screen))?;
+            let covered = 100.0 * covered(self, index);
+            let channels = self.channels.iter().filter(|channel| channel.screen == index).count();
+            write!(f, ", {covered:.0} % of it shown by {channels} channel{}", if channels == 1 { "" } else { "s" })?;
+        }
+        for projector in &self.projectors {
+            let place = projector.position_m;
+            write!(f, "\n  projector {:?} at {:.2}, {:.2}, {:.2} m", projector.name, place.x, place.y, place.z)?;
+        }
+        for window in &self.windows {
+            write!(f, "\n  window {:?}: {} × {} pixels", window.name, window.size[0], window.size[1])?;
+            match &window.monitor {
+                Some(Monitor::Name(name)) => write!(f, " on monitor {name:?}")?,
+                Some(Monitor::Index(index)) => write!(f, " on monitor {index}")?,
+                None => {}
+            }
+            if window.fullscreen {
+                write!(f, ", full screen")?;
+            }
+            if window.combine != Combine::None {
+                write!(f, ", eyes combined by {}", window.combine.name())?;
             }
         }
-        if seen.lit < 1.0 {
-            write!(f, ", {:.0} % of them lit", 100.0 * seen.lit)?;
+        for channel in &self.channels {
+            let [x, y, width, height] = channel.viewport;
+            write!(
+                f,
+                "\n  channel {:?}: screen {:?}, {} eye, window {:?} at {x}, {y}, {width} × {height} pixels",
+                channel.name,
+                self.screens[channel.screen].name,
+                channel.eye.name(),
+                self.windows[channel.window].name,
+            )?;
+            let seen = seen(self, channel);
+            match seen.densities.as_slice() {
+                [] => write!(f, ", lights nothing")?,
+                all => {
+                    let (least, most) = (all[0], all[all.len() - 1]);
+                    write!(f, ", {least:.1} to {most:.1} pixels per degree")?;
+                }
+            }
+            if seen.lit < 1.0 {
+                write!(f, ", {:.0} % of them lit", 100.0 * seen.lit)?;
+            }
         }
+        for notice in &self.notices {
+            write!(f, "\n  note: {notice}")?;
+        }
+        Ok(())
     }
-    for notice in &display.notices {
-        write!(f, "\n  note: {notice}")?;
-    }
-    Ok(())
 }
 
 fn measure(screen: &Screen) -> String {

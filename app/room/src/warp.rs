@@ -1,6 +1,7 @@
 //! Maps from a channel's viewport to its picture, where the two differ: nudged corners and measured grids.
 
-use super::net::{Grid, Net};
+use crate::net::{Grid, Net};
+use crate::unit_square::inside;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 
@@ -79,7 +80,7 @@ impl Warp {
             Self::Corners(corners) => project(corners.picture_from_viewport, viewport)?,
             Self::Grid(measured) => measured.grid.find(viewport)?.mix(&measured.places),
         };
-        super::projector::inside(place).then_some(place)
+        inside(place).then_some(place)
     }
 
     /// Place of the viewport that shows a place of the picture, if there is one.
@@ -91,7 +92,7 @@ impl Warp {
                 measured.grid.place_within(&within)
             }
         };
-        super::projector::inside(place).then_some(place)
+        inside(place).then_some(place)
     }
 }
 

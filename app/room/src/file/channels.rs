@@ -1,11 +1,17 @@
 //! `[[channel]]` tables: names are turned into indices, and named files into maps.
 
-use super::schema;
 use super::text::Text;
-use crate::error::At;
+use super::{names, schema};
+use crate::channel::{Channel, Part};
+use crate::display::Screen;
+use crate::error::{At, DisplayError};
+use crate::gain_map::GainMap;
 use crate::maps::{self, MapError};
+use crate::projector::Projector;
 use crate::read;
-use crate::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
+use crate::viewer::Eye;
+use crate::warp::{Corners, Warp};
+use crate::window::WindowPlace;
 use glam::{DVec2, DVec4};
 use std::path::Path;
 use toml::Spanned;
@@ -22,7 +28,7 @@ pub(super) struct Resolver<'a> {
 impl Resolver<'_> {
     /// Channels of all `[[channel]]` tables, in the file's order.
     pub fn resolve(&self, tables: &[Spanned<schema::Channel>]) -> Result<Vec<Channel>, DisplayError> {
-        super::names(self.text, "channel", tables, |channel| &channel.name)?;
+        names::check(self.text, "channel", tables, |channel| &channel.name)?;
         tables.iter().map(|table| self.channel(table)).collect()
     }
 
@@ -121,7 +127,7 @@ impl Resolver<'_> {
         file: &Option<String>,
         gamma: Option<f64>,
         at: impl Fn() -> Box<At>,
-    ) -> Result<Option<Map>, DisplayError> {
+    ) -> Result<Option<GainMap>, DisplayError> {
         let gamma = gamma.unwrap_or(1.0);
         if !(gamma.is_finite() && gamma > 0.0) {
             return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });

@@ -1,9 +1,12 @@
 //! `[[projector]]` tables: the projector's place, and the lens that its keys describe.
 
-use super::schema;
 use super::text::Text;
-use crate::projector::{Lens, Projector, Table};
-use crate::{At, DisplayError, room_from_turned};
+use super::{names, schema};
+use crate::error::{At, DisplayError};
+use crate::lens::{Lens, Table};
+use crate::projector::Projector;
+use crate::turning::room_from_turned;
+use crate::{grid_file, read};
 use glam::DVec2;
 use std::path::Path;
 use toml::Spanned;
@@ -17,7 +20,7 @@ pub(super) fn resolve(
     tables: &[Spanned<schema::Projector>],
     folder: &Path,
 ) -> Result<Vec<Projector>, DisplayError> {
-    super::names(text, "projector", tables, |projector| &projector.name)?;
+    names::check(text, "projector", tables, |projector| &projector.name)?;
     tables
         .iter()
         .map(|table| Form { text, start: table.span().start, given: table.get_ref(), folder }.projector())
@@ -171,12 +174,12 @@ impl Form<'_> {
     fn table(&self) -> Result<Lens, DisplayError> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
-        let read = || -> Result<Lens, String> {
-            let text = crate::read::text(&path)?;
-            let (columns, rows, angles) = crate::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
+        let lens = || -> Result<Lens, String> {
+            let text = read::text(&path)?;
+            let (columns, rows, angles) = grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
             Ok(Lens::Table(Table::new(columns, rows, angles)))
         };
-        read().map_err(|reason| DisplayError::Import { path: path.clone(), reason })
+        lens().map_err(|reason| DisplayError::Import { path: path.clone(), reason })
     }
 }

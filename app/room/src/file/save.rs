@@ -1,7 +1,10 @@
 //! Saving of nudged corners in the display file they came from. Everything else in the file stays as it is, to the
 //! letter.
 
-use crate::{DisplayError, built_in, import, read};
+use super::parse::parse;
+use crate::error::DisplayError;
+use crate::format::DisplayFormat;
+use crate::{built_in, read};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -89,7 +92,7 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     if built_in::text(name).is_some() {
         return Err(SaveError::BuiltIn { name: name.to_owned() });
     }
-    if import::is_imported(Path::new(name)) {
+    if DisplayFormat::of(Path::new(name)).is_some_and(|format| format != DisplayFormat::Toml) {
         return Err(SaveError::Imported { path: name.into() });
     }
     // A link's target is written, not the link.
@@ -97,7 +100,7 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     let path = std::fs::canonicalize(name).map_err(cannot)?;
     let refuse = |reason| Box::new(DisplayError::Read { path: name.into(), reason });
     let text = saved(&read::text(&path).map_err(refuse)?, corners)?;
-    super::parse(&text, name, path.parent().unwrap_or(Path::new(""))).map_err(Box::new)?;
+    parse(&text, name, path.parent().unwrap_or(Path::new(""))).map_err(Box::new)?;
 
     let mut partial = path.clone().into_os_string();
     partial.push(".part");

@@ -1,9 +1,16 @@
 //! `[[screen]]` tables: the form in which a screen is written, and the surface that it describes.
 
-use super::schema;
 use super::text::Text;
-use crate::surface::{mesh_file, sweep};
-use crate::{Cylinder, DisplayError, Flat, Reflection, Screen, Sphere, Surface};
+use super::{names, schema};
+use crate::display::Screen;
+use crate::error::{At, DisplayError};
+use crate::reflection::Reflection;
+use crate::surface::cylinder::Cylinder;
+use crate::surface::flat::Flat;
+use crate::surface::mesh_file;
+use crate::surface::shape::Surface;
+use crate::surface::sphere::Sphere;
+use crate::surface::sweep::sweep;
 use glam::{DVec2, DVec3};
 use std::path::Path;
 use toml::Spanned;
@@ -14,7 +21,7 @@ pub(super) fn resolve(
     tables: &[Spanned<schema::Screen>],
     folder: &Path,
 ) -> Result<Vec<Screen>, DisplayError> {
-    super::names(text, "screen", tables, |screen| &screen.name)?;
+    names::check(text, "screen", tables, |screen| &screen.name)?;
     tables
         .iter()
         .map(|table| {
@@ -33,7 +40,7 @@ struct Form<'a> {
 }
 
 impl Form<'_> {
-    fn at(&self, key: &str) -> Box<crate::At> {
+    fn at(&self, key: &str) -> Box<At> {
         self.text.at(self.start, &format!("screen {:?}", self.given.name), key)
     }
 

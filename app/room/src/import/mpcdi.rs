@@ -5,13 +5,19 @@
 //! become a mesh, and the picture lies evenly on the grid. In profile 2d the warp says which place of the region's
 //! picture each pixel shows; the picture's place in the room is left open.
 
-use super::{file_name, xml};
-use crate::maps;
-use crate::read;
-use crate::{
-    Channel, Combine, Display, Eye, Flat, Map, Mesh, Monitor, Part, Reflection, Screen, Surface, Viewer, Warp,
-    WindowPlace,
-};
+use super::file_name::file_name;
+use super::xml;
+use crate::channel::{Channel, Part};
+use crate::display::{Display, Screen};
+use crate::gain_map::GainMap;
+use crate::reflection::Reflection;
+use crate::surface::flat::Flat;
+use crate::surface::mesh::Mesh;
+use crate::surface::shape::Surface;
+use crate::viewer::{Eye, HEAD_M, Viewer};
+use crate::warp::Warp;
+use crate::window::{Combine, Monitor, WindowPlace};
+use crate::{maps, read};
 use glam::{DVec2, DVec3};
 use roxmltree::Node;
 use std::io::{Cursor, Read};
@@ -25,7 +31,7 @@ const FLAT_DISTANCE_M: f64 = 2.0;
 const FLAT_WIDTH_M: f64 = 4.0;
 
 /// Reads a container or a bare file. An error's text is worded to follow the file's name.
-pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
+pub(crate) fn parse(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
     let mut files = if bytes.starts_with(b"PK") {
         let zip = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("it is no good zip: {error}"))?;
         Files::Zip(Box::new(zip))
@@ -197,7 +203,7 @@ impl<'a> Import<'a> {
         };
         let origin = file.and_then(|file| xml::text(file, "originOf3DData")).unwrap_or("unknown");
         match origin.to_ascii_lowercase().as_str() {
-            "floorcenter" => self.display.viewer.head_m = crate::viewer::HEAD_M,
+            "floorcenter" => self.display.viewer.head_m = HEAD_M,
             "idealeyepoint" => self.display.viewer.head_m = DVec3::ZERO,
             _ => {
                 self.display.viewer.head_m = DVec3::ZERO;
@@ -233,7 +239,7 @@ impl<'a> Import<'a> {
         Ok(self.display.screens.len() - 1)
     }
 
-    fn map(&mut self, fileset: Option<Node<'a, 'a>>, kind: &'static str) -> Result<Option<Map>, String> {
+    fn map(&mut self, fileset: Option<Node<'a, 'a>>, kind: &'static str) -> Result<Option<GainMap>, String> {
         let Some(element) = fileset.and_then(|set| xml::first(set, kind)) else { return Ok(None) };
         let Some(path) = xml::text(element, "path") else { return Ok(None) };
         let gamma = match xml::text(element, "gammaEmbedded") {

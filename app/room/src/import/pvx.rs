@@ -1,10 +1,15 @@
 //! ParaView's wall and CAVE files. Each `Machine` has one flat screen, given by three corners in metres: y up, −z
 //! ahead, the eyes at the origin.
 
-use super::{file_name, xml};
-use crate::{
-    Channel, Combine, Display, Eye, Flat, Monitor, Part, Reflection, Screen, Surface, Viewer, WindowPlace,
-};
+use super::file_name::file_name;
+use super::xml;
+use crate::channel::{Channel, Part};
+use crate::display::{Display, Screen};
+use crate::reflection::Reflection;
+use crate::surface::flat::Flat;
+use crate::surface::shape::Surface;
+use crate::viewer::{Eye, Viewer};
+use crate::window::{Combine, Monitor, WindowPlace};
 use glam::{DVec2, DVec3};
 use roxmltree::Node;
 
@@ -15,7 +20,7 @@ const EYE_SEPARATION_M: f64 = 0.065;
 const HEIGHT: f64 = 600.0;
 
 /// Reads a file. An error's text is worded to follow the file's name.
-pub(super) fn read(bytes: &[u8]) -> Result<Display, String> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<Display, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
     let document = xml::document(text, "pvx")?;
     let root = document.root_element();

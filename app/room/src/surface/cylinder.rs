@@ -1,6 +1,8 @@
 //! Part of an upright cylinder, seen from inside.
 
-use super::{EDGE, Hit, NEAREST, share};
+use super::hit::{Hit, NEAREST};
+use super::round::{crossings, share};
+use crate::unit_square::EDGE;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Curved wall around a vertical axis.
@@ -42,7 +44,7 @@ impl Cylinder {
         let from = origin - self.centre;
         let (o, d) = (from.xz(), direction.xz());
         let nearest = NEAREST * self.radius_m / direction.length();
-        super::crossings(d.length_squared(), o.dot(d), o.length_squared() - self.radius_m * self.radius_m)
+        crossings(d.length_squared(), o.dot(d), o.length_squared() - self.radius_m * self.radius_m)
             .into_iter()
             .filter(|distance| distance.is_finite() && *distance > nearest)
             .find_map(|distance| {

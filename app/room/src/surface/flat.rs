@@ -1,7 +1,8 @@
 //! Flat screens: rectangles.
 
-use super::{EDGE, Hit, NEAREST};
-use crate::room_from_turned;
+use super::hit::{Hit, NEAREST};
+use crate::turning::room_from_turned;
+use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -126,7 +127,6 @@ impl Flat {
     pub(super) fn uv(&self, offset: DVec3) -> Option<DVec2> {
         let (right, up) = (self.right.length_squared(), self.up.length_squared());
         let uv = DVec2::new(offset.dot(self.right) / right, offset.dot(self.up) / up);
-        let inside = uv.min_element() >= -EDGE && uv.max_element() <= 1.0 + EDGE;
-        inside.then(|| uv.clamp(DVec2::ZERO, DVec2::ONE))
+        inside(uv).then(|| uv.clamp(DVec2::ZERO, DVec2::ONE))
     }
 }

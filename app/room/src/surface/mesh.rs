@@ -1,7 +1,7 @@
 //! Surfaces of any shape, as triangles.
 
-use super::{EDGE, Hit, NEAREST};
-use crate::net::{Grid, Net, Within};
+use super::hit::{Hit, NEAREST};
+use crate::net::{EDGE, Grid, Net, Within};
 use glam::{DVec2, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;

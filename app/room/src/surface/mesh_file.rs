@@ -1,6 +1,7 @@
 //! Meshes read from files: Wavefront OBJ and CSV grids.
 
-use super::Mesh;
+use super::mesh::Mesh;
+use crate::{grid_file, read};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -10,7 +11,7 @@ const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads the `.obj` or `.csv` file `path`. Error texts are worded to follow the file's name.
 pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
-    let text = crate::read::text(path)?;
+    let text = read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
@@ -81,7 +82,7 @@ fn nth(part: &str, count: usize) -> Option<usize> {
 
 /// Reads a CSV text with lines `u, v, x, y, z`.
 fn csv(text: &str) -> Result<Mesh, String> {
-    let (columns, rows, points) = crate::grid_file::read::<3>(text, "u, v, x, y, z")?;
+    let (columns, rows, points) = grid_file::read::<3>(text, "u, v, x, y, z")?;
     good(Mesh::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
 }
 

@@ -1,6 +1,8 @@
 //! Part of a sphere, seen from inside: a dome.
 
-use super::{EDGE, Hit, NEAREST, share};
+use super::hit::{Hit, NEAREST};
+use super::round::{crossings, share};
+use crate::unit_square::EDGE;
 use glam::{DVec2, DVec3};
 
 /// Section of a sphere between two yaws and two pitches.
@@ -50,7 +52,7 @@ impl Sphere {
         let from = origin - self.centre;
         let nearest = NEAREST * self.radius_m / direction.length();
         let constant = from.length_squared() - self.radius_m * self.radius_m;
-        super::crossings(direction.length_squared(), from.dot(direction), constant)
+        crossings(direction.length_squared(), from.dot(direction), constant)
             .into_iter()
             .filter(|distance| distance.is_finite() && *distance > nearest)
             .find_map(|distance| {

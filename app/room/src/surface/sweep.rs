@@ -1,6 +1,6 @@
 //! Sheets that bend in one direction: a profile of height and depth, rounded at its corners, carried along x.
 
-use super::Mesh;
+use super::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 

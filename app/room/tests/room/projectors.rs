@@ -4,7 +4,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use room::projector::{Lens, Projector, Table};
+use room::{Lens, Projector, Table};
 use room::{Reflection, file, room_from_turned};
 
 /// Tolerance for the rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than

@@ -2,8 +2,8 @@
 //! other keys, or write corners that are read back as others.
 
 use super::*;
-use crate::file::parse;
-use crate::{Corners, Warp};
+use crate::file::parse::parse;
+use crate::warp::{Corners, Warp};
 
 /// Display file as a user may write it: comments, an unusual order, corners in every form.
 const FILE: &str = r#"# our wall, measured in May

@@ -1,10 +1,8 @@
 //! Projectors: their place, their lens, and the share of their light that arrives (B 4.1, 4.2).
 
-mod lens;
-
-pub use lens::{Lens, Table};
-
-use super::Surface;
+use crate::lens::Lens;
+use crate::surface::shape::Surface;
+use crate::unit_square::inside;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Projector in the room.
@@ -61,9 +59,4 @@ impl Projector {
         let intensity = self.light / self.lens.solid_angle(place)?;
         Some(intensity * (way.dot(normal) / r).abs() / (r * r))
     }
-}
-
-/// True inside the picture or on its edge, up to rounding.
-pub(super) fn inside(place: DVec2) -> bool {
-    place.min_element() >= -1e-9 && place.max_element() <= 1.0 + 1e-9
 }

@@ -1,11 +1,15 @@
 //! Checks of the whole display: two channels on the same pixels, eyes behind their screens.
 
+use crate::channel::Channel;
+use crate::display::Display;
+use crate::error::{At, DisplayError};
 use crate::frustum::EyeBehind;
-use crate::{At, Channel, Combine, Display, DisplayError, Eye};
+use crate::viewer::Eye;
+use crate::window::Combine;
 use glam::{DMat3, DVec2};
 
 /// Refuses channels that overlap and eyes behind screens. `at` gives the place of a channel's key in the file.
-pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
+pub(crate) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;
@@ -19,6 +23,16 @@ pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> R
         }
     }
     Ok(())
+}
+
+/// Checks an imported display as a written one is checked.
+///
+/// # Errors
+/// [`DisplayError`].
+pub(crate) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
+    check(display, &|index, _| {
+        Box::new(At { file: name.to_owned(), line: None, key: format!("channel {:?}", display.channels[index].name) })
+    })
 }
 
 fn overlap(a: &Channel, b: &Channel) -> bool {
@@ -49,7 +63,7 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
 }
 
 /// Notices for the user about a display without errors.
-pub(super) fn notices(display: &Display) -> Vec<String> {
+pub(crate) fn notices(display: &Display) -> Vec<String> {
     let mut notices = Vec::new();
     for (index, window) in display.windows.iter().enumerate() {
         let name = &window.name;
