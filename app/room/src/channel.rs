@@ -39,11 +39,11 @@ impl Part {
 pub struct Channel {
     /// Name, unique among the channels and valid as a file's name.
     pub name: String,
-    /// Index into [`Display::screens`].
+    /// Index into [`Display::screens`](crate::Display::screens).
     pub screen: usize,
     /// Eye for which the channel is drawn.
     pub eye: Eye,
-    /// Index into [`Display::windows`].
+    /// Index into [`Display::windows`](crate::Display::windows).
     pub window: usize,
     /// Rectangle in the window: x, y, width and height, pixels from the window's upper left.
     pub viewport: [u32; 4],
@@ -51,8 +51,8 @@ pub struct Channel {
     pub part: Part,
     /// Map from places of the viewport to places of the picture; `None` if they are equal.
     pub warp: Option<Warp>,
-    /// Index into [`Display::projectors`] of the projector whose light falls on the screen. `None` if the picture is
-    /// the screen's part itself.
+    /// Index into [`Display::projectors`](crate::Display::projectors) of the projector whose light falls on the
+    /// screen. `None` if the picture is the screen's part itself.
     pub projector: Option<usize>,
     /// Measured factor of the channel's pixels, in linear light.
     pub alpha: Option<GainMap>,

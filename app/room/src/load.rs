@@ -3,11 +3,11 @@
 use crate::built_in;
 use crate::check::check_imported;
 use crate::display::Display;
+use crate::display_file::DisplayFile;
 use crate::error::DisplayError;
 use crate::file::parse::parse;
 use crate::format::DisplayFormat;
 use crate::import::{mpcdi, pvx};
-use crate::read;
 use std::path::Path;
 
 impl Display {
@@ -16,24 +16,22 @@ impl Display {
     /// # Errors
     /// [`DisplayError`] with file, line, key and reason.
     pub fn load(path: &Path) -> Result<Self, DisplayError> {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let cannot = |reason| DisplayError::Read { path: path.to_owned(), reason };
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let imported = match DisplayFormat::of(path).unwrap_or(DisplayFormat::Toml) {
+        let file = DisplayFile::read(path)?;
+        let (name, stem, folder) = (path.display().to_string(), file.stem(), file.folder());
+        let imported = match file.format {
             DisplayFormat::Toml => {
-                let text = read::text(path).map_err(cannot)?;
-                let mut display = parse(&text, &path.display().to_string(), folder)?;
+                let mut display = parse(file.text()?, &name, folder)?;
                 if display.name.is_empty() {
-                    display.name = stem.into_owned();
+                    display.name = stem;
                 }
                 return Ok(display);
             }
-            DisplayFormat::Pvx => pvx::parse(&read::bytes(path).map_err(cannot)?),
-            DisplayFormat::Mpcdi => mpcdi::parse(read::bytes(path).map_err(cannot)?, folder),
+            DisplayFormat::Pvx => pvx::parse(&file.bytes),
+            DisplayFormat::Mpcdi => mpcdi::parse(file.bytes, folder),
         };
         let mut display = imported.map_err(|reason| DisplayError::Import { path: path.to_owned(), reason })?;
-        display.name = stem.trim_end_matches(".mpcdi").to_owned();
-        check_imported(&path.display().to_string(), &display)?;
+        display.name = stem;
+        check_imported(&name, &display)?;
         Ok(display)
     }
 

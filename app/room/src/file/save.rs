@@ -2,9 +2,11 @@
 //! letter.
 
 use super::parse::parse;
+use crate::built_in;
+use crate::display_file::DisplayFile;
 use crate::error::DisplayError;
 use crate::format::DisplayFormat;
-use crate::{built_in, read};
+
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -95,13 +97,13 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     if DisplayFormat::of(Path::new(name)).is_some_and(|format| format != DisplayFormat::Toml) {
         return Err(SaveError::Imported { path: name.into() });
     }
+    let file = DisplayFile::read(Path::new(name)).map_err(Box::new)?;
+    let text = saved(file.text().map_err(Box::new)?, corners)?;
+    parse(&text, name, file.folder()).map_err(Box::new)?;
+
     // A link's target is written, not the link.
     let cannot = |error| SaveError::Write { path: name.into(), error };
     let path = std::fs::canonicalize(name).map_err(cannot)?;
-    let refuse = |reason| Box::new(DisplayError::Read { path: name.into(), reason });
-    let text = saved(&read::text(&path).map_err(refuse)?, corners)?;
-    parse(&text, name, path.parent().unwrap_or(Path::new(""))).map_err(Box::new)?;
-
     let mut partial = path.clone().into_os_string();
     partial.push(".part");
     let partial = PathBuf::from(partial);

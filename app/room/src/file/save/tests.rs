@@ -135,3 +135,19 @@ fn what_has_no_file_of_ours_says_how_to_get_one() {
     let imported = save("cave.pvx", &[]).unwrap_err().to_string();
     assert!(imported.contains("only read"), "{imported}");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link_and_names_files_from_its_own_folder() {
+    let [lab, store] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let (link, target) = (lab.path().join("wall.toml"), store.path().join("wall.toml"));
+    let mesh = "u,v,x,y,z\n0,0,-1,0,-2\n1,0,1,0,-2\n0,1,-1,2,-2\n1,1,1,2,-2\n";
+    std::fs::write(lab.path().join("wall.csv"), mesh).unwrap();
+    let text = FILE.replace("centre = [0, 1.5, -2]\nsize = [4.0, 2.0]", "mesh = \"wall.csv\"");
+    std::fs::write(&target, &text).unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    assert!(crate::Display::load(&link).is_ok());
+    save(link.to_str().unwrap(), &[("a", Some(PLACES))]).unwrap();
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), saved(&text, &[("a", Some(PLACES))]).unwrap());
+}
