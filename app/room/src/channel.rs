@@ -2,26 +2,26 @@
 
 use crate::gain_map::GainMap;
 use crate::unit_square::inside;
-use crate::viewer::Eye;
+use crate::viewer::EyeSide;
 use crate::warp::Warp;
 use glam::DVec2;
 
 /// Rectangle of a surface, in uv.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct ChannelPart {
     /// Lower left corner, uv.
     pub from: DVec2,
     /// Upper right corner, uv.
     pub to: DVec2,
 }
 
-impl Default for Part {
+impl Default for ChannelPart {
     fn default() -> Self {
         Self { from: DVec2::ZERO, to: DVec2::ONE }
     }
 }
 
-impl Part {
+impl ChannelPart {
     /// Place uv on the surface of a place in the picture (0 to 1, y down).
     pub fn uv(&self, place: DVec2) -> DVec2 {
         self.from + DVec2::new(place.x, 1.0 - place.y) * (self.to - self.from)
@@ -42,13 +42,13 @@ pub struct Channel {
     /// Index into [`Display::screens`](crate::Display::screens).
     pub screen: usize,
     /// Eye for which the channel is drawn.
-    pub eye: Eye,
+    pub eye: EyeSide,
     /// Index into [`Display::windows`](crate::Display::windows).
     pub window: usize,
     /// Rectangle in the window: x, y, width and height, pixels from the window's upper left.
     pub viewport: [u32; 4],
     /// Part of the screen that the picture spans; not used for a projector's channel.
-    pub part: Part,
+    pub part: ChannelPart,
     /// Map from places of the viewport to places of the picture; `None` if they are equal.
     pub warp: Option<Warp>,
     /// Index into [`Display::projectors`](crate::Display::projectors) of the projector whose light falls on the

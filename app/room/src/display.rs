@@ -3,8 +3,8 @@
 use crate::channel::Channel;
 use crate::projector::Projector;
 use crate::reflection::Reflection;
-use crate::surface::shape::Surface;
-use crate::viewer::{Eye, Viewer};
+use crate::surface::shape::ScreenSurface;
+use crate::viewer::{EyeSide, Viewer};
 use crate::window::{Combine, WindowPlace};
 
 /// Complete description of a display: viewer, screens, projectors, windows and channels.
@@ -35,7 +35,7 @@ pub struct Screen {
     /// Name, unique among the screens.
     pub name: String,
     /// Shape and place of the screen.
-    pub surface: Surface,
+    pub surface: ScreenSurface,
     /// Reflection of the projectors' light by the screen.
     pub reflection: Reflection,
 }
@@ -48,7 +48,7 @@ impl Display {
         let shares = |other: &Channel| {
             other.window == own.window && other.viewport == own.viewport && other.eye.side() == -own.eye.side()
         };
-        let combines = self.windows[own.window].combine != Combine::None && own.eye != Eye::Centre;
+        let combines = self.windows[own.window].combine != Combine::None && own.eye != EyeSide::Centre;
         self.channels.iter().position(shares).filter(|_| combines)
     }
 }

@@ -1,6 +1,6 @@
 //! Off-axis frusta for flat screens: the picture plane is the screen itself, and no map is needed.
 
-use crate::surface::flat::Flat;
+use crate::surface::flat::FlatSurface;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 
@@ -47,7 +47,7 @@ impl Frustum {
 ///
 /// # Errors
 /// [`EyeBehind`].
-pub fn frustum(flat: &Flat, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
+pub fn frustum(flat: &FlatSurface, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
     let (x, y) = (flat.right.normalize(), flat.up.normalize());
     let z = x.cross(y);
     let distance_m = (eye_m - flat.lower_left).dot(z);

@@ -7,7 +7,7 @@
 use crate::channel::Channel;
 use crate::display::{Display, Screen};
 use crate::projector::Projector;
-use crate::viewer::Eye;
+use crate::viewer::EyeSide;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -29,14 +29,14 @@ pub struct Gains {
 }
 
 /// Projectors whose pictures form one: the channels of one eye on one screen.
-struct Group<'a> {
+struct ProjectorGroup<'a> {
     screen: &'a Screen,
     viewer_m: DVec3,
     members: Vec<(&'a Channel, &'a Projector)>,
 }
 
-impl<'a> Group<'a> {
-    fn of(display: &'a Display, screen: usize, eye: Eye) -> Self {
+impl<'a> ProjectorGroup<'a> {
+    fn of(display: &'a Display, screen: usize, eye: EyeSide) -> Self {
         let members = display
             .channels
             .iter()
@@ -91,7 +91,7 @@ impl Channel {
     /// Factors of the channel's pixels at `size` pixels spread evenly over the viewport; `None` if all are 1.
     pub fn gains(&self, display: &Display, size: [u32; 2]) -> Option<Gains> {
         let projector = self.projector(display);
-        let group = Group::of(display, self.screen, self.eye);
+        let group = ProjectorGroup::of(display, self.screen, self.eye);
         let alone = projector.is_none_or(|projector| !projector.even && (!projector.blend || group.members.len() == 1));
         if alone && self.alpha.is_none() && self.beta.is_none() {
             return None;

@@ -3,12 +3,12 @@
 //! Directions are in the projector's axes: x right, y up as in its upright picture, −z along the optical axis. Places
 //! run from 0 to 1, x right and y down from the upper left of the picture as it leaves the projector.
 
-use crate::net::{Grid, Net};
+use crate::net::{EvenGrid, TriangleNet};
 use glam::{DVec2, DVec3};
 
 /// Lens of a projector: the map φ_p of B eq. 4.1 from places of the picture to directions.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Lens {
+pub enum ProjectorLens {
     /// A flat picture from one point, as most projectors make it.
     Pinhole {
         /// Tangent of the angle from the axis to the picture's left edge, positive to the right. A shifted lens has
@@ -32,29 +32,29 @@ pub enum Lens {
         magnification: f64,
     },
     /// A measured lens.
-    Table(Table),
+    Table(LensTable),
 }
 
 /// Measured lens, known at an even grid of places; yaw and pitch are piecewise linear between them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    grid: Grid,
+pub struct LensTable {
+    grid: EvenGrid,
     /// Yaw (to the left) and pitch (up), radians. Rows begin at the top, each from the left.
     angles: Vec<DVec2>,
-    back: Net,
+    back: TriangleNet,
 }
 
-impl Table {
+impl LensTable {
     /// Creates a lens from yaw and pitch in radians at `columns` × `rows` places, at least two each way, the top row
     /// first.
     pub fn new(columns: u32, rows: u32, angles: Vec<DVec2>) -> Self {
-        let grid = Grid { columns, rows };
-        let back = Net::new(angles.clone(), &grid.triangles());
+        let grid = EvenGrid { columns, rows };
+        let back = TriangleNet::new(angles.clone(), &grid.triangles());
         Self { grid, angles, back }
     }
 }
 
-impl Lens {
+impl ProjectorLens {
     /// Creates a pinhole lens from its throw ratio.
     ///
     /// # Arguments

@@ -2,7 +2,7 @@
 
 use crate::gain_map::GainMap;
 use crate::pfm;
-use crate::warp::Measured;
+use crate::warp::MeasuredWarp;
 use glam::DVec2;
 use thiserror::Error;
 
@@ -36,10 +36,10 @@ pub(crate) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
 
 /// Warp whose samples are places of the picture (red: x to the right, green: y down, 0 to 1), one for each place of
 /// the viewport.
-pub(crate) fn warp(bytes: &[u8]) -> Result<Measured, MapError> {
+pub(crate) fn warp(bytes: &[u8]) -> Result<MeasuredWarp, MapError> {
     let map = grid(bytes)?;
     let places = map.samples.iter().map(|&[x, y, _]| DVec2::new(f64::from(x), f64::from(y))).collect();
-    Ok(Measured::new(map.width, map.height, places))
+    Ok(MeasuredWarp::new(map.width, map.height, places))
 }
 
 /// Luminance of a picture as linear light: the picture's values, 0 to 1, to the power of `gamma`.

@@ -3,8 +3,8 @@
 use crate::channel::Channel;
 use crate::display::{Display, Screen};
 use crate::projector::Projector;
-use crate::surface::flat::Flat;
-use crate::surface::shape::Surface;
+use crate::surface::flat::FlatSurface;
+use crate::surface::shape::ScreenSurface;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -59,9 +59,9 @@ impl Channel {
 
     /// Rectangle on which the viewport's pixels lie in even rows, if there is one. [`frustum()`](crate::frustum())
     /// then replaces a map.
-    pub fn flat(&self, display: &Display) -> Option<Flat> {
+    pub fn flat(&self, display: &Display) -> Option<FlatSurface> {
         match &display.screens[self.screen].surface {
-            Surface::Flat(flat) if self.warp.is_none() && self.projector.is_none() => {
+            ScreenSurface::Flat(flat) if self.warp.is_none() && self.projector.is_none() => {
                 Some(flat.part(self.part.from, self.part.to))
             }
             _ => None,

@@ -2,7 +2,7 @@
 
 use crate::channel::Channel;
 use crate::display::{Display, Screen};
-use crate::surface::shape::Surface;
+use crate::surface::shape::ScreenSurface;
 use crate::window::{Combine, Monitor};
 use glam::{DMat3, DVec2, DVec3};
 use std::fmt::{Formatter, Result};
@@ -79,7 +79,9 @@ impl std::fmt::Display for Display {
 fn measure(screen: &Screen) -> String {
     let kind = screen.surface.kind();
     match &screen.surface {
-        Surface::Mesh(mesh) => format!("{kind} of {} triangles, {:.2} m across", mesh.triangles().len(), mesh.size_m()),
+        ScreenSurface::Mesh(mesh) => {
+            format!("{kind} of {} triangles, {:.2} m across", mesh.triangles().len(), mesh.size_m())
+        }
         surface => {
             let size = surface.size_m();
             format!("{kind}, {:.2} m × {:.2} m", size.x, size.y)
@@ -103,14 +105,14 @@ fn covered(display: &Display, screen: usize) -> f64 {
 }
 
 /// View of a channel's pixels from its eye.
-struct Seen {
+struct SeenPixels {
     /// Pixels per degree, coarsest first. One pixel counts as a square with the pixel's solid angle.
     densities: Vec<f64>,
     /// Share of the viewport that lights the screen.
     lit: f64,
 }
 
-fn seen(display: &Display, channel: &Channel) -> Seen {
+fn seen(display: &Display, channel: &Channel) -> SeenPixels {
     let eye = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let pixel = channel.size().map(|side| 1.0 / f64::from(side));
     let direction = |place: DVec2| Some((channel.point(display, place)? - eye).normalize());
@@ -123,5 +125,5 @@ fn seen(display: &Display, channel: &Channel) -> Seen {
     let lit = places().filter(|&place| channel.point(display, place).is_some()).count();
     let mut densities: Vec<f64> = places().filter_map(density).filter(|density| density.is_finite()).collect();
     densities.sort_by(f64::total_cmp);
-    Seen { densities, lit: lit as f64 / f64::from(PROBES * PROBES) }
+    SeenPixels { densities, lit: lit as f64 / f64::from(PROBES * PROBES) }
 }

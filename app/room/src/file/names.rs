@@ -1,12 +1,12 @@
 //! Names of the tables of a file.
 
-use super::text::Text;
+use super::text::DisplayText;
 use crate::error::DisplayError;
 use toml::Spanned;
 
 /// Checks that names are unique and not empty.
 pub(super) fn check<'a, T: 'a>(
-    text: &Text<'_>,
+    text: &DisplayText<'_>,
     kind: &'static str,
     tables: &'a [Spanned<T>],
     name: impl Fn(&'a T) -> &'a str,

@@ -1,11 +1,11 @@
 //! Text of a display file in, a checked display out.
 
-use super::schema::File;
-use super::text::Text;
+use super::schema::DisplayTables;
+use super::text::DisplayText;
 use super::{channels, projectors, screens, viewer, windows};
 use crate::check;
 use crate::display::Display;
-use crate::error::{At, DisplayError};
+use crate::error::{DisplayError, FilePlace};
 use std::path::Path;
 
 /// Understands a display file's text.
@@ -17,15 +17,20 @@ use std::path::Path;
 /// # Errors
 /// [`DisplayError`].
 pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayError> {
-    let text = Text { name, text };
-    let file: File = toml::from_str(text.text).map_err(|error| text.syntax(&error))?;
+    let text = DisplayText { name, text };
+    let file: DisplayTables = toml::from_str(text.text).map_err(|error| text.syntax(&error))?;
     let viewer = viewer::resolve(&text, file.viewer.as_ref())?;
     let screens = screens::resolve(&text, &file.screen, folder)?;
     let windows = windows::resolve(&text, &file.window)?;
     let projectors = projectors::resolve(&text, &file.projector, folder)?;
-    let channels =
-        channels::Resolver { text: &text, screens: &screens, projectors: &projectors, windows: &windows, folder }
-            .resolve(&file.channel)?;
+    let channels = channels::ChannelResolver {
+        text: &text,
+        screens: &screens,
+        projectors: &projectors,
+        windows: &windows,
+        folder,
+    }
+    .resolve(&file.channel)?;
     let mut display = Display {
         name: file.name.clone().unwrap_or_default(),
         viewer,
@@ -37,7 +42,7 @@ pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Display, DisplayEr
         notices: Vec::new(),
     };
     if display.channels.is_empty() {
-        let at = Box::new(At { file: text.name.into(), line: None, key: String::new() });
+        let at = Box::new(FilePlace { file: text.name.into(), line: None, key: String::new() });
         return Err(DisplayError::Value { at, reason: "it has no [[channel]], so nothing would be seen".into() });
     }
     display.notices = check::notices(&display);

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Value};
 
-/// The keys of `corners`, in the order of [`Corners::places`](crate::Corners).
+/// The keys of `corners`, in the order of [`CornerWarp::places`](crate::CornerWarp::places).
 const KEYS: [&str; 4] = ["upper_left", "upper_right", "lower_right", "lower_left"];
 
 /// Reason why corners are not saved.

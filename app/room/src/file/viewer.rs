@@ -1,14 +1,17 @@
 //! `[viewer]` table: the distance between the eyes, and the place of an untracked head.
 
 use super::schema;
-use super::text::Text;
+use super::text::DisplayText;
 use crate::error::DisplayError;
 use crate::viewer::Viewer;
 use glam::DVec3;
 use toml::Spanned;
 
 /// Viewer of the table, or the usual viewer if there is none.
-pub(super) fn resolve(text: &Text<'_>, table: Option<&Spanned<schema::Viewer>>) -> Result<Viewer, DisplayError> {
+pub(super) fn resolve(
+    text: &DisplayText<'_>,
+    table: Option<&Spanned<schema::ViewerTable>>,
+) -> Result<Viewer, DisplayError> {
     let mut viewer = Viewer::default();
     let Some(table) = table else { return Ok(viewer) };
     let refuse = |key: &str, reason: &str| {

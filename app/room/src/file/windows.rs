@@ -1,6 +1,6 @@
 //! `[[window]]` tables: monitor, size, and how the eyes share pixels.
 
-use super::text::Text;
+use super::text::DisplayText;
 use super::{names, schema};
 use crate::error::DisplayError;
 use crate::window::{Combine, Monitor, WindowPlace};
@@ -10,12 +10,15 @@ use toml::{Spanned, Value};
 const MAX_PIXELS: u32 = 1 << 16;
 
 /// Windows of all `[[window]]` tables, in the file's order.
-pub(super) fn resolve(text: &Text<'_>, tables: &[Spanned<schema::Window>]) -> Result<Vec<WindowPlace>, DisplayError> {
+pub(super) fn resolve(
+    text: &DisplayText<'_>,
+    tables: &[Spanned<schema::WindowTable>],
+) -> Result<Vec<WindowPlace>, DisplayError> {
     names::check(text, "window", tables, |window| &window.name)?;
     tables.iter().map(|table| window(text, table)).collect()
 }
 
-fn window(text: &Text<'_>, table: &Spanned<schema::Window>) -> Result<WindowPlace, DisplayError> {
+fn window(text: &DisplayText<'_>, table: &Spanned<schema::WindowTable>) -> Result<WindowPlace, DisplayError> {
     let given = table.get_ref();
     let at = |key: &str| text.at(table.span().start, &format!("window {:?}", given.name), key);
     let refuse = |key: &str, reason: String| Err(DisplayError::Value { at: at(key), reason });

@@ -1,6 +1,6 @@
 //! Flat screens: rectangles.
 
-use super::hit::{Hit, NEAREST};
+use super::hit::{NEAREST, SurfaceHit};
 use crate::turning::room_from_turned;
 use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
@@ -38,7 +38,7 @@ pub enum NotRectangle {
 
 /// Flat rectangular screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flat {
+pub struct FlatSurface {
     /// Lower left corner, room axes, metres.
     pub lower_left: DVec3,
     /// Vector from the lower left to the lower right corner, room axes, metres.
@@ -47,7 +47,7 @@ pub struct Flat {
     pub up: DVec3,
 }
 
-impl Flat {
+impl FlatSurface {
     /// Creates a screen from its lower left, lower right and upper left corners, as seen by the viewer.
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl Flat {
         DVec2::new(self.right.length(), self.up.length())
     }
 
-    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         let normal = self.normal();
         let distance = (self.lower_left - origin).dot(normal) / direction.dot(normal);
         let nearest = NEAREST * self.size_m().max_element() / direction.length();
@@ -120,7 +120,7 @@ impl Flat {
             return None;
         }
         let offset = origin + direction * distance - self.lower_left;
-        Some(Hit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
+        Some(SurfaceHit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
     }
 
     /// Place uv of a point given relative to the lower left corner; `None` outside the screen.

@@ -8,7 +8,7 @@ pub(super) const NEAREST: f64 = 1e-9;
 
 /// First hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
+pub struct SurfaceHit {
     /// Distance along the ray, in lengths of its direction.
     pub distance: f64,
     /// Point that is hit, room axes, metres.

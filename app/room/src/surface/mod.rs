@@ -13,10 +13,10 @@ pub(crate) mod shape;
 pub(crate) mod sphere;
 pub(crate) mod sweep;
 
-pub use cylinder::Cylinder;
-pub use flat::{Flat, NotRectangle};
-pub use hit::Hit;
-pub use mesh::Mesh;
-pub use shape::Surface;
-pub use sphere::Sphere;
+pub use cylinder::CylinderSurface;
+pub use flat::{FlatSurface, NotRectangle};
+pub use hit::SurfaceHit;
+pub use mesh::MeshSurface;
+pub use shape::ScreenSurface;
+pub use sphere::SphereSurface;
 pub use sweep::{SweepError, sweep};

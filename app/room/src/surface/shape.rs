@@ -1,26 +1,26 @@
 //! Surface of any kind: one interface to rectangles, cylinders, spheres and meshes.
 
-use super::cylinder::Cylinder;
-use super::flat::Flat;
-use super::hit::Hit;
-use super::mesh::Mesh;
-use super::sphere::Sphere;
+use super::cylinder::CylinderSurface;
+use super::flat::FlatSurface;
+use super::hit::SurfaceHit;
+use super::mesh::MeshSurface;
+use super::sphere::SphereSurface;
 use glam::{DVec2, DVec3};
 
 /// Shape and place of a screen.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Surface {
+pub enum ScreenSurface {
     /// A flat rectangle.
-    Flat(Flat),
+    Flat(FlatSurface),
     /// A wall curved round a vertical axis.
-    Cylinder(Cylinder),
+    Cylinder(CylinderSurface),
     /// A dome, or a part of one.
-    Sphere(Sphere),
+    Sphere(SphereSurface),
     /// A mesh of triangles.
-    Mesh(Box<Mesh>),
+    Mesh(Box<MeshSurface>),
 }
 
-impl Surface {
+impl ScreenSurface {
     /// Point at a place on the surface: room axes, metres. A place outside 0 to 1 is moved to the nearest edge.
     /// `None` in a hole of a mesh.
     pub fn point(&self, uv: DVec2) -> Option<DVec3> {
@@ -45,7 +45,7 @@ impl Surface {
     }
 
     /// First hit of a ray from `origin` along `direction` (any length but zero), from either side of the surface.
-    pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         match self {
             Self::Flat(flat) => flat.hit(origin, direction),
             Self::Cylinder(cylinder) => cylinder.hit(origin, direction),
@@ -67,7 +67,7 @@ impl Surface {
 
     /// Mesh of columns × rows places, at least two each, for drawing the room. A mesh is returned as it is; any other
     /// surface is divided evenly.
-    pub fn to_mesh(&self, columns: u32, rows: u32) -> Mesh {
+    pub fn to_mesh(&self, columns: u32, rows: u32) -> MeshSurface {
         if let Self::Mesh(mesh) = self {
             return (**mesh).clone();
         }
@@ -76,7 +76,7 @@ impl Surface {
         let points = places.map(|(column, row)| {
             self.point(DVec2::new(place(column, columns), place(row, rows))).unwrap_or(DVec3::NAN)
         });
-        Mesh::grid(columns, rows, points.collect())
+        MeshSurface::grid(columns, rows, points.collect())
     }
 
     /// Width and height measured along the surface, metres. For a mesh, both are the diagonal of its bounding box.

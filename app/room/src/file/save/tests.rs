@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::file::parse::parse;
-use crate::warp::{Corners, Warp};
+use crate::warp::{CornerWarp, Warp};
 
 /// Display file as a user may write it: comments, an unusual order, corners in every form.
 const FILE: &str = r#"# our wall, measured in May
@@ -51,7 +51,7 @@ fn corners(text: &str, channel: usize) -> Option<Warp> {
 
 /// Warp of a display whose corners are at `places`, pixels, in a viewport of `size` pixels.
 fn warp(places: [DVec2; 4], size: DVec2) -> Option<Warp> {
-    Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()))
+    Some(Warp::Corners(CornerWarp::new(places.map(|place| place / size)).unwrap()))
 }
 
 #[test]
