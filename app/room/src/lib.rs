@@ -38,6 +38,7 @@ mod load;
 mod maps;
 mod net;
 mod pfm;
+mod picture_plane;
 mod pixels;
 mod projector;
 mod read;

@@ -10,6 +10,7 @@ use crate::{grid_file, read};
 use glam::DVec2;
 use std::path::Path;
 use toml::Spanned;
+use view::Tangents;
 
 /// Names of the lenses in files.
 const LENSES: [&str; 3] = ["pinhole", "scan", "table"];
@@ -143,7 +144,8 @@ impl ProjectorForm<'_> {
                     return self
                         .refuse("tangents", "they are left, right, bottom, top: finite, left < right, bottom < top");
                 }
-                Ok(ProjectorLens::Pinhole { left, right, bottom, top })
+                let (low, high) = (DVec2::new(left, bottom), DVec2::new(right, top));
+                Ok(ProjectorLens::Pinhole(Tangents { low, high }))
             }
             _ => self.refuse("", "a pinhole needs either throw_ratio and size, or tangents"),
         }

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use room::{LensTable, Projector, ProjectorLens};
 use room::{Reflection, file, room_from_turned};
+use view::Tangents;
 
 /// Tolerance for the rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than
 /// a tenth of a pixel.
@@ -86,7 +87,10 @@ fn a_scanner_without_an_optic_turns_by_its_mirrors() {
 #[test]
 fn throw_ratio_is_distance_over_width_and_shift_moves_by_pictures() {
     let lens = ProjectorLens::pinhole(2.0, 1.5, DVec2::new(0.0, 0.5));
-    assert_eq!(lens, ProjectorLens::Pinhole { left: -0.25, right: 0.25, bottom: 0.0, top: 1.0 / 3.0 });
+    assert_eq!(
+        lens,
+        ProjectorLens::Pinhole(Tangents { low: DVec2::new(-0.25, 0.0), high: DVec2::new(0.25, 1.0 / 3.0) })
+    );
 }
 
 fn projector(lens: ProjectorLens) -> Projector {
@@ -105,7 +109,7 @@ fn projector(lens: ProjectorLens) -> Projector {
 #[test]
 fn solid_angles_sum_to_what_the_edges_enclose() {
     // A square pyramid of ±45° is a sixth of the sphere: 4π/6.
-    let lens = ProjectorLens::Pinhole { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0 };
+    let lens = ProjectorLens::Pinhole(Tangents { low: -DVec2::ONE, high: DVec2::ONE });
     let steps = 200;
     let sum: f64 = (0..steps * steps)
         .map(|i| (DVec2::new(f64::from(i % steps), f64::from(i / steps)) + 0.5) / f64::from(steps))

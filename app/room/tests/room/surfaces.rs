@@ -9,6 +9,7 @@ use room::{
     CornerWarp, CylinderSurface, FlatSurface, MeasuredWarp, MeshSurface, ScreenSurface, SphereSurface, Warp, frustum,
     room_from_turned,
 };
+use view::Tangents;
 
 /// Tolerance for the rounding of a few operations on metres.
 const ROUNDING: f64 = 1e-12;
@@ -153,13 +154,14 @@ fn the_screens_corners_are_the_frustums() {
     for eye in [DVec3::new(0.0, 1.6, 0.0), DVec3::new(-1.0, 0.3, 1.0), DVec3::new(2.0, 3.0, -1.0)] {
         let frustum = frustum(&flat, eye).unwrap();
         let eye_from_room = frustum.room_from_eye.transpose();
+        let Tangents { low, high } = frustum.tangents;
         let corners = [
-            (DVec2::ZERO, [frustum.left, frustum.bottom]),
-            (DVec2::X, [frustum.right, frustum.bottom]),
-            (DVec2::Y, [frustum.left, frustum.top]),
-            (DVec2::ONE, [frustum.right, frustum.top]),
+            (DVec2::ZERO, low),
+            (DVec2::X, DVec2::new(high.x, low.y)),
+            (DVec2::Y, DVec2::new(low.x, high.y)),
+            (DVec2::ONE, high),
         ];
-        for (uv, [x, y]) in corners {
+        for (uv, DVec2 { x, y }) in corners {
             let seen = eye_from_room * (flat.point(uv) - eye);
             assert!((seen.x / -seen.z - x).abs() < ROUNDING && (seen.y / -seen.z - y).abs() < ROUNDING, "{uv}");
         }
@@ -178,9 +180,9 @@ fn the_screens_corners_are_the_frustums() {
 fn a_frustum_straight_ahead_is_known() {
     let flat = FlatSurface::from_centre(DVec3::new(0.0, 0.0, -2.0), DVec2::new(4.0, 2.0), DVec3::ZERO).unwrap();
     let ahead = frustum(&flat, DVec3::ZERO).unwrap();
-    assert_eq!([ahead.left, ahead.right, ahead.bottom, ahead.top], [-1.0, 1.0, -0.5, 0.5]);
+    assert_eq!(ahead.tangents, Tangents { low: DVec2::new(-1.0, -0.5), high: DVec2::new(1.0, 0.5) });
     let aside = frustum(&flat, DVec3::new(1.0, 0.5, -1.0)).unwrap();
-    assert_eq!([aside.left, aside.right, aside.bottom, aside.top], [-3.0, 1.0, -1.5, 0.5]);
+    assert_eq!(aside.tangents, Tangents { low: DVec2::new(-3.0, -1.5), high: DVec2::new(1.0, 0.5) });
     for behind in [DVec3::new(0.0, 0.0, -2.0), DVec3::new(0.0, 0.0, -3.0), DVec3::NAN] {
         assert!(frustum(&flat, behind).is_err());
     }

@@ -146,7 +146,7 @@ fn a_link_stays_a_link_and_names_files_from_its_own_folder() {
     let text = FILE.replace("centre = [0, 1.5, -2]\nsize = [4.0, 2.0]", "mesh = \"wall.csv\"");
     std::fs::write(&target, &text).unwrap();
     std::os::unix::fs::symlink(&target, &link).unwrap();
-    assert!(crate::Display::load(&link).is_ok());
+    assert!(crate::display::Display::load(&link).is_ok());
     save(link.to_str().unwrap(), &[("a", Some(PLACES))]).unwrap();
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(std::fs::read_to_string(&target).unwrap(), saved(&text, &[("a", Some(PLACES))]).unwrap());
