@@ -5,7 +5,7 @@ use toml::{Spanned, Value};
 
 /// A whole display file.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct DisplayTables {
     pub name: Option<String>,
     #[serde(default)]
@@ -22,7 +22,7 @@ pub(super) struct DisplayTables {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct ViewerTable {
     pub eye_separation: Option<f64>,
     pub eye_scale: Option<f64>,
@@ -30,7 +30,7 @@ pub(super) struct ViewerTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct ScreenTable {
     pub name: String,
     pub lower_left: Option<[f64; 3]>,
@@ -51,7 +51,7 @@ pub(super) struct ScreenTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct CylinderTable {
     #[serde(default)]
     pub centre: [f64; 3],
@@ -63,7 +63,7 @@ pub(super) struct CylinderTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct SphereTable {
     #[serde(default)]
     pub centre: [f64; 3],
@@ -75,7 +75,7 @@ pub(super) struct SphereTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct SweepTable {
     #[serde(default)]
     pub centre: [f64; 3],
@@ -85,7 +85,7 @@ pub(super) struct SweepTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct ProjectorTable {
     pub name: String,
     pub position: [f64; 3],
@@ -107,7 +107,7 @@ pub(super) struct ProjectorTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WindowTable {
     pub name: String,
     pub size: [u32; 2],
@@ -121,7 +121,7 @@ pub(super) struct WindowTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct ChannelTable {
     pub name: String,
     pub screen: String,
@@ -139,7 +139,7 @@ pub(super) struct ChannelTable {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct CornersTable {
     pub upper_left: Option<[f64; 2]>,
     pub upper_right: Option<[f64; 2]>,

@@ -293,6 +293,7 @@ fn keys_that_are_unknown_are_refused_with_the_one_that_was_meant() {
     says(changed("name = \"front\"\n", ""), 3, &["missing field `name`"]);
     says(changed("[960, 480]", "[960, 480"), 11, &[]);
     says(changed("[960, 480]", "\"big\""), 10, &["invalid type"]);
+    says(added("[[screen]]\nname = \"b\"\nsphere = 3\n"), 19, &["expected a table"]);
     let message = parse("").unwrap_err().to_string();
     assert_eq!(message, "d.toml: it has no [[channel]], so nothing would be seen");
 }
