@@ -1,8 +1,5 @@
 //! Built-in displays: `app/displays/*.toml`, which are also the examples of the documentation.
 
-use super::{Display, file};
-use std::path::Path;
-
 /// Names of the built-in displays.
 pub const NAMES: [&str; 6] = ["window", "stereo-wall", "cave4", "cave6", "curved", "dome6"];
 
@@ -19,11 +16,4 @@ const TEXTS: [&str; 6] = [
 /// Text of a built-in display's file, by one of [`NAMES`].
 pub fn text(name: &str) -> Option<&'static str> {
     NAMES.iter().position(|known| *known == name).map(|index| TEXTS[index])
-}
-
-/// Built-in display, by one of [`NAMES`].
-pub fn display(name: &str) -> Option<Display> {
-    let mut display = file::parse(text(name)?, name, Path::new("")).ok()?;
-    display.name = name.to_owned();
-    Some(display)
 }

@@ -1,14 +1,15 @@
 //! Errors in displays. Each message says where the error is, what it is, and what to do.
 
-use super::frustum::EyeBehind;
-use super::surface::NotRectangle;
+use crate::built_in;
+use crate::frustum::EyeBehind;
+use crate::surface::flat::NotRectangle;
 use std::fmt;
 use std::path::PathBuf;
 use thiserror::Error;
 
 /// Place in a display's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct At {
+pub struct FilePlace {
     /// Name of the file, as the user gave it.
     pub file: String,
     /// Line number from 1, if it is known.
@@ -17,7 +18,7 @@ pub struct At {
     pub key: String,
 }
 
-impl fmt::Display for At {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file)?;
         if let Some(line) = self.line {
@@ -31,7 +32,7 @@ impl fmt::Display for At {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DisplayError {
     /// A name that is neither a built-in display nor a file.
-    #[error("there is no display {name:?}; name a file, or one of {}", super::built_in::NAMES.join(", "))]
+    #[error("there is no display {name:?}; name a file, or one of {}", built_in::NAMES.join(", "))]
     NoSuch {
         /// Name, as the user gave it.
         name: String,
@@ -48,7 +49,7 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     Syntax {
         /// Place of the error.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Reason, as the parser words it.
         reason: String,
     },
@@ -56,7 +57,7 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     Value {
         /// Place of the value.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Reason, and what to do.
         reason: String,
     },
@@ -64,7 +65,7 @@ pub enum DisplayError {
     #[error("{at}: {reason}")]
     NotRectangle {
         /// Place of the screen.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Deviation from a rectangle.
         reason: NotRectangle,
     },
@@ -72,7 +73,7 @@ pub enum DisplayError {
     #[error("{at}: there is no {kind} {name:?}{}; there is {}", suggestion(name, known), listed(known))]
     Unknown {
         /// Place of the name.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Kind of thing that was looked up: `screen`, `window`, `projector`, `eye`, `lens` or `combine`.
         kind: &'static str,
         /// Name, as written in the file.
@@ -84,7 +85,7 @@ pub enum DisplayError {
     #[error("{at}: another {kind} is already called {name:?}; give each a name of its own")]
     Duplicate {
         /// Place of the second one.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Kind of thing: `screen`, `window`, `projector` or `channel`.
         kind: &'static str,
         /// Name used twice.
@@ -94,7 +95,7 @@ pub enum DisplayError {
     #[error("{at}: {name:?} cannot be a name: {reason}")]
     NotAName {
         /// Place of the name.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Name, as written in the file.
         name: String,
         /// Reason why it is not allowed.
@@ -104,7 +105,7 @@ pub enum DisplayError {
     #[error("{at}: the viewport [{}, {}, {}, {}] is not inside window {window:?} of {} × {} pixels", viewport[0], viewport[1], viewport[2], viewport[3], size[0], size[1])]
     ViewportOutside {
         /// Place of the viewport.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Viewport as written: x, y, width and height, pixels.
         viewport: [u32; 4],
         /// Name of the window.
@@ -118,7 +119,7 @@ pub enum DisplayError {
     )]
     Overlap {
         /// Place of the second channel's viewport.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Name of the first channel.
         other: String,
     },
@@ -126,7 +127,7 @@ pub enum DisplayError {
     #[error("{at}: screen {screen:?}, {eye} eye: {reason}")]
     Behind {
         /// Place of the channel.
-        at: Box<At>,
+        at: Box<FilePlace>,
         /// Name of the screen.
         screen: String,
         /// Name of the eye.
@@ -153,7 +154,7 @@ fn listed(known: &[String]) -> String {
 }
 
 /// Known name that was probably meant: the one with the fewest edits, if these are at most a third of its letters.
-pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()
         .map(|candidate| (edits(name, candidate), candidate))

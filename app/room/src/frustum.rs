@@ -1,8 +1,10 @@
 //! Off-axis frusta for flat screens: the picture plane is the screen itself, and no map is needed.
 
-use super::Flat;
+use crate::picture_plane::ahead;
+use crate::surface::flat::FlatSurface;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
+use view::Tangents;
 
 /// Eye behind a screen, or in its plane.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -20,23 +22,15 @@ pub struct Frustum {
     /// Rotation from the eye's axes (x along the screen's rows, y along its columns, −z straight towards it) to the
     /// room's.
     pub room_from_eye: DMat3,
-    /// Tangent of the angle from −z to the screen's left edge, positive to the right.
-    pub left: f64,
-    /// Tangent of the angle to the screen's right edge, positive to the right.
-    pub right: f64,
-    /// Tangent of the angle to the screen's lower edge, positive upwards.
-    pub bottom: f64,
-    /// Tangent of the angle to the screen's upper edge, positive upwards.
-    pub top: f64,
+    /// Rectangle of the screen in the plane one unit ahead, eye axes.
+    pub tangents: Tangents,
 }
 
 impl Frustum {
     /// Direction in which the eye sees a place of the picture (0 to 1, x right, y down from the upper left); room
     /// axes. Its length is such that its component along the screen's normal is 1.
     pub fn ray(&self, place: DVec2) -> DVec3 {
-        let x = self.left + place.x * (self.right - self.left);
-        let y = self.top + place.y * (self.bottom - self.top);
-        self.room_from_eye * DVec3::new(x, y, -1.0)
+        self.room_from_eye * ahead(&self.tangents, place)
     }
 }
 
@@ -47,7 +41,7 @@ impl Frustum {
 ///
 /// # Errors
 /// [`EyeBehind`].
-pub fn frustum(flat: &Flat, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
+pub fn frustum(flat: &FlatSurface, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
     let (x, y) = (flat.right.normalize(), flat.up.normalize());
     let z = x.cross(y);
     let distance_m = (eye_m - flat.lower_left).dot(z);
@@ -55,12 +49,7 @@ pub fn frustum(flat: &Flat, eye_m: DVec3) -> Result<Frustum, EyeBehind> {
         return Err(EyeBehind { eye_m, distance_m });
     }
     let corner = flat.lower_left - eye_m;
-    let (left, bottom) = (corner.dot(x) / distance_m, corner.dot(y) / distance_m);
-    Ok(Frustum {
-        room_from_eye: DMat3::from_cols(x, y, z),
-        left,
-        right: left + flat.right.length() / distance_m,
-        bottom,
-        top: bottom + flat.up.length() / distance_m,
-    })
+    let low = DVec2::new(corner.dot(x), corner.dot(y)) / distance_m;
+    let high = low + flat.size_m() / distance_m;
+    Ok(Frustum { room_from_eye: DMat3::from_cols(x, y, z), tangents: Tangents { low, high } })
 }

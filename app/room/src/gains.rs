@@ -4,8 +4,10 @@
 //! light there, `Σ w = 1`, and its pixel gets the factor `w_p · T / L_p`, with one target T for the whole screen. The
 //! sum of factor times delivered luminance is then T everywhere. T is as large as possible without a factor above 1.
 
-use super::projector::Projector;
-use super::{Channel, Display, Eye, Screen};
+use crate::channel::Channel;
+use crate::display::{Display, Screen};
+use crate::projector::Projector;
+use crate::viewer::EyeSide;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -26,64 +28,15 @@ pub struct Gains {
     pub lifts: Option<Vec<f32>>,
 }
 
-/// Measured map of a channel's pixels: linear light, 0 to 1, of any size.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Map {
-    /// Width and height, samples.
-    pub size: [u32; 2],
-    /// Samples row by row from the upper left.
-    pub values: Vec<f32>,
-}
-
-impl Map {
-    /// Value at a place of the viewport (0 to 1, y down), bilinear between the centres of the map's samples.
-    pub fn at(&self, place: DVec2) -> f32 {
-        let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
-        let scaled = (place * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
-        let (low, part) = (scaled.floor(), scaled.fract());
-        let high = (low + 1.0).min(size - 1.0);
-        let value = |x: f64, y: f64| f64::from(self.values[y as usize * self.size[0] as usize + x as usize]);
-        let above = value(low.x, low.y) * (1.0 - part.x) + value(high.x, low.y) * part.x;
-        let below = value(low.x, high.y) * (1.0 - part.x) + value(high.x, high.y) * part.x;
-        (above * (1.0 - part.y) + below * part.y) as f32
-    }
-}
-
-/// Reflection of light by a screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reflection {
-    /// Share of the light that goes into a lobe around the mirror direction; the rest is ideally diffuse. 0 for a
-    /// matt screen.
-    pub gloss: f64,
-    /// Exponent of the cosine in the lobe: the larger it is, the narrower the lobe.
-    pub exponent: f64,
-}
-
-impl Reflection {
-    /// Share of the light falling on a point that reaches the viewer, per steradian: B(θ_P, θ_B) of B eq. 4.5.
-    ///
-    /// *Equation.* Lambert's 1/π and a normalised Phong lobe, (n + 1)/2π · cosⁿ of the angle to the mirror direction.
-    pub fn toward(&self, to_projector: DVec3, to_viewer: DVec3, normal: DVec3) -> f64 {
-        use std::f64::consts::{FRAC_1_PI, TAU};
-        if self.gloss == 0.0 {
-            return FRAC_1_PI;
-        }
-        let mirror = 2.0 * to_projector.dot(normal) * normal - to_projector;
-        let cosine = mirror.normalize().dot(to_viewer.normalize()).max(0.0);
-        let lobe = (self.exponent + 1.0) / TAU * cosine.powf(self.exponent);
-        (1.0 - self.gloss) * FRAC_1_PI + self.gloss * lobe
-    }
-}
-
 /// Projectors whose pictures form one: the channels of one eye on one screen.
-struct Group<'a> {
+struct ProjectorGroup<'a> {
     screen: &'a Screen,
     viewer_m: DVec3,
     members: Vec<(&'a Channel, &'a Projector)>,
 }
 
-impl<'a> Group<'a> {
-    fn of(display: &'a Display, screen: usize, eye: Eye) -> Self {
+impl<'a> ProjectorGroup<'a> {
+    fn of(display: &'a Display, screen: usize, eye: EyeSide) -> Self {
         let members = display
             .channels
             .iter()
@@ -134,41 +87,43 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Factors of a channel's pixels; `None` if all are 1.
-pub(super) fn gains(display: &Display, channel: &Channel, size: [u32; 2]) -> Option<Gains> {
-    let projector = channel.projector(display);
-    let group = Group::of(display, channel.screen, channel.eye);
-    let alone = projector.is_none_or(|projector| !projector.even && (!projector.blend || group.members.len() == 1));
-    if alone && channel.alpha.is_none() && channel.beta.is_none() {
-        return None;
-    }
-    let target = if projector.is_some_and(|projector| projector.even) { group.target() } else { 1.0 };
-    let factor = |viewport: DVec2| -> Option<f64> {
-        let Some(projector) = projector else { return Some(1.0) };
-        let (picture, point, normal) = channel.lit(group.screen, projector, viewport)?;
-        let weight = group.weight(channel, projector, viewport, point);
-        if !projector.even {
-            return Some(weight);
+impl Channel {
+    /// Factors of the channel's pixels at `size` pixels spread evenly over the viewport; `None` if all are 1.
+    pub fn gains(&self, display: &Display, size: [u32; 2]) -> Option<Gains> {
+        let projector = self.projector(display);
+        let group = ProjectorGroup::of(display, self.screen, self.eye);
+        let alone = projector.is_none_or(|projector| !projector.even && (!projector.blend || group.members.len() == 1));
+        if alone && self.alpha.is_none() && self.beta.is_none() {
+            return None;
         }
-        Some((weight * target / group.delivered(projector, picture, point, normal)?).min(1.0))
-    };
+        let target = if projector.is_some_and(|projector| projector.even) { group.target() } else { 1.0 };
+        let factor = |viewport: DVec2| -> Option<f64> {
+            let Some(projector) = projector else { return Some(1.0) };
+            let (picture, point, normal) = self.lit(group.screen, projector, viewport)?;
+            let weight = group.weight(self, projector, viewport, point);
+            if !projector.even {
+                return Some(weight);
+            }
+            Some((weight * target / group.delivered(projector, picture, point, normal)?).min(1.0))
+        };
 
-    // Each pixel is computed on its own. NaN marks a pixel that lights nothing.
-    let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
-    let place = |index: usize| {
-        let (x, y) = (index % size[0] as usize, index / size[0] as usize);
-        (DVec2::new(x as f64, y as f64) + 0.5) / pixels
-    };
-    let count = size[0] as usize * size[1] as usize;
-    let lit: Vec<f32> =
-        (0..count).into_par_iter().map(|index| factor(place(index)).map_or(f32::NAN, |f| f as f32)).collect();
+        // Each pixel is computed on its own. NaN marks a pixel that lights nothing.
+        let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let place = |index: usize| {
+            let (x, y) = (index % size[0] as usize, index / size[0] as usize);
+            (DVec2::new(x as f64, y as f64) + 0.5) / pixels
+        };
+        let count = size[0] as usize * size[1] as usize;
+        let lit: Vec<f32> =
+            (0..count).into_par_iter().map(|index| factor(place(index)).map_or(f32::NAN, |f| f as f32)).collect();
 
-    let beta = |place: DVec2| channel.beta.as_ref().map_or(0.0, |map| map.at(place));
-    let alpha = |place: DVec2| channel.alpha.as_ref().map_or(1.0, |map| map.at(place));
-    let own = |index: usize| alpha(place(index)) * (1.0 - beta(place(index)));
-    let factors = (0..count).map(|index| continued(&lit, size, index) * own(index)).collect();
-    let lifts = channel.beta.is_some().then(|| (0..count).map(|index| beta(place(index))).collect());
-    Some(Gains { size, factors, lifts })
+        let beta = |place: DVec2| self.beta.as_ref().map_or(0.0, |map| map.at(place));
+        let alpha = |place: DVec2| self.alpha.as_ref().map_or(1.0, |map| map.at(place));
+        let own = |index: usize| alpha(place(index)) * (1.0 - beta(place(index)));
+        let factors = (0..count).map(|index| continued(&lit, size, index) * own(index)).collect();
+        let lifts = self.beta.is_some().then(|| (0..count).map(|index| beta(place(index))).collect());
+        Some(Gains { size, factors, lifts })
+    }
 }
 
 /// Factor of a pixel. For a pixel that lights nothing, it is the mean of its lit neighbours, so that interpolation

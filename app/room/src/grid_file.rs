@@ -4,12 +4,12 @@
 const MAX_SAMPLES: usize = 2_000_000;
 
 /// Columns, rows, and values row by row, starting with the lowest second coordinate.
-pub(super) type Samples<const N: usize> = (u32, u32, Vec<[f64; N]>);
+pub(crate) type GridSamples<const N: usize> = (u32, u32, Vec<[f64; N]>);
 
 /// Reads lines with the two coordinates of a place and N values, in any order. They must make a complete even grid
 /// from 0 to 1 both ways. A first line of words is a heading, and text after a # is ignored. Error texts are worded
 /// to follow the file's name.
-pub(super) fn read<const N: usize>(text: &str, head: &str) -> Result<Samples<N>, String> {
+pub(crate) fn read<const N: usize>(text: &str, head: &str) -> Result<GridSamples<N>, String> {
     let mut samples: Vec<([f64; 2], [f64; N])> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or_default().trim();

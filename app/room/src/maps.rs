@@ -1,8 +1,8 @@
 //! Measured maps of a channel's pixels: warps from PFM files, gains from PNG files.
 
-use super::gains::Map;
-use super::pfm;
-use super::warp::Measured;
+use crate::gain_map::GainMap;
+use crate::pfm;
+use crate::warp::MeasuredWarp;
 use glam::DVec2;
 use thiserror::Error;
 
@@ -26,7 +26,7 @@ pub enum MapError {
 }
 
 /// Portable float map with at least two samples each way.
-pub(super) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
+pub(crate) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
     let map = pfm::read(bytes).map_err(MapError::Pfm)?;
     if map.width < 2 || map.height < 2 {
         return Err(MapError::TooSmall { width: map.width, height: map.height });
@@ -36,18 +36,18 @@ pub(super) fn grid(bytes: &[u8]) -> Result<pfm::Pfm, MapError> {
 
 /// Warp whose samples are places of the picture (red: x to the right, green: y down, 0 to 1), one for each place of
 /// the viewport.
-pub(super) fn warp(bytes: &[u8]) -> Result<Measured, MapError> {
+pub(crate) fn warp(bytes: &[u8]) -> Result<MeasuredWarp, MapError> {
     let map = grid(bytes)?;
     let places = map.samples.iter().map(|&[x, y, _]| DVec2::new(f64::from(x), f64::from(y))).collect();
-    Ok(Measured::new(map.width, map.height, places))
+    Ok(MeasuredWarp::new(map.width, map.height, places))
 }
 
 /// Luminance of a picture as linear light: the picture's values, 0 to 1, to the power of `gamma`.
-pub(super) fn gain(bytes: &[u8], gamma: f64) -> Result<Map, MapError> {
+pub(crate) fn gain(bytes: &[u8], gamma: f64) -> Result<GainMap, MapError> {
     let picture = image::load_from_memory(bytes).map_err(|error| MapError::Picture(error.to_string()))?.into_rgb32f();
     let values = picture.pixels().map(|pixel| {
         let [red, green, blue] = pixel.0.map(|value| f64::from(value).max(0.0).powf(gamma));
         (0.2126 * red + 0.7152 * green + 0.0722 * blue) as f32
     });
-    Ok(Map { size: [picture.width(), picture.height()], values: values.collect() })
+    Ok(GainMap { size: [picture.width(), picture.height()], values: values.collect() })
 }

@@ -3,19 +3,20 @@
 //! Grids and meshes are linear within each triangle in both directions, so the inverse map undoes the map up to
 //! rounding.
 
+use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
 
 /// Largest amount by which rounding may take a barycentric coordinate below 0.
-const EDGE: f64 = 1e-9;
+pub(crate) const EDGE: f64 = 1e-9;
 
 /// Place within a triangle: the indices of the corners, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Within {
+pub(crate) struct WithinTriangle {
     pub corners: [u32; 3],
     pub weights: DVec3,
 }
 
-impl Within {
+impl WithinTriangle {
     /// Weighted mean of the corners' values. A corner with weight 0 does not count, even if its value is unknown.
     pub fn mix<T>(&self, values: &[T]) -> T
     where
@@ -29,18 +30,17 @@ impl Within {
 /// Even grid over the unit square, row by row, with the first sample at (0, 0). Each cell is cut from its first
 /// corner to the opposite one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
+pub(crate) struct EvenGrid {
     /// Number of samples along a row.
     pub columns: u32,
     /// Number of rows.
     pub rows: u32,
 }
 
-impl Grid {
+impl EvenGrid {
     /// Triangle at a place, and the weights there; `None` outside 0 to 1.
-    pub fn find(self, place: DVec2) -> Option<Within> {
-        let inside = place.cmpge(DVec2::splat(-EDGE)).all() && place.cmple(DVec2::splat(1.0 + EDGE)).all();
-        if !inside {
+    pub fn find(self, place: DVec2) -> Option<WithinTriangle> {
+        if !inside(place) {
             return None;
         }
         let cells = DVec2::new(f64::from(self.columns - 1), f64::from(self.rows - 1));
@@ -50,9 +50,9 @@ impl Grid {
         let first = row * self.columns + column;
         let last = first + self.columns + 1;
         Some(if f.x >= f.y {
-            Within { corners: [first, first + 1, last], weights: DVec3::new(1.0 - f.x, f.x - f.y, f.y) }
+            WithinTriangle { corners: [first, first + 1, last], weights: DVec3::new(1.0 - f.x, f.x - f.y, f.y) }
         } else {
-            Within { corners: [first, last, last - 1], weights: DVec3::new(1.0 - f.y, f.x, f.y - f.x) }
+            WithinTriangle { corners: [first, last, last - 1], weights: DVec3::new(1.0 - f.y, f.x, f.y - f.x) }
         })
     }
 
@@ -63,7 +63,7 @@ impl Grid {
     }
 
     /// Place with the given weights within a triangle of samples.
-    pub fn place_within(self, within: &Within) -> DVec2 {
+    pub fn place_within(self, within: &WithinTriangle) -> DVec2 {
         let [a, b, c] = within.corners.map(|sample| self.place(sample));
         a * within.weights.x + b * within.weights.y + c * within.weights.z
     }
@@ -83,7 +83,7 @@ impl Grid {
 
 /// Triangles in the plane, sorted into buckets so that the triangle at a place is found quickly.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Net {
+pub(crate) struct TriangleNet {
     corners: Vec<DVec2>,
     triangles: Vec<[u32; 3]>,
     lowest: DVec2,
@@ -95,7 +95,7 @@ pub(super) struct Net {
     sorted: Vec<u32>,
 }
 
-impl Net {
+impl TriangleNet {
     /// Sorts triangles into buckets. A triangle without area, or with a corner that is not finite, is left out.
     pub fn new(corners: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
         let good = |triangle: &&[u32; 3]| {
@@ -133,7 +133,7 @@ impl Net {
     }
 
     /// Triangle at a place, and the weights there. If several triangles overlap, it is the first in the given order.
-    pub fn find(&self, place: DVec2) -> Option<Within> {
+    pub fn find(&self, place: DVec2) -> Option<WithinTriangle> {
         let scaled = (place - self.lowest) * self.scale;
         let [column, row] = self.bucket(scaled)?;
         let bucket = row * self.side + column;
@@ -144,7 +144,7 @@ impl Net {
             let area = (b - a).perp_dot(c - a);
             let weights = DVec3::new((b - place).perp_dot(c - place), (c - place).perp_dot(a - place), 0.0) / area;
             let weights = DVec3::new(weights.x, weights.y, 1.0 - weights.x - weights.y);
-            (weights.min_element() >= -EDGE).then_some(Within { corners, weights })
+            (weights.min_element() >= -EDGE).then_some(WithinTriangle { corners, weights })
         })
     }
 

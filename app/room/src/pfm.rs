@@ -4,7 +4,7 @@
 //! returned rows run from top to bottom. A reader that turned them once more would show everything upside down.
 
 /// Width, height, and samples row by row from the upper left.
-pub(super) struct Pfm {
+pub(crate) struct Pfm {
     pub width: u32,
     pub height: u32,
     pub samples: Vec<[f32; 3]>,
@@ -14,7 +14,7 @@ pub(super) struct Pfm {
 const MAX_SAMPLES: u64 = 16_000_000;
 
 /// Reads a file's bytes. Error texts are worded to follow the file's name.
-pub(super) fn read(bytes: &[u8]) -> Result<Pfm, String> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Pfm, String> {
     // Header: three words and one white space each, then floats.
     let mut rest = bytes;
     let mut word = || -> Option<&str> {

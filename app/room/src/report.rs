@@ -1,76 +1,87 @@
 //! Description of a display in words, for `rapidity check`.
 
-use super::{Channel, Combine, Display, Monitor, Screen, Surface};
+use crate::channel::Channel;
+use crate::display::{Display, Screen};
+use crate::surface::shape::ScreenSurface;
+use crate::window::{Combine, Monitor};
 use glam::{DMat3, DVec2, DVec3};
 use std::fmt::{Formatter, Result};
 
 /// Number of places, each way, at which screens and viewports are examined.
 const PROBES: u32 = 33;
 
-/// Writes the viewer, screens, projectors, windows, channels and notices.
-pub(super) fn write(display: &Display, f: &mut Formatter<'_>) -> Result {
-    let viewer = &display.viewer;
-    let head = viewer.head_m;
-    write!(f, "  eyes {} m apart, untracked head at {}, {}, {} m", viewer.eye_separation_m, head.x, head.y, head.z)?;
-    if viewer.eye_scale != 1.0 {
-        write!(f, ", {} times as far apart in the world", viewer.eye_scale)?;
-    }
-    for (index, screen) in display.screens.iter().enumerate() {
-        write!(f, "\n  screen {:?}: {}", screen.name, measure(screen))?;
-        let covered = 100.0 * covered(display, index);
-        let channels = display.channels.iter().filter(|channel| channel.screen == index).count();
-        write!(f, ", {covered:.0} % of it shown by {channels} channel{}", if channels == 1 { "" } else { "s" })?;
-    }
-    for projector in &display.projectors {
-        let place = projector.position_m;
-        write!(f, "\n  projector {:?} at {:.2}, {:.2}, {:.2} m", projector.name, place.x, place.y, place.z)?;
-    }
-    for window in &display.windows {
-        write!(f, "\n  window {:?}: {} × {} pixels", window.name, window.size[0], window.size[1])?;
-        match &window.monitor {
-            Some(Monitor::Name(name)) => write!(f, " on monitor {name:?}")?,
-            Some(Monitor::Index(index)) => write!(f, " on monitor {index}")?,
-            None => {}
-        }
-        if window.fullscreen {
-            write!(f, ", full screen")?;
-        }
-        if window.combine != Combine::None {
-            write!(f, ", eyes combined by {}", window.combine.name())?;
-        }
-    }
-    for channel in &display.channels {
-        let [x, y, width, height] = channel.viewport;
+impl std::fmt::Display for Display {
+    /// Writes the viewer, screens, projectors, windows, channels and notices.
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let viewer = &self.viewer;
+        let head = viewer.head_m;
         write!(
             f,
-            "\n  channel {:?}: screen {:?}, {} eye, window {:?} at {x}, {y}, {width} × {height} pixels",
-            channel.name,
-            display.screens[channel.screen].name,
-            channel.eye.name(),
-            display.windows[channel.window].name,
+            "  eyes {} m apart, untracked head at {}, {}, {} m",
+            viewer.eye_separation_m, head.x, head.y, head.z
         )?;
-        let seen = seen(display, channel);
-        match seen.densities.as_slice() {
-            [] => write!(f, ", lights nothing")?,
-            all => {
-                let (least, most) = (all[0], all[all.len() - 1]);
-                write!(f, ", {least:.1} to {most:.1} pixels per degree")?;
+        if viewer.eye_scale != 1.0 {
+            write!(f, ", {} times as far apart in the world", viewer.eye_scale)?;
+        }
+        for (index, screen) in self.screens.iter().enumerate() {
+            write!(f, "\n  screen {:?}: {}", screen.name, measure(screen))?;
+            let covered = 100.0 * covered(self, index);
+            let channels = self.channels.iter().filter(|channel| channel.screen == index).count();
+            write!(f, ", {covered:.0} % of it shown by {channels} channel{}", if channels == 1 { "" } else { "s" })?;
+        }
+        for projector in &self.projectors {
+            let place = projector.position_m;
+            write!(f, "\n  projector {:?} at {:.2}, {:.2}, {:.2} m", projector.name, place.x, place.y, place.z)?;
+        }
+        for window in &self.windows {
+            write!(f, "\n  window {:?}: {} × {} pixels", window.name, window.size[0], window.size[1])?;
+            match &window.monitor {
+                Some(Monitor::Name(name)) => write!(f, " on monitor {name:?}")?,
+                Some(Monitor::Index(index)) => write!(f, " on monitor {index}")?,
+                None => {}
+            }
+            if window.fullscreen {
+                write!(f, ", full screen")?;
+            }
+            if window.combine != Combine::None {
+                write!(f, ", eyes combined by {}", window.combine.name())?;
             }
         }
-        if seen.lit < 1.0 {
-            write!(f, ", {:.0} % of them lit", 100.0 * seen.lit)?;
+        for channel in &self.channels {
+            let [x, y, width, height] = channel.viewport;
+            write!(
+                f,
+                "\n  channel {:?}: screen {:?}, {} eye, window {:?} at {x}, {y}, {width} × {height} pixels",
+                channel.name,
+                self.screens[channel.screen].name,
+                channel.eye.name(),
+                self.windows[channel.window].name,
+            )?;
+            let seen = seen(self, channel);
+            match seen.densities.as_slice() {
+                [] => write!(f, ", lights nothing")?,
+                all => {
+                    let (least, most) = (all[0], all[all.len() - 1]);
+                    write!(f, ", {least:.1} to {most:.1} pixels per degree")?;
+                }
+            }
+            if seen.lit < 1.0 {
+                write!(f, ", {:.0} % of them lit", 100.0 * seen.lit)?;
+            }
         }
+        for notice in &self.notices {
+            write!(f, "\n  note: {notice}")?;
+        }
+        Ok(())
     }
-    for notice in &display.notices {
-        write!(f, "\n  note: {notice}")?;
-    }
-    Ok(())
 }
 
 fn measure(screen: &Screen) -> String {
     let kind = screen.surface.kind();
     match &screen.surface {
-        Surface::Mesh(mesh) => format!("{kind} of {} triangles, {:.2} m across", mesh.triangles().len(), mesh.size_m()),
+        ScreenSurface::Mesh(mesh) => {
+            format!("{kind} of {} triangles, {:.2} m across", mesh.triangles().len(), mesh.size_m())
+        }
         surface => {
             let size = surface.size_m();
             format!("{kind}, {:.2} m × {:.2} m", size.x, size.y)
@@ -94,14 +105,14 @@ fn covered(display: &Display, screen: usize) -> f64 {
 }
 
 /// View of a channel's pixels from its eye.
-struct Seen {
+struct SeenPixels {
     /// Pixels per degree, coarsest first. One pixel counts as a square with the pixel's solid angle.
     densities: Vec<f64>,
     /// Share of the viewport that lights the screen.
     lit: f64,
 }
 
-fn seen(display: &Display, channel: &Channel) -> Seen {
+fn seen(display: &Display, channel: &Channel) -> SeenPixels {
     let eye = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let pixel = channel.size().map(|side| 1.0 / f64::from(side));
     let direction = |place: DVec2| Some((channel.point(display, place)? - eye).normalize());
@@ -114,5 +125,5 @@ fn seen(display: &Display, channel: &Channel) -> Seen {
     let lit = places().filter(|&place| channel.point(display, place).is_some()).count();
     let mut densities: Vec<f64> = places().filter_map(density).filter(|density| density.is_finite()).collect();
     densities.sort_by(f64::total_cmp);
-    Seen { densities, lit: lit as f64 / f64::from(PROBES * PROBES) }
+    SeenPixels { densities, lit: lit as f64 / f64::from(PROBES * PROBES) }
 }

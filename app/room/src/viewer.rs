@@ -11,7 +11,7 @@ pub const HEAD_M: DVec3 = DVec3::new(0.0, 1.6, 0.0);
 
 /// Eye for which a channel is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Eye {
+pub enum EyeSide {
     /// The left eye.
     Left,
     /// The right eye.
@@ -20,7 +20,7 @@ pub enum Eye {
     Centre,
 }
 
-impl Eye {
+impl EyeSide {
     /// Place of the eye to the right of the head's middle, in half eye separations: −1, +1 or 0.
     pub fn side(self) -> f64 {
         match self {
@@ -63,13 +63,13 @@ impl Viewer {
     /// # Arguments
     /// * `head_m` — point midway between the eyes, room axes, metres.
     /// * `room_from_head` — rotation from the head's axes (x right, y up, −z ahead).
-    pub fn eye_m(&self, eye: Eye, head_m: DVec3, room_from_head: DMat3) -> DVec3 {
+    pub fn eye_m(&self, eye: EyeSide, head_m: DVec3, room_from_head: DMat3) -> DVec3 {
         head_m + room_from_head.x_axis * (0.5 * eye.side() * self.eye_separation_m)
     }
 
     /// Offset of an eye from the head's middle in the world, head axes, metres: the eye separation times
     /// [`eye_scale`](Self::eye_scale), half of it to each side.
-    pub fn world_offset_m(&self, eye: Eye) -> DVec3 {
+    pub fn world_offset_m(&self, eye: EyeSide) -> DVec3 {
         DVec3::X * (0.5 * eye.side() * self.eye_separation_m * self.eye_scale)
     }
 }

@@ -1,6 +1,7 @@
 //! Maps from a channel's viewport to its picture, where the two differ: nudged corners and measured grids.
 
-use super::net::{Grid, Net};
+use crate::net::{EvenGrid, TriangleNet};
+use crate::unit_square::inside;
 use glam::{DMat3, DVec2, DVec3};
 use thiserror::Error;
 
@@ -13,21 +14,21 @@ pub struct NotConvex;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warp {
     /// A picture drawn into a quadrilateral, as a keystone correction does.
-    Corners(Corners),
+    Corners(CornerWarp),
     /// A map measured at an even grid.
-    Grid(Measured),
+    Grid(MeasuredWarp),
 }
 
 /// Projective map that takes the picture's corners to given places.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corners {
+pub struct CornerWarp {
     /// Places in the viewport of the picture's upper left, upper right, lower right and lower left corners.
     pub places: [DVec2; 4],
     picture_from_viewport: DMat3,
     viewport_from_picture: DMat3,
 }
 
-impl Corners {
+impl CornerWarp {
     /// Creates a map from the places in the viewport of the picture's upper left, upper right, lower right and lower
     /// left corners.
     ///
@@ -56,18 +57,18 @@ impl Corners {
 
 /// Measured map: piecewise linear over an even grid, the first sample in the viewport's upper left corner.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    grid: Grid,
+pub struct MeasuredWarp {
+    grid: EvenGrid,
     places: Vec<DVec2>,
-    back: Net,
+    back: TriangleNet,
 }
 
-impl Measured {
+impl MeasuredWarp {
     /// Creates a map from `columns` × `rows` places in the picture, at least two each way, the top row first. A place
     /// that is not finite is unknown.
     pub fn new(columns: u32, rows: u32, places: Vec<DVec2>) -> Self {
-        let grid = Grid { columns, rows };
-        let back = Net::new(places.clone(), &grid.triangles());
+        let grid = EvenGrid { columns, rows };
+        let back = TriangleNet::new(places.clone(), &grid.triangles());
         Self { grid, places, back }
     }
 }
@@ -79,7 +80,7 @@ impl Warp {
             Self::Corners(corners) => project(corners.picture_from_viewport, viewport)?,
             Self::Grid(measured) => measured.grid.find(viewport)?.mix(&measured.places),
         };
-        super::projector::inside(place).then_some(place)
+        inside(place).then_some(place)
     }
 
     /// Place of the viewport that shows a place of the picture, if there is one.
@@ -91,7 +92,7 @@ impl Warp {
                 measured.grid.place_within(&within)
             }
         };
-        super::projector::inside(place).then_some(place)
+        inside(place).then_some(place)
     }
 }
 

@@ -1,32 +1,38 @@
 //! `[[channel]]` tables: names are turned into indices, and named files into maps.
 
-use super::schema;
-use super::text::Text;
-use crate::error::At;
+use super::text::DisplayText;
+use super::{names, schema};
+use crate::channel::{Channel, ChannelPart};
+use crate::display::Screen;
+use crate::error::{DisplayError, FilePlace};
+use crate::gain_map::GainMap;
 use crate::maps::{self, MapError};
+use crate::projector::Projector;
 use crate::read;
-use crate::{Channel, Corners, DisplayError, Eye, Map, Part, Projector, Screen, Warp, WindowPlace};
+use crate::viewer::EyeSide;
+use crate::warp::{CornerWarp, Warp};
+use crate::window::WindowPlace;
 use glam::{DVec2, DVec4};
 use std::path::Path;
 use toml::Spanned;
 
 /// Named parts of the display that channels refer to.
-pub(super) struct Resolver<'a> {
-    pub text: &'a Text<'a>,
+pub(super) struct ChannelResolver<'a> {
+    pub text: &'a DisplayText<'a>,
     pub screens: &'a [Screen],
     pub projectors: &'a [Projector],
     pub windows: &'a [WindowPlace],
     pub folder: &'a Path,
 }
 
-impl Resolver<'_> {
+impl ChannelResolver<'_> {
     /// Channels of all `[[channel]]` tables, in the file's order.
-    pub fn resolve(&self, tables: &[Spanned<schema::Channel>]) -> Result<Vec<Channel>, DisplayError> {
-        super::names(self.text, "channel", tables, |channel| &channel.name)?;
+    pub fn resolve(&self, tables: &[Spanned<schema::ChannelTable>]) -> Result<Vec<Channel>, DisplayError> {
+        names::check(self.text, "channel", tables, |channel| &channel.name)?;
         tables.iter().map(|table| self.channel(table)).collect()
     }
 
-    fn channel(&self, table: &Spanned<schema::Channel>) -> Result<Channel, DisplayError> {
+    fn channel(&self, table: &Spanned<schema::ChannelTable>) -> Result<Channel, DisplayError> {
         let given = table.get_ref();
         let at = |key: &str| self.text.at(table.span().start, &format!("channel {:?}", given.name), key);
         let refuse = |key: &str, reason: String| DisplayError::Value { at: at(key), reason };
@@ -40,9 +46,9 @@ impl Resolver<'_> {
         let names = || self.projectors.iter().map(|projector| projector.name.as_str());
         let projector =
             given.projector.as_ref().map(|name| find(|| at("projector"), "projector", name, names())).transpose()?;
-        let eyes = [Eye::Left, Eye::Right, Eye::Centre];
-        let eye =
-            eyes[find(|| at("eye"), "eye", given.eye.as_deref().unwrap_or("centre"), eyes.map(Eye::name).into_iter())?];
+        let eyes = [EyeSide::Left, EyeSide::Right, EyeSide::Centre];
+        let eye = eyes
+            [find(|| at("eye"), "eye", given.eye.as_deref().unwrap_or("centre"), eyes.map(EyeSide::name).into_iter())?];
         let viewport = self.viewport(given, window, &at)?;
         let part = part(given, &at)?;
         if given.part.is_some() && projector.is_some() {
@@ -75,9 +81,9 @@ impl Resolver<'_> {
 
     fn viewport(
         &self,
-        given: &schema::Channel,
+        given: &schema::ChannelTable,
         window: usize,
-        at: &dyn Fn(&str) -> Box<At>,
+        at: &dyn Fn(&str) -> Box<FilePlace>,
     ) -> Result<[u32; 4], DisplayError> {
         let WindowPlace { name, size: size @ [width, height], .. } = &self.windows[window];
         let viewport = given.viewport.unwrap_or([0, 0, *width, *height]);
@@ -97,9 +103,9 @@ impl Resolver<'_> {
     /// own; `None` if all four do.
     fn corners(
         &self,
-        given: &schema::Corners,
+        given: &schema::CornersTable,
         viewport: [u32; 4],
-        at: &dyn Fn(&str) -> Box<At>,
+        at: &dyn Fn(&str) -> Box<FilePlace>,
     ) -> Result<Option<Warp>, DisplayError> {
         let size = DVec2::new(f64::from(viewport[2]), f64::from(viewport[3]));
         let places = [
@@ -111,7 +117,7 @@ impl Resolver<'_> {
         if places == [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y] {
             return Ok(None);
         }
-        Corners::new(places)
+        CornerWarp::new(places)
             .map(|corners| Some(Warp::Corners(corners)))
             .map_err(|error| DisplayError::Value { at: at("corners"), reason: error.to_string() })
     }
@@ -120,8 +126,8 @@ impl Resolver<'_> {
         &self,
         file: &Option<String>,
         gamma: Option<f64>,
-        at: impl Fn() -> Box<At>,
-    ) -> Result<Option<Map>, DisplayError> {
+        at: impl Fn() -> Box<FilePlace>,
+    ) -> Result<Option<GainMap>, DisplayError> {
         let gamma = gamma.unwrap_or(1.0);
         if !(gamma.is_finite() && gamma > 0.0) {
             return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });
@@ -136,11 +142,11 @@ impl Resolver<'_> {
     }
 }
 
-fn part(given: &schema::Channel, at: &dyn Fn(&str) -> Box<At>) -> Result<Part, DisplayError> {
-    let Some(part) = given.part.map(DVec4::from) else { return Ok(Part::default()) };
+fn part(given: &schema::ChannelTable, at: &dyn Fn(&str) -> Box<FilePlace>) -> Result<ChannelPart, DisplayError> {
+    let Some(part) = given.part.map(DVec4::from) else { return Ok(ChannelPart::default()) };
     let (from, to) = (DVec2::new(part.x, part.y), DVec2::new(part.z, part.w));
     if part.cmpge(DVec4::ZERO).all() && part.cmple(DVec4::ONE).all() && to.cmpgt(from).all() {
-        Ok(Part { from, to })
+        Ok(ChannelPart { from, to })
     } else {
         let reason = format!(
             "{part} is no part of a screen; write left, bottom, right, top, each from 0 to 1, left < right, bottom < top"
@@ -151,7 +157,7 @@ fn part(given: &schema::Channel, at: &dyn Fn(&str) -> Box<At>) -> Result<Part, D
 
 /// Index of `name` among the known names.
 fn find<'a>(
-    at: impl Fn() -> Box<At>,
+    at: impl Fn() -> Box<FilePlace>,
     kind: &'static str,
     name: &str,
     known: impl Iterator<Item = &'a str> + Clone,

@@ -1,39 +1,43 @@
 //! `[[projector]]` tables: the projector's place, and the lens that its keys describe.
 
-use super::schema;
-use super::text::Text;
-use crate::projector::{Lens, Projector, Table};
-use crate::{At, DisplayError, room_from_turned};
+use super::text::DisplayText;
+use super::{names, schema};
+use crate::error::{DisplayError, FilePlace};
+use crate::lens::{LensTable, ProjectorLens};
+use crate::projector::Projector;
+use crate::turning::room_from_turned;
+use crate::{grid_file, read};
 use glam::DVec2;
 use std::path::Path;
 use toml::Spanned;
+use view::Tangents;
 
 /// Names of the lenses in files.
 const LENSES: [&str; 3] = ["pinhole", "scan", "table"];
 
 /// Projectors of all `[[projector]]` tables, in the file's order.
 pub(super) fn resolve(
-    text: &Text<'_>,
-    tables: &[Spanned<schema::Projector>],
+    text: &DisplayText<'_>,
+    tables: &[Spanned<schema::ProjectorTable>],
     folder: &Path,
 ) -> Result<Vec<Projector>, DisplayError> {
-    super::names(text, "projector", tables, |projector| &projector.name)?;
+    names::check(text, "projector", tables, |projector| &projector.name)?;
     tables
         .iter()
-        .map(|table| Form { text, start: table.span().start, given: table.get_ref(), folder }.projector())
+        .map(|table| ProjectorForm { text, start: table.span().start, given: table.get_ref(), folder }.projector())
         .collect()
 }
 
 /// One `[[projector]]` table, and the byte of the text where it begins.
-struct Form<'a> {
-    text: &'a Text<'a>,
+struct ProjectorForm<'a> {
+    text: &'a DisplayText<'a>,
     start: usize,
-    given: &'a schema::Projector,
+    given: &'a schema::ProjectorTable,
     folder: &'a Path,
 }
 
-impl Form<'_> {
-    fn at(&self, key: &str) -> Box<At> {
+impl ProjectorForm<'_> {
+    fn at(&self, key: &str) -> Box<FilePlace> {
         self.text.at(self.start, &format!("projector {:?}", self.given.name), key)
     }
 
@@ -77,7 +81,7 @@ impl Form<'_> {
         }
     }
 
-    fn lens(&self) -> Result<Lens, DisplayError> {
+    fn lens(&self) -> Result<ProjectorLens, DisplayError> {
         let name = self.given.lens.as_deref().unwrap_or("pinhole");
         if !LENSES.contains(&name) {
             return Err(DisplayError::Unknown {
@@ -116,7 +120,7 @@ impl Form<'_> {
         }
     }
 
-    fn pinhole(&self) -> Result<Lens, DisplayError> {
+    fn pinhole(&self) -> Result<ProjectorLens, DisplayError> {
         let given = self.given;
         match (given.throw_ratio, given.tangents) {
             (Some(throw_ratio), None) => {
@@ -126,7 +130,7 @@ impl Form<'_> {
                 if !shift.is_finite() {
                     return self.refuse("shift", "a number in it is not finite");
                 }
-                Ok(Lens::pinhole(throw_ratio, width / height, shift))
+                Ok(ProjectorLens::pinhole(throw_ratio, width / height, shift))
             }
             (None, Some([left, right, bottom, top])) => {
                 if given.shift.is_some() {
@@ -140,20 +144,21 @@ impl Form<'_> {
                     return self
                         .refuse("tangents", "they are left, right, bottom, top: finite, left < right, bottom < top");
                 }
-                Ok(Lens::Pinhole { left, right, bottom, top })
+                let (low, high) = (DVec2::new(left, bottom), DVec2::new(right, top));
+                Ok(ProjectorLens::Pinhole(Tangents { low, high }))
             }
             _ => self.refuse("", "a pinhole needs either throw_ratio and size, or tangents"),
         }
     }
 
-    fn scan(&self) -> Result<Lens, DisplayError> {
+    fn scan(&self) -> Result<ProjectorLens, DisplayError> {
         let size = self.size()?;
         let Some(step) = self.given.step else {
             return self.refuse("", "a scanner needs its step in degrees per pixel");
         };
         let step = self.positive("step", step)?;
         let magnification = self.positive("magnification", self.given.magnification.unwrap_or(1.0))?;
-        let lens = Lens::scan(size, step.to_radians(), magnification);
+        let lens = ProjectorLens::scan(size, step.to_radians(), magnification);
 
         // Beyond a quarter turn of a mirror, or half a turn of the light, two places of the picture have the same
         // direction.
@@ -168,15 +173,15 @@ impl Form<'_> {
         Ok(lens)
     }
 
-    fn table(&self) -> Result<Lens, DisplayError> {
+    fn table(&self) -> Result<ProjectorLens, DisplayError> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
-        let read = || -> Result<Lens, String> {
-            let text = crate::read::text(&path)?;
-            let (columns, rows, angles) = crate::grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
+        let lens = || -> Result<ProjectorLens, String> {
+            let text = read::text(&path)?;
+            let (columns, rows, angles) = grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
-            Ok(Lens::Table(Table::new(columns, rows, angles)))
+            Ok(ProjectorLens::Table(LensTable::new(columns, rows, angles)))
         };
-        read().map_err(|reason| DisplayError::Import { path: path.clone(), reason })
+        lens().map_err(|reason| DisplayError::Import { path: path.clone(), reason })
     }
 }

@@ -1,13 +1,18 @@
 //! Saving of nudged corners in the display file they came from. Everything else in the file stays as it is, to the
 //! letter.
 
-use crate::{DisplayError, built_in, import, read};
+use super::parse::parse;
+use crate::built_in;
+use crate::display_file::DisplayFile;
+use crate::error::DisplayError;
+use crate::format::DisplayFormat;
+
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Value};
 
-/// The keys of `corners`, in the order of [`Corners::places`](crate::Corners).
+/// The keys of `corners`, in the order of [`CornerWarp::places`](crate::CornerWarp::places).
 const KEYS: [&str; 4] = ["upper_left", "upper_right", "lower_right", "lower_left"];
 
 /// Reason why corners are not saved.
@@ -89,16 +94,16 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     if built_in::text(name).is_some() {
         return Err(SaveError::BuiltIn { name: name.to_owned() });
     }
-    if import::is_imported(Path::new(name)) {
+    if DisplayFormat::of(Path::new(name)).is_some_and(|format| format != DisplayFormat::Toml) {
         return Err(SaveError::Imported { path: name.into() });
     }
+    let file = DisplayFile::read(Path::new(name)).map_err(Box::new)?;
+    let text = saved(file.text().map_err(Box::new)?, corners)?;
+    parse(&text, name, file.folder()).map_err(Box::new)?;
+
     // A link's target is written, not the link.
     let cannot = |error| SaveError::Write { path: name.into(), error };
     let path = std::fs::canonicalize(name).map_err(cannot)?;
-    let refuse = |reason| Box::new(DisplayError::Read { path: name.into(), reason });
-    let text = saved(&read::text(&path).map_err(refuse)?, corners)?;
-    super::parse(&text, name, path.parent().unwrap_or(Path::new(""))).map_err(Box::new)?;
-
     let mut partial = path.clone().into_os_string();
     partial.push(".part");
     let partial = PathBuf::from(partial);

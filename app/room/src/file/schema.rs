@@ -5,33 +5,33 @@ use toml::{Spanned, Value};
 
 /// A whole display file.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct File {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct DisplayTables {
     pub name: Option<String>,
     #[serde(default)]
-    pub viewer: Option<Spanned<Viewer>>,
+    pub viewer: Option<Spanned<ViewerTable>>,
     #[serde(default)]
-    pub screen: Vec<Spanned<Screen>>,
+    pub screen: Vec<Spanned<ScreenTable>>,
     #[serde(default)]
-    pub projector: Vec<Spanned<Projector>>,
+    pub projector: Vec<Spanned<ProjectorTable>>,
     #[serde(default)]
-    pub window: Vec<Spanned<Window>>,
+    pub window: Vec<Spanned<WindowTable>>,
     #[serde(default)]
-    pub channel: Vec<Spanned<Channel>>,
+    pub channel: Vec<Spanned<ChannelTable>>,
     pub tracker: Option<Value>,
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Viewer {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct ViewerTable {
     pub eye_separation: Option<f64>,
     pub eye_scale: Option<f64>,
     pub head: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Screen {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct ScreenTable {
     pub name: String,
     pub lower_left: Option<[f64; 3]>,
     pub lower_right: Option<[f64; 3]>,
@@ -42,17 +42,17 @@ pub(super) struct Screen {
     pub yaw: Option<f64>,
     pub pitch: Option<f64>,
     pub roll: Option<f64>,
-    pub cylinder: Option<Cylinder>,
-    pub sphere: Option<Sphere>,
-    pub sweep: Option<Sweep>,
+    pub cylinder: Option<CylinderTable>,
+    pub sphere: Option<SphereTable>,
+    pub sweep: Option<SweepTable>,
     pub mesh: Option<String>,
     pub gloss: Option<f64>,
     pub gloss_exponent: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Cylinder {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct CylinderTable {
     #[serde(default)]
     pub centre: [f64; 3],
     pub radius: f64,
@@ -63,8 +63,8 @@ pub(super) struct Cylinder {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Sphere {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct SphereTable {
     #[serde(default)]
     pub centre: [f64; 3],
     pub radius: f64,
@@ -75,8 +75,8 @@ pub(super) struct Sphere {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Sweep {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct SweepTable {
     #[serde(default)]
     pub centre: [f64; 3],
     pub width: f64,
@@ -85,8 +85,8 @@ pub(super) struct Sweep {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Projector {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct ProjectorTable {
     pub name: String,
     pub position: [f64; 3],
     pub yaw: Option<f64>,
@@ -107,8 +107,8 @@ pub(super) struct Projector {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Window {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WindowTable {
     pub name: String,
     pub size: [u32; 2],
     pub monitor: Option<Value>,
@@ -121,8 +121,8 @@ pub(super) struct Window {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Channel {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct ChannelTable {
     pub name: String,
     pub screen: String,
     pub eye: Option<String>,
@@ -130,7 +130,7 @@ pub(super) struct Channel {
     pub viewport: Option<[u32; 4]>,
     pub part: Option<[f64; 4]>,
     pub projector: Option<String>,
-    pub corners: Option<Corners>,
+    pub corners: Option<CornersTable>,
     pub warp: Option<String>,
     pub alpha: Option<String>,
     pub alpha_gamma: Option<f64>,
@@ -139,8 +139,8 @@ pub(super) struct Channel {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Corners {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct CornersTable {
     pub upper_left: Option<[f64; 2]>,
     pub upper_right: Option<[f64; 2]>,
     pub lower_right: Option<[f64; 2]>,

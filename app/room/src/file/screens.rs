@@ -1,39 +1,46 @@
 //! `[[screen]]` tables: the form in which a screen is written, and the surface that it describes.
 
-use super::schema;
-use super::text::Text;
-use crate::surface::{mesh_file, sweep};
-use crate::{Cylinder, DisplayError, Flat, Reflection, Screen, Sphere, Surface};
+use super::text::DisplayText;
+use super::{names, schema};
+use crate::display::Screen;
+use crate::error::{DisplayError, FilePlace};
+use crate::reflection::Reflection;
+use crate::surface::cylinder::CylinderSurface;
+use crate::surface::flat::FlatSurface;
+use crate::surface::mesh_file;
+use crate::surface::shape::ScreenSurface;
+use crate::surface::sphere::SphereSurface;
+use crate::surface::sweep::sweep;
 use glam::{DVec2, DVec3};
 use std::path::Path;
 use toml::Spanned;
 
 /// Screens of all `[[screen]]` tables, in the file's order.
 pub(super) fn resolve(
-    text: &Text<'_>,
-    tables: &[Spanned<schema::Screen>],
+    text: &DisplayText<'_>,
+    tables: &[Spanned<schema::ScreenTable>],
     folder: &Path,
 ) -> Result<Vec<Screen>, DisplayError> {
-    super::names(text, "screen", tables, |screen| &screen.name)?;
+    names::check(text, "screen", tables, |screen| &screen.name)?;
     tables
         .iter()
         .map(|table| {
-            let form = Form { text, start: table.span().start, given: table.get_ref(), folder };
+            let form = ScreenForm { text, start: table.span().start, given: table.get_ref(), folder };
             Ok(Screen { name: form.given.name.clone(), surface: form.surface()?, reflection: form.reflection()? })
         })
         .collect()
 }
 
 /// One `[[screen]]` table, and the byte of the text where it begins.
-struct Form<'a> {
-    text: &'a Text<'a>,
+struct ScreenForm<'a> {
+    text: &'a DisplayText<'a>,
     start: usize,
-    given: &'a schema::Screen,
+    given: &'a schema::ScreenTable,
     folder: &'a Path,
 }
 
-impl Form<'_> {
-    fn at(&self, key: &str) -> Box<crate::At> {
+impl ScreenForm<'_> {
+    fn at(&self, key: &str) -> Box<FilePlace> {
         self.text.at(self.start, &format!("screen {:?}", self.given.name), key)
     }
 
@@ -41,7 +48,7 @@ impl Form<'_> {
         Err(DisplayError::Value { at: self.at(key), reason: reason.into() })
     }
 
-    fn surface(&self) -> Result<Surface, DisplayError> {
+    fn surface(&self) -> Result<ScreenSurface, DisplayError> {
         self.finite()?;
         let given = self.given;
         let corners = [given.lower_left, given.lower_right, given.upper_left, given.upper_right];
@@ -76,7 +83,7 @@ impl Form<'_> {
         } else {
             let path = self.folder.join(given.mesh.as_deref().unwrap_or_default());
             mesh_file::load(&path)
-                .map(|mesh| Surface::Mesh(Box::new(mesh)))
+                .map(|mesh| ScreenSurface::Mesh(Box::new(mesh)))
                 .map_err(|reason| DisplayError::Import { path, reason })
         }
     }
@@ -98,12 +105,12 @@ impl Form<'_> {
         let mut numbers: Vec<(&str, f64)> =
             points.iter().flat_map(|(key, point)| point.iter().flatten().map(|&number| (*key, number))).collect();
         if let Some(cylinder) = &given.cylinder {
-            let schema::Cylinder { centre, radius, left, right, bottom, top } = cylinder;
+            let schema::CylinderTable { centre, radius, left, right, bottom, top } = cylinder;
             numbers.extend([radius, left, right, bottom, top].map(|&number| ("cylinder", number)));
             numbers.extend(centre.map(|number| ("cylinder", number)));
         }
         if let Some(sphere) = &given.sphere {
-            let schema::Sphere { centre, radius, left, right, bottom, top } = sphere;
+            let schema::SphereTable { centre, radius, left, right, bottom, top } = sphere;
             numbers.extend([left, right, bottom, top].iter().filter_map(|number| Some(("sphere", (**number)?))));
             numbers.extend(centre.iter().chain([radius]).map(|&number| ("sphere", number)));
         }
@@ -118,7 +125,7 @@ impl Form<'_> {
         Ok(())
     }
 
-    fn corners(&self) -> Result<Surface, DisplayError> {
+    fn corners(&self) -> Result<ScreenSurface, DisplayError> {
         let given = self.given;
         let [ll, lr, ul, ur] = [given.lower_left, given.lower_right, given.upper_left, given.upper_right]
             .map(|corner| corner.map(DVec3::from));
@@ -131,20 +138,20 @@ impl Form<'_> {
             _ => return self.refuse("", "a rectangle needs three of lower_left, lower_right, upper_left, upper_right"),
         };
         let wrong = |reason| DisplayError::NotRectangle { at: self.at(""), reason };
-        let flat = Flat::from_corners(ll, lr, ul).map_err(wrong)?;
+        let flat = FlatSurface::from_corners(ll, lr, ul).map_err(wrong)?;
         if let Some(ur) = ur {
             flat.closes(ur).map_err(wrong)?;
         }
-        Ok(Surface::Flat(flat))
+        Ok(ScreenSurface::Flat(flat))
     }
 
-    fn centre(&self) -> Result<Surface, DisplayError> {
+    fn centre(&self) -> Result<ScreenSurface, DisplayError> {
         let given = self.given;
         let Some(centre) = given.centre else { return self.refuse("", "it has a size or angles, but no centre") };
         let Some(size) = given.size else { return self.refuse("centre", "it has a centre, but no size") };
         let angles = [given.yaw, given.pitch, given.roll].map(|angle| angle.unwrap_or(0.0));
-        Flat::from_centre(centre.into(), DVec2::from(size), angles.into())
-            .map(Surface::Flat)
+        FlatSurface::from_centre(centre.into(), DVec2::from(size), angles.into())
+            .map(ScreenSurface::Flat)
             .map_err(|reason| DisplayError::NotRectangle { at: self.at("size"), reason })
     }
 
@@ -167,9 +174,9 @@ impl Form<'_> {
         Ok(())
     }
 
-    fn cylinder(&self, given: &schema::Cylinder) -> Result<Surface, DisplayError> {
+    fn cylinder(&self, given: &schema::CylinderTable) -> Result<ScreenSurface, DisplayError> {
         self.ranges("cylinder", [given.left, given.right, given.bottom, given.top], given.radius)?;
-        Ok(Surface::Cylinder(Cylinder {
+        Ok(ScreenSurface::Cylinder(CylinderSurface {
             centre: given.centre.into(),
             radius_m: given.radius,
             left_rad: given.left.to_radians(),
@@ -179,14 +186,14 @@ impl Form<'_> {
         }))
     }
 
-    fn sphere(&self, given: &schema::Sphere) -> Result<Surface, DisplayError> {
+    fn sphere(&self, given: &schema::SphereTable) -> Result<ScreenSurface, DisplayError> {
         let [left, right] = [given.left.unwrap_or(180.0), given.right.unwrap_or(-180.0)];
         let [bottom, top] = [given.bottom.unwrap_or(0.0), given.top.unwrap_or(90.0)];
         self.ranges("sphere", [left, right, bottom, top], given.radius)?;
         if bottom < -90.0 || top > 90.0 {
             return self.refuse("sphere", format!("bottom = {bottom}° and top = {top}° are pitches: −90° to 90°"));
         }
-        Ok(Surface::Sphere(Sphere {
+        Ok(ScreenSurface::Sphere(SphereSurface {
             centre: given.centre.into(),
             radius_m: given.radius,
             left_rad: left.to_radians(),
@@ -196,7 +203,7 @@ impl Form<'_> {
         }))
     }
 
-    fn sweep(&self, given: &schema::Sweep) -> Result<Surface, DisplayError> {
+    fn sweep(&self, given: &schema::SweepTable) -> Result<ScreenSurface, DisplayError> {
         let bend = given.bend.unwrap_or(0.0);
         if !(given.width > 0.0 && bend >= 0.0) {
             return self
@@ -204,7 +211,7 @@ impl Form<'_> {
         }
         let profile: Vec<DVec2> = given.profile.iter().map(|&point| point.into()).collect();
         match sweep(given.centre.into(), given.width, &profile, bend) {
-            Ok(mesh) => Ok(Surface::Mesh(Box::new(mesh))),
+            Ok(mesh) => Ok(ScreenSurface::Mesh(Box::new(mesh))),
             Err(error) => self.refuse("sweep", error.to_string()),
         }
     }

@@ -1,16 +1,16 @@
 //! Text of a display file: line numbers for errors, and the parser's errors as this program's.
 
-use crate::error::{At, DisplayError, nearest};
+use crate::error::{DisplayError, FilePlace, nearest};
 
 /// Name and text of a file.
-pub(super) struct Text<'a> {
+pub(super) struct DisplayText<'a> {
     pub name: &'a str,
     pub text: &'a str,
 }
 
-impl Text<'_> {
+impl DisplayText<'_> {
     /// Place of a key in the table that begins at byte `start`. An empty key means the table itself.
-    pub fn at(&self, start: usize, table: &str, key: &str) -> Box<At> {
+    pub fn at(&self, start: usize, table: &str, key: &str) -> Box<FilePlace> {
         let from = start.min(self.text.len());
         let tail = self.text.get(from..).unwrap_or_default();
         // The table ends where the next one begins. Its own head is the first line.
@@ -21,7 +21,7 @@ impl Text<'_> {
             .map(|(index, _)| index)
             .next();
         let what = if key.is_empty() { table.to_owned() } else { format!("{table}, key {key}") };
-        Box::new(At { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what })
+        Box::new(FilePlace { file: self.name.to_owned(), line: Some(self.line(from) + offset.unwrap_or(0)), key: what })
     }
 
     /// Line number of a byte, counted from 1.
@@ -41,7 +41,7 @@ impl Text<'_> {
             }
         }
         let line = error.span().map(|span| self.line(span.start));
-        let at = Box::new(At { file: self.name.to_owned(), line, key: String::new() });
+        let at = Box::new(FilePlace { file: self.name.to_owned(), line, key: String::new() });
         DisplayError::Syntax { at, reason }
     }
 }

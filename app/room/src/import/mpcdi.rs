@@ -5,13 +5,19 @@
 //! become a mesh, and the picture lies evenly on the grid. In profile 2d the warp says which place of the region's
 //! picture each pixel shows; the picture's place in the room is left open.
 
-use super::{file_name, xml};
-use crate::maps;
-use crate::read;
-use crate::{
-    Channel, Combine, Display, Eye, Flat, Map, Mesh, Monitor, Part, Reflection, Screen, Surface, Viewer, Warp,
-    WindowPlace,
-};
+use super::file_name::file_name;
+use super::xml;
+use crate::channel::{Channel, ChannelPart};
+use crate::display::{Display, Screen};
+use crate::gain_map::GainMap;
+use crate::reflection::Reflection;
+use crate::surface::flat::FlatSurface;
+use crate::surface::mesh::MeshSurface;
+use crate::surface::shape::ScreenSurface;
+use crate::viewer::{EyeSide, HEAD_M, Viewer};
+use crate::warp::Warp;
+use crate::window::{Combine, Monitor, WindowPlace};
+use crate::{maps, read};
 use glam::{DVec2, DVec3};
 use roxmltree::Node;
 use std::io::{Cursor, Read};
@@ -25,12 +31,12 @@ const FLAT_DISTANCE_M: f64 = 2.0;
 const FLAT_WIDTH_M: f64 = 4.0;
 
 /// Reads a container or a bare file. An error's text is worded to follow the file's name.
-pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
+pub(crate) fn parse(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
     let mut files = if bytes.starts_with(b"PK") {
         let zip = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("it is no good zip: {error}"))?;
-        Files::Zip(Box::new(zip))
+        MpcdiFiles::Zip(Box::new(zip))
     } else {
-        Files::Bare { xml: bytes, folder }
+        MpcdiFiles::Bare { xml: bytes, folder }
     };
     let xml = files.description()?;
     let text = std::str::from_utf8(&xml).map_err(|_| "its description is not UTF-8 text".to_owned())?;
@@ -40,7 +46,7 @@ pub(super) fn read(bytes: Vec<u8>, folder: &Path) -> Result<Display, String> {
     if !matches!(profile.as_str(), "2d" | "a3") {
         return Err(format!("its profile is {profile:?}; only 2d and a3 can be read, so export it as one of these"));
     }
-    let mut import = Import { files, root, solid: profile == "a3", names: Vec::new(), display: empty() };
+    let mut import = MpcdiImport { files, root, solid: profile == "a3", names: Vec::new(), display: empty() };
     for buffer in xml::all(root, "buffer") {
         for region in xml::all(buffer, "region") {
             import.region(buffer, region)?;
@@ -71,12 +77,12 @@ fn empty() -> Display {
 }
 
 /// Source of the description and the maps.
-enum Files<'a> {
+enum MpcdiFiles<'a> {
     Zip(Box<zip::ZipArchive<Cursor<Vec<u8>>>>),
     Bare { xml: Vec<u8>, folder: &'a Path },
 }
 
-impl Files<'_> {
+impl MpcdiFiles<'_> {
     fn description(&mut self) -> Result<Vec<u8>, String> {
         match self {
             Self::Bare { xml, .. } => Ok(std::mem::take(xml)),
@@ -112,8 +118,8 @@ impl Files<'_> {
 }
 
 /// A display under construction.
-struct Import<'a> {
-    files: Files<'a>,
+struct MpcdiImport<'a> {
+    files: MpcdiFiles<'a>,
     root: Node<'a, 'a>,
     /// True for profile a3, where the warp holds the surface's points.
     solid: bool,
@@ -121,7 +127,7 @@ struct Import<'a> {
     display: Display,
 }
 
-impl<'a> Import<'a> {
+impl<'a> MpcdiImport<'a> {
     /// Adds one projector's raster: a window, a channel, and a screen. The regions of one 2d buffer share a screen.
     fn region(&mut self, buffer: Node<'a, 'a>, region: Node<'a, 'a>) -> Result<(), String> {
         let id = xml::attribute(region, "id").unwrap_or("region");
@@ -143,7 +149,7 @@ impl<'a> Import<'a> {
             (true, Some(bytes)) => {
                 let surface = self.surface(warp_file, &bytes).map_err(wrong)?;
                 self.display.screens.push(Screen { name: name.clone(), surface, reflection: Reflection::default() });
-                (self.display.screens.len() - 1, Part::default(), None)
+                (self.display.screens.len() - 1, ChannelPart::default(), None)
             }
             (false, warp) => {
                 let warp =
@@ -166,7 +172,7 @@ impl<'a> Import<'a> {
         self.display.channels.push(Channel {
             name,
             screen,
-            eye: Eye::Centre,
+            eye: EyeSide::Centre,
             window: index,
             viewport: [0, 0, size[0], size[1]],
             part,
@@ -179,7 +185,7 @@ impl<'a> Import<'a> {
     }
 
     /// Surface from the points of profile a3: y up, x to the *left*, z into the screen.
-    fn surface(&mut self, file: Option<Node<'a, 'a>>, bytes: &[u8]) -> Result<Surface, String> {
+    fn surface(&mut self, file: Option<Node<'a, 'a>>, bytes: &[u8]) -> Result<ScreenSurface, String> {
         let map = maps::grid(bytes).map_err(|error| error.to_string())?;
         let unit = file.and_then(|file| xml::text(file, "geometricUnit")).unwrap_or("unknown");
         let metres = match unit.to_ascii_lowercase().as_str() {
@@ -197,7 +203,7 @@ impl<'a> Import<'a> {
         };
         let origin = file.and_then(|file| xml::text(file, "originOf3DData")).unwrap_or("unknown");
         match origin.to_ascii_lowercase().as_str() {
-            "floorcenter" => self.display.viewer.head_m = crate::viewer::HEAD_M,
+            "floorcenter" => self.display.viewer.head_m = HEAD_M,
             "idealeyepoint" => self.display.viewer.head_m = DVec3::ZERO,
             _ => {
                 self.display.viewer.head_m = DVec3::ZERO;
@@ -206,11 +212,11 @@ impl<'a> Import<'a> {
         }
         let point = |&[x, y, z]: &[f32; 3]| DVec3::new(-f64::from(x), f64::from(y), -f64::from(z)) * metres;
         let rows = map.samples.chunks(map.width as usize).rev();
-        let mesh = Mesh::grid(map.width, map.height, rows.flatten().map(point).collect());
+        let mesh = MeshSurface::grid(map.width, map.height, rows.flatten().map(point).collect());
         if !(mesh.size_m() > 0.0 && mesh.size_m().is_finite()) {
             return Err("its warp has no points that are known and apart".into());
         }
-        Ok(Surface::Mesh(Box::new(mesh)))
+        Ok(ScreenSurface::Mesh(Box::new(mesh)))
     }
 
     fn notice(&mut self, notice: String) {
@@ -228,12 +234,17 @@ impl<'a> Import<'a> {
         let (width, height) = (xml::number(buffer, "xResolution")?, xml::number(buffer, "yResolution")?);
         let size = DVec2::new(FLAT_WIDTH_M, FLAT_WIDTH_M * height / width);
         let centre = self.display.viewer.head_m - DVec3::Z * FLAT_DISTANCE_M;
-        let flat = Flat::from_centre(centre, size, DVec3::ZERO).map_err(|error| format!("buffer {name:?}: {error}"))?;
-        self.display.screens.push(Screen { name, surface: Surface::Flat(flat), reflection: Reflection::default() });
+        let flat =
+            FlatSurface::from_centre(centre, size, DVec3::ZERO).map_err(|error| format!("buffer {name:?}: {error}"))?;
+        self.display.screens.push(Screen {
+            name,
+            surface: ScreenSurface::Flat(flat),
+            reflection: Reflection::default(),
+        });
         Ok(self.display.screens.len() - 1)
     }
 
-    fn map(&mut self, fileset: Option<Node<'a, 'a>>, kind: &'static str) -> Result<Option<Map>, String> {
+    fn map(&mut self, fileset: Option<Node<'a, 'a>>, kind: &'static str) -> Result<Option<GainMap>, String> {
         let Some(element) = fileset.and_then(|set| xml::first(set, kind)) else { return Ok(None) };
         let Some(path) = xml::text(element, "path") else { return Ok(None) };
         let gamma = match xml::text(element, "gammaEmbedded") {
@@ -253,14 +264,14 @@ impl<'a> Import<'a> {
 }
 
 /// Rectangle of a region in its buffer, which counts y downwards.
-fn part(region: Node<'_, '_>) -> Result<Part, String> {
+fn part(region: Node<'_, '_>) -> Result<ChannelPart, String> {
     let [x, y, width, height] = [
         xml::number(region, "x")?,
         xml::number(region, "y")?,
         xml::number(region, "xSize")?,
         xml::number(region, "ySize")?,
     ];
-    let part = Part { from: DVec2::new(x, 1.0 - y - height), to: DVec2::new(x + width, 1.0 - y) };
+    let part = ChannelPart { from: DVec2::new(x, 1.0 - y - height), to: DVec2::new(x + width, 1.0 - y) };
     let inside = part.from.min_element() >= -1e-6 && part.to.max_element() <= 1.0 + 1e-6 && width > 0.0 && height > 0.0;
     if !inside {
         return Err(format!(
@@ -268,5 +279,5 @@ fn part(region: Node<'_, '_>) -> Result<Part, String> {
             xml::place(region)
         ));
     }
-    Ok(Part { from: part.from.max(DVec2::ZERO), to: part.to.min(DVec2::ONE) })
+    Ok(ChannelPart { from: part.from.max(DVec2::ZERO), to: part.to.min(DVec2::ONE) })
 }

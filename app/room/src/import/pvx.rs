@@ -1,10 +1,15 @@
 //! ParaView's wall and CAVE files. Each `Machine` has one flat screen, given by three corners in metres: y up, −z
 //! ahead, the eyes at the origin.
 
-use super::{file_name, xml};
-use crate::{
-    Channel, Combine, Display, Eye, Flat, Monitor, Part, Reflection, Screen, Surface, Viewer, WindowPlace,
-};
+use super::file_name::file_name;
+use super::xml;
+use crate::channel::{Channel, ChannelPart};
+use crate::display::{Display, Screen};
+use crate::reflection::Reflection;
+use crate::surface::flat::FlatSurface;
+use crate::surface::shape::ScreenSurface;
+use crate::viewer::{EyeSide, Viewer};
+use crate::window::{Combine, Monitor, WindowPlace};
 use glam::{DVec2, DVec3};
 use roxmltree::Node;
 
@@ -15,7 +20,7 @@ const EYE_SEPARATION_M: f64 = 0.065;
 const HEIGHT: f64 = 600.0;
 
 /// Reads a file. An error's text is worded to follow the file's name.
-pub(super) fn read(bytes: &[u8]) -> Result<Display, String> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<Display, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
     let document = xml::document(text, "pvx")?;
     let root = document.root_element();
@@ -54,7 +59,7 @@ fn add(display: &mut Display, machine: Node<'_, '_>, name: String, names: &mut V
     let [lower_left, lower_right, upper_right] =
         ["LowerLeft", "LowerRight", "UpperRight"].map(|key| corner(machine, key));
     let (lower_left, lower_right, upper_right) = (lower_left?, lower_right?, upper_right?);
-    let flat = Flat::from_corners(lower_left, lower_right, lower_left + upper_right - lower_right)
+    let flat = FlatSurface::from_corners(lower_left, lower_right, lower_left + upper_right - lower_right)
         .map_err(|error| format!("{}: {error}", xml::place(machine)))?;
     let (size, position) = match xml::attribute(machine, "Geometry") {
         Some(text) => geometry(text).ok_or_else(|| {
@@ -81,25 +86,25 @@ fn add(display: &mut Display, machine: Node<'_, '_>, name: String, names: &mut V
     };
     let whole = [0, 0, size[0], size[1]];
     let half = size[0] / 2;
-    let both = |combine| (combine, vec![(Eye::Left, whole), (Eye::Right, whole)]);
+    let both = |combine| (combine, vec![(EyeSide::Left, whole), (EyeSide::Right, whole)]);
     let stereo = xml::attribute(machine, "StereoType").unwrap_or_default();
     let (combine, views) = match stereo {
-        "" => (Combine::None, vec![(Eye::Centre, whole)]),
-        "Left" => (Combine::None, vec![(Eye::Left, whole)]),
-        "Right" => (Combine::None, vec![(Eye::Right, whole)]),
+        "" => (Combine::None, vec![(EyeSide::Centre, whole)]),
+        "Left" => (Combine::None, vec![(EyeSide::Left, whole)]),
+        "Right" => (Combine::None, vec![(EyeSide::Right, whole)]),
         "Interlaced" => both(Combine::Rows),
         "Dresden" => both(Combine::Columns),
         "Checkerboard" => both(Combine::Checker),
         "Red-Blue" => both(Combine::AnaglyphGrey),
         "Anaglyph" => both(Combine::AnaglyphDubois),
         "SplitViewportHorizontal" if half > 0 => {
-            (Combine::None, vec![(Eye::Left, [0, 0, half, size[1]]), (Eye::Right, [half, 0, half, size[1]])])
+            (Combine::None, vec![(EyeSide::Left, [0, 0, half, size[1]]), (EyeSide::Right, [half, 0, half, size[1]])])
         }
         other => {
             display
                 .notices
                 .push(format!("machine {name:?}: stereo {other:?} is not to be had; it is shown to both eyes alike"));
-            (Combine::None, vec![(Eye::Centre, whole)])
+            (Combine::None, vec![(EyeSide::Centre, whole)])
         }
     };
     window.combine = combine;
@@ -115,14 +120,14 @@ fn add(display: &mut Display, machine: Node<'_, '_>, name: String, names: &mut V
             eye: *eye,
             window: index,
             viewport: *viewport,
-            part: Part { from: DVec2::ZERO, to: DVec2::ONE },
+            part: ChannelPart { from: DVec2::ZERO, to: DVec2::ONE },
             warp: None,
             projector: None,
             alpha: None,
             beta: None,
         });
     }
-    display.screens.push(Screen { name, surface: Surface::Flat(flat), reflection: Reflection::default() });
+    display.screens.push(Screen { name, surface: ScreenSurface::Flat(flat), reflection: Reflection::default() });
     Ok(())
 }
 
@@ -136,10 +141,10 @@ fn corner(machine: Node<'_, '_>, key: &str) -> Result<DVec3, String> {
 }
 
 /// Width and height, pixels, and the window's place, if one is given.
-type Geometry = ([u32; 2], Option<[i32; 2]>);
+type WindowGeometry = ([u32; 2], Option<[i32; 2]>);
 
 /// Size and place from `WxH+X+Y`, as X11 writes them.
-fn geometry(text: &str) -> Option<Geometry> {
+fn geometry(text: &str) -> Option<WindowGeometry> {
     let (width, rest) = text.split_once(['x', 'X'])?;
     let end = rest.find(['+', '-']).unwrap_or(rest.len());
     let size = [width.parse().ok()?, rest[..end].parse().ok()?];

@@ -1,11 +1,13 @@
 //! Part of an upright cylinder, seen from inside.
 
-use super::{EDGE, Hit, NEAREST, share};
+use super::hit::{NEAREST, SurfaceHit};
+use super::round::{crossings, share};
+use crate::unit_square::EDGE;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Curved wall around a vertical axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cylinder {
+pub struct CylinderSurface {
     /// Point of the axis from which `bottom_m` and `top_m` are counted, room axes, metres.
     pub centre: DVec3,
     /// Radius of the cylinder, metres.
@@ -20,7 +22,7 @@ pub struct Cylinder {
     pub top_m: f64,
 }
 
-impl Cylinder {
+impl CylinderSurface {
     /// Point at a place, uv 0 to 1 from the lower left; room axes, metres.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         let height = self.bottom_m + uv.y * (self.top_m - self.bottom_m);
@@ -38,17 +40,17 @@ impl Cylinder {
         DVec2::new(self.radius_m * (self.left_rad - self.right_rad), self.top_m - self.bottom_m)
     }
 
-    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         let from = origin - self.centre;
         let (o, d) = (from.xz(), direction.xz());
         let nearest = NEAREST * self.radius_m / direction.length();
-        super::crossings(d.length_squared(), o.dot(d), o.length_squared() - self.radius_m * self.radius_m)
+        crossings(d.length_squared(), o.dot(d), o.length_squared() - self.radius_m * self.radius_m)
             .into_iter()
             .filter(|distance| distance.is_finite() && *distance > nearest)
             .find_map(|distance| {
                 let offset = from + direction * distance;
                 let uv = self.uv(offset)?;
-                Some(Hit { distance, point: self.centre + offset, normal: self.normal(uv), uv })
+                Some(SurfaceHit { distance, point: self.centre + offset, normal: self.normal(uv), uv })
             })
     }
 

@@ -1,7 +1,8 @@
 //! Flat screens: rectangles.
 
-use super::{EDGE, Hit, NEAREST};
-use crate::room_from_turned;
+use super::hit::{NEAREST, SurfaceHit};
+use crate::turning::room_from_turned;
+use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -37,7 +38,7 @@ pub enum NotRectangle {
 
 /// Flat rectangular screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flat {
+pub struct FlatSurface {
     /// Lower left corner, room axes, metres.
     pub lower_left: DVec3,
     /// Vector from the lower left to the lower right corner, room axes, metres.
@@ -46,7 +47,7 @@ pub struct Flat {
     pub up: DVec3,
 }
 
-impl Flat {
+impl FlatSurface {
     /// Creates a screen from its lower left, lower right and upper left corners, as seen by the viewer.
     ///
     /// # Errors
@@ -111,7 +112,7 @@ impl Flat {
         DVec2::new(self.right.length(), self.up.length())
     }
 
-    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         let normal = self.normal();
         let distance = (self.lower_left - origin).dot(normal) / direction.dot(normal);
         let nearest = NEAREST * self.size_m().max_element() / direction.length();
@@ -119,14 +120,13 @@ impl Flat {
             return None;
         }
         let offset = origin + direction * distance - self.lower_left;
-        Some(Hit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
+        Some(SurfaceHit { distance, point: self.lower_left + offset, normal, uv: self.uv(offset)? })
     }
 
     /// Place uv of a point given relative to the lower left corner; `None` outside the screen.
     pub(super) fn uv(&self, offset: DVec3) -> Option<DVec2> {
         let (right, up) = (self.right.length_squared(), self.up.length_squared());
         let uv = DVec2::new(offset.dot(self.right) / right, offset.dot(self.up) / up);
-        let inside = uv.min_element() >= -EDGE && uv.max_element() <= 1.0 + EDGE;
-        inside.then(|| uv.clamp(DVec2::ZERO, DVec2::ONE))
+        inside(uv).then(|| uv.clamp(DVec2::ZERO, DVec2::ONE))
     }
 }

@@ -1,7 +1,7 @@
 //! Surfaces of any shape, as triangles.
 
-use super::{EDGE, Hit, NEAREST};
-use crate::net::{Grid, Net, Within};
+use super::hit::{NEAREST, SurfaceHit};
+use crate::net::{EDGE, EvenGrid, TriangleNet, WithinTriangle};
 use glam::{DVec2, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
@@ -11,19 +11,19 @@ use std::sync::OnceLock;
 
 /// Triangles with places uv. Front faces are counter-clockwise as seen by the viewer.
 #[derive(Clone)]
-pub struct Mesh {
+pub struct MeshSurface {
     points: Vec<DVec3>,
-    places: Places,
+    places: TriangleSearch,
     size_m: f64,
     /// Places and triangles. Those of a grid are made when first needed; the points of a projector's pixels do not
     /// need them.
-    shape: OnceLock<Shape>,
+    shape: OnceLock<MeshTriangles>,
     /// Bounding boxes for ray tests, made for the first ray.
     boxes: OnceLock<Bvh>,
 }
 
 #[derive(Clone)]
-struct Shape {
+struct MeshTriangles {
     uvs: Vec<DVec2>,
     /// Triangles that are not holes.
     triangles: Vec<[u32; 3]>,
@@ -31,14 +31,14 @@ struct Shape {
 
 /// Search for the triangle at a place.
 #[derive(Clone)]
-enum Places {
+enum TriangleSearch {
     /// Even grid, where the place gives the triangle's number.
-    Grid(Grid),
+    Grid(EvenGrid),
     /// Any other mesh, where the triangle is searched for.
-    Net(Net),
+    Net(TriangleNet),
 }
 
-impl PartialEq for Mesh {
+impl PartialEq for MeshSurface {
     fn eq(&self, other: &Self) -> bool {
         // Holes are NaN, and two of them count as equal.
         let alike = |(a, b): (&DVec3, &DVec3)| a == b || !a.is_finite() && !b.is_finite();
@@ -49,13 +49,16 @@ impl PartialEq for Mesh {
     }
 }
 
-impl std::fmt::Debug for Mesh {
+impl std::fmt::Debug for MeshSurface {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Mesh").field("points", &self.points.len()).field("size_m", &self.size_m).finish_non_exhaustive()
+        f.debug_struct("MeshSurface")
+            .field("points", &self.points.len())
+            .field("size_m", &self.size_m)
+            .finish_non_exhaustive()
     }
 }
 
-impl Shape {
+impl MeshTriangles {
     fn new(points: &[DVec3], uvs: Vec<DVec2>, mut triangles: Vec<[u32; 3]>) -> Self {
         triangles.retain(|corners| {
             let [a, b, c] = corners.map(|corner| points[corner as usize]);
@@ -66,22 +69,22 @@ impl Shape {
     }
 }
 
-impl Mesh {
+impl MeshSurface {
     /// Creates a mesh from triangles. Indices must be below the number of points, and there must be as many uvs as
     /// points. A triangle with a corner that is not finite, or without area, is a hole.
     pub fn new(points: Vec<DVec3>, uvs: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
-        let places = Places::Net(Net::new(uvs.clone(), triangles));
-        let shape = Shape::new(&points, uvs, triangles.to_vec());
+        let places = TriangleSearch::Net(TriangleNet::new(uvs.clone(), triangles));
+        let shape = MeshTriangles::new(&points, uvs, triangles.to_vec());
         Self { shape: shape.into(), ..Self::with(points, places) }
     }
 
     /// Creates a mesh from points in rows, the lower left one first, evenly spaced in uv; at least two columns and
     /// two rows.
     pub fn grid(columns: u32, rows: u32, points: Vec<DVec3>) -> Self {
-        Self::with(points, Places::Grid(Grid { columns, rows }))
+        Self::with(points, TriangleSearch::Grid(EvenGrid { columns, rows }))
     }
 
-    fn with(points: Vec<DVec3>, places: Places) -> Self {
+    fn with(points: Vec<DVec3>, places: TriangleSearch) -> Self {
         let used = || points.iter().filter(|point| point.is_finite());
         let lowest = used().fold(DVec3::INFINITY, |low, &point| low.min(point));
         let highest = used().fold(DVec3::NEG_INFINITY, |high, &point| high.max(point));
@@ -89,14 +92,14 @@ impl Mesh {
         Self { points, places, size_m, shape: OnceLock::new(), boxes: OnceLock::new() }
     }
 
-    fn shape(&self) -> &Shape {
+    fn shape(&self) -> &MeshTriangles {
         self.shape.get_or_init(|| match &self.places {
-            Places::Grid(grid) => {
+            TriangleSearch::Grid(grid) => {
                 let uvs = (0..grid.columns * grid.rows).map(|sample| grid.place(sample)).collect();
-                Shape::new(&self.points, uvs, grid.triangles())
+                MeshTriangles::new(&self.points, uvs, grid.triangles())
             }
             // A mesh with a net was given its shape when it was created.
-            Places::Net(_) => Shape { uvs: Vec::new(), triangles: Vec::new() },
+            TriangleSearch::Net(_) => MeshTriangles { uvs: Vec::new(), triangles: Vec::new() },
         })
     }
 
@@ -120,10 +123,10 @@ impl Mesh {
         self.size_m
     }
 
-    fn find(&self, uv: DVec2) -> Option<Within> {
+    fn find(&self, uv: DVec2) -> Option<WithinTriangle> {
         match &self.places {
-            Places::Grid(grid) => grid.find(uv),
-            Places::Net(net) => net.find(uv),
+            TriangleSearch::Grid(grid) => grid.find(uv),
+            TriangleSearch::Net(net) => net.find(uv),
         }
     }
 
@@ -142,7 +145,7 @@ impl Mesh {
         (b - a).cross(c - a).try_normalize()
     }
 
-    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         if self.triangles().is_empty() || !(origin.is_finite() && direction.is_finite()) {
             return None;
         }
@@ -161,8 +164,8 @@ impl Mesh {
         };
         let (index, _) = boxes.cast_ray(&ray, f64::MAX, |index, _| meet(index).map(|(distance, _)| distance))?;
         let ((distance, weights), corners) = (meet(index)?, self.triangles()[index as usize]);
-        let within = Within { corners, weights };
-        Some(Hit {
+        let within = WithinTriangle { corners, weights };
+        Some(SurfaceHit {
             distance,
             point: within.mix(&self.points),
             normal: self.facing(corners)?,
@@ -176,7 +179,7 @@ impl Mesh {
             let triangle = self.corners(corners);
             let normal = self.facing(corners)?;
             let (distance, weights) = meet(triangle, point, normal)?;
-            (distance.abs() < 1e-6 * self.size_m).then(|| Within { corners, weights }.mix(self.uvs()))
+            (distance.abs() < 1e-6 * self.size_m).then(|| WithinTriangle { corners, weights }.mix(self.uvs()))
         };
         self.triangles().iter().find_map(within)
     }

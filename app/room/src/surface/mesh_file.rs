@@ -1,6 +1,7 @@
 //! Meshes read from files: Wavefront OBJ and CSV grids.
 
-use super::Mesh;
+use super::mesh::MeshSurface;
+use crate::{grid_file, read};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -9,8 +10,8 @@ use std::path::Path;
 const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads the `.obj` or `.csv` file `path`. Error texts are worded to follow the file's name.
-pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
-    let text = crate::read::text(path)?;
+pub(crate) fn load(path: &Path) -> Result<MeshSurface, String> {
+    let text = read::text(path)?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
@@ -21,7 +22,7 @@ pub(crate) fn load(path: &Path) -> Result<Mesh, String> {
 
 /// Reads an OBJ text: `v x y z` in metres, `vt u v` from the lower left, `f v/vt …` counter-clockwise as seen by the
 /// viewer. Other lines are ignored.
-fn obj(text: &str) -> Result<Mesh, String> {
+fn obj(text: &str) -> Result<MeshSurface, String> {
     let (mut positions, mut places) = (Vec::new(), Vec::new());
     let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
     let mut vertices: HashMap<(usize, usize), u32> = HashMap::new();
@@ -69,7 +70,7 @@ fn obj(text: &str) -> Result<Mesh, String> {
     if triangles.is_empty() {
         return Err("it has no face (f)".into());
     }
-    good(Mesh::new(points, uvs, &triangles))
+    good(MeshSurface::new(points, uvs, &triangles))
 }
 
 /// Index from an OBJ number, which counts from 1, or backwards from −1.
@@ -80,12 +81,12 @@ fn nth(part: &str, count: usize) -> Option<usize> {
 }
 
 /// Reads a CSV text with lines `u, v, x, y, z`.
-fn csv(text: &str) -> Result<Mesh, String> {
-    let (columns, rows, points) = crate::grid_file::read::<3>(text, "u, v, x, y, z")?;
-    good(Mesh::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
+fn csv(text: &str) -> Result<MeshSurface, String> {
+    let (columns, rows, points) = grid_file::read::<3>(text, "u, v, x, y, z")?;
+    good(MeshSurface::grid(columns, rows, points.into_iter().map(DVec3::from).collect()))
 }
 
-fn good(mesh: Mesh) -> Result<Mesh, String> {
+fn good(mesh: MeshSurface) -> Result<MeshSurface, String> {
     if mesh.triangles().is_empty() {
         return Err("none of its triangles has an area".into());
     }

@@ -1,11 +1,13 @@
 //! Part of a sphere, seen from inside: a dome.
 
-use super::{EDGE, Hit, NEAREST, share};
+use super::hit::{NEAREST, SurfaceHit};
+use super::round::{crossings, share};
+use crate::unit_square::EDGE;
 use glam::{DVec2, DVec3};
 
 /// Section of a sphere between two yaws and two pitches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
+pub struct SphereSurface {
     /// Centre of the sphere, room axes, metres.
     pub centre: DVec3,
     /// Radius of the sphere, metres.
@@ -20,7 +22,7 @@ pub struct Sphere {
     pub top_rad: f64,
 }
 
-impl Sphere {
+impl SphereSurface {
     /// Point at a place, uv 0 to 1 from the lower left; room axes, metres.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         self.centre - self.normal(uv) * self.radius_m
@@ -46,17 +48,17 @@ impl Sphere {
     /// First hit of a ray.
     ///
     /// *Equation.* For a ray that starts on the sphere, B eq. 4.8: the second crossing.
-    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<SurfaceHit> {
         let from = origin - self.centre;
         let nearest = NEAREST * self.radius_m / direction.length();
         let constant = from.length_squared() - self.radius_m * self.radius_m;
-        super::crossings(direction.length_squared(), from.dot(direction), constant)
+        crossings(direction.length_squared(), from.dot(direction), constant)
             .into_iter()
             .filter(|distance| distance.is_finite() && *distance > nearest)
             .find_map(|distance| {
                 let offset = from + direction * distance;
                 let uv = self.uv(offset)?;
-                Some(Hit { distance, point: self.centre + offset, normal: -offset.normalize(), uv })
+                Some(SurfaceHit { distance, point: self.centre + offset, normal: -offset.normalize(), uv })
             })
     }
 

@@ -1,6 +1,6 @@
 //! Sheets that bend in one direction: a profile of height and depth, rounded at its corners, carried along x.
 
-use super::Mesh;
+use super::mesh::MeshSurface;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -38,7 +38,7 @@ pub enum SweepError {
 ///
 /// # Errors
 /// [`SweepError`].
-pub fn sweep(centre: DVec3, width_m: f64, profile: &[DVec2], bend_m: f64) -> Result<Mesh, SweepError> {
+pub fn sweep(centre: DVec3, width_m: f64, profile: &[DVec2], bend_m: f64) -> Result<MeshSurface, SweepError> {
     let line = rounded(profile, bend_m)?;
 
     // Each row's v is its length along the profile, and there is a row at every corner of the line.
@@ -58,7 +58,7 @@ pub fn sweep(centre: DVec3, width_m: f64, profile: &[DVec2], bend_m: f64) -> Res
         .map(|row| 2 * row)
         .flat_map(|first| [[first, first + 1, first + 3], [first, first + 3, first + 2]])
         .collect();
-    Ok(Mesh::new(points, uvs, &triangles))
+    Ok(MeshSurface::new(points, uvs, &triangles))
 }
 
 /// Profile with rounded corners, as a line of points (y, z), metres.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DMat3, DVec2};
-use rapidity::room::{Display, Eye, Surface, built_in, frustum};
+use room::{Display, EyeSide, ScreenSurface, built_in, frustum};
 
 #[test]
 fn each_is_read_and_says_what_it_is() {
@@ -50,13 +50,13 @@ fn each_eye_sees_every_flat_wall_from_the_front() {
 #[test]
 fn the_dome_is_fourteen_metres_and_its_projectors_stand_on_the_rim() {
     let display = Display::built_in("dome6").unwrap();
-    let Surface::Sphere(sphere) = &display.screens[0].surface else { panic!("no sphere") };
+    let ScreenSurface::Sphere(sphere) = &display.screens[0].surface else { panic!("no sphere") };
     assert_eq!((sphere.radius_m, display.projectors.len()), (7.0, 6));
     for projector in &display.projectors {
         let offset = projector.position_m - sphere.centre;
         assert!((offset.length() - 7.0).abs() < 1e-8 && offset.y == 0.0, "{}", projector.name);
     }
-    assert!(display.channels.iter().all(|channel| channel.eye == Eye::Centre));
+    assert!(display.channels.iter().all(|channel| channel.eye == EyeSide::Centre));
 }
 
 #[test]

@@ -8,7 +8,7 @@
 
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use rapidity::room::{Channel, Display, Gains};
+use room::{Channel, Display, Gains};
 
 /// Largest disagreement between projectors, pixels: a larger one would be visible as doubling at the seam.
 const AGREEMENT_PX: f64 = 0.5;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
-use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface, Warp, file};
+use room::{Combine, Display, DisplayError, EyeSide, Monitor, ScreenSurface, Warp, file};
 use std::path::Path;
 
 /// Core of the file format; it must remain readable.
@@ -40,8 +40,8 @@ fn added(tail: &str) -> Result<Display, DisplayError> {
     parse(&format!("{CORE}{tail}"))
 }
 
-fn flat(display: &Display) -> rapidity::room::Flat {
-    let Surface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
+fn flat(display: &Display) -> room::FlatSurface {
+    let ScreenSurface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
     flat
 }
 
@@ -55,7 +55,7 @@ fn the_core_of_the_schema_is_read_as_written() {
     assert_eq!((flat.right, flat.up), (DVec3::X * 3.0, DVec3::Y * 3.0));
     assert_eq!((display.windows[0].name.as_str(), display.windows[0].size), ("main", [960, 480]));
     let channel = &display.channels[0];
-    assert_eq!((channel.name.as_str(), channel.eye, channel.viewport), ("front-left", Eye::Left, [0, 0, 480, 480]));
+    assert_eq!((channel.name.as_str(), channel.eye, channel.viewport), ("front-left", EyeSide::Left, [0, 0, 480, 480]));
     assert_eq!((channel.screen, channel.window), (0, 0));
     assert_eq!(channel.flat(&display), Some(flat));
     assert!(channel.gains(&display, [4, 4]).is_none() && display.notices.is_empty());
@@ -293,6 +293,7 @@ fn keys_that_are_unknown_are_refused_with_the_one_that_was_meant() {
     says(changed("name = \"front\"\n", ""), 3, &["missing field `name`"]);
     says(changed("[960, 480]", "[960, 480"), 11, &[]);
     says(changed("[960, 480]", "\"big\""), 10, &["invalid type"]);
+    says(added("[[screen]]\nname = \"b\"\nsphere = 3\n"), 19, &["expected a table"]);
     let message = parse("").unwrap_err().to_string();
     assert_eq!(message, "d.toml: it has no [[channel]], so nothing would be seen");
 }
@@ -329,8 +330,8 @@ fn displays_are_found_by_name_or_by_path() {
 #[test]
 fn eyes_are_apart_along_the_heads_own_x() {
     let viewer = parse(CORE).unwrap().viewer;
-    let turned = rapidity::room::room_from_turned(90.0, 0.0, 0.0);
+    let turned = room::room_from_turned(90.0, 0.0, 0.0);
     let eye = |eye| viewer.eye_m(eye, DVec3::new(0.0, 1.6, 0.0), turned);
-    assert_eq!(eye(Eye::Right) - eye(Eye::Left), DVec3::NEG_Z * 0.064);
-    assert_eq!(eye(Eye::Centre), DVec3::new(0.0, 1.6, 0.0));
+    assert_eq!(eye(EyeSide::Right) - eye(EyeSide::Left), DVec3::NEG_Z * 0.064);
+    assert_eq!(eye(EyeSide::Centre), DVec3::new(0.0, 1.6, 0.0));
 }

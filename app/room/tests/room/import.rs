@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DVec2, DVec3};
-use rapidity::room::{Combine, Display, DisplayError, Eye, Monitor, Surface};
+use room::{Combine, Display, DisplayError, EyeSide, Monitor, ScreenSurface};
 use std::path::PathBuf;
 
 /// Tolerance, metres, for the f32 of the files.
@@ -173,7 +173,7 @@ fn profile_a3_puts_pixels_on_the_points_it_gives() {
         near(point(1, 0.5, 1.0), [0.5, -1.0, -2.0]);
         near(point(1, 0.25, 0.5), [0.25, 0.0, -2.0]);
         assert_eq!(point(1, 0.9, 0.1), None, "unknown points are holes");
-        let Surface::Mesh(mesh) = &display.screens[0].surface else { panic!("no mesh") };
+        let ScreenSurface::Mesh(mesh) = &display.screens[0].surface else { panic!("no mesh") };
         assert_eq!(mesh.triangles().len(), 4);
         // Every region is a window of its own on an output of its own.
         assert_eq!(display.windows[1].monitor, Some(Monitor::Index(1)));
@@ -206,7 +206,7 @@ fn profile_2d_warps_its_part_of_a_flat_picture() {
     let warp = pfm(&[&[[-0.25, 0.0, 0.0], [1.25, 0.0, 0.0]], &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]], true);
     let display = load("flat.mpcdi", &zip(&[("mpcdi.xml", FLAT.as_bytes()), ("w.pfm", &warp)])).unwrap();
     // The screen is flat, 4 m × 2 m, 2 m before the head; the region is its right upper quarter.
-    let Surface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
+    let ScreenSurface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
     assert_eq!(flat.size_m(), DVec2::new(4.0, 2.0));
     assert!(display.notices.iter().any(|notice| notice.contains("2d")), "{:?}", display.notices);
     let channel = &display.channels[0];
@@ -300,25 +300,25 @@ fn paraviews_walls_are_read() {
     let display = load("corner.pvx", WALLS.as_bytes()).unwrap();
     assert_eq!((display.name.as_str(), display.viewer.eye_separation_m), ("corner", 0.07));
     assert_eq!(display.viewer.head_m, DVec3::ZERO);
-    let Surface::Flat(wall) = display.screens[1].surface else { panic!("not flat") };
+    let ScreenSurface::Flat(wall) = display.screens[1].surface else { panic!("not flat") };
     assert_eq!((wall.lower_left, wall.right, wall.up), (DVec3::new(1.0, -1.0, -1.5), DVec3::Z * 3.0, DVec3::Y * 2.0));
     assert_eq!(wall.normal(), DVec3::NEG_X);
     let window = &display.windows[0];
     assert_eq!((window.size, window.position, window.fullscreen), ([640, 480], Some([20, -30]), false));
     assert_eq!(window.monitor, Some(Monitor::Index(1)));
     assert_eq!((display.windows[1].position, display.windows[1].fullscreen), (None, true));
-    let channels: Vec<(&str, Eye, [u32; 4])> =
+    let channels: Vec<(&str, EyeSide, [u32; 4])> =
         display.channels.iter().map(|channel| (channel.name.as_str(), channel.eye, channel.viewport)).collect();
     assert_eq!(
         channels,
         [
-            ("node", Eye::Left, [0, 0, 640, 480]),
-            ("node-2", Eye::Right, [0, 0, 640, 480]),
-            ("a-b-left", Eye::Left, [0, 0, 50, 50]),
-            ("a-b-right", Eye::Right, [50, 0, 50, 50]),
-            ("screen-left", Eye::Left, [0, 0, 64, 64]),
-            ("screen-right", Eye::Right, [0, 0, 64, 64]),
-            ("screen-2", Eye::Centre, [0, 0, 600, 600]),
+            ("node", EyeSide::Left, [0, 0, 640, 480]),
+            ("node-2", EyeSide::Right, [0, 0, 640, 480]),
+            ("a-b-left", EyeSide::Left, [0, 0, 50, 50]),
+            ("a-b-right", EyeSide::Right, [50, 0, 50, 50]),
+            ("screen-left", EyeSide::Left, [0, 0, 64, 64]),
+            ("screen-right", EyeSide::Right, [0, 0, 64, 64]),
+            ("screen-2", EyeSide::Centre, [0, 0, 600, 600]),
         ]
     );
     assert_eq!(display.windows[3].combine, Combine::AnaglyphDubois);

@@ -4,8 +4,9 @@
 
 use glam::{DMat3, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use rapidity::room::projector::{Lens, Projector, Table};
-use rapidity::room::{Reflection, file, room_from_turned};
+use room::{LensTable, Projector, ProjectorLens};
+use room::{Reflection, file, room_from_turned};
+use view::Tangents;
 
 /// Tolerance for the rounding of a few trigonometric functions; places are shares of a picture, and 1e-4 is less than
 /// a tenth of a pixel.
@@ -16,16 +17,16 @@ fn places(count: usize) -> impl Iterator<Item = DVec2> {
     (0..count).map(move |_| DVec2::new(random.random(), random.random()))
 }
 
-fn lenses() -> Vec<(&'static str, Lens)> {
+fn lenses() -> Vec<(&'static str, ProjectorLens)> {
     let angles = (0..9 * 7).map(|i| {
         let place = DVec2::new(f64::from(i % 9) / 8.0, f64::from(i / 9) / 6.0);
         // Yaw is to the left, places run to the right; pitch is up, places run down.
         DVec2::new(0.5 - place.x, 0.4 - 0.8 * place.y) * (1.0 + 0.1 * place.length_squared())
     });
     vec![
-        ("pinhole", Lens::pinhole(1.4, 1.6, DVec2::new(0.1, 0.5))),
-        ("scan", Lens::scan([1280, 1024], 0.025_f64.to_radians(), 1.8)),
-        ("table", Lens::Table(Table::new(9, 7, angles.collect()))),
+        ("pinhole", ProjectorLens::pinhole(1.4, 1.6, DVec2::new(0.1, 0.5))),
+        ("scan", ProjectorLens::scan([1280, 1024], 0.025_f64.to_radians(), 1.8)),
+        ("table", ProjectorLens::Table(LensTable::new(9, 7, angles.collect()))),
     ]
 }
 
@@ -63,7 +64,7 @@ fn the_scanner_is_equation_4_6() {
             (1.8 * alpha).sin() * (kappa * x).cos() * (kappa * y).sin() / a,
         ]
     };
-    let lens = Lens::scan([1280, 768], 0.025_f64.to_radians(), 1.8);
+    let lens = ProjectorLens::scan([1280, 768], 0.025_f64.to_radians(), 1.8);
     for (x, y) in [(1.0, 0.0), (0.0, 1.0), (-640.0, 384.0), (333.0, -111.0), (640.0, -384.0)] {
         let place = DVec2::new(0.5 + x / 1280.0, 0.5 - y / 768.0);
         let ours = lens.direction(place).unwrap();
@@ -76,7 +77,7 @@ fn the_scanner_is_equation_4_6() {
 
 #[test]
 fn a_scanner_without_an_optic_turns_by_its_mirrors() {
-    let lens = Lens::scan([100, 100], 0.01, 1.0);
+    let lens = ProjectorLens::scan([100, 100], 0.01, 1.0);
     let direction = lens.direction(DVec2::new(1.0, 0.0)).unwrap();
     // The angle is half the pixels times the step: 0.5 rad each way.
     let expected = DVec3::new(0.5_f64.sin(), 0.5_f64.cos() * 0.5_f64.sin(), -0.5_f64.cos() * 0.5_f64.cos());
@@ -85,11 +86,14 @@ fn a_scanner_without_an_optic_turns_by_its_mirrors() {
 
 #[test]
 fn throw_ratio_is_distance_over_width_and_shift_moves_by_pictures() {
-    let lens = Lens::pinhole(2.0, 1.5, DVec2::new(0.0, 0.5));
-    assert_eq!(lens, Lens::Pinhole { left: -0.25, right: 0.25, bottom: 0.0, top: 1.0 / 3.0 });
+    let lens = ProjectorLens::pinhole(2.0, 1.5, DVec2::new(0.0, 0.5));
+    assert_eq!(
+        lens,
+        ProjectorLens::Pinhole(Tangents { low: DVec2::new(-0.25, 0.0), high: DVec2::new(0.25, 1.0 / 3.0) })
+    );
 }
 
-fn projector(lens: Lens) -> Projector {
+fn projector(lens: ProjectorLens) -> Projector {
     Projector {
         name: "p".into(),
         position_m: DVec3::ZERO,
@@ -105,7 +109,7 @@ fn projector(lens: Lens) -> Projector {
 #[test]
 fn solid_angles_sum_to_what_the_edges_enclose() {
     // A square pyramid of ±45° is a sixth of the sphere: 4π/6.
-    let lens = Lens::Pinhole { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0 };
+    let lens = ProjectorLens::Pinhole(Tangents { low: -DVec2::ONE, high: DVec2::ONE });
     let steps = 200;
     let sum: f64 = (0..steps * steps)
         .map(|i| (DVec2::new(f64::from(i % steps), f64::from(i / steps)) + 0.5) / f64::from(steps))
@@ -117,7 +121,7 @@ fn solid_angles_sum_to_what_the_edges_enclose() {
 
 #[test]
 fn a_square_wall_is_evenly_lit_and_gets_all_the_light() {
-    let projector = projector(Lens::pinhole(1.0, 1.0, DVec2::ZERO));
+    let projector = projector(ProjectorLens::pinhole(1.0, 1.0, DVec2::ZERO));
     for place in places(100) {
         let ray = projector.ray(place).unwrap();
         let point = ray * (2.0 / -ray.z);

@@ -4,8 +4,12 @@
 
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
-use rapidity::room::surface::sweep;
-use rapidity::room::{Corners, Cylinder, Flat, Measured, Mesh, Sphere, Surface, Warp, frustum, room_from_turned};
+use room::surface::sweep;
+use room::{
+    CornerWarp, CylinderSurface, FlatSurface, MeasuredWarp, MeshSurface, ScreenSurface, SphereSurface, Warp, frustum,
+    room_from_turned,
+};
+use view::Tangents;
 
 /// Tolerance for the rounding of a few operations on metres.
 const ROUNDING: f64 = 1e-12;
@@ -18,13 +22,13 @@ fn places(count: usize) -> impl Iterator<Item = DVec2> {
     (0..count).map(move |_| DVec2::new(random.random(), random.random()))
 }
 
-fn flat() -> Flat {
-    Flat::from_centre(DVec3::new(0.3, 1.4, -2.0), DVec2::new(3.0, 2.0), DVec3::new(20.0, -10.0, 5.0)).unwrap()
+fn flat() -> FlatSurface {
+    FlatSurface::from_centre(DVec3::new(0.3, 1.4, -2.0), DVec2::new(3.0, 2.0), DVec3::new(20.0, -10.0, 5.0)).unwrap()
 }
 
 /// Surfaces of every kind, each with its name and a point in front of it.
-fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
-    let cylinder = Cylinder {
+fn surfaces() -> Vec<(&'static str, ScreenSurface, DVec3)> {
+    let cylinder = CylinderSurface {
         centre: DVec3::new(0.5, 0.1, -0.2),
         radius_m: 3.0,
         left_rad: 1.9,
@@ -32,7 +36,7 @@ fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
         bottom_m: 0.2,
         top_m: 2.5,
     };
-    let sphere = Sphere {
+    let sphere = SphereSurface {
         centre: DVec3::new(0.0, 1.0, 0.3),
         radius_m: 4.0,
         left_rad: 3.0,
@@ -40,7 +44,7 @@ fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
         bottom_rad: -0.3,
         top_rad: 1.5,
     };
-    let whole = Sphere { left_rad: std::f64::consts::PI, right_rad: -std::f64::consts::PI, ..sphere };
+    let whole = SphereSurface { left_rad: std::f64::consts::PI, right_rad: -std::f64::consts::PI, ..sphere };
     let profile = [DVec2::new(0.0, 1.0), DVec2::new(0.0, 0.0), DVec2::new(2.0, -0.3)];
     let sheet = sweep(DVec3::new(0.0, 0.0, -3.0), 4.0, &profile, 0.4).unwrap();
     let points = (0..5 * 4).map(|i| {
@@ -48,12 +52,12 @@ fn surfaces() -> Vec<(&'static str, Surface, DVec3)> {
         DVec3::new(4.0 * x - 2.0, 3.0 * y, -3.0 + (x - 0.4) * (x - 0.4) + 0.2 * y)
     });
     vec![
-        ("flat", Surface::Flat(flat()), DVec3::new(0.0, 1.6, 0.0)),
-        ("cylinder", Surface::Cylinder(cylinder), DVec3::new(0.4, 1.6, -0.1)),
-        ("sphere", Surface::Sphere(sphere), DVec3::new(0.4, 1.6, -0.1)),
-        ("whole sphere", Surface::Sphere(whole), DVec3::new(0.4, 1.6, -0.1)),
-        ("sheet", Surface::Mesh(Box::new(sheet)), DVec3::new(0.3, 1.6, -0.5)),
-        ("grid", Surface::Mesh(Box::new(Mesh::grid(5, 4, points.collect()))), DVec3::new(0.3, 1.6, 1.0)),
+        ("flat", ScreenSurface::Flat(flat()), DVec3::new(0.0, 1.6, 0.0)),
+        ("cylinder", ScreenSurface::Cylinder(cylinder), DVec3::new(0.4, 1.6, -0.1)),
+        ("sphere", ScreenSurface::Sphere(sphere), DVec3::new(0.4, 1.6, -0.1)),
+        ("whole sphere", ScreenSurface::Sphere(whole), DVec3::new(0.4, 1.6, -0.1)),
+        ("sheet", ScreenSurface::Mesh(Box::new(sheet)), DVec3::new(0.3, 1.6, -0.5)),
+        ("grid", ScreenSurface::Mesh(Box::new(MeshSurface::grid(5, 4, points.collect()))), DVec3::new(0.3, 1.6, 1.0)),
     ]
 }
 
@@ -92,10 +96,10 @@ fn rays_that_miss_hit_nothing() {
         assert!(surface.hit(centre, eye - centre).is_none_or(|hit| hit.distance > 1.0), "{name}: hit itself");
         assert!(surface.hit(eye, DVec3::new(f64::NAN, 0.0, 0.0)).is_none(), "{name}");
     }
-    let Surface::Flat(flat) = surfaces().remove(0).1 else { panic!() };
+    let ScreenSurface::Flat(flat) = surfaces().remove(0).1 else { panic!() };
     let beyond = flat.point(DVec2::new(1.001, 0.5));
-    assert!(Surface::Flat(flat).hit(DVec3::Y, beyond - DVec3::Y).is_none());
-    assert!(Surface::Flat(flat).hit(DVec3::Y, DVec3::Y - beyond).is_none(), "behind the ray");
+    assert!(ScreenSurface::Flat(flat).hit(DVec3::Y, beyond - DVec3::Y).is_none());
+    assert!(ScreenSurface::Flat(flat).hit(DVec3::Y, DVec3::Y - beyond).is_none(), "behind the ray");
 }
 
 #[test]
@@ -127,7 +131,7 @@ fn a_sheet_bends_without_a_kink() {
 
 #[test]
 fn from_the_rim_of_a_dome_rays_go_as_equation_4_8_says() {
-    let sphere = Sphere {
+    let sphere = SphereSurface {
         centre: DVec3::ZERO,
         radius_m: 7.0,
         left_rad: std::f64::consts::PI,
@@ -139,7 +143,7 @@ fn from_the_rim_of_a_dome_rays_go_as_equation_4_8_says() {
     for uv in places(500) {
         let direction = (sphere.point(uv) - from).normalize();
         let expected = from - 2.0 * direction.dot(from) * direction;
-        let hit = Surface::Sphere(sphere).hit(from, direction).unwrap();
+        let hit = ScreenSurface::Sphere(sphere).hit(from, direction).unwrap();
         assert!(hit.point.distance(expected) < 1e-11, "{uv}: {} {expected}", hit.point);
     }
 }
@@ -150,13 +154,14 @@ fn the_screens_corners_are_the_frustums() {
     for eye in [DVec3::new(0.0, 1.6, 0.0), DVec3::new(-1.0, 0.3, 1.0), DVec3::new(2.0, 3.0, -1.0)] {
         let frustum = frustum(&flat, eye).unwrap();
         let eye_from_room = frustum.room_from_eye.transpose();
+        let Tangents { low, high } = frustum.tangents;
         let corners = [
-            (DVec2::ZERO, [frustum.left, frustum.bottom]),
-            (DVec2::X, [frustum.right, frustum.bottom]),
-            (DVec2::Y, [frustum.left, frustum.top]),
-            (DVec2::ONE, [frustum.right, frustum.top]),
+            (DVec2::ZERO, low),
+            (DVec2::X, DVec2::new(high.x, low.y)),
+            (DVec2::Y, DVec2::new(low.x, high.y)),
+            (DVec2::ONE, high),
         ];
-        for (uv, [x, y]) in corners {
+        for (uv, DVec2 { x, y }) in corners {
             let seen = eye_from_room * (flat.point(uv) - eye);
             assert!((seen.x / -seen.z - x).abs() < ROUNDING && (seen.y / -seen.z - y).abs() < ROUNDING, "{uv}");
         }
@@ -173,11 +178,11 @@ fn the_screens_corners_are_the_frustums() {
 
 #[test]
 fn a_frustum_straight_ahead_is_known() {
-    let flat = Flat::from_centre(DVec3::new(0.0, 0.0, -2.0), DVec2::new(4.0, 2.0), DVec3::ZERO).unwrap();
+    let flat = FlatSurface::from_centre(DVec3::new(0.0, 0.0, -2.0), DVec2::new(4.0, 2.0), DVec3::ZERO).unwrap();
     let ahead = frustum(&flat, DVec3::ZERO).unwrap();
-    assert_eq!([ahead.left, ahead.right, ahead.bottom, ahead.top], [-1.0, 1.0, -0.5, 0.5]);
+    assert_eq!(ahead.tangents, Tangents { low: DVec2::new(-1.0, -0.5), high: DVec2::new(1.0, 0.5) });
     let aside = frustum(&flat, DVec3::new(1.0, 0.5, -1.0)).unwrap();
-    assert_eq!([aside.left, aside.right, aside.bottom, aside.top], [-3.0, 1.0, -1.5, 0.5]);
+    assert_eq!(aside.tangents, Tangents { low: DVec2::new(-3.0, -1.5), high: DVec2::new(1.0, 0.5) });
     for behind in [DVec3::new(0.0, 0.0, -2.0), DVec3::new(0.0, 0.0, -3.0), DVec3::NAN] {
         assert!(frustum(&flat, behind).is_err());
     }
@@ -198,12 +203,12 @@ fn quarter_turns_are_exact() {
 #[test]
 fn warps_are_undone_by_their_inverse() {
     let corners = [[0.05, 0.02], [0.9, 0.1], [0.97, 0.95], [0.0, 0.9]].map(DVec2::from);
-    let keystone = Corners::new(corners).unwrap();
+    let keystone = CornerWarp::new(corners).unwrap();
     let shifted = (0..6 * 5).map(|i| {
         let place = DVec2::new(f64::from(i % 6) / 5.0, f64::from(i / 6) / 4.0);
         0.1 + 0.8 * place + 0.04 * DVec2::new((3.0 * place.y).sin(), place.x * place.x)
     });
-    let measured = Measured::new(6, 5, shifted.collect());
+    let measured = MeasuredWarp::new(6, 5, shifted.collect());
     for (name, warp) in [("corners", Warp::Corners(keystone)), ("grid", Warp::Grid(measured))] {
         let mut shown = 0;
         for place in places(2000) {
@@ -221,15 +226,15 @@ fn warps_are_undone_by_their_inverse() {
     assert!(warp.picture(DVec2::new(0.01, 0.01)).is_none());
     let straight = warp.picture((corners[0] + corners[2]) * 0.5).unwrap();
     assert!((straight.x - straight.y).abs() < ROUNDING, "a diagonal stays one: {straight}");
-    assert!(Corners::new([corners[0], corners[2], corners[1], corners[3]]).is_err());
-    assert!(Corners::new([corners[3], corners[2], corners[1], corners[0]]).is_err(), "mirrored");
+    assert!(CornerWarp::new([corners[0], corners[2], corners[1], corners[3]]).is_err());
+    assert!(CornerWarp::new([corners[3], corners[2], corners[1], corners[0]]).is_err(), "mirrored");
 }
 
 #[test]
 fn a_mesh_with_a_hole_shows_nothing_there() {
     let mut points: Vec<DVec3> = (0..16).map(|i| DVec3::new(f64::from(i % 4), f64::from(i / 4), -2.0)).collect();
     points[5] = DVec3::NAN;
-    let surface = Surface::Mesh(Box::new(Mesh::grid(4, 4, points)));
+    let surface = ScreenSurface::Mesh(Box::new(MeshSurface::grid(4, 4, points)));
     assert_eq!(surface.point(DVec2::new(0.3, 0.3)), None);
     assert_eq!(surface.point(DVec2::new(0.9, 0.9)).unwrap().z, -2.0);
     assert!(surface.hit(DVec3::new(0.9, 0.9, 0.0), DVec3::NEG_Z).is_none());
@@ -245,7 +250,7 @@ fn meshes_are_read_from_obj_and_csv_alike() {
             "[[screen]]\nname = \"s\"\nmesh = \"{name}\"\n[[window]]\nname = \"w\"\nsize = [8, 8]\n\
              [[channel]]\nname = \"c\"\nscreen = \"s\"\nwindow = \"w\"\n"
         );
-        let display = rapidity::room::file::parse(&display, "d.toml", folder.path());
+        let display = room::file::parse(&display, "d.toml", folder.path());
         display.map(|mut display| display.screens.remove(0).surface).map_err(|error| error.to_string())
     };
     let obj = "# a wall\nv -1 0 -2\nv 1 0 -2\nv 1 2 -2\nv -1 2 -2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";

@@ -2,8 +2,8 @@
 //! other keys, or write corners that are read back as others.
 
 use super::*;
-use crate::file::parse;
-use crate::{Corners, Warp};
+use crate::file::parse::parse;
+use crate::warp::{CornerWarp, Warp};
 
 /// Display file as a user may write it: comments, an unusual order, corners in every form.
 const FILE: &str = r#"# our wall, measured in May
@@ -51,7 +51,7 @@ fn corners(text: &str, channel: usize) -> Option<Warp> {
 
 /// Warp of a display whose corners are at `places`, pixels, in a viewport of `size` pixels.
 fn warp(places: [DVec2; 4], size: DVec2) -> Option<Warp> {
-    Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()))
+    Some(Warp::Corners(CornerWarp::new(places.map(|place| place / size)).unwrap()))
 }
 
 #[test]
@@ -134,4 +134,20 @@ fn what_has_no_file_of_ours_says_how_to_get_one() {
     assert!(built_in.contains("app/displays/stereo-wall.toml"), "{built_in}");
     let imported = save("cave.pvx", &[]).unwrap_err().to_string();
     assert!(imported.contains("only read"), "{imported}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link_and_names_files_from_its_own_folder() {
+    let [lab, store] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let (link, target) = (lab.path().join("wall.toml"), store.path().join("wall.toml"));
+    let mesh = "u,v,x,y,z\n0,0,-1,0,-2\n1,0,1,0,-2\n0,1,-1,2,-2\n1,1,1,2,-2\n";
+    std::fs::write(lab.path().join("wall.csv"), mesh).unwrap();
+    let text = FILE.replace("centre = [0, 1.5, -2]\nsize = [4.0, 2.0]", "mesh = \"wall.csv\"");
+    std::fs::write(&target, &text).unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    assert!(crate::display::Display::load(&link).is_ok());
+    save(link.to_str().unwrap(), &[("a", Some(PLACES))]).unwrap();
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), saved(&text, &[("a", Some(PLACES))]).unwrap());
 }

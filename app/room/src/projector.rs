@@ -1,10 +1,8 @@
 //! Projectors: their place, their lens, and the share of their light that arrives (B 4.1, 4.2).
 
-mod lens;
-
-pub use lens::{Lens, Table};
-
-use super::Surface;
+use crate::lens::ProjectorLens;
+use crate::surface::shape::ScreenSurface;
+use crate::unit_square::inside;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Projector in the room.
@@ -18,7 +16,7 @@ pub struct Projector {
     /// M_p.
     pub room_from_projector: DMat3,
     /// Lens: φ_p.
-    pub lens: Lens,
+    pub lens: ProjectorLens,
     /// Light of a fully white picture, relative to the other projectors.
     pub light: f64,
     /// Exponent of the signal that gives the light, for projectors that do not follow sRGB; `None` for sRGB.
@@ -43,7 +41,7 @@ impl Projector {
 
     /// Place of the picture whose light reaches a point, as in [`place`](Self::place); `None` if the surface itself
     /// is in the way.
-    pub fn lit_place(&self, surface: &Surface, point: DVec3) -> Option<DVec2> {
+    pub fn lit_place(&self, surface: &ScreenSurface, point: DVec3) -> Option<DVec2> {
         let place = self.place(point)?;
         let hit = surface.hit(self.position_m, point - self.position_m)?;
         (hit.distance > 1.0 - 1e-6).then_some(place)
@@ -61,9 +59,4 @@ impl Projector {
         let intensity = self.light / self.lens.solid_angle(place)?;
         Some(intensity * (way.dot(normal) / r).abs() / (r * r))
     }
-}
-
-/// True inside the picture or on its edge, up to rounding.
-pub(super) fn inside(place: DVec2) -> bool {
-    place.min_element() >= -1e-9 && place.max_element() <= 1.0 + 1e-9
 }

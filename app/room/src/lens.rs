@@ -3,24 +3,19 @@
 //! Directions are in the projector's axes: x right, y up as in its upright picture, −z along the optical axis. Places
 //! run from 0 to 1, x right and y down from the upper left of the picture as it leaves the projector.
 
-use crate::net::{Grid, Net};
+use crate::net::{EvenGrid, TriangleNet};
+use crate::picture_plane;
 use glam::{DVec2, DVec3};
+use view::Tangents;
 
 /// Lens of a projector: the map φ_p of B eq. 4.1 from places of the picture to directions.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Lens {
+pub enum ProjectorLens {
     /// A flat picture from one point, as most projectors make it.
-    Pinhole {
-        /// Tangent of the angle from the axis to the picture's left edge, positive to the right. A shifted lens has
-        /// `left` ≠ −`right`.
-        left: f64,
-        /// Tangent of the angle to the picture's right edge, positive to the right.
-        right: f64,
-        /// Tangent of the angle to the picture's lower edge, positive upwards.
-        bottom: f64,
-        /// Tangent of the angle to the picture's upper edge, positive upwards.
-        top: f64,
-    },
+    ///
+    /// The rectangle is that of the picture in the plane one unit ahead, projector's axes. A shifted lens has its
+    /// middle off the axis.
+    Pinhole(Tangents),
     /// A laser beam that mirrors turn by even steps, with an optic that multiplies the angle to the axis (B eq. 4.6,
     /// 4.7).
     Scan {
@@ -32,29 +27,29 @@ pub enum Lens {
         magnification: f64,
     },
     /// A measured lens.
-    Table(Table),
+    Table(LensTable),
 }
 
 /// Measured lens, known at an even grid of places; yaw and pitch are piecewise linear between them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    grid: Grid,
+pub struct LensTable {
+    grid: EvenGrid,
     /// Yaw (to the left) and pitch (up), radians. Rows begin at the top, each from the left.
     angles: Vec<DVec2>,
-    back: Net,
+    back: TriangleNet,
 }
 
-impl Table {
+impl LensTable {
     /// Creates a lens from yaw and pitch in radians at `columns` × `rows` places, at least two each way, the top row
     /// first.
     pub fn new(columns: u32, rows: u32, angles: Vec<DVec2>) -> Self {
-        let grid = Grid { columns, rows };
-        let back = Net::new(angles.clone(), &grid.triangles());
+        let grid = EvenGrid { columns, rows };
+        let back = TriangleNet::new(angles.clone(), &grid.triangles());
         Self { grid, angles, back }
     }
 }
 
-impl Lens {
+impl ProjectorLens {
     /// Creates a pinhole lens from its throw ratio.
     ///
     /// # Arguments
@@ -62,13 +57,8 @@ impl Lens {
     /// * `aspect` — width of the picture, divided by its height.
     /// * `shift` — shift of the picture's middle from the axis, in widths to the right and heights upwards.
     pub fn pinhole(throw_ratio: f64, aspect: f64, shift: DVec2) -> Self {
-        let (width, height) = (1.0 / throw_ratio, 1.0 / (throw_ratio * aspect));
-        Self::Pinhole {
-            left: (shift.x - 0.5) * width,
-            right: (shift.x + 0.5) * width,
-            bottom: (shift.y - 0.5) * height,
-            top: (shift.y + 0.5) * height,
-        }
+        let size = DVec2::new(1.0 / throw_ratio, 1.0 / (throw_ratio * aspect));
+        Self::Pinhole(Tangents { low: (shift - 0.5) * size, high: (shift + 0.5) * size })
     }
 
     /// Creates a laser scanner's lens with `size` pixels, `step_rad` apart at the mirrors.
@@ -81,11 +71,7 @@ impl Lens {
     /// picture's edges.
     pub fn direction(&self, place: DVec2) -> Option<DVec3> {
         match self {
-            Self::Pinhole { left, right, bottom, top } => {
-                let x = left + place.x * (right - left);
-                let y = top + place.y * (bottom - top);
-                Some(DVec3::new(x, y, -1.0).normalize())
-            }
+            Self::Pinhole(picture) => Some(picture_plane::ahead(picture, place).normalize()),
             Self::Scan { half_width_rad, half_height_rad, magnification } => {
                 let x = (2.0 * place.x - 1.0) * half_width_rad;
                 let y = (1.0 - 2.0 * place.y) * half_height_rad;
@@ -109,10 +95,7 @@ impl Lens {
     /// Place whose light goes along `direction` (any length), inside the picture or not; `None` if there is none.
     pub fn place(&self, direction: DVec3) -> Option<DVec2> {
         match self {
-            Self::Pinhole { left, right, bottom, top } => {
-                let (x, y) = (-direction.x / direction.z, -direction.y / direction.z);
-                (direction.z < 0.0).then(|| DVec2::new((x - left) / (right - left), (y - top) / (bottom - top)))
-            }
+            Self::Pinhole(picture) => picture_plane::place(picture, direction),
             Self::Scan { half_width_rad, half_height_rad, magnification } => {
                 let across = direction.truncate();
                 let alpha = across.length().atan2(-direction.z) / magnification;

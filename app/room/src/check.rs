@@ -1,11 +1,15 @@
 //! Checks of the whole display: two channels on the same pixels, eyes behind their screens.
 
+use crate::channel::Channel;
+use crate::display::Display;
+use crate::error::{DisplayError, FilePlace};
 use crate::frustum::EyeBehind;
-use crate::{At, Channel, Combine, Display, DisplayError, Eye};
+use crate::viewer::EyeSide;
+use crate::window::Combine;
 use glam::{DMat3, DVec2};
 
 /// Refuses channels that overlap and eyes behind screens. `at` gives the place of a channel's key in the file.
-pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> Result<(), DisplayError> {
+pub(crate) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<FilePlace>) -> Result<(), DisplayError> {
     for (index, channel) in display.channels.iter().enumerate() {
         for other in &display.channels[..index] {
             let combined = display.windows[channel.window].combine != Combine::None;
@@ -21,6 +25,20 @@ pub(super) fn check(display: &Display, at: &dyn Fn(usize, &str) -> Box<At>) -> R
     Ok(())
 }
 
+/// Checks an imported display as a written one is checked.
+///
+/// # Errors
+/// [`DisplayError`].
+pub(crate) fn check_imported(name: &str, display: &Display) -> Result<(), DisplayError> {
+    check(display, &|index, _| {
+        Box::new(FilePlace {
+            file: name.to_owned(),
+            line: None,
+            key: format!("channel {:?}", display.channels[index].name),
+        })
+    })
+}
+
 fn overlap(a: &Channel, b: &Channel) -> bool {
     let apart = |i: usize| {
         let (a_to, b_to) = (a.viewport[i] + a.viewport[i + 2], b.viewport[i] + b.viewport[i + 2]);
@@ -31,7 +49,8 @@ fn overlap(a: &Channel, b: &Channel) -> bool {
 
 /// True for a left and a right channel on the same pixels.
 fn pair(a: &Channel, b: &Channel) -> bool {
-    a.viewport == b.viewport && matches!((a.eye, b.eye), (Eye::Left, Eye::Right) | (Eye::Right, Eye::Left))
+    a.viewport == b.viewport
+        && matches!((a.eye, b.eye), (EyeSide::Left, EyeSide::Right) | (EyeSide::Right, EyeSide::Left))
 }
 
 /// Eye of the untracked head, if it sees the middle of the channel's part of the screen from behind.
@@ -49,7 +68,7 @@ fn behind(display: &Display, channel: &Channel) -> Option<EyeBehind> {
 }
 
 /// Notices for the user about a display without errors.
-pub(super) fn notices(display: &Display) -> Vec<String> {
+pub(crate) fn notices(display: &Display) -> Vec<String> {
     let mut notices = Vec::new();
     for (index, window) in display.windows.iter().enumerate() {
         let name = &window.name;
@@ -65,7 +84,7 @@ pub(super) fn notices(display: &Display) -> Vec<String> {
     }
     for (index, channel) in display.channels.iter().enumerate() {
         let combine = display.windows[channel.window].combine;
-        if combine != Combine::None && channel.eye != Eye::Centre && display.partner(index).is_none() {
+        if combine != Combine::None && channel.eye != EyeSide::Centre && display.partner(index).is_none() {
             notices.push(format!(
                 "channel {:?}: its window combines eyes by {}, but no channel has the same viewport for the other eye",
                 channel.name,

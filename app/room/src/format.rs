@@ -1,0 +1,29 @@
+//! Formats of display files, told apart by the ending of the file's name.
+
+use std::path::Path;
+
+/// Format of a display's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DisplayFormat {
+    /// Display file of this program, `.toml`.
+    Toml,
+    /// Walls of ParaView, `.pvx`.
+    Pvx,
+    /// Projector calibration, `.mpcdi` or `.mpcdi.xml`.
+    Mpcdi,
+}
+
+impl DisplayFormat {
+    /// Format by the ending of a file's name; `None` if it is not that of a display's file.
+    pub fn of(path: &Path) -> Option<Self> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        if name.ends_with(".mpcdi") || name.ends_with(".mpcdi.xml") {
+            return Some(Self::Mpcdi);
+        }
+        match path.extension()?.to_string_lossy().to_ascii_lowercase().as_str() {
+            "toml" => Some(Self::Toml),
+            "pvx" => Some(Self::Pvx),
+            _ => None,
+        }
+    }
+}
