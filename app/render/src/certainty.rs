@@ -183,7 +183,7 @@ impl Certainty {
         // If hardly any edge is in the picture, estimate from the usual edges of the scene.
         if seen_edges < FEW && drawn != EdgesDrawn::InFull && !edges.ends.is_empty() {
             let aberration = Aberration::new(shot.observer.celerity);
-            let bend = Bend::new(shot.observer.celerity);
+            let bend = TriangleInterpolation::new(shot.observer.celerity);
             let (length, about) = usual.median();
             for place in (0..81).map(|place| DVec2::new(f64::from(place % 9), f64::from(place / 9)) / 4.0 - 1.0) {
                 let eye = (tangents.middle() + place * tangents.half()).extend(-1.0);

@@ -1,7 +1,7 @@
 //! Movable corners of channels: the chosen corner, the places of all corners, and the action of each key. No window
 //! and no device is used here.
 
-use room::{Corners, Display, NotConvex, Warp};
+use room::{Channel, CornerWarp, Display, NotConvex, Warp};
 use glam::DVec2;
 use thiserror::Error;
 
@@ -38,7 +38,7 @@ pub enum Key {
 pub enum CalibrationError {
     /// A channel that is warped by a measured grid.
     #[error("channel {channel} has a measured warp, so its corners cannot be moved")]
-    Measured {
+    MeasuredWarp {
         /// Name of the channel.
         channel: String,
     },
@@ -74,7 +74,7 @@ struct Nudged {
 impl Calibration {
     /// Creates the calibration of a display as its file describes it. The first corner is chosen.
     pub fn new(display: &Display) -> Self {
-        let nudged = |channel: &crate::room::Channel| {
+        let nudged = |channel: &Channel| {
             let [width, height] = channel.size().map(f64::from);
             let viewport = [DVec2::ZERO, DVec2::new(width, 0.0), DVec2::new(width, height), DVec2::new(0.0, height)];
             let pixels = |place: DVec2| (place * DVec2::new(width, height) * PER_PIXEL).round() / PER_PIXEL;
@@ -105,7 +105,7 @@ impl Calibration {
         let step = if shift { LONG_STEP } else { STEP };
         let (nudged, corner) = (&mut self.channels[self.channel], self.corner);
         if nudged.measured {
-            return Err(CalibrationError::Measured { channel: nudged.name.clone() });
+            return Err(CalibrationError::MeasuredWarp { channel: nudged.name.clone() });
         }
         let mut moved = nudged.now;
         moved[corner] = match key {
@@ -163,9 +163,9 @@ impl Calibration {
 
 impl Nudged {
     /// Warp that corners given in pixels make; `None` if they are the viewport's own.
-    fn warp_of(&self, pixels: [DVec2; 4]) -> Result<Option<Corners>, NotConvex> {
+    fn warp_of(&self, pixels: [DVec2; 4]) -> Result<Option<CornerWarp>, NotConvex> {
         let size = self.viewport[2];
-        if pixels == self.viewport { Ok(None) } else { Corners::new(pixels.map(|place| place / size)).map(Some) }
+        if pixels == self.viewport { Ok(None) } else { CornerWarp::new(pixels.map(|place| place / size)).map(Some) }
     }
 }
 

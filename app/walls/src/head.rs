@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 use physics::worldline::State;
 use physics::{Celerity, Observer};
-use room::{Eye, Viewer};
+use room::{EyeSide, Viewer};
 
 /// Head in the room, whose axes are those of the vehicle (x right, y up, −z ahead).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl Occupant {
     /// *Equation:* the head's event is simultaneous with the vehicle's reference point in the vehicle's frame; the
     /// eyes' events are simultaneous with the head's in the head's frame (B 5.2, W 6.3). Each is a step along the
     /// simultaneity of its own frame, [`State::aboard`].
-    pub fn eye(&self, viewer: &Viewer, eye: Eye) -> OccupantEye {
+    pub fn eye(&self, viewer: &Viewer, eye: EyeSide) -> OccupantEye {
         let Head { place_m, room_from_head, celerity } = self.head;
         let middle = self.vehicle.aboard(place_m, celerity);
         let seen_from = middle.aboard(room_from_head * viewer.world_offset_m(eye), Celerity::ZERO);

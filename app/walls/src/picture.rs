@@ -5,7 +5,7 @@ use crate::facet::Facet;
 use crate::gains;
 use crate::head::OccupantEye;
 use crate::quality::Quality;
-use glam::{DMat3, DQuat, DVec2};
+use glam::{DMat3, DQuat};
 use render::certainty::Certainty;
 use render::display::{Accumulator, Developer, Pass, clear};
 use render::target::Radiance;
@@ -174,9 +174,7 @@ impl Picture {
             Way::Flat(target) => {
                 let flat = channel.flat(sitting.display).expect("its screen is flat");
                 let frustum = frustum(&flat, place_m)?;
-                let low = DVec2::new(frustum.left, frustum.bottom);
-                let high = DVec2::new(frustum.right, frustum.top);
-                Ok(vec![(sitting.shot(frustum.room_from_eye, Tangents { low, high }), target.size)])
+                Ok(vec![(sitting.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
             Way::Curved(curved) => {
                 curved.look_from(sitting.gpu, place_m, sitting.quality.density, sitting.quality.format);

@@ -14,7 +14,7 @@ use render::Gpu;
 use render::display::{self, Development, Pass};
 use render::shader_view;
 use render::target::texture;
-use room::{Channel, Eye};
+use room::{Channel, EyeSide};
 use std::f64::consts::TAU;
 use view::Camera;
 use wgpu::util::DeviceExt;
@@ -94,7 +94,7 @@ struct Corner {
 
 /// Pipelines and buffers that draw a room.
 pub struct Preview {
-    eye: Eye,
+    eye: EyeSide,
     nets: Vec<Net>,
     lines: wgpu::Buffer,
     surfaces: wgpu::RenderPipeline,
@@ -119,8 +119,8 @@ impl Preview {
             .channels
             .iter()
             .map(|channel| channel.eye)
-            .find(|eye| *eye != Eye::Right)
-            .unwrap_or(Eye::Right);
+            .find(|eye| *eye != EyeSide::Right)
+            .unwrap_or(EyeSide::Right);
         let of_eye = walls.display.channels.iter().enumerate().filter(|(_, channel)| channel.eye == eye);
         let nets = of_eye.filter_map(|(index, channel)| net(gpu, walls, index, channel)).collect();
         let uniform = wgpu::BindingType::Buffer {
@@ -337,7 +337,7 @@ fn ground(walls: &Walls) -> Vec<Corner> {
 }
 
 /// Lines of the head: three circles, and a line from the eye in the direction it faces.
-fn head(walls: &Walls, occupant: &Occupant, eye: Eye) -> Vec<Corner> {
+fn head(walls: &Walls, occupant: &Occupant, eye: EyeSide) -> Vec<Corner> {
     const STEPS: u32 = 32;
     let head = &occupant.head;
     let seen_from = walls.display.viewer.eye_m(eye, head.place_m, head.room_from_head);

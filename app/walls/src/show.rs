@@ -9,7 +9,7 @@ use render::display::{DevelopedPart, Development, LINEAR_FORMAT, clear};
 use render::picture::{SCREEN_FORMAT, Sheet};
 use render::target::texture;
 use render::{Gpu, GpuError};
-use room::{Combine, Eye};
+use room::{Combine, EyeSide};
 
 impl Walls {
     /// Shows all channels of a window in it. `first_pixel` is the place of the window's upper left pixel on its
@@ -41,7 +41,7 @@ impl Walls {
             });
             match partner.filter(|_| self.display.windows[window].combine != Combine::None) {
                 None => self.show(gpu, encoder, channel, development, screen, viewport, over),
-                Some(_) if eye == Eye::Right => continue,
+                Some(_) if eye == EyeSide::Right => continue,
                 Some(right) => {
                     let pair = [channel, right].map(|channel| self.developed(gpu, encoder, channel, development));
                     let combiner = self.combiners[window].as_ref().expect("its window combines");

@@ -9,7 +9,7 @@ use half::f16;
 use rayon::prelude::*;
 use render::display::{Adaptation, Developer, Development, Exposure, Gamut, LINEAR_FORMAT, Seen, Tone};
 use render::{Gpu, view_from_rows};
-use room::{Channel, Display, Eye};
+use room::{Channel, Display, EyeSide};
 use view::Stored;
 
 /// Development of test grids: light is shown as it is.
@@ -89,11 +89,11 @@ fn texels(channel: &Channel, chosen: Option<usize>) -> Vec<[f16; 4]> {
 }
 
 /// Colour of an eye's grid, linear sRGB.
-fn colour(eye: Eye) -> DVec3 {
+fn colour(eye: EyeSide) -> DVec3 {
     match eye {
-        Eye::Left => DVec3::new(1.0, 0.3, 0.2),
-        Eye::Right => DVec3::new(0.2, 0.4, 1.0),
-        Eye::Centre => DVec3::ONE,
+        EyeSide::Left => DVec3::new(1.0, 0.3, 0.2),
+        EyeSide::Right => DVec3::new(0.2, 0.4, 1.0),
+        EyeSide::Centre => DVec3::ONE,
     }
 }
 
@@ -131,7 +131,7 @@ mod tests {
     //! corners, or mark another corner than the one that keys move.
 
     use super::*;
-    use room::{Corners, Warp};
+    use room::{CornerWarp, Warp};
 
     /// Channel of 200 × 100 pixels.
     fn channel() -> Channel {
@@ -162,7 +162,7 @@ mod tests {
         let [upper_left, lower_left] = [DVec2::new(20.0, 10.0), DVec2::new(20.0, 100.0)];
         let places = [upper_left, DVec2::new(200.0, 10.0), size, lower_left];
         let mut channel = channel();
-        channel.warp = Some(Warp::Corners(Corners::new(places.map(|place| place / size)).unwrap()));
+        channel.warp = Some(Warp::Corners(CornerWarp::new(places.map(|place| place / size)).unwrap()));
         let texels = texels(&channel, None);
         for column in 20..200 {
             assert_eq!((green(&texels, column, 9), green(&texels, column, 10)), (0.0, 1.0), "column {column}");
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn eyes_differ_and_grids_are_symmetric() {
         let [mut left, mut right] = [channel(), channel()];
-        (left.eye, right.eye) = (Eye::Left, Eye::Right);
+        (left.eye, right.eye) = (EyeSide::Left, EyeSide::Right);
         let [left, right] = [left, right].map(|channel| texels(&channel, None));
         assert!(left[0][0] > left[0][2] && right[0][2] > right[0][0]);
         for row in 0..100 {

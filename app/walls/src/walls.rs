@@ -9,7 +9,7 @@ use crate::test_grid::Grids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
 use render::{Gpu, GpuError, SceneRenderer};
-use room::{Channel, Display, Eye, EyeBehind, Warp, WindowPlace};
+use room::{Channel, Display, EyeSide, EyeBehind, Warp, WindowPlace};
 use std::time::Duration;
 use view::Effects;
 
@@ -30,17 +30,17 @@ pub struct DrawnChannels {
 pub struct Walls {
     /// Display that the channels belong to.
     pub display: Display,
-    quality: Quality,
+    pub(crate) quality: Quality,
     pub(crate) pictures: Vec<Picture>,
-    passes: Developer,
+    pub(crate) passes: Developer,
     /// Passes as above, for pictures in linear light.
-    linear_passes: Developer,
+    pub(crate) linear_passes: Developer,
     /// Combiners of both eyes' pictures, one entry per window.
-    combiners: Vec<Option<Combiner>>,
-    resample: Pass,
-    adaptation: Adaptation,
+    pub(crate) combiners: Vec<Option<Combiner>>,
+    pub(crate) resample: Pass,
+    pub(crate) adaptation: Adaptation,
     /// Test grids that are shown instead of light.
-    grids: Option<Grids>,
+    pub(crate) grids: Option<Grids>,
 }
 
 impl Walls {
@@ -79,7 +79,7 @@ impl Walls {
         }
         // The photo-surfaces of later eyes are computed while the first eye's channels are drawn.
         let mut eyes = Vec::new();
-        for side in [Eye::Left, Eye::Right, Eye::Centre] {
+        for side in [EyeSide::Left, EyeSide::Right, EyeSide::Centre] {
             if self.display.channels.iter().any(|channel| channel.eye == side) {
                 let eye = occupant.eye(&self.display.viewer, side);
                 let pending = renderer.submit(gpu, &eye.observer, effects)?;

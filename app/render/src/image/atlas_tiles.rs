@@ -7,7 +7,7 @@
 use super::picture_map::{CubePart, Extent, FACES, PictureMap};
 use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
-use shaders::{Map, Pane, View};
+use shaders::{AtlasTile, MapUniforms, ViewUniforms};
 
 /// Side up to which parts are not cut, texels.
 const SMALLEST_SIDE: f64 = 24.0;
@@ -44,7 +44,7 @@ struct Tree {
 
 enum Kind {
     Unseen,
-    Pane([u32; 2]),
+    AtlasTile([u32; 2]),
     Cut(Box<[Tree; 4]>),
 }
 
@@ -80,12 +80,12 @@ pub struct Plan {
     /// Windows that are drawn, and their places in the atlas.
     pub placed: Vec<Placed>,
     /// Table of panes for the shader; as long as `placed`.
-    pub panes: Vec<Pane>,
+    pub panes: Vec<AtlasTile>,
     /// Table of cells for the shader, which pane is where: a layer for each quarter of a face and for each cell that
     /// is cut further.
     pub cells: Vec<Layer>,
     /// Uniform for the shader.
-    pub map: Map,
+    pub map: MapUniforms,
     /// Size of the atlas, texels.
     pub size: [u32; 2],
     /// Texels for each pixel along each axis that were possible.
@@ -111,7 +111,7 @@ impl PictureMap {
         let pane = |size: DVec2, window: Window| {
             let size = (size * (window.high - window.low) / (2.0 * part.half)).ceil().max(DVec2::ONE);
             let cost = size.element_product() + fineness.pane_cost;
-            Tree { cost, window, kind: Kind::Pane([size.x as u32, size.y as u32]) }
+            Tree { cost, window, kind: Kind::AtlasTile([size.x as u32, size.y as u32]) }
         };
         // Do not cut if nothing can be gained: the part is small, or all of it is seen and evenly enlarged.
         if depth >= DEEPEST {
@@ -156,7 +156,7 @@ impl PictureMap {
                 wanted.texels_per_pixel *= (most_texels / texels).sqrt().min(0.98) * 0.98;
                 continue;
             }
-            let map = Map { cube_from_observer: Mat4::from_mat3(self.cube_from_world.as_mat3()) };
+            let map = MapUniforms { cube_from_observer: Mat4::from_mat3(self.cube_from_world.as_mat3()) };
             let panes = plan.placed.iter().map(Placed::pane).collect();
             return Plan {
                 placed: plan.placed,
@@ -205,11 +205,11 @@ impl Placed {
         self.drawn().map(f64::from).iter().product()
     }
 
-    fn pane(&self) -> Pane {
+    fn pane(&self) -> AtlasTile {
         let Window { low: left_below, high: right_above, .. } = self.window;
         let size = DVec2::from_array(self.size.map(f64::from));
         let low = DVec2::from_array(self.place.map(f64::from)) + f64::from(MARGIN);
-        Pane {
+        AtlasTile {
             corner: DVec2::new(left_below.x, right_above.y).as_vec2(),
             scale: (size / (right_above - left_below) * DVec2::new(1.0, -1.0)).as_vec2(),
             low: low.as_vec2(),
@@ -220,7 +220,7 @@ impl Placed {
     /// View that draws the pane, and the planes through the eye that bound the view: inward unit normals, world axes.
     ///
     /// Positions are relative to a point `from_eye` metres from the eye (world axes).
-    pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (View, [DVec3; 5]) {
+    pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (ViewUniforms, [DVec3; 5]) {
         let world_from_cube = cube_from_world.transpose();
         let [right, up, forward] = FACES[self.window.face].map(|axis| world_from_cube * axis);
         let drawn = DVec2::from_array(self.drawn().map(f64::from));
@@ -232,7 +232,7 @@ impl Placed {
         let row = |row: DVec3| row.extend(row.dot(from_eye));
         let rows = DMat4::from_cols(row(row_x), row(row_y), DVec4::new(0.0, 0.0, 0.0, near_m), row(forward));
         let pixel = (2.0 / drawn).as_vec2();
-        let view = View {
+        let view = ViewUniforms {
             clip_from_observer: matrix(&rows.transpose()),
             forward: (forward + middle.x * right + middle.y * up).as_vec3().extend(0.0),
             right: (half.x * right).as_vec3().extend(0.0),
@@ -310,7 +310,7 @@ impl Planner {
 
     /// Adds a pane, and returns the value for its cells; `nearby` for a part that is not seen.
     fn pane(&mut self, kind: Kind, window: Window, nearby: i32) -> i32 {
-        let Kind::Pane(size) = kind else { return nearby };
+        let Kind::AtlasTile(size) = kind else { return nearby };
         self.placed.push(Placed { window, size, place: [0; 2] });
         -(self.placed.len() as i32)
     }

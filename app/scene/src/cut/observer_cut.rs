@@ -223,7 +223,7 @@ impl<'a> Rule<'a> {
         if sight.bend.bound_anywhere(seen.length(), length) <= self.least_allowed() {
             return None;
         }
-        let Bound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
+        let InterpolationBound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
         if error_rad == 0.0 {
             return None;
         }

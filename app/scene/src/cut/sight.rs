@@ -11,7 +11,7 @@ use crate::motion::{Course, Motion, Seen};
 #[derive(Clone, Debug)]
 pub struct Sight {
     /// Bending of directions by aberration.
-    pub bend: Bend,
+    pub bend: TriangleInterpolation,
     /// Position of the observer relative to the scene's origin, metres, in the meshes' rest frame; for animated
     /// bodies in the world.
     pub place: DVec3,
@@ -54,7 +54,7 @@ impl Sight {
     /// View of the resting scene (`None`) or of a motion, from the scene's origin and its motions alone.
     pub fn of(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
         let rest = |position: DVec3, celerity: Celerity, turn| Self {
-            bend: Bend::new(celerity),
+            bend: TriangleInterpolation::new(celerity),
             place: position - origin,
             observer_from_group: turn,
             course: None,

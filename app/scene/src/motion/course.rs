@@ -17,7 +17,7 @@ use super::animated::{Animated, Pose};
 pub struct Course {
     animated: Arc<Animated>,
     observer: Observer,
-    bend: Bend,
+    bend: TriangleInterpolation,
     aberration: Aberration,
 }
 
@@ -38,7 +38,7 @@ impl Course {
         Self {
             animated: Arc::clone(animated),
             observer: *observer,
-            bend: Bend::new(observer.celerity),
+            bend: TriangleInterpolation::new(observer.celerity),
             aberration: Aberration::new(observer.celerity),
         }
     }

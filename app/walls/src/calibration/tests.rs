@@ -2,7 +2,7 @@
 //! wrong program would move another corner, lose a fraction of a pixel at each press, or turn a picture inside out.
 
 use super::*;
-use room::{Corners, Warp};
+use room::{CornerWarp, Warp};
 
 /// Display with two channels: the built-in stereo wall.
 fn wall() -> Display {
@@ -41,7 +41,7 @@ fn arrows_move_the_chosen_corner_by_one_and_ten_pixels() {
     let expected = [DVec2::ZERO, DVec2::new(1013.0, 9.0), DVec2::new(1024.0, 768.0), DVec2::new(0.0, 768.0)];
     assert_eq!(calibration.changed(), [("left", Some(expected))]);
     let size = DVec2::new(1024.0, 768.0);
-    assert_eq!(calibration.warp(0), Some(Warp::Corners(Corners::new(expected.map(|place| place / size)).unwrap())));
+    assert_eq!(calibration.warp(0), Some(Warp::Corners(CornerWarp::new(expected.map(|place| place / size)).unwrap())));
     assert_eq!(calibration.warp(1), None);
 }
 
@@ -66,7 +66,7 @@ fn backspace_goes_to_where_the_file_has_it_and_with_shift_to_the_viewport() {
     let mut display = wall();
     let size = DVec2::new(1024.0, 768.0);
     let in_file = [DVec2::new(7.333_333, 5.1), DVec2::new(1024.0, 0.0), size, DVec2::new(0.0, 768.0)];
-    display.channels[0].warp = Some(Warp::Corners(Corners::new(in_file.map(|place| place / size)).unwrap()));
+    display.channels[0].warp = Some(Warp::Corners(CornerWarp::new(in_file.map(|place| place / size)).unwrap()));
     let mut calibration = Calibration::new(&display);
     assert_eq!(calibration.warp(0), display.channels[0].warp);
     calibration.press(Key::Right, true).unwrap();
@@ -108,9 +108,9 @@ fn a_corner_beyond_the_others_is_refused_and_stays() {
 fn corners_of_a_measured_warp_stay() {
     let mut display = wall();
     let places = vec![DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
-    display.channels[0].warp = Some(Warp::Grid(room::Measured::new(2, 2, places)));
+    display.channels[0].warp = Some(Warp::Grid(room::MeasuredWarp::new(2, 2, places)));
     let mut calibration = Calibration::new(&display);
     let refused = calibration.press(Key::Down, false);
-    assert_eq!(refused, Err(CalibrationError::Measured { channel: "left".into() }));
+    assert_eq!(refused, Err(CalibrationError::MeasuredWarp { channel: "left".into() }));
     assert!(calibration.changed().is_empty());
 }
