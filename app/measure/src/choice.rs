@@ -1,11 +1,34 @@
-//! The best setting for a goal, and where rides find it.
+//! The best dial for a goal.
+
+use std::fmt::{self, Display, Formatter};
 
 use thiserror::Error;
 
-use super::pictures::Row;
-use crate::command::Goal;
-use crate::error::Error;
-use crate::preferences::{Drawing, Preferences};
+use crate::row::Row;
+
+/// Goal for which the renderers' dials are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// A frame time that 95 of 100 frames keep to.
+    Budget {
+        /// Frame time, milliseconds.
+        ms: f64,
+    },
+    /// An error that 99 of 100 pixels keep to.
+    Tolerance {
+        /// Error of position, pixels.
+        pixels: f64,
+    },
+}
+
+impl Display for Goal {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Budget { ms } => write!(formatter, "budget {ms}ms"),
+            Self::Tolerance { pixels } => write!(formatter, "tolerance {pixels}px"),
+        }
+    }
+}
 
 /// A goal that no setting reaches here.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -40,35 +63,8 @@ pub enum ChoiceError {
     Nothing,
 }
 
-/// Picks the setting that reaches the goal best, and writes it where rides read it.
-///
-/// # Errors
-/// [`ChoiceError`], or a file that cannot be written.
-pub fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result<(), Error> {
-    let row = best(rows, goal, pixel_arcmin)?;
-    let drawing = Drawing::of(row.setting);
-    let note = format!(
-        "Chosen by `rapidity measure --{goal}` for pictures of {} x {}: {:.1} ms a frame ({:.1} in 95 of 100), {:.2} pixels off.",
-        size[0],
-        size[1],
-        row.ms[0],
-        row.ms[1],
-        row.arcmin[1] / pixel_arcmin
-    );
-    let path = Preferences { ride: drawing }.save(&note)?;
-    eprintln!(
-        "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
-        row.setting.flags(),
-        row.ms[0],
-        row.ms[1],
-        row.arcmin[1] / pixel_arcmin
-    );
-    eprintln!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display());
-    Ok(())
-}
-
 /// For a budget, the closest of those that keep to it in 95 of 100 frames; for a tolerance, the fastest of those that keep to it in 99 of 100 pixels.
-fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError> {
+pub fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError> {
     // Where nothing was seen, nothing was wrong.
     let seen = || rows.iter().filter(|row| row.pixels > 0);
     let by = |key: fn(&Row) -> [f64; 2]| {
@@ -84,7 +80,7 @@ fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError
             let fastest = seen().min_by(by(|row| [row.ms[1], row.arcmin[1]]));
             fastest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooSlow {
                 budget_ms,
-                flags: row.setting.flags(),
+                flags: row.dial.to_string(),
                 ms: row.ms[1],
             })
         }),
@@ -93,7 +89,7 @@ fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError
                 let closest = seen().min_by(closer);
                 closest.map_or(ChoiceError::Nothing, |row| ChoiceError::TooFarOff {
                     tolerance_px: pixels,
-                    flags: row.setting.flags(),
+                    flags: row.dial.to_string(),
                     px: row.arcmin[1] / pixel_arcmin,
                 })
             })
@@ -106,12 +102,12 @@ mod tests {
     //! Law: no setting that reaches the goal is better than the chosen one, and where none does, the nearest is named.
 
     use super::*;
-    use crate::measure::dials::Setting;
+    use view::Dial;
 
     /// Metres of edge, 95th percentile of time, arcminutes.
     fn rows(of: &[(f64, f64, f64)]) -> Vec<Row> {
         let row = |&(edge, ms, arcmin): &(f64, f64, f64)| Row {
-            setting: Setting::Edge(edge),
+            dial: Dial::edge(edge),
             ms: [0.9 * ms, ms],
             stages_ms: [[0.0; 2]; 3],
             bytes: None,
@@ -127,7 +123,7 @@ mod tests {
     #[test]
     fn the_best_that_reaches_the_goal_is_taken() {
         let rows = rows(&[(1.0, 5.0, 40.0), (2.0, 16.0, 12.0), (3.0, 17.0, 1.0), (4.0, 10.0, 12.0), (5.0, 90.0, 0.5)]);
-        let edge = |goal| best(&rows, goal, 10.0).map(|row| row.setting.value());
+        let edge = |goal| best(&rows, goal, 10.0).map(|row| row.dial.turned().unwrap().1);
         // 2 and 4 are equally close: the faster.
         assert_eq!(edge(Goal::Budget { ms: 16.7 }), Ok(4.0));
         assert_eq!(edge(Goal::Budget { ms: 17.0 }), Ok(3.0));

@@ -2,11 +2,9 @@
 
 use std::time::Instant;
 
-use crate::error::Error;
-use crate::gpu::Gpu;
-use crate::renderers::target::Radiance;
-use crate::renderers::{SceneRenderer, Shot};
-use crate::views::sample_offset;
+use render::target::Radiance;
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use view::{Shot, sample_offset};
 
 /// Times of one picture's stages, milliseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,17 +24,6 @@ impl Stages {
     }
 }
 
-/// Begins the photo-surface, if the renderer has one.
-///
-/// # Errors
-/// A lost device.
-pub fn submit(gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) -> Result<(), Error> {
-    if renderer.transforms(shot.effects) {
-        renderer.submit(gpu, shot.eye, shot.ct)?;
-    }
-    Ok(())
-}
-
 /// Draws a picture from nothing, like a still: each stage waits for the one before.
 ///
 /// # Errors
@@ -47,10 +34,10 @@ pub fn still(
     radiance: &Radiance,
     shot: &Shot,
     samples: u32,
-) -> Result<Stages, Error> {
+) -> Result<Stages, GpuError> {
     let watch = Watch::start();
-    submit(gpu, renderer, shot)?;
-    picture(gpu, renderer, radiance, shot, samples, watch)
+    let pending = renderer.submit(gpu, &shot.observer, shot.effects)?;
+    picture(gpu, renderer, radiance, (shot, pending), samples, watch)
 }
 
 /// Draws a frame like one of a ride. The photo-surface that is drawn was begun a frame ago, and the `next` one is
@@ -62,15 +49,16 @@ pub fn frame(
     gpu: &Gpu,
     renderer: &mut SceneRenderer,
     radiance: &Radiance,
-    shown: &Shot,
+    (shown, pending): (&Shot, &mut Pending),
     next: &Shot,
-) -> Result<Stages, Error> {
+) -> Result<Stages, GpuError> {
     let watch = Watch::start();
-    if renderer.pending() == 0 {
-        submit(gpu, renderer, shown)?;
-    }
-    submit(gpu, renderer, next)?;
-    picture(gpu, renderer, radiance, shown, 1, watch)
+    let now = match std::mem::take(pending) {
+        begun if begun.is_under_way() => begun,
+        _ => renderer.submit(gpu, &shown.observer, shown.effects)?,
+    };
+    *pending = renderer.submit(gpu, &next.observer, next.effects)?;
+    picture(gpu, renderer, radiance, (shown, now), 1, watch)
 }
 
 /// Takes the oldest photo-surface under way, and draws.
@@ -78,16 +66,15 @@ fn picture(
     gpu: &Gpu,
     renderer: &mut SceneRenderer,
     radiance: &Radiance,
-    shot: &Shot,
+    (shot, pending): (&Shot, Pending),
     samples: u32,
     mut watch: Watch,
-) -> Result<Stages, Error> {
+) -> Result<Stages, GpuError> {
     let mut stages = Stages::default();
-    let transforms = renderer.transforms(shot.effects);
+    let transforms = pending.is_under_way();
+    renderer.show(gpu, pending)?;
     if transforms {
-        let transformed = renderer.receive()?;
         stages.bend = watch.lap();
-        renderer.show(gpu, transformed);
     }
     renderer.prepare(gpu, shot, radiance.size);
     let prepared = watch.lap();
@@ -129,7 +116,7 @@ impl Watch {
 ///
 /// # Errors
 /// A lost device.
-pub fn device_bytes(gpu: &Gpu) -> Result<Option<i64>, Error> {
+pub fn device_bytes(gpu: &Gpu) -> Result<Option<i64>, GpuError> {
     // Resources that are no longer used are freed once the device is done with them.
     gpu.queue.submit([]);
     gpu.wait()?;

@@ -1,7 +1,7 @@
 //! Direction errors: the angle between the direction of a pixel and the exact direction of the light from the place
 //! that it shows.
 //!
-//! The renderer tells the place in the scene that each pixel shows ([`crate::renderers::Subject::Places`]). The
+//! The renderer tells the place in the scene that each pixel shows ([`render::Subject::Places`]). The
 //! direction from which light from there arrives is known exactly ([`physics::apparent`]). So the error is one of
 //! geometry alone: colours, textures and the ray tracer have no part in it.
 

@@ -1,31 +1,28 @@
-//! `rapidity measure`: the error that each speed-up costs, and the error of the physics in the hardest cases.
+//! Time and error of every way to draw, as tables; and the errors of the physics where they are largest.
+//!
+//! Scenes and points of view come in, rows and a [`view::Dial`] come out. Nothing here prints, reads a command line or
+//! writes preferences.
 
 pub mod choice;
-pub mod clock;
+mod clock;
 pub mod colour;
-pub mod dials;
+mod dial_positions;
 pub mod direction;
+mod error;
 pub mod extremes;
 pub mod flip;
 pub mod pictures;
 pub mod plot;
-mod precision;
+pub mod precision;
 pub mod quantiles;
-pub mod reference;
-mod samples;
-mod shift_table;
-mod steps;
-pub mod sweep;
+mod reference;
+mod row;
+pub mod samples;
+pub mod shift_table;
+pub mod steps;
 pub mod table;
 pub mod views;
 
-use crate::command::MeasureOptions;
-use crate::error::Error;
-
-/// Carries out `rapidity measure`.
-///
-/// # Errors
-/// Any fault that prevents measuring or writing, and errors of the physics beyond its limit.
-pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
-    if options.extremes { extremes::run() } else { sweep::run(options) }
-}
+pub use dial_positions::{OF_RIDES, OF_STILLS};
+pub use error::MeasureError;
+pub use row::Row;

@@ -15,20 +15,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::DVec2;
 
 use super::clock::{self, Stages};
-use super::dials::Setting;
 use super::quantiles::Sorted;
 use super::reference::{Compared, Reference};
+use super::row::Row;
 use super::{direction, views};
-use crate::error::Error;
-use crate::gpu::Gpu;
-use crate::progress;
-use crate::renderers::image::MapQuality;
-use crate::renderers::picture::{Shown, Studio};
-use crate::renderers::polygon::Pace;
-use crate::renderers::raytrace::RayTracer;
-use crate::renderers::target::{Format, Radiance};
-use crate::renderers::{SceneRenderer, Shot};
-use crate::scene::Scene;
+use crate::error::MeasureError;
+use render::choice::Choice;
+use render::picture::{Shown, Studio};
+use render::target::{Format, Radiance};
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use scene::Scene;
+use trace::RayTracer;
+use view::{Dial, Occasion, Shot};
 
 /// Samples of each pixel whose light is compared.
 pub const SAMPLES: u32 = 4;
@@ -57,10 +55,10 @@ pub enum Kind {
 
 impl Kind {
     /// Pace of the cuts for this kind.
-    fn pace(self) -> Pace {
+    fn occasion(self) -> Occasion {
         match self {
-            Self::Stills => Pace::Still,
-            Self::Rides { .. } => Pace::Ride,
+            Self::Stills => Occasion::Still,
+            Self::Rides { .. } => Occasion::Ride,
         }
     }
 }
@@ -81,33 +79,21 @@ pub struct Measurement<'a> {
     pub rounds: u32,
 }
 
-/// Results for a setting.
+/// Rows of all dials, and those that were left out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// Setting of a dial.
-    pub setting: Setting,
-    /// Time of a picture, milliseconds: median and 95th percentile.
-    pub ms: [f64; 2],
-    /// Times of bending, uploading and drawing, milliseconds: median and 95th percentile.
-    pub stages_ms: [[f64; 2]; 3],
-    /// Largest memory of the renderer on the device, bytes, if the driver tells.
-    pub bytes: Option<f64>,
-    /// Number of pixels that showed a surface, in all pictures.
-    pub pixels: usize,
-    /// Direction errors, minutes of arc: median, 99th percentile and largest.
-    pub arcmin: [f64; 3],
-    /// Share of pixels that are off by more than one minute of arc.
-    pub above_one: f64,
-    /// Colour errors of stills: ΔE2000 of their pixels, median, 99th percentile and largest, and FLIP.
-    pub colour: Option<([f64; 3], f64)>,
-    /// True if no other setting is both faster and more accurate (by the 99th percentile).
-    pub best: bool,
+pub struct Measured {
+    /// A row for each dial.
+    pub rows: Vec<Row>,
+    /// Dials that could not be measured, with the reason; a sentence each.
+    pub left_out: Vec<String>,
 }
 
-/// A setting while it is measured.
+/// A dial while it is measured.
 struct Candidate {
-    setting: Setting,
+    dial: Dial,
     renderer: SceneRenderer,
+    /// Photo-surface of the frame after the one drawn last.
+    pending: Pending,
     times: Vec<Stages>,
     directions: Vec<Sorted>,
     compared: Vec<Compared>,
@@ -125,10 +111,11 @@ struct Candidate {
 /// An error of the device or of the tracer that prevents drawing.
 pub fn measure(
     measurement: &Measurement<'_>,
-    settings: &[Setting],
+    dials: &[Dial],
     tracer: Option<&RayTracer>,
     stop: &AtomicBool,
-) -> Result<Vec<Row>, Error> {
+    progress: &dyn Fn(usize, usize),
+) -> Result<Measured, MeasureError> {
     let Measurement { gpu, shots, size, kind, .. } = *measurement;
     let exact = Studio::format(gpu);
     let format = match kind {
@@ -138,15 +125,16 @@ pub fn measure(
     let radiance = Radiance::new(gpu, size, format);
     let mut studio = Studio::new(gpu, size, SAMPLES);
     // Prepare everything before anything is timed.
-    let mut candidates = Vec::new();
-    for &setting in settings {
-        match ready(measurement, setting, format) {
+    let (mut candidates, mut left_out) = (Vec::new(), Vec::new());
+    for &dial in dials {
+        match ready(measurement, dial, format) {
             Ok(candidate) => candidates.push(candidate),
-            Err(error @ (Error::Gpu(_) | Error::PhotoSurface(_))) => return Err(error),
-            Err(error) => eprintln!("{} is left out: {error}", setting.flags()),
+            Err(error @ (MeasureError::Gpu(_) | MeasureError::PhotoSurface(_))) => return Err(error),
+            Err(error) => left_out.push(format!("{dial} is left out: {error}")),
         }
     }
-    let bar = progress::bar("measuring", (shots.len() * candidates.len()) as u64);
+    let (mut done, total) = (0, shots.len() * candidates.len());
+    progress(done, total);
     for (poses, shot) in shots.iter().enumerate() {
         candidates.iter_mut().for_each(Candidate::begin_pose);
         let reference = tracer.map(|tracer| Reference::trace(tracer, shot, size, SAMPLES, stop));
@@ -159,8 +147,8 @@ pub fn measure(
             if kind == Kind::Stills {
                 candidate.judge(gpu, &mut studio, shot, measurement)?;
                 if let Some(reference) = &reference {
-                    clock::submit(gpu, &mut candidate.renderer, shot)?;
-                    let light = studio.expose(gpu, &mut candidate.renderer, shot)?;
+                    let pending = candidate.renderer.submit(gpu, &shot.observer, shot.effects)?;
+                    let light = studio.expose(gpu, &mut candidate.renderer, shot, pending)?;
                     candidate.compared.push(reference.compare(&light));
                 }
             } else {
@@ -184,10 +172,11 @@ pub fn measure(
         }
         for candidate in candidates.iter_mut().filter(|_| !stop.load(Ordering::Relaxed)) {
             if let Kind::Rides { own_m } = kind {
-                let shot = views::further(shot, f64::from(candidate.frames) * own_m)?;
+                let shot = views::further(shot, f64::from(candidate.frames) * own_m);
                 candidate.judge_ride(gpu, &mut studio, &shot, measurement, format)?;
             }
-            bar.inc(1);
+            done += 1;
+            progress(done, total);
         }
         if stop.load(Ordering::Relaxed) {
             // Settings are compared at the same poses, if there is a pose that all have completed.
@@ -195,25 +184,26 @@ pub fn measure(
             break;
         }
     }
-    bar.finish_and_clear();
     let measured =
         candidates.into_iter().filter(|candidate| !candidate.times.is_empty() && !candidate.directions.is_empty());
     let mut rows: Vec<Row> = measured.map(Candidate::row).collect();
     mark_best(&mut rows);
-    Ok(rows)
+    Ok(Measured { rows, left_out })
 }
 
 /// Uploads the scene in the form that a setting needs.
-fn ready(measurement: &Measurement<'_>, setting: Setting, format: Format) -> Result<Candidate, Error> {
+fn ready(measurement: &Measurement<'_>, dial: Dial, format: Format) -> Result<Candidate, MeasureError> {
     let gpu = measurement.gpu;
-    let choice = setting.choose(measurement.scene.clone(), measurement.kind.pace())?;
+    let occasion = measurement.kind.occasion();
+    let choice = Choice::of(measurement.scene.clone(), dial, occasion)?;
     let before = clock::device_bytes(gpu)?;
-    let renderer = SceneRenderer::new(gpu, &choice.scene, format, None, choice.method)?;
+    let renderer = SceneRenderer::new(gpu, &choice.scene, format, None, choice.dial, occasion)?;
     let after = clock::device_bytes(gpu)?;
     let bytes = before.zip(after).map(|(before, after)| (after - before, after - before));
     Ok(Candidate {
-        setting,
+        dial,
         renderer,
+        pending: Pending::default(),
         times: Vec::new(),
         directions: Vec::new(),
         compared: Vec::new(),
@@ -243,24 +233,22 @@ impl Candidate {
     }
 
     /// Draws and times one more picture of a pose; in a ride, of the pose that the ride has reached.
-    fn picture(&mut self, gpu: &Gpu, radiance: &Radiance, shot: &Shot, kind: Kind) -> Result<Stages, Error> {
+    fn picture(&mut self, gpu: &Gpu, radiance: &Radiance, shot: &Shot, kind: Kind) -> Result<Stages, GpuError> {
         match kind {
             Kind::Stills => clock::still(gpu, &mut self.renderer, radiance, shot, 1),
             Kind::Rides { own_m } => {
                 let at = |frame: u32| views::further(shot, f64::from(frame) * own_m);
-                let (shown, next) = (at(self.frames)?, at(self.frames + 1)?);
+                let (shown, next) = (at(self.frames), at(self.frames + 1));
                 self.frames += 1;
-                clock::frame(gpu, &mut self.renderer, radiance, &shown, &next)
+                clock::frame(gpu, &mut self.renderer, radiance, (&shown, &mut self.pending), &next)
             }
         }
     }
 
     /// Begins a ride at another place.
-    fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
+    fn begin(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
         self.frames = 0;
-        while self.renderer.pending() > 0 {
-            self.renderer.discard()?;
-        }
+        self.pending = Pending::default();
         // The last upload frees its memory once the device is done.
         gpu.wait()?;
         Ok(())
@@ -273,11 +261,12 @@ impl Candidate {
         studio: &mut Studio,
         shot: &Shot,
         measurement: &Measurement<'_>,
-    ) -> Result<(), Error> {
-        if self.renderer.pending() == 0 {
-            clock::submit(gpu, &mut self.renderer, shot)?;
-        }
-        let places = studio.places(gpu, &mut self.renderer, shot)?;
+    ) -> Result<(), GpuError> {
+        let pending = match std::mem::take(&mut self.pending) {
+            begun if begun.is_under_way() => begun,
+            _ => self.renderer.submit(gpu, &shot.observer, shot.effects)?,
+        };
+        let places = studio.places(gpu, &mut self.renderer, shot, pending)?;
         self.directions.push(of_picture(shot, measurement.size, &places));
         Ok(())
     }
@@ -292,13 +281,12 @@ impl Candidate {
         shot: &Shot,
         measurement: &Measurement<'_>,
         format: Format,
-    ) -> Result<(), Error> {
+    ) -> Result<(), GpuError> {
         let texels = self.renderer.map_stats().map(|stats| stats.texels_per_pixel);
-        let quality = |texels_per_pixel, smooth| MapQuality { texels_per_pixel, smooth };
         let exact = Studio::format(gpu);
-        self.renderer.draw_in(gpu, exact, texels.map(|texels| quality(texels, false)));
+        self.renderer.draw_in(gpu, exact, Occasion::Still, texels);
         self.judge(gpu, studio, shot, measurement)?;
-        self.renderer.draw_in(gpu, format, texels.map(|_| quality(self.setting.value(), true)));
+        self.renderer.draw_in(gpu, format, Occasion::Ride, texels.and(self.dial.map_scale));
         Ok(())
     }
 
@@ -315,7 +303,7 @@ impl Candidate {
         let flip = self.compared.iter().map(|compared| compared.flip).sum::<f64>() / pictures;
         let delta_e = Sorted::together(self.compared.into_iter().map(|compared| compared.delta_e));
         Row {
-            setting: self.setting,
+            dial: self.dial,
             ms: of(|stages| stages.total()),
             stages_ms: [of(|stages| stages.bend), of(|stages| stages.upload), of(|stages| stages.draw)],
             bytes: self.bytes.map(|(_, most)| most as f64),
@@ -357,7 +345,7 @@ mod tests {
 
     fn row(ms: f64, arcmin: f64) -> Row {
         Row {
-            setting: Setting::Edge(1.0),
+            dial: Dial::edge(1.0),
             ms: [ms; 2],
             stages_ms: [[0.0; 2]; 3],
             bytes: None,

@@ -5,14 +5,15 @@ use std::time::Instant;
 
 use glam::{DVec3, Vec3};
 use physics::apparent;
-use physics::photo_surface::{Eye, Kernel, Surface, Vertices};
+use physics::Observer;
+use physics::photo_surface::{Kernel, PhotoSurfaceError, PhotoSurfaceMesh, Vertices};
 use rayon::prelude::*;
 
 use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
 use super::views::Views;
-use crate::error::Error;
-use crate::scene::cut::Sight;
+use crate::error::MeasureError;
+use scene::cut::Sight;
 
 /// Number of times that each is timed.
 const ROUNDS: usize = 5;
@@ -28,7 +29,7 @@ struct Found {
 ///
 /// # Errors
 /// A scene whose origin is not finite.
-pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
+pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>), MeasureError> {
     let meshes = scene.meshes.iter().filter(|mesh| mesh.motion.is_none());
     let offsets: Vec<Vec3> = meshes.flat_map(|mesh| mesh.positions.iter().copied()).collect();
     let vertices = Vertices::from_offsets(scene.origin, offsets.iter().copied())?;
@@ -36,11 +37,11 @@ pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>)
     let mut streams = [(); 3].map(|()| vec![0.0_f32; offsets.len()]);
     let mut places = vec![Vec3::ZERO; offsets.len()];
     for shot in shots {
-        let observer = shot.observer();
+        let observer = shot.observer;
         let exact = |offset: &Vec3| apparent::at_rest(&observer, scene.origin + offset.as_dvec3()).position;
         let exact: Vec<DVec3> = offsets.par_iter().map(exact).collect();
         for _ in 0..ROUNDS {
-            short.time(offsets.len(), || by_kernel(shot.eye, &vertices, &mut streams))?;
+            short.time(offsets.len(), || by_kernel(&observer, &vertices, &mut streams))?;
             long.time(offsets.len(), || {
                 in_full(&Sight::new(scene, &observer, None), &offsets, &mut places);
                 Ok(())
@@ -67,7 +68,7 @@ pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>)
 }
 
 impl Found {
-    fn time(&mut self, count: usize, work: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+    fn time(&mut self, count: usize, work: impl FnOnce() -> Result<(), PhotoSurfaceError>) -> Result<(), PhotoSurfaceError> {
         let began = Instant::now();
         work()?;
         self.ns.push(began.elapsed().as_secs_f64() * 1e9 / count.max(1) as f64);
@@ -75,13 +76,13 @@ impl Found {
     }
 }
 
-fn by_kernel(eye: Eye, vertices: &Vertices, [x, y, z]: &mut [Vec<f32>; 3]) -> Result<(), Error> {
-    let surface = Surface::new(vertices, [x, y, z])?;
-    Kernel::default().transform(&eye, vec![surface]);
+fn by_kernel(observer: &Observer, vertices: &Vertices, [x, y, z]: &mut [Vec<f32>; 3]) -> Result<(), PhotoSurfaceError> {
+    let surface = PhotoSurfaceMesh::new(vertices, [x, y, z])?;
+    Kernel::default().transform(observer, vec![surface]);
     Ok(())
 }
 
-/// Bends vertices in f64, like `renderers::polygon` those of a cut.
+/// Bends vertices in f64, like `render` those of a cut.
 fn in_full(sight: &Sight, offsets: &[Vec3], places: &mut [Vec3]) {
     places.par_iter_mut().zip(offsets).for_each(|(place, offset)| {
         *place = (sight.observer_from_group * sight.bend.apparent(offset.as_dvec3() - sight.place)).as_vec3();
@@ -100,13 +101,14 @@ mod tests {
     //! result to f32, half a unit in the last of 24 bits along each axis.
 
     use super::*;
-    use crate::command::SceneChoice;
-    use crate::measure::views::views;
-    use crate::vehicle::World;
+    use crate::views::along_circuit;
+    use ride::LightSpeed;
 
     #[test]
     fn both_keep_what_they_promise() {
-        let views = views(&SceneChoice::Lattice, World::OLD_TOWN.speed_of_light_m_s(), None, 2).unwrap();
+        let scene = built_in::lattice::Lattice::default().build();
+        let shots = along_circuit(&scene, 2);
+        let views = Views { scene, light_speed: LightSpeed::OLD_TOWN, shots };
         let (_, lines) = measure(&views).unwrap();
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "direction_rad_most").unwrap().1;
         assert!(most(&lines[0]) < 7e-7, "{lines:?}");

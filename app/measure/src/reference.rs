@@ -8,8 +8,8 @@ use image::Rgb32FImage;
 use super::colour;
 use super::flip::{self, PIXELS_PER_DEGREE, Perceived};
 use super::quantiles::Sorted;
-use crate::renderers::Shot;
-use crate::renderers::raytrace::RayTracer;
+use trace::RayTracer;
+use view::Shot;
 
 /// Reference picture of one shot.
 pub struct Reference {

@@ -3,23 +3,23 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::clock;
-use super::dials::Setting;
 use super::pictures::Measurement;
 use super::quantiles::Sorted;
 use super::reference::Reference;
 use super::table::{Line, Markdown};
-use crate::error::Error;
-use crate::renderers::SceneRenderer;
-use crate::renderers::picture::Studio;
-use crate::renderers::polygon::Pace;
-use crate::renderers::raytrace::RayTracer;
-use crate::renderers::target::Radiance;
+use crate::error::MeasureError;
+use render::choice::Choice;
+use render::picture::Studio;
+use render::target::Radiance;
+use render::{GpuError, SceneRenderer};
+use trace::RayTracer;
+use view::{Dial, Occasion};
 
 const COUNTS: [u32; 3] = [1, 4, 16];
 /// Samples of each pixel of the reference.
 const MANY: u32 = 32;
 /// Fine cut of triangles, so that the remaining error is that of the samples.
-const FINE: Setting = Setting::Tolerance(0.25);
+const FINE: Dial = Dial::tolerance(0.25);
 
 /// Measures the dial at the pose in the middle of the path. Once `stop` is set, the results until then are returned.
 ///
@@ -29,12 +29,12 @@ pub fn measure(
     measurement: &Measurement<'_>,
     tracer: &RayTracer,
     stop: &AtomicBool,
-) -> Result<(String, Vec<Line>), Error> {
+) -> Result<(String, Vec<Line>), MeasureError> {
     let Measurement { gpu, scene, shots, size, rounds, .. } = *measurement;
     let shot = &shots[shots.len() / 2];
     let reference = Reference::trace(tracer, shot, size, MANY, stop);
-    let choice = FINE.choose(scene.clone(), Pace::Still)?;
-    let mut renderer = SceneRenderer::new(gpu, &choice.scene, Studio::format(gpu), None, choice.method)?;
+    let choice = Choice::of(scene.clone(), FINE, Occasion::Still)?;
+    let mut renderer = SceneRenderer::new(gpu, &choice.scene, Studio::format(gpu), None, choice.dial, Occasion::Still)?;
     let radiance = Radiance::new(gpu, size, Studio::format(gpu));
     let mut table = Markdown::new(&["samples a pixel", "", "ms", "ΔE2000", "99 %", "most", "FLIP"]);
     let mut lines = Vec::new();
@@ -43,13 +43,13 @@ pub fn measure(
         if stop.load(Ordering::Relaxed) {
             break;
         }
-        clock::submit(gpu, &mut renderer, shot)?;
-        let light = Studio::new(gpu, size, count).expose(gpu, &mut renderer, shot)?;
+        let pending = renderer.submit(gpu, &shot.observer, shot.effects)?;
+        let light = Studio::new(gpu, size, count).expose(gpu, &mut renderer, shot, pending)?;
         let compared = reference.compare(&light);
         let times = (0..rounds).map(|_| Ok(clock::still(gpu, &mut renderer, &radiance, shot, count)?.total()));
-        let [ms, slow] = Sorted::of(times.collect::<Result<Vec<f64>, Error>>()?).usual_and_slow();
+        let [ms, slow] = Sorted::of(times.collect::<Result<Vec<f64>, GpuError>>()?).usual_and_slow();
         let (delta_e, flip) = (compared.delta_e.summary(), compared.flip);
-        let setting = format!("{} --samples {count}", FINE.flags());
+        let setting = format!("{FINE} --samples {count}");
         let mut cells = vec![setting.clone(), String::new(), format!("{ms:.1}")];
         cells.extend(delta_e.map(|delta_e| format!("{delta_e:.2}")));
         cells.push(format!("{flip:.4}"));

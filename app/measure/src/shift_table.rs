@@ -10,8 +10,7 @@ use rayon::prelude::*;
 use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
 use super::views::Views;
-use crate::error::Error;
-use crate::renderers::world::Spectra;
+use scene::carriers::Spectra;
 
 const NODES: [usize; 6] = [255, 511, 1023, 2047, 4095, ShiftTable::NODES];
 /// Number of Doppler factors looked up, from 1/20 to 20.
@@ -21,10 +20,7 @@ const FARTHEST: f64 = 20.0;
 const WEIGHTS: [DVec3; 4] = [DVec3::ONE, DVec3::X, DVec3::Y, DVec3::Z];
 
 /// Measures the tables on all carriers of the scene's light: ΔE2000 of a colour as bright as white.
-///
-/// # Errors
-/// None; the result has the type of the other measurements.
-pub fn measure(Views { scene, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
+pub fn measure(Views { scene, .. }: &Views) -> (String, Vec<Line>) {
     let carriers = Spectra::of(scene).carriers;
     // Spread evenly over ln D, in steps that are no multiple of any table's node distance.
     let doppler = |number: u32| FARTHEST.powf(2.0 * (f64::from(number) + 0.381_966) / f64::from(DOPPLERS) - 1.0);
@@ -53,7 +49,7 @@ pub fn measure(Views { scene, .. }: &Views) -> Result<(String, Vec<Line>), Error
         let numbers = [("ms_median", ms), ("bytes", bytes)].into_iter().chain(errors).collect();
         lines.push(Line { dial: "shift-table", setting, numbers });
     }
-    Ok((table.text(), lines))
+    (table.text(), lines)
 }
 
 /// Difference ΔE2000 with the brightness of the true colour as white, which gives the largest value.
@@ -73,13 +69,13 @@ mod tests {
     //! at a wrong place leaves an error that does not shrink.
 
     use super::*;
-    use crate::scene::spectra;
-    use crate::vehicle::World;
+    use built_in::spectra;
+    use ride::LightSpeed;
 
     #[test]
     fn twice_as_many_nodes_are_four_times_as_close() {
-        let views = Views { scene: spectra::build(), world: World::OLD_TOWN, shots: Vec::new() };
-        let (_, lines) = measure(&views).unwrap();
+        let views = Views { scene: spectra::build(), light_speed: LightSpeed::OLD_TOWN, shots: Vec::new() };
+        let (_, lines) = measure(&views);
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "delta_e_99").unwrap().1;
         let errors: Vec<f64> = lines.iter().map(most).collect();
         // Start at 511 nodes: with fewer, the distance between nodes is larger than the features of the spectra.

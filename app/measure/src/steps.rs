@@ -17,14 +17,14 @@ use std::time::Instant;
 
 use glam::DVec3;
 use input::{DeskConfig, SECOND, VehicleKind};
-use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, State, Thrust};
+use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, Thrust, WorldlineError, WorldlineState};
 use physics::{Celerity, Event};
 
 use super::table::{Line, Markdown};
 use super::views::Views;
-use crate::error::Error;
-use crate::simulation::{Setup, Simulation, Start, Tour};
-use crate::vehicle::{OpenPlane, VehicleSettings, World};
+use crate::error::MeasureError;
+use ride::{LightSpeed, RideStart, Setup, SetupError, Simulation, Tour, VehicleSettings};
+use scene::OpenPlane;
 
 /// Rates of the steps, steps a second.
 const RATES: [u32; 4] = [240, 60, 30, 15];
@@ -43,8 +43,8 @@ const RADIUS_M: f64 = 15.0;
 ///
 /// # Errors
 /// A worldline that cannot be integrated.
-pub fn measure(Views { scene, world, .. }: &Views) -> Result<(String, Vec<Line>), Error> {
-    let ride = Ride::of(&scene.circuit, *world)?;
+pub fn measure(Views { scene, light_speed, .. }: &Views) -> Result<(String, Vec<Line>), MeasureError> {
+    let ride = Ride::of(&scene.circuit, *light_speed)?;
     let strict = DormandPrince::default();
     let integrators: [(&str, &dyn Integrator); 3] = [("rk4", &Rk4), ("exact", &Exact), ("dopri5", &strict)];
     let mut table = Markdown::new(&["integrator", "step", "ns a step", "off by, m", "rapidity"]);
@@ -53,7 +53,7 @@ pub fn measure(Views { scene, world, .. }: &Views) -> Result<(String, Vec<Line>)
         for rate in RATES {
             let steps = FOLLOWED_S * rate;
             let began = Instant::now();
-            let states = ride.follow(integrator, world.metres(1.0 / f64::from(rate)), steps)?;
+            let states = ride.follow(integrator, light_speed.metres(1.0 / f64::from(rate)), steps)?;
             let ns = began.elapsed().as_secs_f64() * 1e9 / f64::from(steps);
             let errors = states.iter().map(|state| ride.strayed(state));
             let [position_m, rapidity] = errors.fold([0.0_f64; 2], |[a, b], [c, d]| [a.max(c), b.max(d)]);
@@ -84,7 +84,7 @@ struct Ride {
 
 impl Ride {
     /// Ride of the built-in rider, once it is under way.
-    fn of(circuit: &[DVec3], world: World) -> Result<Self, Error> {
+    fn of(circuit: &[DVec3], light_speed: LightSpeed) -> Result<Self, SetupError> {
         let angle = |corner: u32| std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
         let ring: Vec<DVec3> =
             (0..CORNERS).map(|corner| RADIUS_M * DVec3::new(angle(corner).cos(), 0.0, -angle(corner).sin())).collect();
@@ -93,9 +93,9 @@ impl Ride {
             None => (ring.as_slice(), Tour::new(&ring).expect("a circle has corners enough")),
         };
         let setup = Setup {
-            world,
+            light_speed,
             kind: VehicleKind::Bicycle,
-            start: Start::at_rest(circuit[0], circuit[1] - circuit[0]),
+            start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0]),
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         };
@@ -110,7 +110,7 @@ impl Ride {
             }
         }
         celerities.drain(..(BEGINNING_S * KNOTS_PER_SECOND) as usize);
-        Ok(Self { spacing: world.metres(1.0 / f64::from(KNOTS_PER_SECOND)), celerities })
+        Ok(Self { spacing: light_speed.metres(1.0 / f64::from(KNOTS_PER_SECOND)), celerities })
     }
 
     /// Last knot before a proper time, and the share of the interval to the next knot that has passed.
@@ -146,10 +146,10 @@ impl Ride {
     }
 
     /// States after each step.
-    fn follow(&self, integrator: &dyn Integrator, step: f64, steps: u32) -> Result<Vec<State>, Error> {
+    fn follow(&self, integrator: &dyn Integrator, step: f64, steps: u32) -> Result<Vec<WorldlineState>, WorldlineError> {
         let start = Celerity::new(self.celerities[0]).unwrap_or_default();
-        let mut state = State::new(Event::default(), start, glam::DQuat::IDENTITY);
-        let control = |state: &State| Thrust::in_boost_axes(state, self.acceleration(state.proper_time));
+        let mut state = WorldlineState::new(Event::default(), start, glam::DQuat::IDENTITY);
+        let control = |state: &WorldlineState| Thrust::in_boost_axes(state, self.acceleration(state.proper_time));
         let mut states = Vec::with_capacity(steps as usize);
         for _ in 0..steps {
             state = integrator.step(&state, step, &control)?;
@@ -160,7 +160,7 @@ impl Ride {
 
     /// Distance of a state from the place of the ride at its proper time, metres, and the rapidity of their relative
     /// motion.
-    fn strayed(&self, state: &State) -> [f64; 2] {
+    fn strayed(&self, state: &WorldlineState) -> [f64; 2] {
         let [celerity, way] = self.at(state.proper_time);
         let gamma = |celerity: DVec3| (1.0 + celerity.length_squared()).sqrt();
         let found = state.celerity.vector();
@@ -199,11 +199,11 @@ mod tests {
     //! far as the polynomials are smooth. A wrong thrust or a wrong integral leaves an error that no step removes.
 
     use super::*;
-    use crate::scene::Scene;
+    use scene::Scene;
 
     #[test]
     fn finer_steps_come_closer_to_the_ride() {
-        let views = Views { scene: Scene::default(), world: World::OLD_TOWN, shots: Vec::new() };
+        let views = Views { scene: Scene::default(), light_speed: LightSpeed::OLD_TOWN, shots: Vec::new() };
         let (_, lines) = measure(&views).unwrap();
         let error = |name: &str, rate: u32| {
             let setting = format!("--integrator {name} in steps of 1/{rate} s");

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::pictures::Row;
-use crate::error::Error;
+use super::row::Row;
+use crate::error::MeasureError;
 
 /// Columns of the file. Each dial fills the columns that apply to it; the others stay empty.
 const COLUMNS: [&str; 24] = [
@@ -60,7 +60,8 @@ impl From<&Row> for Line {
             numbers.push(("flip", flip));
         }
         numbers.push(("pareto", f64::from(u8::from(row.best))));
-        Self { dial: row.setting.dial(), setting: row.setting.flags(), numbers }
+        let dial = row.dial.turned().map_or("renderer", |(name, _)| name);
+        Self { dial, setting: row.dial.to_string(), numbers }
     }
 }
 
@@ -75,7 +76,7 @@ pub fn of_pictures(rows: &[Row]) -> String {
     let mut table = Markdown::new(&columns);
     for row in rows {
         let [bend, upload, draw] = row.stages_ms.map(|[median, _]| median);
-        let mut cells = vec![if row.best { "*" } else { " " }.to_owned(), row.setting.flags()];
+        let mut cells = vec![if row.best { "*" } else { " " }.to_owned(), row.dial.to_string()];
         cells.extend([row.ms[0], row.ms[1], bend, upload, draw].map(|ms| format!("{ms:.1}")));
         cells.push(row.bytes.map_or_else(|| "?".to_owned(), |bytes| format!("{:.0}", bytes / 1e6)));
         cells.extend(row.arcmin.map(|arcmin| format!("{arcmin:.3}")));
@@ -134,9 +135,9 @@ impl Markdown {
 /// Writes all lines into one file.
 ///
 /// # Errors
-/// [`Error::Write`] if the file cannot be written.
-pub fn write_csv(lines: &[Line], path: &Path) -> Result<(), Error> {
-    std::fs::write(path, csv(lines)).map_err(|error| Error::Write { path: path.to_owned(), reason: error.to_string() })
+/// [`MeasureError::Write`] if the file cannot be written.
+pub fn write_csv(lines: &[Line], path: &Path) -> Result<(), MeasureError> {
+    std::fs::write(path, csv(lines)).map_err(|error| MeasureError::Write { path: path.to_owned(), reason: error.to_string() })
 }
 
 fn csv(lines: &[Line]) -> String {

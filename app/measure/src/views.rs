@@ -1,69 +1,42 @@
-//! From where pictures are taken: along the scene's circuit, in a straight line from its start, or with the eyes of a recorded rider.
-
-use std::path::Path;
+//! Points of view from which pictures are taken: along the scene's circuit, on a straight line from its start, or those
+//! of a recorded rider.
 
 use glam::DVec3;
-use physics::photo_surface::Eye;
-use physics::{Beta, Celerity};
+use physics::{Beta, Celerity, Event, Observer};
+use ride::LightSpeed;
+use scene::Scene;
+use view::{Camera, EYE_HEIGHT_M, Effects, Gaze, Shot};
 
-use crate::command::SceneChoice;
-use crate::error::Error;
-use crate::film_ride;
-use crate::render::shot;
-use crate::renderers::{Effects, Shot};
-use crate::scene::{Scene, source};
-use crate::vehicle::World;
-use crate::views::{Camera, Gaze};
-
-/// Metres from the ground to the eye.
-const EYE_HEIGHT_M: f64 = 1.6;
 /// Vertical field of view, degrees.
 pub const FOV_DEGREES: f64 = 60.0;
 /// v/c at one pose after another.
 const SPEEDS: [f64; 5] = [0.5, 0.8, 0.9, 0.95, 0.99];
-/// Pictures a second at which a recording is looked through.
-const LOOKED_THROUGH: f64 = 10.0;
 
-/// What is looked at, and from where.
+/// A scene, and the pictures that are taken in it.
 #[derive(Debug)]
 pub struct Views {
-    /// The scene.
+    /// Scene that is measured.
     pub scene: Scene,
-    /// How fast light is in it.
-    pub world: World,
-    /// The pictures' eyes.
+    /// Speed of light in it.
+    pub light_speed: LightSpeed,
+    /// Pictures that are taken.
     pub shots: Vec<Shot>,
 }
 
-/// The views of a scene, or of a recorded ride with its own speed of light.
-///
-/// # Errors
-/// A scene or a recording that cannot be read, or is empty.
-pub fn views(choice: &SceneChoice, speed_of_light_m_s: f64, replay: Option<&Path>, count: u32) -> Result<Views, Error> {
-    let Some(recording) = replay else {
-        let world = World::new(speed_of_light_m_s)?;
-        let scene = source::load(choice, speed_of_light_m_s)?;
-        let shots = built_in(&scene, count)?;
-        return Ok(Views { scene, world, shots });
-    };
-    let (scene, speed_of_light_m_s, moments) = film_ride::reel(recording, choice, LOOKED_THROUGH, None)?;
-    let world = World::new(speed_of_light_m_s)?;
-    let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
-    if gazes.is_empty() {
-        return Err(Error::NothingRidden);
-    }
-    let shots = evenly(&gazes, count as usize).map(|gaze| shot(gaze, FOV_DEGREES, Effects::ALL)).collect();
-    Ok(Views { scene, world, shots })
+/// `count` pictures of a ride, evenly spread over its gazes, each from the middle of its part; fewer if the ride has
+/// fewer gazes.
+pub fn of_ride(gazes: &[Gaze], count: u32) -> Vec<Shot> {
+    evenly(gazes, count as usize).map(|gaze| gaze.shot(FOV_DEGREES, Effects::ALL)).collect()
 }
 
-/// So many of them, evenly spread, each from the middle of its part.
+/// `count` elements, evenly spread, each from the middle of its part.
 fn evenly<T>(all: &[T], count: usize) -> impl Iterator<Item = &T> {
     let count = count.min(all.len());
     (0..count).map(move |number| &all[(2 * number + 1) * all.len() / (2 * count)])
 }
 
-/// Along the circuit, looking ahead and, every other time, to the side.
-fn built_in(scene: &Scene, count: u32) -> Result<Vec<Shot>, Error> {
+/// `count` pictures along the scene's circuit, which look ahead and, every other time, to the side.
+pub fn along_circuit(scene: &Scene, count: u32) -> Vec<Shot> {
     let pose = |number: u32| {
         let (place, ahead) = match scene.circuit.len() {
             0 => (scene.start.position, scene.start.look),
@@ -76,20 +49,20 @@ fn built_in(scene: &Scene, count: u32) -> Result<Vec<Shot>, Error> {
         let speed = SPEEDS[number as usize % SPEEDS.len()];
         let celerity = Beta::new(ahead.normalize() * speed).map_or(Celerity::ZERO, Beta::celerity);
         let look = if number.is_multiple_of(2) { ahead } else { ahead + 0.7 * ahead.cross(DVec3::Y) };
-        let eye = Eye::new(place + DVec3::Y * EYE_HEIGHT_M, celerity.vector())?;
+        let event = Event { ct: 0.0, position: place + DVec3::Y * EYE_HEIGHT_M };
         let camera = Camera::looking(look, DVec3::Y, FOV_DEGREES.to_radians());
-        Ok(Shot { camera, eye, ct: 0.0, effects: Effects::ALL, stored_scale: None })
+        Shot { camera, observer: Observer { event, celerity }, effects: Effects::ALL, stored_scale: None }
     };
     (0..count).map(pose).collect()
 }
 
-/// The same shot, its eye further on its straight worldline by `own_m` metres of light travel of its own time.
-///
-/// # Errors
-/// An eye that gets nowhere.
-pub fn further(shot: &Shot, own_m: f64) -> Result<Shot, Error> {
-    let eye = Eye::new(shot.eye.position() + shot.eye.celerity() * own_m, shot.eye.celerity())?;
-    Ok(Shot { eye, ct: shot.ct + shot.celerity().gamma() * own_m, ..*shot })
+/// The same picture, with the observer further on its straight worldline by `own_m` metres of light travel of its own
+/// time.
+pub fn further(shot: &Shot, own_m: f64) -> Shot {
+    let Observer { event, celerity } = shot.observer;
+    let event =
+        Event { ct: event.ct + celerity.gamma() * own_m, position: event.position + celerity.vector() * own_m };
+    Shot { observer: Observer { event, celerity }, ..*shot }
 }
 
 #[cfg(test)]
@@ -107,9 +80,9 @@ mod tests {
 
     #[test]
     fn an_eye_goes_on_along_its_worldline() {
-        let start = built_in(&crate::scene::lattice::Lattice::default().build(), 2).unwrap()[1];
-        let later = further(&start, 3.0).unwrap();
-        let (way, time) = (later.eye.position().distance(start.eye.position()), later.ct - start.ct);
+        let start = along_circuit(&built_in::lattice::Lattice::default().build(), 2)[1];
+        let later = further(&start, 3.0);
+        let (way, time) = (later.observer.event.position.distance(start.observer.event.position), later.observer.event.ct - start.observer.event.ct);
         // At 0.8 c: u = 4/3, γ = 5/3.
         assert!((way - 4.0).abs() < 1e-12 && (time - 5.0).abs() < 1e-12, "{way} {time}");
     }

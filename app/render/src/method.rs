@@ -14,7 +14,7 @@ use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, World};
 use physics::Observer;
 use scene::cut::Sight;
-use view::Shot;
+use view::{Occasion, Shot};
 
 /// One way of drawing a scene as a moving observer sees it.
 ///
@@ -79,8 +79,9 @@ pub trait Method {
     /// Waits for the work that goes on beside the drawing.
     fn settle(&self) {}
 
-    /// Draws into targets of another format from now on. A map is then made anew with so many texels for each pixel.
-    fn draw_in(&mut self, _gpu: &Gpu, _format: Format, _map_scale: Option<f64>) {}
+    /// Draws into targets of another format from now on. A map is then made anew for this occasion, with so many texels
+    /// for each pixel.
+    fn draw_in(&mut self, _gpu: &Gpu, _format: Format, _occasion: Occasion, _map_scale: Option<f64>) {}
 }
 
 /// One sample of a picture that is drawn with relativity's geometry.

@@ -153,10 +153,11 @@ impl SceneRenderer {
         self.method.settle();
     }
 
-    /// Draws into targets of another format from now on. A map is then made anew with so many texels for each pixel.
-    pub fn draw_in(&mut self, gpu: &Gpu, format: Format, map_scale: Option<f64>) {
+    /// Draws into targets of another format from now on. A map is then made anew for this occasion, with so many texels
+    /// for each pixel.
+    pub fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {
         self.format = format;
-        self.method.draw_in(gpu, format, map_scale);
+        self.method.draw_in(gpu, format, occasion, map_scale);
     }
 
     /// Works out what all samples of a picture of `size` pixels share: the map or the cut, if the method has one.

@@ -7,7 +7,7 @@ pub const EYE_SEPARATION_M: f64 = 0.064;
 
 /// Place of an untracked head unless the file gives one, room axes, metres: the height of a person standing in the
 /// room's middle.
-pub const HEAD_M: DVec3 = DVec3::new(0.0, 1.6, 0.0);
+pub const HEAD_M: DVec3 = DVec3::new(0.0, view::EYE_HEIGHT_M, 0.0);
 
 /// Eye for which a channel is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

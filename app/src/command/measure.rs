@@ -50,30 +50,6 @@ pub struct MeasureOptions {
     pub replay: Option<PathBuf>,
 }
 
-/// Goal for which the renderers' dials are chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
-    /// A frame time that 95 of 100 frames keep to.
-    Budget {
-        /// Frame time, milliseconds.
-        ms: f64,
-    },
-    /// An error that 99 of 100 pixels keep to.
-    Tolerance {
-        /// Error of position, pixels.
-        pixels: f64,
-    },
-}
-
-impl Display for Goal {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Budget { ms } => write!(formatter, "budget {ms}ms"),
-            Self::Tolerance { pixels } => write!(formatter, "tolerance {pixels}px"),
-        }
-    }
-}
-
 impl MeasureOptions {
     /// Goal of the measurement, if one is given.
     pub fn goal(&self) -> Option<Goal> {

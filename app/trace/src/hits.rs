@@ -205,7 +205,7 @@ impl Bodies {
 
     /// Sight of the shot's observer.
     pub fn sight(&self, surfaces: &Surfaces, shot: &Shot) -> Sight {
-        self.sight_of(surfaces, &shot.observer(), shot.effects.geometry)
+        self.sight_of(surfaces, &shot.observer, shot.effects.geometry)
     }
 
     /// Sight of any observer, with the light that falls on each of the scene's motions. `geometry` is true if light

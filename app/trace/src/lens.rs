@@ -55,7 +55,7 @@ impl Optics {
     /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2).
     pub fn look(&self, shot: &Shot, ahead: DVec3, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
         let draw = Draw::of(pixel, sample);
-        let observer = shot.observer();
+        let observer = shot.observer;
         let tau = self.exposure_m * draw.moment;
         let mut ahead = ahead;
         let mut place = DVec3::ZERO;

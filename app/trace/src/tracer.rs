@@ -132,7 +132,7 @@ impl RayTracer {
             }
         }
         let shifted = shot.effects.shift_light()
-            && (shot.celerity() != Celerity::ZERO || !self.surfaces.scene.motions.is_empty());
+            && (shot.observer.celerity != Celerity::ZERO || !self.surfaces.scene.motions.is_empty());
         let stored = Stored { white: self.light.white, scale: shot.scale(), shifted };
         Traced { size, light, at_rest, stored, done, tiles: tiles.len() }
     }

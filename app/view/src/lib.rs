@@ -12,4 +12,4 @@ pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
 pub use effects::{Effects, EffectsError};
 pub use sampling::sample_offset;
-pub use shot::{Gaze, Shot, Stored};
+pub use shot::{EYE_HEIGHT_M, Gaze, Shot, Stored};

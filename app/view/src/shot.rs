@@ -5,6 +5,9 @@ use crate::effects::Effects;
 use glam::{DQuat, DVec2};
 use physics::Observer;
 
+/// Height of a standing visitor's eyes above the ground, metres.
+pub const EYE_HEIGHT_M: f64 = 1.6;
+
 /// Observer and the direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaze {

@@ -4,13 +4,15 @@
 //! matter. The reference starts from the same f64 numbers that the program is given, so that the difference is the
 //! program's own rounding.
 
+use exact_reference::light::{boosted_light, retarded};
+use exact_reference::random::direction;
+use exact_reference::real::{RealVec, angle, gamma, real, relative, to_f64};
 use glam::DVec3;
-use physics::{Aberration, Celerity, Event, Observer, Source, apparent};
+use physics::{Aberration, Celerity, Event, Observer, PointSource, apparent};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::real::{Real, RealVec, angle, gamma, real, relative, to_f64};
-use super::row::{Row, Worst};
+use super::row::{ExtremesRow, Worst};
 
 const DIRECTION: &str = "direction, rad";
 const DISTANCE: &str = "distance, share";
@@ -49,7 +51,7 @@ const DIRECTIONS: [(From, &str); 5] = [
 ];
 
 /// Rows of errors; each covers this number of cases.
-pub fn rows(cases: u32) -> Vec<Row> {
+pub fn rows(cases: u32) -> Vec<ExtremesRow> {
     let mut random = ChaCha8Rng::seed_from_u64(31);
     let mut rows = speeds(&mut random, cases).rows();
     for (from, name) in DIRECTIONS {
@@ -105,7 +107,7 @@ fn at_rest(random: &mut ChaCha8Rng, cases: u32, metres: f64, origin: f64, name: 
     let mut worst = Worst::new(format!("point at rest, {name}"));
     for case in 0..cases {
         let celerity = celerity(random, case);
-        let eye = origin * unit(random);
+        let eye = origin * direction(random);
         let from = DIRECTIONS[case as usize % DIRECTIONS.len()].0;
         let point = eye + metres * displacement(random, celerity, from);
         let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
@@ -133,7 +135,7 @@ fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
     for case in 0..cases {
         let celerity_of_observer = celerity(random, case);
         let from = DIRECTIONS[case as usize % DIRECTIONS.len()].0;
-        let place = 1e3 * unit(random);
+        let place = 1e3 * direction(random);
         let ct = random.random_range(-1e3..1e3);
         let observer = Observer { event: Event { ct, position: place }, celerity: celerity_of_observer };
         let companion = celerity_of_observer.vector() * (1.0 + 10.0_f64.powf(random.random_range(-12.0..0.0)));
@@ -143,7 +145,7 @@ fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
         };
         let metres = 10.0_f64.powf(random.random_range(-9.0..15.0));
         let position = place + metres * displacement(random, celerity_of_observer, from);
-        let seen = apparent::moving(&observer, &Source { position, celerity: source_celerity });
+        let seen = apparent::moving(&observer, &PointSource { position, celerity: source_celerity });
 
         let (u, v) = (RealVec::new(celerity_of_observer.vector()), RealVec::new(source_celerity.vector()));
         let time = real(ct);
@@ -162,25 +164,6 @@ fn moving(random: &mut ChaCha8Rng, cases: u32) -> Worst {
     worst
 }
 
-/// Textbook form: the event (−|d|, d) boosted (W 4.1), and D = |x'| / |d|.
-fn boosted_light(u: &RealVec, d: &RealVec) -> (RealVec, Real) {
-    let r = d.length();
-    let along = u.dot(d);
-    let image = d + &(u * &(&r + along / (real(1.0) + gamma(u))));
-    let doppler = image.length() / r;
-    (image, doppler)
-}
-
-/// Textbook form of the retarded displacement of a source (B eq. 2.22), and the light's travel time, metres.
-fn retarded(d: &RealVec, u: &RealVec) -> (RealVec, Real) {
-    let gamma = gamma(u);
-    let beta = u * &(real(1.0) / &gamma);
-    let along = beta.dot(d);
-    let gamma_squared = &gamma * &gamma;
-    let age = &gamma_squared * (&along * real(-1.0) + (&along * &along + d.dot(d) / &gamma_squared).sqrt());
-    (d - &(&beta * &age), age)
-}
-
 /// Celerity of a case. The first two cases lie at the ends of the range; the others are random, with all decades
 /// equally likely.
 fn celerity(random: &mut ChaCha8Rng, case: u32) -> Celerity {
@@ -189,14 +172,14 @@ fn celerity(random: &mut ChaCha8Rng, case: u32) -> Celerity {
         1 => *CELERITY_DECADES.end(),
         _ => random.random_range(CELERITY_DECADES),
     };
-    Celerity::new(10.0_f64.powf(power) * unit(random)).expect("1e12 is within the limit")
+    Celerity::new(10.0_f64.powf(power) * direction(random)).expect("1e12 is within the limit")
 }
 
 /// Displacement of length 1, up to rounding.
 fn displacement(random: &mut ChaCha8Rng, celerity: Celerity, from: From) -> DVec3 {
     let ahead = celerity.direction().unwrap_or(DVec3::X);
     let mut close = |axis: DVec3| {
-        let across = axis.cross(unit(random)).normalize_or_zero();
+        let across = axis.cross(direction(random)).normalize_or_zero();
         axis + across * random.random_range(0.0..=CLOSE_RAD)
     };
     match from {
@@ -204,14 +187,6 @@ fn displacement(random: &mut ChaCha8Rng, celerity: Celerity, from: From) -> DVec
         From::Astern => -ahead,
         From::CloseToAhead => close(ahead),
         From::CloseToAstern => close(-ahead),
-        From::Anywhere => unit(random),
+        From::Anywhere => direction(random),
     }
-}
-
-/// Random direction, all directions equally likely.
-pub fn unit(random: &mut ChaCha8Rng) -> DVec3 {
-    let z = random.random_range(-1.0..=1.0_f64);
-    let (sine, cosine) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
-    let radius = (1.0 - z * z).sqrt();
-    DVec3::new(radius * cosine, radius * sine, z).normalize_or(DVec3::Z)
 }

@@ -5,9 +5,9 @@
 //! five-by-five matrices. The quaternions, celerities and Wigner rotations of the program's own steps do not occur.
 
 use glam::{DQuat, DVec3};
-use physics::worldline::{State, Thrust};
+use physics::worldline::{Thrust, WorldlineState};
 
-use super::real::{Real, RealVec, gamma, real, to_f64};
+use exact_reference::real::{Real, RealVec, gamma, real, to_f64};
 
 /// Matrix on (t, x, y, z, 1): a tetrad with its event.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ impl Motion {
     }
 
     /// Tetrad and event of a state, with its quaternion normalised.
-    pub fn at(state: &State) -> Self {
+    pub fn at(state: &WorldlineState) -> Self {
         let u = RealVec::new(state.celerity.vector());
         let gamma = gamma(&u);
         let boost = boost(&u, &gamma);

@@ -1,11 +1,11 @@
-//! Row of the table: a group of cases, and its largest error.
+//! ExtremesRow of the table: a group of cases, and its largest error.
 
 /// Largest allowed error, in radians, units of rapidity, or as a share of the measured quantity.
 pub const LIMIT: f64 = 1e-10;
 
 /// One quantity of one group of cases.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ExtremesRow {
     /// Description of the cases: speeds, places, steps.
     pub what: String,
     /// Number of cases.
@@ -16,7 +16,7 @@ pub struct Row {
     pub error: f64,
 }
 
-impl Row {
+impl ExtremesRow {
     /// True if the error is within [`LIMIT`]. NaN is not.
     pub fn holds(&self) -> bool {
         self.error <= LIMIT
@@ -51,8 +51,8 @@ impl Worst {
     }
 
     /// Rows of the group, one for each quantity.
-    pub fn rows(self) -> Vec<Row> {
+    pub fn rows(self) -> Vec<ExtremesRow> {
         let Self { what, cases, errors } = self;
-        errors.into_iter().map(|(quantity, error)| Row { what: what.clone(), cases, quantity, error }).collect()
+        errors.into_iter().map(|(quantity, error)| ExtremesRow { what: what.clone(), cases, quantity, error }).collect()
     }
 }

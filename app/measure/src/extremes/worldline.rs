@@ -6,17 +6,17 @@
 
 use std::f64::consts::TAU;
 
+use exact_reference::random::direction;
+use exact_reference::real::{Real, RealVec, gamma, real, relative, to_f64};
 use glam::{DQuat, DVec3};
-use physics::worldline::{Exact, Integrator, Rk4, State, Thrust, WorldlineError};
+use physics::worldline::{Exact, Integrator, Rk4, Thrust, WorldlineError, WorldlineState};
 use physics::{Celerity, CelerityError, Event};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 
-use super::light::unit;
 use super::motion::Motion;
-use super::real::{Real, RealVec, gamma, real, relative, to_f64};
-use super::row::{Row, Worst};
+use super::row::{ExtremesRow, Worst};
 
 /// Speed of light, metres a second.
 const LIGHT_M_PER_S: f64 = 10.0;
@@ -69,7 +69,7 @@ fn thrust_per_m() -> f64 {
 /// # Errors
 ///
 /// [`Refused`] if a step or a start is refused.
-pub fn rows(lengths: Lengths) -> Result<Vec<Row>, Refused> {
+pub fn rows(lengths: Lengths) -> Result<Vec<ExtremesRow>, Refused> {
     let mut rows = Vec::new();
     rows.extend(resting(lengths.steps)?);
     for step_s in [1e-6, 1e-4, 1e-2, 1.0, 10.0] {
@@ -82,7 +82,7 @@ pub fn rows(lengths: Lengths) -> Result<Vec<Row>, Refused> {
 }
 
 /// Errors of a journey that ought to end in `exact`.
-fn errors(start: &State, end: &State, exact: &Motion) -> [(&'static str, f64); 5] {
+fn errors(start: &WorldlineState, end: &WorldlineState, exact: &Motion) -> [(&'static str, f64); 5] {
     let (u, exact_u) = (end.celerity, exact.celerity());
     let exact_gamma = gamma(&exact_u);
     let rapidity = (&exact_gamma + exact_u.length()).ln();
@@ -98,24 +98,24 @@ fn errors(start: &State, end: &State, exact: &Motion) -> [(&'static str, f64); 5
     ]
 }
 
-/// State after `count` equal steps.
+/// WorldlineState after `count` equal steps.
 fn steps(
     integrator: &dyn Integrator,
-    start: &State,
+    start: &WorldlineState,
     step: f64,
     count: u64,
     thrust: &Thrust,
-) -> Result<State, WorldlineError> {
+) -> Result<WorldlineState, WorldlineError> {
     (0..count).try_fold(*start, |state, _| integrator.step(&state, step, thrust))
 }
 
 /// Errors at rest, where nothing changes but the clocks.
-fn resting(count: u64) -> Result<Vec<Row>, Refused> {
+fn resting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
     let mut worst = Worst::new(format!("resting, {} steps", sized(count)));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     for integrator in [&Exact as &dyn Integrator, &Rk4] {
         let place = DVec3::new(1e9, 1.6, -0.1);
-        let start = State::new(Event { ct: 0.0, position: place }, Celerity::ZERO, DQuat::from_rotation_y(0.3));
+        let start = WorldlineState::new(Event { ct: 0.0, position: place }, Celerity::ZERO, DQuat::from_rotation_y(0.3));
         let end = steps(integrator, &start, step, count, &Thrust::default())?;
         let exact = real(step) * real(count as f64);
         worst.meet([
@@ -134,13 +134,13 @@ fn resting(count: u64) -> Result<Vec<Row>, Refused> {
 /// # Errors
 ///
 /// [`Refused`] if a step or a start is refused.
-pub fn coasting(count: u64) -> Result<Vec<Row>, Refused> {
+pub fn coasting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
     let mut worst =
         Worst::new(format!("coasting at γ = 1000, {} steps of 1/240 s, all taken, fourth order", sized(count)));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     let celerity = Celerity::new(DVec3::new(999.9, 12.3, 1e-3))?;
     let event = Event { ct: 0.1, position: DVec3::new(0.7, -0.3, 0.1) };
-    let start = State::new(event, celerity, DQuat::from_rotation_y(0.3));
+    let start = WorldlineState::new(event, celerity, DQuat::from_rotation_y(0.3));
     let end = steps(&Rk4, &start, step, count, &Thrust::default())?;
 
     let tau = real(step) * real(count as f64);
@@ -159,7 +159,7 @@ pub fn coasting(count: u64) -> Result<Vec<Row>, Refused> {
 }
 
 /// Errors of ten seconds of thrust and turn in steps of one size, but at most `most` steps.
-fn steps_of(step_s: f64, most: u64) -> Result<Vec<Row>, Refused> {
+fn steps_of(step_s: f64, most: u64) -> Result<Vec<ExtremesRow>, Refused> {
     const JOURNEY_S: f64 = 10.0;
     let count = ((JOURNEY_S / step_s).round() as u64).min(most);
     let mut worst = Worst::new(format!("thrust of 1 g and turns, {} steps of {step_s:e} s", sized(count)));
@@ -167,7 +167,7 @@ fn steps_of(step_s: f64, most: u64) -> Result<Vec<Row>, Refused> {
     let straight = Thrust { acceleration: DVec3::new(0.0, 0.0, -thrust_per_m()), turn_rate: DVec3::ZERO };
     let turning = Thrust { turn_rate: DVec3::new(0.02, -0.05, 0.01), ..straight };
     for thrust in [straight, turning] {
-        let start = State::default();
+        let start = WorldlineState::default();
         let end = steps(&Exact, &start, step, count, &thrust)?;
         let tau = real(step) * real(count as f64);
         let exact = Motion::at(&start).then(&Motion::under(&thrust, &tau));
@@ -177,15 +177,15 @@ fn steps_of(step_s: f64, most: u64) -> Result<Vec<Row>, Refused> {
 }
 
 /// Errors of one step of any size from any speed.
-fn any_speed(cases: u32) -> Result<Vec<Row>, Refused> {
+fn any_speed(cases: u32) -> Result<Vec<ExtremesRow>, Refused> {
     let mut random = ChaCha8Rng::seed_from_u64(32);
     let mut worst = Worst::new("one step of 1e-6 to 10 s from γ of 1 + 1e-12 to 1e12, any thrust and turn");
     for case in 0..cases {
         let power = if case == 0 { 12.0 } else { random.random_range(-5.849..12.0) };
-        let celerity = Celerity::new(unit(&mut random) * 10.0_f64.powf(power))?;
-        let orientation = DQuat::from_axis_angle(unit(&mut random), random.random_range(0.0..TAU));
-        let start = State::new(Event::default(), celerity, orientation);
-        let thrust = Thrust { acceleration: unit(&mut random) * thrust_per_m(), turn_rate: unit(&mut random) * 0.05 };
+        let celerity = Celerity::new(direction(&mut random) * 10.0_f64.powf(power))?;
+        let orientation = DQuat::from_axis_angle(direction(&mut random), random.random_range(0.0..TAU));
+        let start = WorldlineState::new(Event::default(), celerity, orientation);
+        let thrust = Thrust { acceleration: direction(&mut random) * thrust_per_m(), turn_rate: direction(&mut random) * 0.05 };
         let step = LIGHT_M_PER_S * 10.0_f64.powf(random.random_range(-6.0..1.0));
         let end = Exact.step(&start, step, &thrust)?;
         let exact = Motion::at(&start).then(&Motion::under(&thrust, &real(step)));
@@ -195,13 +195,13 @@ fn any_speed(cases: u32) -> Result<Vec<Row>, Refused> {
 }
 
 /// Errors of a thrust that is reversed every second.
-fn reversals(count: u32) -> Result<Vec<Row>, Refused> {
+fn reversals(count: u32) -> Result<Vec<ExtremesRow>, Refused> {
     const LEG_STEPS: u64 = 240;
     let mut worst = Worst::new(format!("{} reversals of a thrust of 30 m/s², a second each", sized(u64::from(count))));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     let forth = Thrust { acceleration: DVec3::new(0.1, 0.02, -0.28), turn_rate: DVec3::ZERO };
     let back = Thrust { acceleration: -forth.acceleration, ..forth };
-    let start = State::default();
+    let start = WorldlineState::default();
     let mut end = start;
     let mut exact = Motion::at(&start);
     let tau = real(step) * real(LEG_STEPS as f64);
@@ -217,13 +217,13 @@ fn reversals(count: u32) -> Result<Vec<Row>, Refused> {
 
 /// Errors of a circle with the nose along the motion: the thrust across it, and the turn that follows it, constant in
 /// the pilot's axes.
-fn circle(turns: u32) -> Result<Vec<Row>, Refused> {
+fn circle(turns: u32) -> Result<Vec<ExtremesRow>, Refused> {
     const GAMMA: f64 = 1e3;
     const STEP_S: f64 = 10.0;
     let w = (GAMMA * GAMMA - 1.0).sqrt();
     let a = thrust_per_m();
     let step = STEP_S * LIGHT_M_PER_S;
-    let start = State::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w))?, DQuat::IDENTITY);
+    let start = WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w))?, DQuat::IDENTITY);
     let thrust = Thrust { acceleration: DVec3::new(a, 0.0, 0.0), turn_rate: DVec3::new(0.0, -GAMMA * a / w, 0.0) };
     let count = (f64::from(turns) * TAU * w / (a * step)).ceil() as u64;
     let mut worst = Worst::new(format!("circle at γ = 1000, {turns} turns, {} steps of {STEP_S} s", sized(count)));

@@ -12,7 +12,7 @@ use crate::subject::Subject;
 use crate::target::Format;
 use crate::world::World;
 use scene::Scene;
-use view::Shot;
+use view::{Occasion, Shot};
 
 /// Map of a scene around the eye, and the objects that move over it.
 pub struct ImageRenderer {
@@ -71,9 +71,9 @@ impl Method for ImageRenderer {
         Some(self.map.stats())
     }
 
-    fn draw_in(&mut self, gpu: &Gpu, format: Format, map_scale: Option<f64>) {
+    fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {
         if let Some(texels_per_pixel) = map_scale {
-            self.quality.texels_per_pixel = texels_per_pixel;
+            self.quality = MapQuality { texels_per_pixel, smooth: occasion == Occasion::Ride };
             self.map = MapRenderer::new(gpu, format, self.quality, self.moving.is_some());
         }
     }

@@ -19,13 +19,13 @@ pub struct VehicleSettings {
 }
 
 impl Default for VehicleSettings {
-    /// Default settings, with eyes 1.6 m above the ground.
+    /// Default settings, with eyes at the height of a standing visitor.
     fn default() -> Self {
         Self {
             bicycle: BicycleSettings::default(),
             flight: FlightSettings::default(),
             integrator: IntegratorKind::default(),
-            eye_m: [0.0, 1.6, 0.0],
+            eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
         }
     }
 }
