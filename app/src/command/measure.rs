@@ -1,11 +1,12 @@
 //! `rapidity measure`: the error that each speed-up costs.
 
-use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{SceneChoice, values, world};
+use super::world::SceneChoice;
+use super::{values, world};
+use measure::choice::Goal;
 
 /// Options of `rapidity measure`.
 #[derive(Args, Clone, Debug, PartialEq)]

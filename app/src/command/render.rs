@@ -6,8 +6,13 @@ use clap::Args;
 use glam::DVec3;
 use physics::Celerity;
 
+use super::dial::DialOptions;
+use super::picture::PictureOptions;
+use super::rays::RayOptions;
+use super::room::RoomOptions;
 use super::values::{self, Output};
-use super::{PictureOptions, RayOptions, Renderer, RoomOptions, WorldOptions};
+use super::world::WorldOptions;
+use view::RendererName;
 
 /// Pictures per second of a film without `--fps`.
 const FRAMES_PER_SECOND: f64 = 30.0;
@@ -47,6 +52,9 @@ pub struct RenderOptions {
     /// Options of the room for which the picture is drawn.
     #[command(flatten)]
     pub room: RoomOptions,
+    /// Options of the method of drawing.
+    #[command(flatten)]
+    pub dial: DialOptions,
     /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
@@ -118,9 +126,12 @@ impl RenderOptions {
         if look.is_some_and(|look| look.cross(up).length() < PARALLEL) {
             return Err("--up must not be parallel to --look; give another --up (its default is 0,1,0)".to_owned());
         }
-        if let Some(option) = self.rays.given().filter(|_| self.picture.renderer != Renderer::Raytrace) {
+        if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {
             return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));
         }
-        self.picture.check()
+        if self.picture.exact_light && self.dial.renderer != RendererName::Raytrace {
+            return Err("--exact-light is for --renderer raytrace; leave one out or add the other".to_owned());
+        }
+        Ok(())
     }
 }

@@ -4,9 +4,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{PictureOptions, Renderer, WorldOptions, values};
-use crate::vehicle::{IntegratorKind, Nose};
+use super::dial::{DialOptions, map_scale_of_windows};
+use super::picture::PictureOptions;
+use super::values;
+use super::world::WorldOptions;
 use input::TrackerUrl;
+use ride::{IntegratorKind, Nose};
+use view::{Dial, Occasion, RendererName};
 
 /// Kind of vehicle that carries the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -81,6 +85,9 @@ pub struct RideOptions {
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
+    /// Options of the method of drawing.
+    #[command(flatten)]
+    pub dial: DialOptions,
     /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
@@ -95,12 +102,20 @@ impl RideOptions {
         if self.verify && self.replay.is_none() {
             return Err("--verify compares a recorded ride: name the recording with --replay".to_owned());
         }
-        if self.picture.renderer == Renderer::Raytrace {
+        if self.dial.renderer == RendererName::Raytrace {
             return Err("a ride cannot wait for the rays of --renderer raytrace: use auto, polygon or image, and render its recording \
                  with raytrace"
                 .to_owned());
         }
-        self.picture.check()
+        if self.picture.exact_light {
+            return Err("--exact-light is for --renderer raytrace; leave it out".to_owned());
+        }
+        Ok(())
+    }
+
+    /// Dial by which the frames of the ride are drawn; `software`: on the CPU.
+    pub fn dial(&self, software: bool) -> Dial {
+        self.dial.dial(Occasion::Ride, map_scale_of_windows(software))
     }
 }
 

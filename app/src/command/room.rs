@@ -1,10 +1,10 @@
 //! Options of a room with screens, and of the head in it.
 
-use crate::room::{Viewer, room_from_turned};
-use crate::walls::Head;
 use clap::Args;
 use glam::DVec3;
 use physics::Celerity;
+use room::{Viewer, room_from_turned};
+use walls::Head;
 
 use super::values;
 

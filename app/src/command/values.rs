@@ -61,9 +61,6 @@ pub enum ValueError {
         /// Extensions that are allowed.
         allowed: &'static str,
     },
-    /// A text that names no renderer.
-    #[error("expected auto, polygon, image or raytrace")]
-    Renderer,
     /// A text that names no vehicle.
     #[error("expected bicycle, drive or fly")]
     Vehicle,

@@ -4,18 +4,9 @@ use std::convert::Infallible;
 use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use clap::{Args, ValueEnum};
-use serde::{Deserialize, Serialize};
+use clap::Args;
 
 use super::values;
-use crate::renderers::choice::Bending;
-use crate::renderers::polygon::{Pace, Tolerance};
-
-/// Largest error of position in a still, pixels.
-const STILL_PX: f64 = 0.5;
-
-/// Largest error of position in a window, pixels.
-const RIDE_PX: f64 = 1.5;
 
 /// Scene that is shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -64,45 +55,6 @@ pub struct WorldOptions {
     /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,
-    /// Longest edge of a triangle in the polygon renderer, metres, cut once [default: cut for every picture, see
-    /// --tolerance].
-    ///
-    /// In a scene that names a circuit, edges farther than 4 m from it may be longer in proportion.
-    #[arg(long, value_name = "METRES", value_parser = values::positive, conflicts_with = "tolerance")]
-    pub edge: Option<f64>,
-    /// Largest error of position in the polygon renderer, pixels: edges are cut for every picture until they bend as
-    /// accurately as this [default: 0.5, in a window 1.5].
-    #[arg(long, value_name = "PIXELS", value_parser = values::within(0.01, 100.0))]
-    pub tolerance: Option<f64>,
-    /// Processor that bends vertices cut once: cpu, in parallel with drawing, or gpu, in its vertex stage except for
-    /// those astern; needs --edge.
-    #[arg(long, value_enum, default_value = "cpu", requires_if("gpu", "edge"))]
-    pub transform: Transform,
-}
-
-/// Processor that computes the apparent positions of vertices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Transform {
-    /// Every processor core, in parallel with drawing.
-    #[default]
-    Cpu,
-    /// The GPU's vertex stage; vertices astern are left to the CPU.
-    Gpu,
-}
-
-impl WorldOptions {
-    /// Method of bending the polygon renderer's edges, for a still or for a window.
-    pub fn bending(&self, pace: Pace) -> Bending {
-        let usual = match pace {
-            Pace::Still => STILL_PX,
-            Pace::Ride => RIDE_PX,
-        };
-        match self.edge {
-            Some(edge) => Bending::Fixed { edge_m: edge, vertex_stage: self.transform == Transform::Gpu },
-            None => Bending::Adaptive(Tolerance { pixels: self.tolerance.unwrap_or(usual), pace }),
-        }
-    }
 }
 
 pub(super) fn scene() -> impl TypedValueParser<Value = SceneChoice> {

@@ -3,7 +3,7 @@
 //! The file states this itself: its chromaticities are those of ITU-R BT.709, which sRGB shares, and its white
 //! luminance is 1, so red = green = blue = 1 means 1 cd/m². Compression is lossless: values are read back to the bit.
 
-use crate::error::Error;
+use super::files::WriteError;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{Encoding, Image, SpecificChannels, Vec2, WritableImage};
 use image::Rgb32FImage;
@@ -16,8 +16,8 @@ const CHROMATICITIES: Chromaticities =
 /// Writes `light` to the file `path`.
 ///
 /// # Errors
-/// [`Error::Write`] with the path and the reason; no partial file is left then.
-pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), Error> {
+/// [`WriteError`] with the path and the reason; no partial file is left then.
+pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), WriteError> {
     let size = (light.width() as usize, light.height() as usize);
     let pixel = |place: Vec2<usize>| {
         let [red, green, blue] = light.get_pixel(place.x() as u32, place.y() as u32).0;
@@ -26,5 +26,5 @@ pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), Error> {
     let mut file = Image::from_encoded_channels(size, Encoding::SMALL_FAST_LOSSLESS, SpecificChannels::rgb(pixel));
     file.attributes.chromaticities = Some(CHROMATICITIES);
     file.layer_data.attributes.white_luminance = Some(1.0);
-    file.write().to_file(path).map_err(|error| Error::Write { path: path.to_owned(), reason: error.to_string() })
+    file.write().to_file(path).map_err(|error| WriteError::new(path, error))
 }

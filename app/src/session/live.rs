@@ -3,14 +3,11 @@
 //! Frames come from live devices and the window's keys as the clock runs, or from a recording at the pace at which it
 //! was ridden. In both cases the caller asks once per frame and gets the observer.
 
-use crate::error::Error;
-use crate::log::Log;
-use crate::simulation::{Frame, Replay, ReplayError, Replayed, Simulation};
-use crate::views::Gaze;
-use input::devices::{Devices, State};
+use crate::output::files::unused;
+use input::devices::{DeviceState, Devices};
 use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
-use physics::photo_surface::Eye;
-use std::path::{Path, PathBuf};
+use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
+use std::path::Path;
 
 /// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
@@ -27,14 +24,14 @@ pub struct Live {
 /// Source of the ride's frames.
 enum Rider {
     /// Live devices, with a simulation and a log.
-    Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<Log> },
+    Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<RideLog> },
     /// Recorded ride that is replayed.
-    Recorded { replay: Box<Replay>, next: Option<Box<Frame>>, shown: Option<Box<Frame>>, differed: bool },
+    Recorded { replay: Box<Replay>, next: Option<Box<RideFrame>>, shown: Option<Box<RideFrame>>, differed: bool },
 }
 
 impl Live {
     /// Creates a live ride from `devices`, whose clock must be `clock`. The ride ends after `seconds`, if given.
-    pub fn present(simulation: Simulation, devices: Devices, clock: Clock, log: Log, seconds: Option<f64>) -> Self {
+    pub fn present(simulation: Simulation, devices: Devices, clock: Clock, log: RideLog, seconds: Option<f64>) -> Self {
         let rider = Rider::Present { simulation: Box::new(simulation), devices: Box::new(devices), log: Box::new(log) };
         Self::new(rider, clock, seconds)
     }
@@ -70,8 +67,8 @@ impl Live {
     /// Present frame of the ride; `None` at its end.
     ///
     /// # Errors
-    /// [`Error`] of a recording that is damaged before its first frame.
-    pub fn frame(&mut self) -> Result<Option<Frame>, Error> {
+    /// [`ReplayError`] of a recording that is damaged before its first frame.
+    pub fn frame(&mut self) -> Result<Option<RideFrame>, ReplayError> {
         let now = self.clock.now();
         self.told.retain(|(until, _)| *until > now);
         if self.end.is_some_and(|end| now >= end) {
@@ -106,7 +103,7 @@ impl Live {
                                 frame
                             }
                             Ok(None) => break true,
-                            Err(error) if shown.is_none() => return Err(error.into()),
+                            Err(error) if shown.is_none() => return Err(error),
                             Err(error) => {
                                 eprintln!("{error}");
                                 break true;
@@ -152,11 +149,11 @@ impl Live {
                 .status()
                 .into_iter()
                 .map(|status| match status.state {
-                    State::Open => {
+                    DeviceState::Open => {
                         let bad = simulation.desk().faults(status.source).number();
                         format!("{}: {} at {:.0} Hz, {bad} bad", status.source, status.name, status.rate_hz)
                     }
-                    State::Absent(why) => format!("{}: {why}", status.source),
+                    DeviceState::Absent(why) => format!("{}: {why}", status.source),
                 })
                 .collect(),
         }
@@ -170,8 +167,8 @@ impl Live {
     /// Records the ride from its beginning into `path`.
     ///
     /// # Errors
-    /// [`Error`] if the file cannot be written.
-    pub fn record(&mut self, path: &Path) -> Result<(), Error> {
+    /// [`LogError`] if the file cannot be written.
+    pub fn record(&mut self, path: &Path) -> Result<(), LogError> {
         match &mut self.rider {
             Rider::Present { log, .. } => log.record(path),
             Rider::Recorded { .. } => Ok(()),
@@ -198,8 +195,8 @@ impl Live {
     /// Completes the recording.
     ///
     /// # Errors
-    /// [`Error`] if the rest cannot be written.
-    pub fn finish(&mut self) -> Result<(), Error> {
+    /// [`LogError`] if the rest cannot be written.
+    pub fn finish(&mut self) -> Result<(), LogError> {
         match &mut self.rider {
             Rider::Present { log, .. } => log.finish(),
             Rider::Recorded { .. } => Ok(()),
@@ -213,22 +210,4 @@ fn onlooker(said: &[Sample]) -> Vec<Action> {
     said.iter().for_each(|sample| desk.feed(sample));
     let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
     actions.into_iter().filter(|action| matches!(action, Action::ToggleHelp | Action::Photo)).collect()
-}
-
-/// Place, motion and direction of view of a frame's observer.
-///
-/// # Errors
-/// [`Error`] for a place that is not finite, which a simulation never yields.
-pub fn gaze(frame: &Frame) -> Result<Gaze, Error> {
-    let observer = frame.eye.observer;
-    let eye = Eye::new(observer.event.position, observer.celerity.vector())?;
-    Ok(Gaze { eye, ct: observer.event.ct, observer_from_eye: frame.eye.orientation })
-}
-
-/// First of `stem-001.extension`, `stem-002.extension`, … that does not exist yet.
-pub fn unused(stem: &str, extension: &str) -> PathBuf {
-    (1_u32..)
-        .map(|number| PathBuf::from(format!("{stem}-{number:03}.{extension}")))
-        .find(|path| !path.exists())
-        .expect("there are more numbers than files")
 }

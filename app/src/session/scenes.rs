@@ -1,32 +1,27 @@
-//! Where a scene comes from: built in, or a file; refined so that straight edges may bend.
+//! The scene that is asked for: built in, or from a file.
 
-use std::path::{Path, PathBuf};
-
-use super::gltf::{self, GltfError, Stage};
-use super::motion::TooFast;
-use super::panorama::{self, PanoramaError};
-use super::{Scene, lattice::Lattice, spectra, town};
 use crate::command::SceneChoice;
-use crate::progress;
+use crate::output::progress;
+use built_in::lattice::Lattice;
+use built_in::{spectra, town};
+use scene::{Scene, TooFast};
+use scene_files::gltf::Stage;
+use scene_files::read;
+use std::path::PathBuf;
+use thiserror::Error;
 
-/// The seed of the town that everybody sees.
-pub const TOWN_SEED: u64 = 1;
-
-/// Why a file gives no scene.
-#[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// A glTF file, or what was taken for one.
+/// Reason why there is no scene.
+#[derive(Debug, Error)]
+pub enum SceneError {
+    /// A file that gives no scene.
     #[error(transparent)]
-    Gltf(#[from] GltfError),
-    /// A picture.
-    #[error(transparent)]
-    Panorama(#[from] PanoramaError),
+    File(#[from] scene_files::LoadError),
     /// An animation faster than light.
     #[error("{}: {fault}", path.display())]
     TooFast {
-        /// The scene.
+        /// File of the scene.
         path: PathBuf,
-        /// Which.
+        /// Animation, and its speed.
         fault: TooFast,
     },
 }
@@ -35,11 +30,11 @@ pub enum LoadError {
 ///
 /// # Errors
 /// What is wrong with the file, and where; or what of it would be faster than light.
-pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, LoadError> {
+pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, SceneError> {
     match choice {
         SceneChoice::Town => {
             let spinner = progress::spinner("building the old town");
-            let scene = town::build(TOWN_SEED);
+            let scene = town::build(town::TOWN_SEED);
             spinner.finish_and_clear();
             Ok(scene)
         }
@@ -61,16 +56,8 @@ pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, Load
                 eprintln!("{}: {notice}", path.display());
             }
             let checked = scene.set_speed_of_light(speed_of_light_m_s);
-            checked.map_err(|fault| LoadError::TooFast { path: path.clone(), fault })?;
+            checked.map_err(|fault| SceneError::TooFast { path: path.clone(), fault })?;
             Ok(scene)
         }
     }
-}
-
-/// Reads a scene from a file: a picture all around, by the ending of its name, or glTF.
-///
-/// # Errors
-/// What is wrong with the file, and where.
-pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, LoadError> {
-    if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
 }

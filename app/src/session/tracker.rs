@@ -1,13 +1,13 @@
 //! Tracker of the head: from the display's `[tracker]` table, or from the command line instead.
 
-use super::Head;
-use crate::room::Display;
 use glam::DMat3;
 use input::head::TrackingMode;
 use input::{ConfigError, HeadConfig, HeadState, TrackerUrl};
 use physics::Celerity;
+use room::Display;
 use serde::Deserialize;
 use thiserror::Error;
+use walls::Head;
 
 /// Reason why a head cannot be tracked.
 #[derive(Debug, Error)]
@@ -66,7 +66,7 @@ pub fn head(state: &HeadState, speed_of_light: f64) -> Head {
     Head {
         place_m: state.position_m,
         room_from_head: DMat3::from_quat(state.orientation),
-        celerity: Celerity::new(input::head::celerity(state.velocity_m_s, speed_of_light)).unwrap_or_default(),
+        celerity: Celerity::new(state.velocity_m_s / speed_of_light).unwrap_or_default(),
     }
 }
 

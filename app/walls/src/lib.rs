@@ -25,4 +25,4 @@ mod walls;
 
 pub use head::{Head, Occupant, OccupantEye};
 pub use quality::Quality;
-pub use walls::{DrawnChannels, Walls};
+pub use walls::{DrawnChannels, SubmittedRoom, Walls};

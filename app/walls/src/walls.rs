@@ -2,14 +2,14 @@
 
 use crate::calibration::Calibration;
 use crate::combine::Combiner;
-use crate::head::Occupant;
+use crate::head::{Occupant, OccupantEye};
 use crate::picture::{Picture, Sitting};
 use crate::quality::Quality;
 use crate::test_grid::Grids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
-use render::{Gpu, GpuError, SceneRenderer};
-use room::{Channel, Display, EyeSide, EyeBehind, Warp, WindowPlace};
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use room::{Channel, Display, EyeBehind, EyeSide, Warp, WindowPlace};
 use std::time::Duration;
 use view::Effects;
 
@@ -24,6 +24,28 @@ pub struct DrawnChannels {
     pub transform: Duration,
     /// Displacement of the drawn picture from the true one, in the channel where it is largest.
     pub certainty: Certainty,
+}
+
+/// Photo-surfaces of an occupant's eyes under way, for one picture of the room.
+#[must_use = "a room that is not drawn was worked out in vain"]
+pub struct SubmittedRoom {
+    /// Occupant that looks.
+    pub occupant: Occupant,
+    effects: Effects,
+    eyes: Vec<SubmittedEye>,
+}
+
+struct SubmittedEye {
+    side: EyeSide,
+    eye: OccupantEye,
+    pending: Pending,
+}
+
+impl SubmittedRoom {
+    /// True if a photo-surface is under way, false if the method needs none.
+    pub fn is_under_way(&self) -> bool {
+        self.eyes.iter().any(|eye| eye.pending.is_under_way())
+    }
 }
 
 /// Channels of a display, ready to be drawn.
@@ -63,33 +85,45 @@ impl Walls {
         }
     }
 
-    /// Draws the light of every channel as the occupant sees it. While test grids are shown, nothing is drawn.
+    /// Begins the photo-surfaces of an occupant's eyes, beside whatever is drawn meanwhile.
     ///
     /// # Errors
-    /// [`GpuError`]: an eye without a valid place, or a lost device.
-    pub fn draw(
-        &mut self,
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn submit(
+        &self,
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         occupant: &Occupant,
         effects: Effects,
-    ) -> Result<DrawnChannels, GpuError> {
-        if self.grids.is_some() {
-            return Ok(DrawnChannels::default());
-        }
-        // The photo-surfaces of later eyes are computed while the first eye's channels are drawn.
+    ) -> Result<SubmittedRoom, GpuError> {
         let mut eyes = Vec::new();
         for side in [EyeSide::Left, EyeSide::Right, EyeSide::Centre] {
             if self.display.channels.iter().any(|channel| channel.eye == side) {
                 let eye = occupant.eye(&self.display.viewer, side);
                 let pending = renderer.submit(gpu, &eye.observer, effects)?;
-                eyes.push((side, eye, pending));
+                eyes.push(SubmittedEye { side, eye, pending });
             }
         }
+        Ok(SubmittedRoom { occupant: *occupant, effects, eyes })
+    }
 
+    /// Draws the light of every channel; nothing while the channels show test grids.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        submitted: SubmittedRoom,
+    ) -> Result<DrawnChannels, GpuError> {
         let mut drawn = DrawnChannels::default();
+        if self.grids.is_some() {
+            return Ok(drawn);
+        }
+        let SubmittedRoom { effects, eyes, .. } = submitted;
         let Self { display, quality, passes, resample, .. } = self;
-        for (side, eye, pending) in eyes {
+        for SubmittedEye { side, eye, pending } in eyes {
             let transformed = renderer.show(gpu, pending)?;
             drawn.transform += transformed.duration;
             drawn.not_finite += transformed.not_finite;

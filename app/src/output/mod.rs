@@ -1,0 +1,6 @@
+//! What the program writes: pictures, light, films, and bars on long waits.
+
+pub mod exr;
+pub mod film;
+pub mod files;
+pub mod progress;
