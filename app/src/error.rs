@@ -1,11 +1,23 @@
 //! What can go wrong in the program as a whole. Every part has an error of its own; here they meet, so that `main`
 //! reports once.
 
-use crate::film::FilmError;
-use crate::gpu::GpuError;
-use crate::scene::refine::RefineError;
-use crate::scene::source::LoadError;
+use crate::output::film::FilmError;
+use crate::output::files::WriteError;
+use crate::session::preferences::PreferencesError;
+use crate::session::scenes::SceneError;
+use crate::session::tracker::TrackerError;
+use measure::MeasureError;
+use measure::choice::ChoiceError;
+use measure::extremes::ExtremesError;
+use measure::plot::PlotError;
 use physics::photo_surface::PhotoSurfaceError;
+use render::GpuError;
+use ride::{LightSpeedError, LogError, ReplayError, SetupError};
+use room::{DisplayError, EyeBehind};
+use scene::SceneFault;
+use scene::refine::RefineError;
+use scene_files::check::CheckError;
+use scene_files::export::ExportError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -17,39 +29,39 @@ pub enum Error {
     Gpu(#[from] GpuError),
     /// No plot.
     #[error(transparent)]
-    Plot(#[from] crate::measure::plot::PlotError),
+    Plot(#[from] PlotError),
     /// No setting for a goal.
     #[error(transparent)]
-    Choice(#[from] crate::measure::choice::ChoiceError),
+    Choice(#[from] ChoiceError),
     /// No use of the user's preferences.
     #[error(transparent)]
-    Preferences(#[from] crate::preferences::PreferencesError),
-    /// A worldline that cannot be followed.
+    Preferences(#[from] PreferencesError),
+    /// A measurement that cannot be made.
     #[error(transparent)]
-    Worldline(#[from] physics::worldline::WorldlineError),
+    Measure(#[from] MeasureError),
+    /// A ride that is not recorded.
+    #[error(transparent)]
+    Log(#[from] LogError),
     /// Physics less exact than promised.
     #[error(transparent)]
-    Extremes(#[from] crate::measure::extremes::ExtremesError),
+    Extremes(#[from] ExtremesError),
     /// No film.
     #[error(transparent)]
     Film(#[from] FilmError),
     /// No display.
     #[error(transparent)]
-    Display(#[from] crate::room::DisplayError),
-    /// A display that cannot be drawn.
-    #[error(transparent)]
-    Walls(#[from] crate::walls::WallsError),
+    Display(#[from] DisplayError),
     /// An eye that sees the back of a screen.
     #[error("channel {channel}: {behind}")]
     EyeBehind {
         /// Its name.
         channel: String,
         /// Where the eye is.
-        behind: crate::room::EyeBehind,
+        behind: EyeBehind,
     },
     /// A tracker that cannot be used.
     #[error(transparent)]
-    Tracker(#[from] crate::walls::tracker::TrackerError),
+    Tracker(#[from] TrackerError),
     /// A room without a graphical session.
     #[error(
         "--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`"
@@ -60,16 +72,16 @@ pub enum Error {
     WallsByRays,
     /// No scene.
     #[error(transparent)]
-    Scene(#[from] LoadError),
+    Scene(#[from] SceneError),
     /// A scene with a flaw.
     #[error(transparent)]
-    Flawed(#[from] crate::scene::SceneFault),
+    Flawed(#[from] SceneFault),
     /// A scene that `rapidity check` refuses.
     #[error(transparent)]
-    Check(#[from] crate::scene::check::CheckError),
+    Check(#[from] CheckError),
     /// A file that could not be exported.
     #[error(transparent)]
-    Export(#[from] crate::scene::export::ExportError),
+    Export(#[from] ExportError),
     /// Too fine.
     #[error(transparent)]
     Refine(#[from] RefineError),
@@ -81,13 +93,13 @@ pub enum Error {
     Recording(#[from] input::recording::RecordingError),
     /// A ride that cannot begin.
     #[error(transparent)]
-    Setup(#[from] crate::simulation::SetupError),
+    Setup(#[from] SetupError),
     /// A recorded ride that is not the same.
     #[error(transparent)]
-    Replay(#[from] crate::simulation::ReplayError),
+    Replay(#[from] ReplayError),
     /// A speed of light that is none.
     #[error(transparent)]
-    World(#[from] crate::vehicle::WorldError),
+    World(#[from] LightSpeedError),
     /// Devices that cannot be read.
     #[error(transparent)]
     Devices(#[from] input::devices::DevicesError),
@@ -111,9 +123,6 @@ pub enum Error {
     /// A recording without a single frame.
     #[error("the recording ends before its first frame: there is nothing to show")]
     NothingRidden,
-    /// A ride too long to be recorded from its beginning.
-    #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
-    NotRemembered,
     /// Ctrl-C before there was anything to keep.
     #[error("interrupted before anything was traced, so nothing was written")]
     Interrupted,
@@ -123,14 +132,9 @@ pub enum Error {
     /// The terminal or the pipe that is written to is gone.
     #[error("the output cannot be written: {0}")]
     Output(#[from] std::io::Error),
-    /// A file that would not be written.
-    #[error("{}: could not be written: {reason}; choose another place", path.display())]
-    Write {
-        /// What was to be written.
-        path: PathBuf,
-        /// As the system says it.
-        reason: String,
-    },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
     /// More pixels than the device can draw.
     #[error("--size {}x{} is too large for this graphics device, which draws up to {limit} pixels a side", size[0], size[1])]
     TooLarge {

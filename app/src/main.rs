@@ -1,10 +1,8 @@
 //! The program: reads the command line, carries out the command, reports once.
 
 use rapidity::command::{self, Command};
+use rapidity::commands::{check, devices, measure, probe, render, ride, town};
 use rapidity::error::Error;
-use rapidity::scene::{export, source};
-use rapidity::vehicle::World;
-use rapidity::{check, devices, measure, probe, render, ride};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,16 +28,8 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
             render::render(options)?;
         }
         Command::Measure(options) => measure::measure(options)?,
-        Command::Town(options) => {
-            render::writable(&options.out)?;
-            let scene = source::load(&command::SceneChoice::Town, World::OLD_TOWN.speed_of_light_m_s())?;
-            export::write_glb(&scene, &options.out)?;
-            eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
-        }
-        Command::Probe => {
-            let good = probe::run(std::io::stdin().lock(), std::io::stdout().lock())?;
-            return Ok(if good { ExitCode::SUCCESS } else { ExitCode::FAILURE });
-        }
+        Command::Town(options) => town::town(options)?,
+        Command::Probe => return probe::probe(),
         Command::Devices(options) => devices::devices(options)?,
         Command::Check(options) => check::check(options)?,
     }

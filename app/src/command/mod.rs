@@ -23,7 +23,7 @@ mod room;
 mod values;
 mod world;
 
-pub use dial::DialOptions;
+pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
 pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse, parse_from};
 pub use measure::MeasureOptions;
 pub use picture::PictureOptions;

@@ -2,10 +2,10 @@
 
 use crate::command::CheckOptions;
 use crate::error::Error;
-use crate::room::{self, Display};
-use crate::scene::{self, panorama};
-use input::recording::{Entry, Recording, RecordingError};
-use std::io::Write;
+use crate::output::say::say;
+use input::recording::{Recording, RecordingEntry, RecordingError};
+use room::Display;
+use scene_files::panorama;
 use std::path::Path;
 
 /// Runs `rapidity check`: prints a paragraph for each file.
@@ -28,20 +28,12 @@ pub fn check(options: &CheckOptions) -> Result<(), Error> {
 
 fn report(path: &Path) -> Result<String, Error> {
     match path.extension().and_then(|extension| extension.to_str()) {
-        Some("gltf" | "glb") => Ok(scene::check::check(path)?.to_string()),
+        Some("gltf" | "glb") => Ok(scene_files::check::check(path)?.to_string()),
         Some("mcap") => Ok(recording(path)?),
         _ if room::is_display(path) => Ok(Display::load(path)?.to_string()),
-        _ if panorama::is_picture(path) => Ok(scene::check::check(path)?.to_string()),
+        _ if panorama::is_picture(path) => Ok(scene_files::check::check(path)?.to_string()),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
-}
-
-/// Writes a line to standard output. A closed output is an error, not a panic.
-///
-/// # Errors
-/// [`Error::Output`].
-pub fn say(line: &str) -> Result<(), Error> {
-    writeln!(std::io::stdout(), "{line}").map_err(Error::Output)
 }
 
 /// Report on a recording that is complete.
@@ -54,9 +46,9 @@ fn recording(path: &Path) -> Result<String, RecordingError> {
             eprintln!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9);
         })?;
         match entry {
-            Entry::Sample(_) => samples += 1,
-            Entry::Controls(_) => {}
-            Entry::Frame(frame) => {
+            RecordingEntry::Sample(_) => samples += 1,
+            RecordingEntry::Controls(_) => {}
+            RecordingEntry::Frame(frame) => {
                 frames += 1;
                 last = frame.at;
             }

@@ -2,11 +2,11 @@
 
 use crate::command::DevicesOptions;
 use crate::error::Error;
-use crate::render::interrupted;
+use crate::session::interrupt::interrupted;
 use glam::EulerRot;
-use input::devices::{Devices, DevicesConfig, Plugged, State, Status, plugged_in};
-use input::head::{Head, Tracking};
-use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, Source};
+use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
+use input::head::{TrackedHead, Tracking};
+use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, SampleSource};
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
@@ -60,7 +60,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     }
 }
 
-fn plugged(devices: &[Plugged]) -> String {
+fn plugged(devices: &[PluggedDevice]) -> String {
     if devices.is_empty() {
         return "No serial port, SpaceMouse or gamepad is plugged in; the keyboard rides, too.".to_owned();
     }
@@ -74,11 +74,11 @@ fn plugged(devices: &[Plugged]) -> String {
     text
 }
 
-fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
+fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls) -> String {
     let mut text = String::new();
     for status in statuses {
         let _ = match &status.state {
-            State::Open => {
+            DeviceState::Open => {
                 let bytes: Vec<String> =
                     status.last.iter().take(SHOWN_BYTES).map(|byte| format!("{byte:02x}")).collect();
                 let bad = desk.faults(status.source).number();
@@ -94,7 +94,7 @@ fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
                     bytes.join(" ")
                 )
             }
-            State::Absent(why) => writeln!(text, "{:<11} {why}", status.source.name()),
+            DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", status.source.name()),
         };
     }
     let wheel = controls.wheel_speed.map_or("none".to_owned(), |speed| format!("{:.2} m/s", speed));
@@ -114,7 +114,7 @@ fn listing(statuses: &[Status], desk: &Desk, controls: &Controls) -> String {
 }
 
 /// Line about the head: its pose, and reasons why it is not tracked.
-fn head_line(head: &Head, state: &HeadState, desk: &Desk) -> String {
+fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk) -> String {
     let tracked = match state.tracked {
         Tracking::Never => "not seen yet",
         Tracking::Tracked => "tracked",
@@ -134,7 +134,7 @@ fn head_line(head: &Head, state: &HeadState, desk: &Desk) -> String {
         let _ = write!(text, " ({why})");
     }
     let numbers = desk.vrpn().numbers();
-    if head.config().url.source() == Source::Vrpn && !numbers.has_device() && !numbers.senders().is_empty() {
+    if head.config().url.source() == SampleSource::Vrpn && !numbers.has_device() && !numbers.senders().is_empty() {
         let _ = write!(text, "; the server has no such device, but {}", numbers.senders().join(", "));
     }
     text

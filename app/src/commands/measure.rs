@@ -1,20 +1,32 @@
 //! `rapidity measure` without the extremes: pictures by each renderer's dials, the other dials, and the output of the
 //! results.
 
+use std::io::Write;
 use std::sync::atomic::Ordering;
 
-use super::dials::{OF_RIDES, OF_STILLS};
-use super::pictures::{Kind, Measurement, Row, measure};
-use super::plot::plot;
-use super::table::{self, Line};
-use super::views::{FOV_DEGREES, views};
-use super::{choice, precision, samples, shift_table, steps};
-use crate::command::{Goal, MeasureOptions};
+use measure::choice::{self, Goal};
+use measure::extremes;
+use measure::pictures::{self, Kind, Measured, Measurement};
+use measure::plot::plot;
+use measure::table::{self, Line};
+use measure::views::{self, FOV_DEGREES, Views};
+use measure::{MeasureError, OF_RIDES, OF_STILLS, Row, precision, samples, shift_table, steps};
+use render::Gpu;
+use render::picture::largest_side;
+use ride::LightSpeed;
+use trace::RayTracer;
+use view::Gaze;
+
+use crate::command::MeasureOptions;
 use crate::error::Error;
-use crate::gpu::Gpu;
-use crate::render::{interrupted, writable};
-use crate::renderers::picture::largest_side;
-use crate::renderers::raytrace::RayTracer;
+use crate::output::files::writable;
+use crate::output::progress;
+use crate::session::interrupt::interrupted;
+use crate::session::preferences::Preferences;
+use crate::session::{reel, scenes};
+
+/// Pictures a second at which a recording is looked through.
+const LOOKED_THROUGH: f64 = 10.0;
 
 /// Size of pictures that are compared, and of a ride's window, pixels.
 const STILL_SIZE: [u32; 2] = [640, 360];
@@ -25,11 +37,19 @@ const FRAME_S: f64 = 1.0 / 60.0;
 /// Longest frame time at which a ride is measured, seconds.
 const LONGEST_FRAME_S: f64 = 1.0 / 15.0;
 
+/// Carries out `rapidity measure`.
+///
+/// # Errors
+/// Whatever keeps it from being measured or written, and errors of the physics beyond what it promises.
+pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
+    if options.extremes { accuracy() } else { dials(options) }
+}
+
 /// Measures and writes the results.
 ///
 /// # Errors
 /// Any fault that prevents drawing the scene or writing the results, and a goal that no setting reaches.
-pub fn run(options: &MeasureOptions) -> Result<(), Error> {
+fn dials(options: &MeasureOptions) -> Result<(), Error> {
     let stop = interrupted();
     for path in options.out.iter().chain(&options.plot) {
         writable(path)?;
@@ -41,14 +61,14 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
     if size.iter().any(|side| *side > limit) {
         return Err(Error::TooLarge { size, limit });
     }
-    let views = views(&options.scene, options.speed_of_light, options.replay.as_deref(), options.poses)?;
+    let views = looked_at(options)?;
     let (scene, shots) = (&views.scene, &views.shots);
     let pixel_arcmin = (2.0 * (0.5 * FOV_DEGREES).to_radians().tan() / f64::from(size[1])).to_degrees() * 60.0;
     let kind = match goal {
         None => Kind::Stills,
         Some(goal) => {
             let frame_s = if let Goal::Budget { ms } = goal { 1e-3 * ms } else { FRAME_S };
-            Kind::Rides { own_m: views.world.metres(frame_s.min(LONGEST_FRAME_S)) }
+            Kind::Rides { own_m: views.light_speed.metres(frame_s.min(LONGEST_FRAME_S)) }
         }
     };
     eprintln!(
@@ -63,8 +83,15 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
 
     let tracer = if kind == Kind::Stills { Some(RayTracer::new(scene.clone(), None, false)?) } else { None };
     let measurement = Measurement { gpu: &gpu, scene, shots, size, kind, rounds: options.rounds };
-    let settings: &[_] = if kind == Kind::Stills { &OF_STILLS } else { &OF_RIDES };
-    let rows = measure(&measurement, settings, tracer.as_ref(), &stop)?;
+    let positions: &[_] = if kind == Kind::Stills { &OF_STILLS } else { &OF_RIDES };
+    let bar = progress::bar("measuring", 0);
+    let progress = |done: usize, total: usize| {
+        bar.set_length(total as u64);
+        bar.set_position(done as u64);
+    };
+    let Measured { rows, left_out } = pictures::measure(&measurement, positions, tracer.as_ref(), &stop, &progress)?;
+    bar.finish_and_clear();
+    left_out.iter().for_each(|sentence| eprintln!("{sentence}"));
     print!("{}", table::of_pictures(&rows));
     if !rows.is_empty() && rows.iter().all(|row| row.pixels == 0) {
         eprintln!(
@@ -83,7 +110,9 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         if !stop.load(Ordering::Relaxed) {
             add(samples::measure(&measurement, tracer, &stop)?);
         }
-        for measure in [shift_table::measure, steps::measure, precision::measure] {
+        let others: [fn(&Views) -> Result<(String, Vec<Line>), MeasureError>; 3] =
+            [|views| Ok(shift_table::measure(views)), steps::measure, precision::measure];
+        for measure in others {
             if !stop.load(Ordering::Relaxed) {
                 add(measure(&views)?);
             }
@@ -100,7 +129,7 @@ pub fn run(options: &MeasureOptions) -> Result<(), Error> {
         pixel_arcmin,
     )?;
     match goal {
-        Some(goal) if !stop.load(Ordering::Relaxed) => choice::choose(&rows, goal, pixel_arcmin, size),
+        Some(goal) if !stop.load(Ordering::Relaxed) => choose(&rows, goal, pixel_arcmin, size),
         _ => Ok(()),
     }
 }
@@ -115,5 +144,55 @@ fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pi
         plot(rows, title, pixel_arcmin, path)?;
         eprintln!("wrote {}", path.display());
     }
+    Ok(())
+}
+
+/// Prints ACCURACY.md.
+fn accuracy() -> Result<(), Error> {
+    let spinner = progress::spinner("measuring a billion steps and more");
+    let rows = extremes::rows(extremes::Extent::FULL);
+    spinner.finish_and_clear();
+    let rows = rows?;
+    std::io::stdout().write_all(extremes::document(&rows).as_bytes())?;
+    Ok(extremes::check(&rows)?)
+}
+
+/// Scene that is measured, and the pictures taken in it.
+fn looked_at(options: &MeasureOptions) -> Result<Views, Error> {
+    let Some(recording) = &options.replay else {
+        let light_speed = LightSpeed::new(options.speed_of_light)?;
+        let scene = scenes::load(&options.scene, options.speed_of_light)?;
+        let shots = views::along_circuit(&scene, options.poses);
+        return Ok(Views { scene, light_speed, shots });
+    };
+    let (scene, speed_of_light_m_s, moments) = reel::reel(recording, &options.scene, LOOKED_THROUGH, None)?;
+    let light_speed = LightSpeed::new(speed_of_light_m_s)?;
+    let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
+    if gazes.is_empty() {
+        return Err(Error::NothingRidden);
+    }
+    Ok(Views { scene, light_speed, shots: views::of_ride(&gazes, options.poses) })
+}
+
+/// Chooses the dial that reaches the goal best, and writes it where rides read it.
+fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result<(), Error> {
+    let row = choice::best(rows, goal, pixel_arcmin)?;
+    let note = format!(
+        "Chosen by `rapidity measure --{goal}` for pictures of {} x {}: {:.1} ms a frame ({:.1} in 95 of 100), {:.2} pixels off.",
+        size[0],
+        size[1],
+        row.ms[0],
+        row.ms[1],
+        row.arcmin[1] / pixel_arcmin
+    );
+    let path = Preferences { ride: row.dial }.save(&note)?;
+    eprintln!(
+        "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
+        row.dial,
+        row.ms[0],
+        row.ms[1],
+        row.arcmin[1] / pixel_arcmin
+    );
+    eprintln!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display());
     Ok(())
 }

@@ -1,30 +1,29 @@
 //! `rapidity render --display`: a picture for every channel of a room.
 
-use crate::command::{RenderOptions, Renderer};
+use crate::command::RenderOptions;
+use crate::commands::cameraman::dial_of_stills;
 use crate::error::Error;
-use crate::gpu::Gpu;
-use crate::progress;
-use crate::render::save;
-use crate::renderers::SceneRenderer;
-use crate::renderers::choice::Choice;
-use crate::renderers::image::MapQuality;
-use crate::renderers::picture::{SCREEN_FORMAT, Studio, largest_side};
-use crate::renderers::polygon::Pace;
-use crate::room::Display;
-use crate::scene::{Start, source};
-use crate::views::Camera;
-use crate::walls::preview::Onlooker;
-use crate::walls::{Occupant, Quality, Walls};
+use crate::output::files::{WriteError, save};
+use crate::output::progress;
+use crate::session::scenes;
 use physics::Event;
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
+use render::choice::Choice;
+use render::picture::{SCREEN_FORMAT, Studio, largest_side};
+use render::{Gpu, SceneRenderer};
+use room::Display;
+use scene::Start;
 use std::path::Path;
+use view::{Camera, Dial, Occasion, RendererName};
+use walls::preview::Onlooker;
+use walls::{Occupant, Quality, Walls};
 
 /// Carries out `rapidity render --display`.
 ///
 /// # Errors
 /// Whatever keeps a picture from being drawn or written.
 pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) -> Result<(), Error> {
-    if options.picture.renderer == Renderer::Raytrace {
+    if options.dial.renderer == RendererName::Raytrace {
         return Err(Error::WallsByRays);
     }
     let display = Display::named_or_file(display)?;
@@ -37,7 +36,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     }
     make_folder(folder)?;
 
-    let scene = source::load(&options.world.scene, options.world.speed_of_light)?;
+    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
     let vehicle = vehicle(options, scene.start);
     let picture = &options.picture;
     let quality = Quality {
@@ -48,14 +47,15 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     };
     // What is drawn finely already needs a map that is no finer.
     let bent = display.channels.iter().any(|channel| channel.flat(&display).is_none());
-    let usual = picture.map_of_pictures();
-    let finer = if bent && picture.map_scale.is_none() { quality.density } else { 1.0 };
-    let map = MapQuality { texels_per_pixel: usual.texels_per_pixel / finer, ..usual };
-    let Choice { scene, method, because } =
-        Choice::of(scene, picture.renderer, options.world.bending(Pace::Still), map)?;
+    let usual = dial_of_stills(&options.dial, picture);
+    let finer = if bent && options.dial.map_scale.is_none() { quality.density } else { 1.0 };
+    let wanted = Dial { map_scale: usual.map_scale.map(|scale| scale / finer), ..usual };
+    let spinner = progress::cutting(wanted);
+    let Choice { scene, dial, because } = Choice::of(scene, wanted, Occasion::Still)?;
+    spinner.finish_and_clear();
     eprintln!("{because}, on {}", gpu.description());
     let spinner = progress::spinner("uploading");
-    let mut renderer = SceneRenderer::new(gpu, &scene, quality.format, picture.background, method)?;
+    let mut renderer = SceneRenderer::new(gpu, &scene, quality.format, picture.background, dial, Occasion::Still)?;
     let head = options.room.head(&display.viewer);
     let mut walls = Walls::new(gpu, display, quality, SCREEN_FORMAT);
     gpu.wait()?;
@@ -64,7 +64,8 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     let count = walls.display.channels.len();
     let spinner = progress::spinner("drawing");
     let occupant = Occupant { vehicle, head };
-    let drawn = walls.draw(gpu, &mut renderer, &occupant, picture.effects)?;
+    let submitted = walls.submit(gpu, &mut renderer, &occupant, picture.effects)?;
+    let drawn = walls.draw(gpu, &mut renderer, submitted)?;
     if let Some((channel, behind)) = drawn.behind.first() {
         return Err(Error::EyeBehind { channel: channel.clone(), behind: *behind });
     }
@@ -90,15 +91,15 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
 }
 
 /// The vehicle that the room rests in: at --position, which is on the ground where nothing is said, and with its −z along --look.
-fn vehicle(options: &RenderOptions, start: Start) -> State {
+fn vehicle(options: &RenderOptions, start: Start) -> WorldlineState {
     let view = &options.viewpoint;
     let position = view.position.unwrap_or(start.position);
     let look = view.look.unwrap_or(start.look);
     let orientation = Camera::looking(look, view.up, 1.0).observer_from_eye;
-    State::new(Event { ct: 0.0, position }, view.celerity(), orientation)
+    WorldlineState::new(Event { ct: 0.0, position }, view.celerity(), orientation)
 }
 
 /// Makes the folder that pictures go into, if it is not there.
 fn make_folder(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::Write { path: folder.to_owned(), reason: error.to_string() })
+    Ok(std::fs::create_dir_all(folder).map_err(|error| WriteError::new(folder, error))?)
 }

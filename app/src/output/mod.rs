@@ -4,3 +4,4 @@ pub mod exr;
 pub mod film;
 pub mod files;
 pub mod progress;
+pub mod say;

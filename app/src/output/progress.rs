@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
+use view::Dial;
 
 /// Spinner with a sentence, for work of unknown length.
 pub fn spinner(what: impl Into<String>) -> ProgressBar {
@@ -9,6 +10,14 @@ pub fn spinner(what: impl Into<String>) -> ProgressBar {
     bar.set_style(style("{spinner} {msg} {elapsed}"));
     bar.enable_steady_tick(Duration::from_millis(100));
     bar
+}
+
+/// Spinner for the cutting of edges, if the dial asks for it.
+pub fn cutting(dial: Dial) -> ProgressBar {
+    match dial.edge {
+        Some(edge_m) => spinner(format!("cutting triangles to {edge_m} m")),
+        None => ProgressBar::hidden(),
+    }
 }
 
 /// Progress bar that counts to `length`.

@@ -12,8 +12,9 @@ use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::command::{Renderer, RideOptions, Transform};
-use crate::measure::dials::Setting;
+use view::{Dial, RendererName, Transform};
+
+use crate::command::{DialOptions, RideOptions};
 
 /// The file's name.
 const FILE: &str = "rapidity.toml";
@@ -23,40 +24,7 @@ const FILE: &str = "rapidity.toml";
 #[serde(deny_unknown_fields)]
 pub struct Preferences {
     /// How rides are drawn.
-    pub ride: Drawing,
-}
-
-/// A renderer and its dial, by the names of the command line's options.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Drawing {
-    /// Which renderer; not raytrace.
-    pub renderer: RendererName,
-    /// `--edge`, metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub edge: Option<f64>,
-    /// `--transform`, for an edge; the CPU where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub transform: Option<Transform>,
-    /// `--tolerance`, pixels.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// `--map-scale`, texels a pixel.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub map_scale: Option<f64>,
-}
-
-/// A renderer that rides can be drawn by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RendererName {
-    /// Chosen by what the scene needs.
-    #[default]
-    Auto,
-    /// The photo-surface.
-    Polygon,
-    /// The map.
-    Image,
+    pub ride: Dial,
 }
 
 /// Why the file is of no use.
@@ -134,7 +102,10 @@ impl Preferences {
             let place = line.map_or_else(String::new, |line| format!("line {line}: "));
             format!("{place}{}", error.message().lines().collect::<Vec<_>>().join(" "))
         })?;
-        let Drawing { edge, transform, tolerance, map_scale, .. } = preferences.ride;
+        let Dial { renderer, edge, transform, tolerance, map_scale } = preferences.ride;
+        if renderer == RendererName::Raytrace {
+            return Err("renderer is \"raytrace\", which a ride cannot wait for: expected auto, polygon or image".to_owned());
+        }
         let limits = [
             ("edge", edge, f64::MIN_POSITIVE, f64::MAX),
             ("tolerance", tolerance, 0.01, 100.0),
@@ -160,48 +131,6 @@ impl Preferences {
     }
 }
 
-impl Drawing {
-    /// A measured setting.
-    pub fn of(setting: Setting) -> Self {
-        let polygon = Self { renderer: RendererName::Polygon, ..Self::default() };
-        match setting {
-            Setting::Edge(metres) => Self { edge: Some(metres), ..polygon },
-            Setting::VertexStage(metres) => Self { edge: Some(metres), transform: Some(Transform::Gpu), ..polygon },
-            Setting::Tolerance(pixels) => Self { tolerance: Some(pixels), ..polygon },
-            Setting::Map(texels) => Self { renderer: RendererName::Image, map_scale: Some(texels), ..Self::default() },
-        }
-    }
-
-    /// As the command line has it.
-    fn flags(self) -> String {
-        let dials = [("edge", self.edge), ("tolerance", self.tolerance), ("map-scale", self.map_scale)];
-        let dials = dials.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        let transform = match self.transform {
-            Some(Transform::Gpu) => " --transform gpu",
-            Some(Transform::Cpu) | None => "",
-        };
-        format!("--renderer {}{}{transform}", Renderer::from(self.renderer).name(), dials.collect::<String>())
-    }
-
-    fn apply(self, options: &mut RideOptions) {
-        options.picture.renderer = self.renderer.into();
-        options.picture.map_scale = self.map_scale;
-        options.world.edge = self.edge;
-        options.world.transform = self.transform.unwrap_or_default();
-        options.world.tolerance = self.tolerance;
-    }
-}
-
-impl From<RendererName> for Renderer {
-    fn from(name: RendererName) -> Self {
-        match name {
-            RendererName::Auto => Self::Auto,
-            RendererName::Polygon => Self::Polygon,
-            RendererName::Image => Self::Image,
-        }
-    }
-}
-
 /// The options of a ride, with what the file says of its drawing unless the command line says anything of it; tells so.
 ///
 /// # Errors
@@ -212,8 +141,8 @@ pub fn applied(options: &RideOptions) -> Result<RideOptions, PreferencesError> {
         return Ok(options);
     }
     if let Some((preferences, path)) = Preferences::load()? {
-        preferences.ride.apply(&mut options);
-        eprintln!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride.flags());
+        options.dial = DialOptions::of(preferences.ride);
+        eprintln!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride);
     }
     Ok(options)
 }
@@ -226,11 +155,10 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        for setting in [Setting::Edge(0.5), Setting::VertexStage(0.5), Setting::Tolerance(2.0), Setting::Map(0.9)] {
-            let preferences = Preferences { ride: Drawing::of(setting) };
+        for ride in [Dial::edge(0.5), Dial::vertex_stage(0.5), Dial::tolerance(2.0), Dial::map(0.9)] {
+            let preferences = Preferences { ride };
             let text = toml::to_string(&preferences).unwrap();
             assert_eq!(Preferences::from_toml(&text), Ok(preferences), "{text}");
-            assert_eq!(preferences.ride.flags(), setting.flags());
         }
     }
 
@@ -238,7 +166,7 @@ mod tests {
     fn what_is_no_setting_is_refused() {
         for (text, told) in [
             ("[ride]\nrenderer = \"polygon\"\nedgee = 1", "line 3"),
-            ("[ride]\nrenderer = \"raytrace\"", "line 2"),
+            ("[ride]\nrenderer = \"raytrace\"", "expected auto, polygon or image"),
             ("[ride", "line 1"),
             ("", "ride"),
             ("[ride]\nrenderer = \"auto\"\ntolerance = 0.0", "tolerance is 0: expected a number from 0.01 to 100"),

@@ -32,7 +32,7 @@ pub fn reel(
     seconds: Option<f64>,
 ) -> Result<(Scene, f64, Vec<Moment>), Error> {
     let (scene, mut replay) = recorded(recording, choice)?;
-    let speed_of_light = replay.simulation().setup().world.speed_of_light_m_s();
+    let speed_of_light = replay.simulation().setup().light_speed.speed_of_light_m_s();
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
     let mut differed = false;

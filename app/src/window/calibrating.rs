@@ -1,16 +1,15 @@
-//! Moving of corners in the windows of a room: the keys, the file, and the messages in the first window.
+//! Corners of a room's channels while they are moved: the keys, the file, and the messages in the first window.
 
-use super::{Open, Scenery};
-use crate::room::{Display, file};
-use crate::walls::calibration::{Calibration, Key};
+use crate::session::start::WINDOW;
 use egui::{Align2, Area, Frame, Grid, Id, RichText, Ui};
-use input::{Sample, Source};
+use room::{Display, file};
+use walls::calibration::{Calibration, Key};
 use winit::keyboard::KeyCode;
 
 /// Corners that are being moved.
 pub struct Calibrating {
     /// Places of the corners, kept as long as the ride lasts.
-    calibration: Calibration,
+    pub calibration: Calibration,
     /// True while grids are shown and keys move corners.
     pub active: bool,
     /// Name of the display on the command line: a file or a built-in display.
@@ -21,12 +20,12 @@ pub struct Calibrating {
 
 impl Calibrating {
     /// Creates the calibration of a display. `name` is the display's name on the command line, if one was given.
-    fn new(name: Option<String>, display: &Display) -> Self {
+    pub fn new(name: Option<String>, display: &Display) -> Self {
         Self { calibration: Calibration::new(display), active: false, name, said: String::new() }
     }
 
     /// Performs a key's action. Returns the channels whose grids it changes.
-    fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
+    pub fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
         let Some(key) = key(code) else { return Vec::new() };
         let before = self.calibration.chosen();
         let moved = self.calibration.press(key, shift);
@@ -45,10 +44,10 @@ impl Calibrating {
     }
 
     /// Writes the corners that have moved into the display's file.
-    fn save(&mut self) {
+    pub fn save(&mut self) {
         let changed = self.calibration.changed();
         // A display without a name is the built-in window.
-        let name = self.name.as_deref().unwrap_or(crate::ride::WINDOW);
+        let name = self.name.as_deref().unwrap_or(WINDOW);
         self.said = if changed.is_empty() {
             "nothing has moved since the file was read".to_owned()
         } else {
@@ -60,45 +59,6 @@ impl Calibrating {
                 Err(error) => error.to_string(),
             }
         };
-    }
-}
-
-impl Open {
-    /// True while corners are being moved.
-    pub fn calibrates(&self) -> bool {
-        self.calibrating.as_ref().is_some_and(|calibrating| calibrating.active)
-    }
-
-    /// Starts or resumes moving the corners of a room's channels.
-    pub fn calibrate(&mut self) {
-        let Scenery::Room(walls) = &mut self.scenery else {
-            self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
-            return;
-        };
-        let begun = || Calibrating::new(self.display_name.clone(), &walls.display);
-        let calibrating = self.calibrating.get_or_insert_with(begun);
-        calibrating.active = true;
-        walls.show_grids(&self.gpu, &calibrating.calibration);
-        // The vehicle gets no keys until this is over.
-        self.ride.live.say(|at| Sample::closed(at, Source::Keyboard));
-    }
-
-    /// Performs the action of a key that is pressed while corners are being moved.
-    pub fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
-        let (Scenery::Room(walls), Some(calibrating)) = (&mut self.scenery, &mut self.calibrating) else { return };
-        match code {
-            KeyCode::F4 | KeyCode::Escape if !repeated => {
-                walls.show_light(&self.gpu);
-                calibrating.active = false;
-            }
-            KeyCode::F11 if !repeated => self.fill_monitors(),
-            KeyCode::KeyS if !repeated => calibrating.save(),
-            _ => {
-                for channel in calibrating.press(code, self.shift) {
-                    walls.show_grid(&self.gpu, &calibrating.calibration, channel);
-                }
-            }
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Interface drawn by egui over the picture: input goes in, shapes come out and are drawn in a last pass.
 
-use crate::gpu::Gpu;
+use render::Gpu;
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use winit::event::WindowEvent;
 use winit::window::Window;

@@ -1,37 +1,37 @@
 //! Keys of the window as keys of the ride, by their place on the keyboard rather than by their letter.
 
-use input::Key;
+use input::KeyboardKey;
 use winit::keyboard::KeyCode;
 
-/// Key of the ride at a place of the keyboard, if one is assigned.
-pub fn key(code: KeyCode) -> Option<Key> {
+/// KeyboardKey of the ride at a place of the keyboard, if one is assigned.
+pub fn key(code: KeyCode) -> Option<KeyboardKey> {
     Some(match code {
-        KeyCode::KeyA => Key::A,
-        KeyCode::KeyC => Key::C,
-        KeyCode::KeyD => Key::D,
-        KeyCode::KeyE => Key::E,
-        KeyCode::KeyF => Key::F,
-        KeyCode::KeyH => Key::H,
-        KeyCode::KeyP => Key::P,
-        KeyCode::KeyQ => Key::Q,
-        KeyCode::KeyR => Key::R,
-        KeyCode::KeyS => Key::S,
-        KeyCode::KeyV => Key::V,
-        KeyCode::KeyW => Key::W,
-        KeyCode::Digit1 | KeyCode::Numpad1 => Key::One,
-        KeyCode::Digit2 | KeyCode::Numpad2 => Key::Two,
-        KeyCode::Digit3 | KeyCode::Numpad3 => Key::Three,
-        KeyCode::Backspace => Key::Backspace,
-        KeyCode::Space => Key::Space,
-        KeyCode::Minus | KeyCode::NumpadSubtract => Key::Minus,
-        KeyCode::Equal | KeyCode::NumpadAdd => Key::Equal,
-        KeyCode::Period => Key::Period,
-        KeyCode::F1 => Key::F1,
-        KeyCode::ArrowRight => Key::Right,
-        KeyCode::ArrowLeft => Key::Left,
-        KeyCode::ArrowDown => Key::Down,
-        KeyCode::ArrowUp => Key::Up,
-        KeyCode::ShiftLeft | KeyCode::ShiftRight => Key::Shift,
+        KeyCode::KeyA => KeyboardKey::A,
+        KeyCode::KeyC => KeyboardKey::C,
+        KeyCode::KeyD => KeyboardKey::D,
+        KeyCode::KeyE => KeyboardKey::E,
+        KeyCode::KeyF => KeyboardKey::F,
+        KeyCode::KeyH => KeyboardKey::H,
+        KeyCode::KeyP => KeyboardKey::P,
+        KeyCode::KeyQ => KeyboardKey::Q,
+        KeyCode::KeyR => KeyboardKey::R,
+        KeyCode::KeyS => KeyboardKey::S,
+        KeyCode::KeyV => KeyboardKey::V,
+        KeyCode::KeyW => KeyboardKey::W,
+        KeyCode::Digit1 | KeyCode::Numpad1 => KeyboardKey::One,
+        KeyCode::Digit2 | KeyCode::Numpad2 => KeyboardKey::Two,
+        KeyCode::Digit3 | KeyCode::Numpad3 => KeyboardKey::Three,
+        KeyCode::Backspace => KeyboardKey::Backspace,
+        KeyCode::Space => KeyboardKey::Space,
+        KeyCode::Minus | KeyCode::NumpadSubtract => KeyboardKey::Minus,
+        KeyCode::Equal | KeyCode::NumpadAdd => KeyboardKey::Equal,
+        KeyCode::Period => KeyboardKey::Period,
+        KeyCode::F1 => KeyboardKey::F1,
+        KeyCode::ArrowRight => KeyboardKey::Right,
+        KeyCode::ArrowLeft => KeyboardKey::Left,
+        KeyCode::ArrowDown => KeyboardKey::Down,
+        KeyCode::ArrowUp => KeyboardKey::Up,
+        KeyCode::ShiftLeft | KeyCode::ShiftRight => KeyboardKey::Shift,
         _ => return None,
     })
 }
@@ -49,7 +49,7 @@ mod tests {
             KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyP, KeyQ, KeyR, KeyS, KeyV, KeyW, Digit1, Digit2, Digit3, Backspace,
             Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown, ArrowUp, ShiftLeft,
         ];
-        for wanted in Key::ALL {
+        for wanted in KeyboardKey::ALL {
             assert!(places.iter().any(|place| key(*place) == Some(*wanted)), "{wanted:?}");
         }
     }

@@ -1,11 +1,11 @@
 //! Settings panel and help window.
 
 use crate::command::Latency;
-use crate::renderers::Effects;
-use crate::renderers::display::{Development, Exposure, development};
+use crate::frame::Look;
 use clap::ValueEnum;
 use egui::{Align2, Grid, RichText, Slider, Ui, Window};
 use input::{Action, VehicleKind};
+use render::display::{Development, Exposure, development};
 
 /// Settings that the panel changes by itself: how the picture is drawn, which no recording depends on.
 #[derive(Clone, Debug)]
@@ -16,19 +16,13 @@ pub struct Settings {
     pub help: bool,
     /// True if the head-up display is shown.
     pub readings: bool,
-    /// Relativistic effects on the picture.
-    pub effects: Effects,
-    /// Division of a frame's time between transforming and drawing.
-    pub latency: Latency,
-    /// Vertical field of view, degrees.
-    pub fov: f64,
-    /// Development of radiance into the picture.
-    pub development: Development,
+    /// Settings of the picture.
+    pub look: Look,
 }
 
 /// State of the ride that the panel shows.
 #[derive(Clone, Debug)]
-pub struct Ride {
+pub struct PanelRide {
     /// Kind of vehicle that is ridden.
     pub vehicle: VehicleKind,
     /// Ratio of proper time to real time.
@@ -42,7 +36,7 @@ pub struct Ride {
 }
 
 /// Shows the panel. Changes of the ride are returned as actions, so that they are recorded like keys.
-pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
+pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Action> {
     let mut actions = Vec::new();
     if settings.help {
         help(ui, &mut settings.help);
@@ -81,24 +75,24 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &Ride) -> Vec<Action> {
 
                 ui.label("Effects");
                 ui.horizontal(|ui| {
-                    let effects = &mut settings.effects;
+                    let effects = &mut settings.look.effects;
                     ui.toggle_value(&mut effects.geometry, "geometry");
                     ui.toggle_value(&mut effects.doppler, "Doppler");
                     ui.toggle_value(&mut effects.searchlight, "searchlight");
                 });
                 ui.end_row();
 
-                light(ui, &mut settings.development);
+                light(ui, &mut settings.look.development);
 
                 ui.label("Field of view");
-                let range = Slider::new(&mut settings.fov, 20.0..=140.0).suffix("°");
+                let range = Slider::new(&mut settings.look.fov_deg, 20.0..=140.0).suffix("°");
                 ui.add(range.clamping(egui::SliderClamping::Edits));
                 ui.end_row();
 
                 ui.label("Frames");
                 ui.horizontal(|ui| {
-                    ui.selectable_value(&mut settings.latency, Latency::Overlap, "many");
-                    ui.selectable_value(&mut settings.latency, Latency::Low, "fresh");
+                    ui.selectable_value(&mut settings.look.latency, Latency::Overlap, "many");
+                    ui.selectable_value(&mut settings.look.latency, Latency::Low, "fresh");
                 });
                 ui.end_row();
             });

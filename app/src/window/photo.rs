@@ -1,25 +1,28 @@
-//! Photos of the window's picture, without the readings at its edges.
+//! A photo of what the window shows, without the display at its edges.
 
+use crate::canvas::{Canvas, FlatPicture};
 use crate::error::Error;
-use crate::gpu::Gpu;
-use crate::live::unused;
-use crate::render::save;
-use crate::renderers::display::{Adaptation, Development};
-use crate::renderers::picture::Darkroom;
-use crate::renderers::target::Radiance;
-use crate::walls::Walls;
+use crate::output::files::{save, unused};
+use render::Gpu;
+use render::display::Development;
+use render::picture::Darkroom;
+use walls::Walls;
 
-/// Writes the picture, as an adapted eye sees it, into `photo-001.png` or the next free number. Returns a sentence
-/// with the file's name.
+/// Writes the picture, as an eye sees it that is adapted to it, into `photo-001.png` or the next number; of a room, a
+/// file for each of its windows. Returns a sentence that names the files.
 ///
 /// # Errors
-/// [`Error`] of a lost device, or of a folder that cannot be written to.
-pub fn take(
-    gpu: &Gpu,
-    radiance: &Radiance,
-    adaptation: &Adaptation,
-    development: &Development,
-) -> Result<String, Error> {
+/// A lost device, or a folder that cannot be written to.
+pub fn take(gpu: &Gpu, canvas: &mut Canvas, development: &Development) -> Result<String, Error> {
+    match canvas {
+        Canvas::Picture(picture) => take_picture(gpu, picture, development),
+        Canvas::Room(walls) => take_room(gpu, walls, development),
+        Canvas::Preview(room) => take_room(gpu, &mut room.walls, development),
+    }
+}
+
+fn take_picture(gpu: &Gpu, picture: &FlatPicture, development: &Development) -> Result<String, Error> {
+    let FlatPicture { radiance, adaptation, .. } = picture;
     let mut darkroom = Darkroom::new(gpu, radiance.size, radiance.format.colour);
     let picture = darkroom.develop(gpu, radiance.result(), adaptation, development)?;
     let path = unused("photo", "png");
@@ -27,11 +30,7 @@ pub fn take(
     Ok(format!("photo: {}", path.display()))
 }
 
-/// Writes a photo of each window of a room. Returns a sentence with the files' names.
-///
-/// # Errors
-/// [`Error`] as for [`take`].
-pub fn take_room(gpu: &Gpu, walls: &mut Walls, development: &Development) -> Result<String, Error> {
+fn take_room(gpu: &Gpu, walls: &mut Walls, development: &Development) -> Result<String, Error> {
     let mut told = Vec::new();
     for window in 0..walls.display.windows.len() {
         let picture = walls.develop_window(gpu, window, development)?;

@@ -7,14 +7,14 @@ const KEPT: f64 = 0.9;
 
 /// Timers for a sequence of frames.
 #[derive(Debug, Default)]
-pub struct Pace {
+pub struct StageTimes {
     began: Option<Instant>,
     stage_began: Option<Instant>,
     frame_ms: f64,
     stages: Vec<(&'static str, f64)>,
 }
 
-impl Pace {
+impl StageTimes {
     /// Marks the beginning of a frame, which is also the end of the previous one.
     pub fn begin(&mut self) {
         let now = Instant::now();

@@ -1,7 +1,7 @@
 //! Window with the surface that is drawn on.
 
-use crate::gpu::{Gpu, GpuError};
-use crate::room::{Monitor, WindowPlace};
+use render::{Gpu, GpuError};
+use room::{Monitor, WindowPlace};
 use std::sync::Arc;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
@@ -9,7 +9,7 @@ use winit::monitor::MonitorHandle;
 use winit::window::{Fullscreen, Window, WindowAttributes};
 
 /// Window together with its drawing surface.
-pub struct Pane {
+pub struct WindowSurface {
     /// Window of the operating system.
     pub window: Arc<Window>,
     surface: wgpu::Surface<'static>,
@@ -17,7 +17,7 @@ pub struct Pane {
     pub configuration: wgpu::SurfaceConfiguration,
 }
 
-impl Pane {
+impl WindowSurface {
     /// Prepares `surface` of `window` for drawing. `waits` is true if each frame waits until the monitor has shown
     /// the one before.
     ///

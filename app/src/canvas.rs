@@ -1,0 +1,217 @@
+//! Targets of a ride's frames: one flat picture, the surfaces of a room, or the room itself seen from outside.
+//!
+//! Each takes the same four steps for a frame: photo-surfaces are submitted for its eyes, its light is drawn, its viewer
+//! adapts, and what is developed goes to windows.
+
+use render::display::{Adaptation, Developer, Development, Seen};
+use render::target::{Format, Radiance};
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use view::{Effects, Gaze, Shot, Stored};
+use walls::preview::{Onlooker, Preview};
+use walls::{DrawnChannels, Occupant, SubmittedRoom, Walls};
+
+/// Target of a ride's frames.
+pub enum Canvas {
+    /// One flat picture, as the vehicle's driver sees it, in the only window.
+    Picture(Box<FlatPicture>),
+    /// Surfaces of a room in the vehicle, in as many windows as the display names.
+    Room(Box<Walls>),
+    /// The room itself, seen from outside, in one window.
+    Preview(Box<RoomPreview>),
+}
+
+/// One picture, and the eye that is adapted to it.
+pub struct FlatPicture {
+    /// Light of the picture.
+    pub radiance: Radiance,
+    developer: Developer,
+    /// Adaptation of the eye.
+    pub adaptation: Adaptation,
+    stored: Stored,
+}
+
+/// A room that is looked at from outside.
+pub struct RoomPreview {
+    /// Channels of the room.
+    pub walls: Walls,
+    preview: Preview,
+    /// Point of view from outside.
+    pub onlooker: Onlooker,
+    /// True while a mouse button turns the view.
+    pub held: bool,
+    occupant: Option<Occupant>,
+}
+
+/// Eyes of one frame, whose photo-surfaces are under way.
+#[must_use = "a frame that is not drawn was worked out in vain"]
+pub enum Submitted {
+    /// The eye of a flat picture.
+    Picture {
+        /// Picture that is to be drawn.
+        shot: Shot,
+        /// Photo-surface of its observer.
+        pending: Pending,
+    },
+    /// Eyes of an occupant of a room.
+    Room(SubmittedRoom),
+}
+
+/// Observer of one frame, in the vehicle and in its room.
+#[derive(Clone, Copy, Debug)]
+pub struct Watcher {
+    /// View along the vehicle's nose.
+    pub gaze: Gaze,
+    /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
+    pub vehicle: physics::worldline::WorldlineState,
+    /// Head in the vehicle's room, if one is tracked.
+    pub head: Option<walls::Head>,
+}
+
+impl Submitted {
+    /// True if a photo-surface is under way, false if the method needs none.
+    pub fn is_under_way(&self) -> bool {
+        match self {
+            Self::Picture { pending, .. } => pending.is_under_way(),
+            Self::Room(room) => room.is_under_way(),
+        }
+    }
+}
+
+impl Canvas {
+    /// A flat picture of `size` pixels, shown on a screen of this format.
+    pub fn picture(gpu: &Gpu, size: [u32; 2], format: Format, screen: wgpu::TextureFormat) -> Self {
+        Self::Picture(Box::new(FlatPicture {
+            radiance: Radiance::new(gpu, size, format),
+            developer: Developer::new(gpu, format.colour, screen),
+            adaptation: Adaptation::new(gpu),
+            stored: Stored::UNSHIFTED,
+        }))
+    }
+
+    /// The room itself, seen from outside.
+    pub fn preview(gpu: &Gpu, walls: Walls, screen: wgpu::TextureFormat) -> Self {
+        let preview = Preview::new(gpu, &walls, screen);
+        let onlooker = Onlooker::outside(&walls);
+        Self::Preview(Box::new(RoomPreview { walls, preview, onlooker, held: false, occupant: None }))
+    }
+
+    /// Channels of the room, if there is one.
+    pub fn walls_mut(&mut self) -> Option<&mut Walls> {
+        match self {
+            Self::Picture(_) => None,
+            Self::Room(walls) => Some(walls),
+            Self::Preview(room) => Some(&mut room.walls),
+        }
+    }
+
+    /// Begins the photo-surfaces of a frame, beside whatever is drawn meanwhile. `fov_deg`: vertical field of view of a
+    /// flat picture, degrees.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn submit(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        watcher: &Watcher,
+        effects: Effects,
+        fov_deg: f64,
+    ) -> Result<Submitted, GpuError> {
+        let Some(walls) = self.walls_mut() else {
+            let shot = watcher.gaze.shot(fov_deg, effects);
+            let pending = renderer.submit(gpu, &shot.observer, effects)?;
+            return Ok(Submitted::Picture { shot, pending });
+        };
+        let head = watcher.head.unwrap_or(walls::Head::at_rest(walls.display.viewer.head_m));
+        let occupant = Occupant { vehicle: watcher.vehicle, head };
+        Ok(Submitted::Room(walls.submit(gpu, renderer, &occupant, effects)?))
+    }
+
+    /// Draws the light of a frame.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        submitted: Submitted,
+    ) -> Result<DrawnChannels, GpuError> {
+        match (self, submitted) {
+            (Self::Picture(picture), Submitted::Picture { shot, pending }) => {
+                picture.draw(gpu, renderer, &shot, pending)
+            }
+            (Self::Room(walls), Submitted::Room(room)) => walls.draw(gpu, renderer, room),
+            (Self::Preview(preview), Submitted::Room(room)) => {
+                preview.occupant = Some(room.occupant);
+                preview.walls.draw(gpu, renderer, room)
+            }
+            // A frame is drawn on the canvas that it was submitted for.
+            (_, _) => Ok(DrawnChannels::default()),
+        }
+    }
+
+    /// Adapts the viewer to the light drawn last. `elapsed_s`: time to adapt, seconds; `None` adapts at once.
+    pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
+        let Self::Picture(picture) = self else {
+            if let Some(walls) = self.walls_mut() {
+                walls.adapt(gpu, development, elapsed_s);
+            }
+            return;
+        };
+        let FlatPicture { radiance, developer, adaptation, stored } = &mut **picture;
+        let seen = Seen { radiance: radiance.result(), stored: *stored, elapsed_s };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        developer.adapt(gpu, &mut encoder, adaptation, &seen, development);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Develops the light for window number `window`. `first_pixel`: place of the window's upper left pixel on its
+    /// monitor.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        window: usize,
+        development: &Development,
+        screen: &wgpu::TextureView,
+        first_pixel: [i32; 2],
+    ) {
+        match self {
+            Self::Picture(picture) => {
+                let FlatPicture { radiance, developer, adaptation, .. } = &mut **picture;
+                developer.show(gpu, encoder, radiance.result(), adaptation, development, screen);
+            }
+            Self::Room(walls) => walls.show_window(gpu, encoder, window, development, screen, first_pixel),
+            Self::Preview(room) => {
+                let RoomPreview { walls, preview, onlooker, occupant, .. } = &mut **room;
+                if let Some(occupant) = occupant {
+                    preview.draw(gpu, encoder, walls, (occupant, onlooker), development, screen);
+                }
+            }
+        }
+    }
+}
+
+impl FlatPicture {
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        pending: Pending,
+    ) -> Result<DrawnChannels, GpuError> {
+        let transformed = renderer.show(gpu, pending)?;
+        renderer.prepare(gpu, shot, self.radiance.size);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        renderer.draw(gpu, &mut encoder, &self.radiance, shot, glam::DVec2::ZERO);
+        gpu.queue.submit([encoder.finish()]);
+        self.stored = renderer.stored(shot);
+        Ok(DrawnChannels {
+            behind: Vec::new(),
+            not_finite: transformed.not_finite,
+            transform: transformed.duration,
+            certainty: renderer.certainty(shot, self.radiance.size),
+        })
+    }
+}

@@ -1,0 +1,241 @@
+//! Stills and films of a scene, without a window, with progress and notices on the terminal.
+
+use crate::command::{DialOptions, PictureOptions, RayOptions, map_scale_of_stills};
+use crate::error::Error;
+use crate::output::exr;
+use crate::output::files::save;
+use crate::output::film::{Film, Written};
+use crate::output::progress;
+use crate::session::interrupt::{interrupted, interruption};
+use crate::session::reel::Moment;
+use image::RgbaImage;
+use render::choice::Choice;
+use render::picture::{Studio, largest_side};
+use render::{CutStats, Gpu, Pending, SceneRenderer};
+use scene::Scene;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use trace::{Lens, Optics, RayTracer, Traced};
+use view::{Dial, Gaze, Occasion, RendererName, Shot};
+
+/// Dial of pictures that are kept.
+pub fn dial_of_stills(dial: &DialOptions, picture: &PictureOptions) -> Dial {
+    dial.dial(Occasion::Still, map_scale_of_stills(picture.samples))
+}
+
+/// Maker of the pictures.
+enum Maker {
+    Drawn(Box<SceneRenderer>),
+    Traced(Box<RayTracer>),
+}
+
+/// A scene, a device and targets, ready to take pictures.
+pub struct Cameraman<'gpu> {
+    gpu: &'gpu Gpu,
+    maker: Maker,
+    studio: Studio,
+    options: PictureOptions,
+    dial: Dial,
+}
+
+impl<'gpu> Cameraman<'gpu> {
+    /// Chooses how to draw the scene, says so, and uploads it.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the scene too finely.
+    pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, dial: Dial) -> Result<Self, Error> {
+        let limit = largest_side(gpu);
+        if options.size.iter().any(|side| *side > limit) {
+            return Err(Error::TooLarge { size: options.size, limit });
+        }
+        if dial.renderer == RendererName::Raytrace {
+            if interruption().load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+            eprintln!("{}: traced ray by ray, on the CPU", scene.name);
+            let spinner = progress::spinner("sorting triangles");
+            let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
+            spinner.finish_and_clear();
+            let studio = Studio::new(gpu, options.size, 1);
+            return Ok(Self { gpu, maker: Maker::Traced(Box::new(tracer)), studio, options: options.clone(), dial });
+        }
+        let spinner = progress::cutting(dial);
+        let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
+        spinner.finish_and_clear();
+        eprintln!("{because}, on {}", gpu.description());
+        let spinner = progress::spinner("uploading");
+        let renderer = SceneRenderer::new(gpu, &scene, Studio::format(gpu), options.background, dial, Occasion::Still)?;
+        let studio = Studio::new(gpu, options.size, options.samples);
+        gpu.wait()?;
+        spinner.finish_and_clear();
+        Ok(Self { gpu, maker: Maker::Drawn(Box::new(renderer)), studio, options: options.clone(), dial })
+    }
+
+    /// The same with a lens, a shutter and mirrors, if it traces rays. `speed_of_light`: metres per second.
+    #[must_use]
+    pub fn with_rays(mut self, rays: &RayOptions, speed_of_light: f64) -> Self {
+        if let Maker::Traced(tracer) = self.maker {
+            let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| Lens { aperture_m, focus_m });
+            let optics = Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light };
+            let tracer = tracer.with_optics(optics).with_bounces(rays.bounces.unwrap_or(0));
+            self.maker = Maker::Traced(Box::new(tracer));
+        }
+        self
+    }
+
+    /// Takes one picture and writes it as PNG.
+    ///
+    /// # Errors
+    /// A lost device, a place that cannot be written, or [`Error::Interrupted`].
+    pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
+        let pending = self.submit(&gaze)?;
+        let picture = self.take(&gaze, pending, None)?;
+        self.tell_of_quality(&gaze);
+        save(&picture, path)?;
+        eprintln!("wrote {}", path.display());
+        Ok(())
+    }
+
+    /// Takes one picture and writes its light as OpenEXR.
+    ///
+    /// # Errors
+    /// A lost device, or a place that cannot be written.
+    pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
+        let pending = self.submit(&gaze)?;
+        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let light = match &mut self.maker {
+            Maker::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot, pending)?,
+            Maker::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
+        };
+        self.tell_of_quality(&gaze);
+        exr::save(&light, path)?;
+        eprintln!("wrote {}", path.display());
+        Ok(())
+    }
+
+    /// Films one frame per moment. Ctrl-C ends the film early and keeps what there is.
+    ///
+    /// # Errors
+    /// A lost device, an encoder that fails, or a place that cannot be written.
+    pub fn film(
+        &mut self,
+        mut moments: impl Iterator<Item = Result<Moment, Error>>,
+        count: u64,
+        frames_per_second: f64,
+        path: &Path,
+    ) -> Result<(), Error> {
+        let traces = matches!(self.maker, Maker::Traced(_));
+        let stop = if traces { interruption() } else { interrupted() };
+        if traces && stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        let film = Film::create(path, self.options.size, frames_per_second)?;
+        let bar = progress::bar(path.display().to_string(), count);
+
+        // The photo-surface of the next frame is worked out while this one is drawn.
+        let mut before = None;
+        let mut next = self.begin(moments.next().transpose()?)?;
+        let mut done = 0;
+        while let Some((moment, pending)) = next {
+            next = self.begin(if stop.load(Ordering::Relaxed) { None } else { moments.next().transpose()? })?;
+            let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
+            let picture = match self.take(&moment.gaze, pending, elapsed_s) {
+                Err(Error::Interrupted) => break,
+                picture => picture?,
+            };
+            // A picture that was interrupted may be half black.
+            if (traces && stop.load(Ordering::Relaxed)) || !film.add(picture) {
+                break;
+            }
+            done += 1;
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        if traces && done == 0 && stop.load(Ordering::Relaxed) {
+            // Of a film without pictures nothing comes but the encoder's complaint.
+            let _ = film.finish();
+            let _ = std::fs::remove_file(path);
+            return Err(Error::Interrupted);
+        }
+        if done < count && stop.load(Ordering::Relaxed) {
+            eprintln!("interrupted: the film ends after {done} of {count} pictures");
+        }
+        match film.finish()? {
+            Written::Film(path) => eprintln!("wrote {}", path.display()),
+            Written::Pictures(folder) => eprintln!(
+                "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
+                folder.display()
+            ),
+        }
+        Ok(())
+    }
+
+    /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel off.
+    fn tell_of_quality(&self, gaze: &Gaze) {
+        let Maker::Drawn(renderer) = &self.maker else { return };
+        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let certainty = renderer.certainty(&shot, self.options.size);
+        if certainty.error_px() > 1.0 {
+            eprintln!("{}", certainty.sentence());
+        }
+        if let Some(CutStats { tolerance_px, triangles, duration }) = renderer.cut_stats()
+            && triangles > 0
+        {
+            eprintln!(
+                "cut into {triangles} triangles for {tolerance_px} pixels in {:.0} ms",
+                1000.0 * duration.as_secs_f64()
+            );
+        }
+        let wanted = self.dial.map_scale.unwrap_or(1.0);
+        if let Some(stats) = renderer.map_stats()
+            && stats.panes > 0
+            && stats.texels_per_pixel < 0.99 * wanted
+        {
+            eprintln!(
+                "the map had room for {:.1} texels a pixel along each axis instead of {wanted}; a smaller --size has more",
+                stats.texels_per_pixel
+            );
+        }
+    }
+
+    /// Begins the next picture of a film.
+    fn begin(&mut self, next: Option<Moment>) -> Result<Option<(Moment, Pending)>, Error> {
+        next.map(|moment| Ok((moment, self.submit(&moment.gaze)?))).transpose()
+    }
+
+    fn submit(&mut self, gaze: &Gaze) -> Result<Pending, Error> {
+        Ok(match &mut self.maker {
+            Maker::Drawn(renderer) => renderer.submit(self.gpu, &gaze.observer, self.options.effects)?,
+            Maker::Traced(_) => Pending::default(),
+        })
+    }
+
+    fn take(&mut self, gaze: &Gaze, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
+        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let development = self.options.development();
+        Ok(match &mut self.maker {
+            Maker::Drawn(renderer) => {
+                self.studio.photograph(self.gpu, renderer, &shot, pending, &development, elapsed_s)?
+            }
+            Maker::Traced(tracer) => {
+                let traced = traced(tracer, &shot, &self.options)?;
+                self.studio.develop(self.gpu, &traced.texels(), traced.stored, &development, elapsed_s)?
+            }
+        })
+    }
+}
+
+/// Traces a picture, and says how much of it there is if it was interrupted.
+fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<Traced, Error> {
+    let bar = progress::bar("tracing rays", RayTracer::tile_count(options.size));
+    let traced = tracer.trace(shot, options.size, options.samples, &interruption(), || bar.inc(1));
+    bar.finish_and_clear();
+    if traced.done == 0 {
+        return Err(Error::Interrupted);
+    }
+    if traced.done < traced.tiles {
+        eprintln!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles);
+    }
+    Ok(traced)
+}
+

@@ -1,0 +1,161 @@
+//! The beginning of a ride: its scene, its setup, its devices, its log; or a recorded ride.
+
+use crate::command::{RideOptions, SceneChoice, VehicleName};
+use crate::error::Error;
+use crate::output::progress;
+use crate::session::live::Live;
+use crate::session::scenes;
+use crate::session::tracker;
+use glam::DVec3;
+use input::devices::{Devices, DevicesConfig};
+use input::recording::Recording;
+use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
+use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
+use room::Display;
+use scene::collision::Collision;
+use scene::{Scene, Surroundings};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The display that a tracked head sees where none is named.
+pub const WINDOW: &str = "window";
+
+/// Key of a recording's setting that tells its scene from others.
+const FINGERPRINT: &str = "scene_fingerprint";
+
+fn fingerprint(scene: &Scene) -> String {
+    format!("{:016x}", scene.fingerprint())
+}
+
+/// A room that a ride is shown in, and how the head before it is tracked.
+pub struct RideRoom {
+    /// Display, if the ride is shown in a room: a tracked head before a single picture sees through it as through a
+    /// window.
+    pub display: Option<Display>,
+    /// Tracking of the head, if it is tracked.
+    pub head: Option<HeadConfig>,
+}
+
+impl RideRoom {
+    /// Room that the options ask for. The display's file is read here, once.
+    ///
+    /// # Errors
+    /// A display or a tracker that cannot be used.
+    pub fn of(options: &RideOptions) -> Result<Self, Error> {
+        let tracked = options.devices.tracker.as_ref().map(|_| WINDOW);
+        let display = options.display.as_deref().or(tracked).map(Display::named_or_file).transpose()?;
+        let head = match &display {
+            Some(display) => tracker::head_config(display, options.devices.tracker.as_ref())?,
+            None => None,
+        };
+        Ok(Self { display, head })
+    }
+
+    /// True if the mouse moves the head.
+    pub fn mouse_moves_head(&self) -> bool {
+        self.head.as_ref().is_some_and(|head| head.url == TrackerUrl::Mouse)
+    }
+}
+
+/// A live ride whose clock starts now.
+///
+/// # Errors
+/// Devices that cannot be read.
+pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> Result<Live, Error> {
+    let clock = Clock::start();
+    let devices = Devices::open(&devices_config(options, &simulation.setup().desk), clock)?;
+    let mut live = Live::present(simulation, devices, clock, log, options.seconds);
+    for action in first_actions(options) {
+        live.say(|at| Sample::action(at, &action));
+    }
+    Ok(live)
+}
+
+/// A recording's scene, and the ride in it once more.
+///
+/// # Errors
+/// The recording or its scene cannot be read.
+pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Error> {
+    let recording = Recording::open(path)?;
+    // A scene that is named overrides the recorded one, whose file may have moved.
+    let choice = match choice {
+        SceneChoice::Town => SceneChoice::from_name(&recording.header().scene),
+        named => named.clone(),
+    };
+    let scene = scenes::load(&choice, recording.header().speed_of_light_m_s)?;
+    if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
+        eprintln!(
+            "{}: {} is not the scene that was ridden through; expect another ride",
+            path.display(),
+            choice.name()
+        );
+    }
+    let surroundings = surroundings(&scene)?;
+    Ok((scene, Replay::new(recording, surroundings)?))
+}
+
+/// A simulation at its beginning, and the log of it.
+///
+/// # Errors
+/// Settings that cannot be used, or a scene without sound geometry.
+pub fn prepared(
+    options: &RideOptions,
+    scene: &Scene,
+    head: Option<HeadConfig>,
+) -> Result<(Simulation, RideLog), Error> {
+    let setup = setup(options, scene, head)?;
+    let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
+    header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
+    Ok((Simulation::new(setup, surroundings(scene)?)?, RideLog::new(header)))
+}
+
+/// True if there is a graphical session to open a window in.
+pub fn has_display() -> bool {
+    !cfg!(all(unix, not(target_os = "macos")))
+        || ["DISPLAY", "WAYLAND_DISPLAY"]
+            .iter()
+            .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
+}
+
+/// What the vehicle stands on and runs into.
+fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
+    let spinner = progress::spinner("finding ground and walls");
+    let collision = Collision::new(scene)?;
+    spinner.finish_and_clear();
+    Ok(Arc::new(collision))
+}
+
+fn setup(options: &RideOptions, scene: &Scene, head: Option<HeadConfig>) -> Result<Setup, Error> {
+    let kind = match options.vehicle.vehicle {
+        VehicleName::Bicycle => VehicleKind::Bicycle,
+        VehicleName::Drive => VehicleKind::Drive,
+        VehicleName::Fly => VehicleKind::Fly,
+    };
+    let mut vehicle = VehicleSettings { integrator: options.vehicle.integrator, ..Default::default() };
+    vehicle.flight.nose = options.vehicle.transport;
+    // One who flies begins at his eye, the others on the ground.
+    let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };
+    Ok(Setup {
+        light_speed: LightSpeed::new(options.world.speed_of_light)?,
+        kind,
+        start: RideStart::at_rest(scene.start.position + eye, scene.start.look),
+        vehicle,
+        desk: DeskConfig { head, ..Default::default() },
+    })
+}
+
+/// What the command line asks of the simulation while it runs.
+pub fn first_actions(options: &RideOptions) -> Vec<Action> {
+    let scale = options.vehicle.time_scale;
+    if scale == 1.0 { Vec::new() } else { vec![Action::TimeScale(scale)] }
+}
+
+/// Which devices the command line names.
+fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
+    DevicesConfig {
+        bicycle: options.devices.bicycle.clone(),
+        space_mouse: options.devices.spacemouse || has_display(),
+        tracker: desk.head.as_ref().map(|head| head.url.clone()),
+        ..Default::default()
+    }
+}

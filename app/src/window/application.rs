@@ -1,0 +1,66 @@
+//! The windows from their opening to their end.
+
+use super::open::{Open, Party};
+use crate::command::RideOptions;
+use crate::error::Error;
+use crate::session::live::Live;
+use crate::session::start::RideRoom;
+use scene::Scene;
+use winit::application::ApplicationHandler;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::window::WindowId;
+
+/// Beginning of the ride. It is called when everything else is ready, since the ride's clock starts with it.
+pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
+
+/// Opens the windows and rides until they are closed.
+///
+/// # Errors
+/// No graphical session after all, no graphics device, or a fault while riding.
+pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) -> Result<(), Error> {
+    let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
+    events.set_control_flow(ControlFlow::Wait);
+    let waiting = Some(Party { scene, room, begin });
+    let mut application = Application { options: options.clone(), waiting, open: None, failed: None };
+    events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
+    let finished = application.open.map_or(Ok(()), |mut open| Ok(open.ride.live.finish()?));
+    application.failed.map_or(finished, Err)
+}
+
+/// State that winit calls.
+struct Application {
+    options: RideOptions,
+    waiting: Option<Party>,
+    open: Option<Open>,
+    failed: Option<Error>,
+}
+
+impl ApplicationHandler for Application {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if let Some(party) = self.waiting.take() {
+            match Open::new(events, &self.options, party) {
+                Ok(open) => {
+                    open.windows[0].window.request_redraw();
+                    self.open = Some(open);
+                }
+                Err(error) => self.fail(events, error),
+            }
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) {
+        let Some(open) = &mut self.open else { return };
+        match open.event(events, window, event) {
+            Ok(()) => {}
+            Err(error) => self.fail(events, error),
+        }
+    }
+}
+
+impl Application {
+    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
+        self.failed.get_or_insert(error);
+        events.exit();
+    }
+}

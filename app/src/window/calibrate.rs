@@ -1,0 +1,46 @@
+//! Moving the corners of a room's channels by keys.
+
+use super::calibrating::Calibrating;
+use super::open::Open;
+use crate::canvas::Canvas;
+use input::{Sample, SampleSource};
+use winit::keyboard::KeyCode;
+
+impl Open {
+    /// True while corners are being moved.
+    pub fn calibrates(&self) -> bool {
+        self.calibrating.as_ref().is_some_and(|calibrating| calibrating.active)
+    }
+
+    /// Starts or resumes moving the corners of a room's channels.
+    pub fn calibrate(&mut self) {
+        let Canvas::Room(walls) = &mut self.canvas else {
+            self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
+            return;
+        };
+        let begun = || Calibrating::new(self.display_name.clone(), &walls.display);
+        let calibrating = self.calibrating.get_or_insert_with(begun);
+        calibrating.active = true;
+        walls.show_grids(&self.gpu, &calibrating.calibration);
+        // The vehicle gets no keys until this is over.
+        self.ride.live.say(|at| Sample::closed(at, SampleSource::Keyboard));
+    }
+
+    /// Performs the action of a key that is pressed while corners are being moved.
+    pub fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
+        let (Canvas::Room(walls), Some(calibrating)) = (&mut self.canvas, &mut self.calibrating) else { return };
+        match code {
+            KeyCode::F4 | KeyCode::Escape if !repeated => {
+                walls.show_light(&self.gpu);
+                calibrating.active = false;
+            }
+            KeyCode::F11 if !repeated => self.fill_monitors(),
+            KeyCode::KeyS if !repeated => calibrating.save(),
+            _ => {
+                for channel in calibrating.press(code, self.shift) {
+                    walls.show_grid(&self.gpu, &calibrating.calibration, channel);
+                }
+            }
+        }
+    }
+}

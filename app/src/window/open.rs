@@ -1,0 +1,156 @@
+//! Open windows, and all that draws in them.
+
+use super::calibrating::Calibrating;
+use super::interface::Interface;
+use super::panel::Settings;
+use super::window_surface::{WindowSurface, attributes};
+use crate::canvas::Canvas;
+use crate::command::RideOptions;
+use crate::error::Error;
+use crate::frame::{Look, RideInProgress};
+use crate::output::progress;
+use crate::session::interrupt::interrupted;
+use crate::session::live::Live;
+use crate::session::start::RideRoom;
+use render::choice::Choice;
+use render::target::Format;
+use render::{Gpu, GpuError, SceneRenderer, descriptor};
+use scene::Scene;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use view::Occasion;
+use walls::{Quality, Walls};
+use winit::dpi::{PhysicalPosition, PhysicalSize};
+use winit::event_loop::ActiveEventLoop;
+use winit::window::Window;
+
+/// Samples a pixel in a window drawn by hardware, where they cost little; software draws one.
+const HARDWARE_SAMPLES: u32 = 4;
+
+/// What a window is opened for.
+pub struct Party {
+    /// Scene of the ride.
+    pub scene: Scene,
+    /// Room that it is shown in, if it is.
+    pub room: RideRoom,
+    /// Beginning of the ride.
+    pub begin: Box<dyn FnOnce() -> Result<Live, Error>>,
+}
+
+/// Open windows, and all that draws in them.
+pub struct Open {
+    pub(super) gpu: Gpu,
+    /// Windows; the first has the interface.
+    pub(super) windows: Vec<WindowSurface>,
+    pub(super) canvas: Canvas,
+    pub(super) format: Format,
+    pub(super) interface: Interface,
+    pub(super) settings: Settings,
+    /// True if the mouse moves the head.
+    pub(super) mouse_moves_head: bool,
+    /// True while a Shift key is down.
+    pub(super) shift: bool,
+    /// Name of the display on the command line.
+    pub(super) display_name: Option<String>,
+    /// Corners that are moved, or were.
+    pub(super) calibrating: Option<Calibrating>,
+    /// Place of the mouse, pixels.
+    pub(super) cursor: Option<PhysicalPosition<f64>>,
+    pub(super) ride: RideInProgress,
+    /// Flag that Ctrl-C sets. The recording is completed all the same.
+    pub(super) stop: Arc<AtomicBool>,
+}
+
+impl Open {
+    /// Opens the windows, uploads the scene, and begins the ride.
+    ///
+    /// # Errors
+    /// No window, no graphics device, or a ride that cannot begin.
+    pub fn new(events: &ActiveEventLoop, options: &RideOptions, party: Party) -> Result<Self, Error> {
+        let Party { scene, room, begin } = party;
+        let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
+        let display = room.display;
+        let title = format!("Rapidity: {}", scene.name);
+        let attributes = match &display {
+            Some(display) if !options.preview => {
+                display.notices.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
+                display.windows.iter().map(|place| attributes(events, place, &title)).collect()
+            }
+            _ => {
+                let [width, height] = options.picture.size;
+                let size = PhysicalSize::new(width, height);
+                vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
+            }
+        };
+        let mut windows = Vec::new();
+        for attributes in attributes {
+            let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
+            windows.push(Arc::new(window));
+        }
+
+        // The first surface decides which device can draw in it.
+        let instance = wgpu::Instance::new(descriptor());
+        let surface_of = |instance: &wgpu::Instance, window: &Arc<Window>| {
+            instance.create_surface(Arc::clone(window)).map_err(|error| GpuError::NoAdapter(error.to_string()))
+        };
+        let first = surface_of(&instance, &windows[0])?;
+        let gpu = Gpu::with_instance(instance, Some(&first))?;
+        let mut surfaces = vec![WindowSurface::new(&gpu, Arc::clone(&windows[0]), first, true)?];
+        for window in &windows[1..] {
+            // One wait a frame is enough.
+            surfaces.push(WindowSurface::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?, false)?);
+        }
+        let screen_format = surfaces[0].configuration.format;
+
+        let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
+        let format = Format::fast(samples);
+        let dial = options.dial(gpu.is_software());
+        let spinner = progress::cutting(dial);
+        let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
+        spinner.finish_and_clear();
+        eprintln!("{because}, on {}", gpu.description());
+        let spinner = progress::spinner("uploading");
+        let renderer = SceneRenderer::new(&gpu, &scene, format, options.picture.background, dial, Occasion::Ride)?;
+        gpu.wait()?;
+        spinner.finish_and_clear();
+        let interface = Interface::new(&gpu, &surfaces[0].window, screen_format);
+        let canvas = match display {
+            Some(display) => {
+                let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
+                let walls = Walls::new(&gpu, display, quality, screen_format);
+                if options.preview {
+                    Canvas::preview(&gpu, walls, screen_format)
+                } else {
+                    Canvas::Room(Box::new(walls))
+                }
+            }
+            None => Canvas::picture(&gpu, surfaces[0].size(), format, screen_format),
+        };
+        Ok(Self {
+            canvas,
+            settings: Settings {
+                open: false,
+                help: false,
+                readings: true,
+                look: Look {
+                    effects: options.picture.effects,
+                    latency: options.latency,
+                    fov_deg: options.picture.fov,
+                    development: options.picture.development(),
+                },
+            },
+            mouse_moves_head,
+            shift: false,
+            display_name: options.display.clone(),
+            calibrating: None,
+            cursor: None,
+            ride: RideInProgress::new(renderer, begin()?),
+            stop: interrupted(),
+            gpu,
+            windows: surfaces,
+            format,
+            interface,
+        })
+    }
+
+}

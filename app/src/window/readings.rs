@@ -1,0 +1,55 @@
+//! What the display at the edges and the panel tell of a ride.
+
+use super::hud::Readings;
+use super::panel::PanelRide;
+use crate::frame::RideInProgress;
+use render::Gpu;
+
+/// Readings of the display at the edges.
+pub fn readings(ride: &RideInProgress) -> Readings {
+    let Some(frame) = &ride.frame else { return Readings::default() };
+    let celerity = frame.gaze.observer.celerity;
+    let odometer = frame.vehicle.odometer();
+    let mut notices = ride.live.told();
+    if ride.not_finite > 0 {
+        notices.push(format!("{} vertices are nowhere and not drawn", ride.not_finite));
+    }
+    notices.extend(ride.behind.clone());
+    notices.extend(ride.certainty.notice());
+    if frame.time_scale != 1.0 {
+        notices.push(format!("own time × {:.2}", frame.time_scale));
+    }
+    Readings {
+        beta: celerity.beta().vector().length(),
+        gamma: celerity.gamma(),
+        rapidity: celerity.rapidity(),
+        speed_of_light: frame.vehicle.light_speed().speed_of_light_m_s(),
+        own_clock_s: odometer.own_s,
+        world_clock_s: odometer.world_s,
+        road_m: odometer.road_m,
+        own_m: odometer.own_m,
+        frame_rate: ride.times.frame_rate(),
+        stages_ms: ride.times.stages_ms(),
+        certainty: ride.certainty.reading(),
+        notices,
+        paused: frame.paused,
+        recording: ride.live.is_recording(),
+    }
+}
+
+/// State of the ride that the settings panel shows.
+pub fn panel(ride: &RideInProgress, gpu: &Gpu) -> PanelRide {
+    let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
+    PanelRide {
+        vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
+        time_scale: ride.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
+        speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.light_speed().speed_of_light_m_s()),
+        devices: ride.live.devices(),
+        drawing: format!(
+            "{} triangles by the {} renderer on {}",
+            ride.renderer.triangle_count(),
+            ride.renderer.name(),
+            gpu.description()
+        ),
+    }
+}
