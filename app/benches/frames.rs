@@ -11,22 +11,23 @@
 mod support;
 
 use glam::{DVec3, Vec3};
-use physics::Beta;
-use physics::photo_surface::{Eye, Kernel};
-use rapidity::gpu::{Gpu, GpuError};
-use rapidity::renderers::polygon::Transformed;
-use rapidity::renderers::target::{Format, Radiance};
-use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::refine::{RefineError, refine};
-use rapidity::scene::{Mesh, Scene};
-use rapidity::views::Camera;
+use built_in::lattice::Lattice;
+use physics::photo_surface::Kernel;
+use physics::{Beta, Event, Observer};
+use render::target::{Format, Radiance};
+use render::{Gpu, GpuError, Pending, SceneRenderer, TransformReport};
+use scene::refine::{RefineError, refine};
+use scene::{Mesh, Scene};
 use std::error::Error;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
+use view::{Camera, Dial, Effects, Occasion, Shot};
 
 /// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 1024];
+
+/// Edge of the scene's triangles, metres: they are drawn as they are.
+const EDGE_M: f64 = 1.0;
 
 /// Numbers of vertices and triangles in W table 6.1.
 const SIZES: [[usize; 2]; 3] = [[21_198, 18_770], [135_907, 113_397], [20_786, 19_864]];
@@ -77,7 +78,7 @@ struct Bench<'gpu> {
     renderer: SceneRenderer,
     target: Radiance,
     camera: Camera,
-    eye: Eye,
+    observer: Observer,
 }
 
 impl<'gpu> Bench<'gpu> {
@@ -85,17 +86,19 @@ impl<'gpu> Bench<'gpu> {
         let format = Format::fast(1);
         Ok(Self {
             gpu,
-            renderer: SceneRenderer::new(gpu, scene, format, None, Method::Polygon)?,
+            renderer: SceneRenderer::new(gpu, scene, format, None, Dial::edge(EDGE_M), Occasion::Ride)?,
             target: Radiance::new(gpu, SIZE, format),
             camera: Camera::looking(DVec3::NEG_Z, DVec3::Y, 70.0_f64.to_radians()),
-            eye: Eye::new(DVec3::new(0.3, 0.2, 0.1), Beta::new(DVec3::NEG_Z * 0.01)?.celerity().vector())?,
+            observer: Observer {
+                event: Event { ct: 0.0, position: DVec3::new(0.3, 0.2, 0.1) },
+                celerity: Beta::new(DVec3::NEG_Z * 0.01)?.celerity(),
+            },
         })
     }
 
     /// Times of a frame drawn plainly, overlapped and in sequence, and of a transform alone, milliseconds: a median
     /// for each turn.
     fn run(&mut self) -> Result<[Vec<f64>; 4], Box<dyn Error>> {
-        let eye = self.eye;
         let mut medians = [const { Vec::new() }; 4];
         let started = Instant::now();
         let mut warm = false;
@@ -103,21 +106,18 @@ impl<'gpu> Bench<'gpu> {
             let plain = self.turn(|bench| bench.draw(Effects::NONE))?;
 
             // The transform of the next frame begins before this one is drawn.
-            self.renderer.submit(self.gpu, eye, 0.0)?;
+            let mut next = self.submit()?;
             let overlap = self.turn(|bench| {
-                let transformed = bench.renderer.receive()?;
-                bench.renderer.submit(bench.gpu, eye, 0.0)?;
-                bench.show(transformed)
+                let after = bench.submit()?;
+                bench.show(std::mem::replace(&mut next, after)).map(drop)
             })?;
-            let rest = self.renderer.receive()?;
-            self.show(rest)?;
+            self.show(next)?;
 
             let mut transforms = Vec::new();
             let low = self.turn(|bench| {
-                bench.renderer.submit(bench.gpu, eye, 0.0)?;
-                let transformed = bench.renderer.receive()?;
-                transforms.push(milliseconds(transformed.duration));
-                bench.show(transformed)
+                let pending = bench.submit()?;
+                transforms.push(milliseconds(bench.show(pending)?.duration));
+                Ok(())
             })?;
 
             // The first turn compiles shaders and touches memory, so it does not count.
@@ -141,13 +141,18 @@ impl<'gpu> Bench<'gpu> {
         (0..FRAMES).map(time).collect()
     }
 
-    fn show(&mut self, transformed: Transformed) -> Result<(), GpuError> {
-        self.renderer.show(self.gpu, transformed);
-        self.draw(Effects::GEOMETRY)
+    fn submit(&mut self) -> Result<Pending, GpuError> {
+        self.renderer.submit(self.gpu, &self.observer, Effects::GEOMETRY)
+    }
+
+    fn show(&mut self, pending: Pending) -> Result<TransformReport, GpuError> {
+        let report = self.renderer.show(self.gpu, pending)?;
+        self.draw(Effects::GEOMETRY)?;
+        Ok(report)
     }
 
     fn draw(&mut self, effects: Effects) -> Result<(), GpuError> {
-        let shot = Shot { camera: self.camera, eye: self.eye, ct: 0.0, effects, stored_scale: None };
+        let shot = Shot { camera: self.camera, observer: self.observer, effects, stored_scale: None };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, glam::DVec2::ZERO);
         self.gpu.queue.submit([encoder.finish()]);

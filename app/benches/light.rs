@@ -9,30 +9,28 @@
 mod support;
 
 use glam::{DVec2, DVec3};
-use physics::Beta;
-use physics::photo_surface::Eye;
-use rapidity::gpu::{Gpu, GpuError};
-use rapidity::renderers::display::{Adaptation, Development, Display, Seen};
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::target::{Format, Radiance, texture};
-use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Scene, town};
-use rapidity::views::Camera;
+use built_in::town;
+use physics::{Beta, Celerity, Event, Observer};
+use render::display::{Adaptation, Developer, Development, Seen};
+use render::target::{Format, Radiance, texture};
+use render::{Gpu, GpuError, SceneRenderer};
+use scene::Scene;
+use scene::refine::refine;
 use std::error::Error;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
+use view::{Camera, Dial, EYE_HEIGHT_M, Effects, Occasion, Shot};
 
 /// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 720];
-/// Map quality of a window that the CPU draws.
-const QUALITY: MapQuality = MapQuality { texels_per_pixel: 0.9, smooth: true };
+/// Texels of the map for each pixel in a window that the CPU draws.
+const MAP_SCALE: f64 = 0.9;
 /// Number of frames drawn in one way before the next way has its turn.
 const FRAMES: usize = 3;
 /// Time for which each table is measured.
 const TIME: Duration = Duration::from_secs(15);
 /// Longest edge of a triangle of the polygon renderer, metres: the program's default.
-const EDGE_M: f32 = 0.5;
+const EDGE_M: f64 = 0.5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let gpu = Gpu::new()?;
@@ -42,9 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("medians; ratio = frame time over that of the table's first row, with its quartiles");
 
     let town = town::build(1);
-    let refined = refine(&town, EDGE_M)?;
-    let mut image = Stage::new(&gpu, &town, Method::Image(QUALITY))?;
-    let mut polygon = Stage::new(&gpu, &refined, Method::Polygon)?;
+    let refined = refine(&town, EDGE_M as f32)?;
+    let mut image = Stage::new(&gpu, &town, Dial::map(MAP_SCALE))?;
+    let mut polygon = Stage::new(&gpu, &refined, Dial::edge(EDGE_M))?;
     let (doppler, searchlight) =
         (Effects { doppler: true, ..Effects::GEOMETRY }, Effects { searchlight: true, ..Effects::GEOMETRY });
 
@@ -72,8 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scales = [0.5, 0.7, 0.9, 1.5, 3.0].map(|scale| (format!("{scale} texels a pixel"), scale));
     let mut stages = Vec::new();
     for (_, texels_per_pixel) in &scales {
-        let quality = MapQuality { texels_per_pixel: *texels_per_pixel, ..QUALITY };
-        stages.push(Stage::new(&gpu, &town, Method::Image(quality))?);
+        stages.push(Stage::new(&gpu, &town, Dial::map(*texels_per_pixel))?);
     }
     let numbered: Vec<_> = scales.iter().enumerate().map(|(number, (name, _))| (name.clone(), number)).collect();
     table(&numbered, |number| stages[*number].frame(0.8, Effects::ALL))?;
@@ -119,7 +116,7 @@ struct Stage<'gpu> {
     gpu: &'gpu Gpu,
     renderer: SceneRenderer,
     target: Radiance,
-    display: Display,
+    developer: Developer,
     adaptation: Adaptation,
     screen: wgpu::TextureView,
     eye: DVec3,
@@ -127,22 +124,21 @@ struct Stage<'gpu> {
 }
 
 impl<'gpu> Stage<'gpu> {
-    fn new(gpu: &'gpu Gpu, scene: &Scene, method: Method) -> Result<Self, Box<dyn Error>> {
+    fn new(gpu: &'gpu Gpu, scene: &Scene, dial: Dial) -> Result<Self, Box<dyn Error>> {
         let format = Format::fast(1);
-        let eye = scene.start.position + DVec3::Y * 1.6;
-        let mut renderer = SceneRenderer::new(gpu, scene, format, None, method)?;
+        let eye = scene.start.position + DVec3::Y * EYE_HEIGHT_M;
+        let mut renderer = SceneRenderer::new(gpu, scene, format, None, dial, Occasion::Ride)?;
         // The photo-surface stays the same; the benchmark `frames` measures its cost.
-        if renderer.transforms(Effects::ALL) {
-            renderer.submit(gpu, Eye::new(eye, scene.start.look * 0.8 / 0.6)?, 0.0)?;
-            let transformed = renderer.receive()?;
-            renderer.show(gpu, transformed);
-        }
+        let celerity = Celerity::new(scene.start.look * 0.8 / 0.6)?;
+        let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
+        let pending = renderer.submit(gpu, &observer, Effects::ALL)?;
+        renderer.show(gpu, pending)?;
         let screen = wgpu::TextureFormat::Bgra8Unorm;
         Ok(Self {
             gpu,
             renderer,
             target: Radiance::new(gpu, SIZE, format),
-            display: Display::new(gpu, format.colour, screen),
+            developer: Developer::new(gpu, format.colour, screen),
             adaptation: Adaptation::new(gpu),
             screen: texture(gpu, "screen", SIZE, screen, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
             eye,
@@ -152,9 +148,9 @@ impl<'gpu> Stage<'gpu> {
 
     fn frame(&mut self, beta: f64, effects: Effects) -> Result<(), GpuError> {
         let celerity = Beta::new(self.look * beta).expect("a speed below light's").celerity();
-        let eye = Eye::new(self.eye, celerity.vector()).expect("an eye that is somewhere");
+        let observer = Observer { event: Event { ct: 0.0, position: self.eye }, celerity };
         let camera = Camera::looking(self.look, DVec3::Y, 60.0_f64.to_radians());
-        let shot = Shot { camera, eye, ct: 0.0, effects, stored_scale: None };
+        let shot = Shot { camera, observer, effects, stored_scale: None };
         self.renderer.prepare(self.gpu, &shot, SIZE);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);
@@ -165,8 +161,8 @@ impl<'gpu> Stage<'gpu> {
         let development = Development::default();
         let radiance = self.target.result();
         let seen = Seen { radiance, stored: self.renderer.stored(&shot), elapsed_s: Some(0.05) };
-        self.display.adapt(self.gpu, &mut encoder, &mut self.adaptation, &seen, &development);
-        self.display.show(self.gpu, &mut encoder, radiance, &self.adaptation, &development, &self.screen);
+        self.developer.adapt(self.gpu, &mut encoder, &mut self.adaptation, &seen, &development);
+        self.developer.show(self.gpu, &mut encoder, radiance, &self.adaptation, &development, &self.screen);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait()
     }

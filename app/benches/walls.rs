@@ -8,22 +8,21 @@
 mod support;
 
 use glam::{DQuat, DVec3};
-use physics::worldline::State;
+use built_in::town;
+use physics::worldline::WorldlineState;
 use physics::{Beta, Event};
-use rapidity::gpu::Gpu;
-use rapidity::renderers::display::Development;
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::target::{Format, texture};
-use rapidity::renderers::{Effects, Method, SceneRenderer};
-use rapidity::room::{Display, Eye, file};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Scene, town};
-use rapidity::views::Camera;
-use rapidity::walls::{Head, Occupant, Quality, Walls};
+use render::display::Development;
+use render::target::{Format, texture};
+use render::{Gpu, SceneRenderer};
+use room::{Display, EyeSide, file};
+use scene::Scene;
+use scene::refine::refine;
 use std::error::Error;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
+use view::{Camera, Dial, Effects, Occasion};
+use walls::{Head, Occupant, Quality, Walls};
 
 /// Side of a wall, pixels.
 const SIDE: u32 = 320;
@@ -32,9 +31,9 @@ const FRAMES: usize = 3;
 /// Time for which each table is measured.
 const TIME: Duration = Duration::from_secs(20);
 /// Longest edge of a triangle, metres.
-const EDGE_M: f32 = 0.5;
-/// Map quality of windows that the CPU draws.
-const MAP: Method = Method::Image(MapQuality { texels_per_pixel: 0.9, smooth: true });
+const EDGE_M: f64 = 0.5;
+/// Map of windows that the CPU draws.
+const MAP: Dial = Dial::map(0.9);
 const SCREEN: wgpu::TextureFormat = wgpu::TextureFormat::Bgra8Unorm;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -45,11 +44,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("medians; ratio = frame time over that of the table's first row, with its quartiles");
 
     let town = town::build(1);
-    let refined = refine(&town, EDGE_M)?;
-    for (name, method, scene) in [("polygon", Method::Polygon, &refined), ("image", MAP, &town)] {
+    let refined = refine(&town, EDGE_M as f32)?;
+    for (name, dial, scene) in [("polygon", Dial::edge(EDGE_M), &refined), ("image", MAP, &town)] {
         let mut rows = Vec::new();
         for (walls, eyes) in [(1, 1), (2, 1), (3, 1), (4, 1), (1, 2), (4, 2)] {
-            rows.push(Row::new(&gpu, &format!("walls: {walls}, eyes: {eyes}"), cave(walls, eyes), method, scene)?);
+            rows.push(Row::new(&gpu, &format!("walls: {walls}, eyes: {eyes}"), cave(walls, eyes), dial, scene)?);
         }
         println!("\n{name} renderer, {} triangles: walls and eyes of cave4", scene.triangle_count());
         table(&gpu, &mut rows)?;
@@ -57,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut rows = Vec::new();
         for (what, screen) in [("flat", FLAT), ("bent", BENT)] {
             let text = format!("{screen}\n{CHANNEL}");
-            rows.push(Row::new(&gpu, what, file::parse(&text, what, Path::new("."))?, method, scene)?);
+            rows.push(Row::new(&gpu, what, file::parse(&text, what, Path::new("."))?, dial, scene)?);
         }
         println!("\n{name} renderer: one screen of 960 x 540 pixels, flat, and bent so that each pixel is looked up");
         table(&gpu, &mut rows)?;
@@ -74,7 +73,7 @@ const CHANNEL: &str = "[[window]]\nname = \"w\"\nsize = [960, 540]\n[[channel]]\
 fn cave(walls: usize, eyes: usize) -> Display {
     let mut display = Display::built_in("cave4").expect("it comes with the program");
     let screens = [1, 0, 2, 3];
-    let wanted = |eye: Eye, screen: usize| screens[..walls].contains(&screen) && (eyes == 2 || eye == Eye::Left);
+    let wanted = |eye: EyeSide, screen: usize| screens[..walls].contains(&screen) && (eyes == 2 || eye == EyeSide::Left);
     display.channels.retain(|channel| wanted(channel.eye, channel.screen));
     for (channel, place) in display.channels.iter_mut().zip(0..) {
         channel.viewport = [SIDE * place, 0, SIDE, SIDE];
@@ -97,19 +96,19 @@ struct Row {
 }
 
 impl Row {
-    fn new(gpu: &Gpu, name: &str, display: Display, method: Method, scene: &Scene) -> Result<Self, Box<dyn Error>> {
+    fn new(gpu: &Gpu, name: &str, display: Display, dial: Dial, scene: &Scene) -> Result<Self, Box<dyn Error>> {
         let format = Format::fast(1);
         let look = scene.start.look;
         let celerity = Beta::new(look * 0.8)?.celerity();
         let orientation: DQuat = Camera::looking(look, DVec3::Y, 1.0).observer_from_eye;
-        let vehicle = State::new(Event { ct: 0.0, position: scene.start.position }, celerity, orientation);
+        let vehicle = WorldlineState::new(Event { ct: 0.0, position: scene.start.position }, celerity, orientation);
         let screens = display.windows.iter();
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let screens = screens.map(|window| texture(gpu, "screen", window.size, SCREEN, 1, usage)).collect();
         let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
         Ok(Self {
             name: name.to_owned(),
-            renderer: SceneRenderer::new(gpu, scene, format, None, method)?,
+            renderer: SceneRenderer::new(gpu, scene, format, None, dial, Occasion::Ride)?,
             occupant: Occupant { vehicle, head: Head::at_rest(display.viewer.head_m) },
             walls: Walls::new(gpu, display, quality, SCREEN),
             screens,
@@ -120,7 +119,8 @@ impl Row {
 
     /// Draws a frame, and returns the time of its photo-surfaces, milliseconds.
     fn frame(&mut self, gpu: &Gpu) -> Result<f64, Box<dyn Error>> {
-        let drawn = self.walls.draw(gpu, &mut self.renderer, &self.occupant, Effects::ALL)?;
+        let submitted = self.walls.submit(gpu, &mut self.renderer, &self.occupant, Effects::ALL)?;
+        let drawn = self.walls.draw(gpu, &mut self.renderer, submitted)?;
         let development = Development::default();
         self.walls.adapt(gpu, &development, Some(0.05));
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

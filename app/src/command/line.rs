@@ -17,7 +17,7 @@ use super::values;
 /// Move through a world in which light is slow, and see it as that observer would.
 #[derive(Debug, Parser)]
 #[command(name = "rapidity", bin_name = "rapidity", version, arg_required_else_help = true, max_term_width = 100)]
-struct Cli {
+pub(super) struct Cli {
     #[command(subcommand)]
     command: Command,
 }

@@ -2,10 +2,12 @@
 //! which option it was, what was typed, and what was expected. A wrong program would take a negative coordinate for
 //! an option, let |beta| = 1 through, or ignore one of two options that contradict each other.
 
-use crate::renderers::Effects;
-use crate::renderers::display::{Development, Exposure, Gamut, Tone};
-use crate::vehicle::{IntegratorKind, Nose};
+use super::line::Cli;
+use clap::CommandFactory;
 use glam::DVec3;
+use ::render::display::{Development, Exposure, Gamut, Tone};
+use ::ride::{IntegratorKind, Nose};
+use view::{Effects, RendererName};
 
 use super::*;
 
@@ -65,7 +67,7 @@ fn a_ride_takes_all_its_options() {
     );
     assert_eq!(options.world.scene, SceneChoice::File("a/b.glb".into()));
     assert_eq!(options.world.speed_of_light, 299_792_458.0);
-    assert_eq!(options.world.edge, Some(0.1));
+    assert_eq!(options.dial.edge, Some(0.1));
     assert_eq!(
         options.devices,
         DeviceOptions {
@@ -79,7 +81,7 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.vehicle.vehicle, VehicleName::Fly);
     assert_eq!(options.vehicle.integrator, IntegratorKind::Exact);
     assert_eq!(options.vehicle.transport, Nose::Gyroscopic);
-    assert_eq!(options.picture.renderer, Renderer::Polygon);
+    assert_eq!(options.dial.renderer, RendererName::Polygon);
     assert_eq!((options.picture.samples, options.picture.threads, options.picture.fov), (1, Some(2), 90.0));
     let developed = Development { exposure: Exposure::Stops(-1.5), tone: Tone::Filmic, gamut: Gamut::Clamp };
     assert_eq!(options.picture.development(), developed);

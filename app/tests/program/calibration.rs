@@ -1,17 +1,13 @@
 //! Law: F4 shows a grid whose frame lies at the corners. Keys move the corners, S writes them into the file and
 //! changes nothing else, and a picture drawn from that file uses them. A program that steered the vehicle with the
 //! arrow keys, or lost a comment, would fail here.
-#![cfg(target_os = "linux")]
-#![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
-mod virtual_display;
 
-use image::{Rgb, RgbImage};
-use input::recording::{Entry, Recording};
-use input::{Key, Sample};
-use std::path::Path;
-use std::process::Command;
-use virtual_display::{Display, rapidity, wait_for};
+use crate::runner::{run, told};
+use crate::virtual_display::{VirtualDisplay, wait_for};
+use image::Rgb;
+use input::recording::{Recording, RecordingEntry};
+use input::{KeyboardKey, Sample};
 
 const FILE: &str = r#"# Measured by hand.
 [[screen]]
@@ -31,18 +27,6 @@ screen = "front"
 window = "w"
 "#;
 
-/// Picture of the screen; `None` while the server is not ready.
-fn screen(display: &Display, folder: &Path) -> Option<RgbImage> {
-    let shot = folder.join("screen.png");
-    let grabbed = Command::new("ffmpeg")
-        .args(["-loglevel", "error", "-y", "-f", "x11grab", "-video_size", "640x480", "-i", &display.name])
-        .args(["-frames:v", "1"])
-        .arg(&shot)
-        .status();
-    grabbed.expect("ffmpeg is installed (on Debian or Ubuntu: apt-get install ffmpeg)").success().then_some(())?;
-    Some(image::open(shot).unwrap().into_rgb8())
-}
-
 #[test]
 fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     const WHITE: Rgb<u8> = Rgb([255; 3]);
@@ -50,7 +34,7 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("room.toml");
     std::fs::write(&file, FILE).unwrap();
-    let display = Display::open([640, 480]);
+    let display = VirtualDisplay::open([640, 480]);
     let ride = [
         "ride",
         "--scene",
@@ -64,14 +48,14 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
         "--size",
         "64x48",
     ];
-    let mut program = rapidity(folder.path(), &display.name, &ride).spawn().unwrap();
+    let mut program = display.rapidity(folder.path(), &ride).spawn().unwrap();
     let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
     wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
 
     // At first the frame lies at the window's edge.
     let white = |at: [u32; 2], corner: [u32; 2]| {
         wait_for("the grid's frame", || {
-            let screen = screen(&display, folder.path())?;
+            let screen = display.picture()?;
             let [x, y] = at;
             let outside = corner.map(|pixel| pixel.checked_sub(2));
             let outside = outside[0].zip(outside[1]).map(|(x, y)| *screen.get_pixel(x, y));
@@ -101,8 +85,8 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
 
     // The vehicle received no key presses.
     for entry in Recording::open(&folder.path().join("r.mcap")).unwrap() {
-        if let Entry::Sample(sample) = entry.unwrap() {
-            assert!(Key::ALL.iter().all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
+        if let RecordingEntry::Sample(sample) = entry.unwrap() {
+            assert!(KeyboardKey::ALL.iter().all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
         }
     }
 
@@ -111,6 +95,6 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     assert_eq!(added.len(), 1, "{saved}");
     assert!(added[0].starts_with("corners = { upper_left = [13.0, 10.0],"), "{saved}");
     assert!(FILE.lines().all(|line| saved.lines().any(|after| after == line)), "{saved}");
-    let checked = rapidity(folder.path(), "", &["check", "room.toml"]).output().unwrap();
-    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+    let checked = run(folder.path(), &["check", "room.toml"]);
+    assert!(checked.status.success(), "{}", told(&checked));
 }

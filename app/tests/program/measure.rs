@@ -2,23 +2,19 @@
 //! promised tolerance, finer settings are more accurate, and table, file and plot agree. A wrong program shows an
 //! error above the tolerance, a colour further from the ray tracer's with a finer setting, or a choice that `ride`
 //! does not use.
-#![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use crate::runner::{rapidity, told};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
+/// Result of a command, with the user's preferences in the folder.
 fn run(command: &str, home: &Path, arguments: &[&str]) -> Output {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_rapidity"));
-    program.env("XDG_CONFIG_HOME", home).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    program.arg(command).args(arguments).current_dir(home).output().unwrap()
+    let arguments = [&[command], arguments].concat();
+    rapidity(home, &arguments).env("XDG_CONFIG_HOME", home).output().unwrap()
 }
 
 fn measure(home: &Path, arguments: &[&str]) -> Output {
     run("measure", home, arguments)
-}
-
-fn told(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// Options for one small picture of the boxes, quick to draw.

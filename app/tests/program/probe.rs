@@ -1,16 +1,16 @@
 //! Law: the program as a process keeps the promises of a filter. A wrong program would hold answers back until its
 //! input ends, exit with 0 after an error, write anything else to standard error, or complain about a broken pipe.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
+use crate::runner::rapidity;
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Child, Output, Stdio};
 
 const GOOD: &str = "{\"ask\": \"boost\", \"celerity\": [0.75, 0, 0], \"event\": [1, 0, 0, 0]}\n";
 const GOOD_ANSWER: &str = "{\"event\":[1.25,-0.75,0.0,0.0]}\n";
 
 fn start(arguments: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_rapidity"))
-        .args(arguments)
+    rapidity(Path::new("."), arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

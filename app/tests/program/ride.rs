@@ -1,9 +1,8 @@
 //! Law: a ride on an instrumented bicycle, through a real pseudo-terminal and the real program, replays to the same
 //! bits on any number of threads. A program that let a clock, a thread or a lost sample affect the ride would differ.
-#![cfg(unix)]
 
+use crate::runner::{rapidity, run, said, told};
 use std::io::{Read, Write};
-use std::process::{Command, Output};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -14,20 +13,6 @@ use serialport::{SerialPort, TTYPort};
 const CIRCUMFERENCE_M: f64 = 2.1;
 /// Rate of the sensor's lines, per second.
 const LINES_PER_SECOND: u64 = 60;
-
-fn rapidity(arguments: &[&str], folder: &std::path::Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rapidity"))
-        .args(arguments)
-        .current_dir(folder)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .output()
-        .expect("the program starts")
-}
-
-fn sentence(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 /// Line of the pulse protocol, `seconds` after the bicycle was switched on, at a steady speed.
 fn line(number: u64, seconds: f64, metres_per_second: f64) -> String {
@@ -65,9 +50,10 @@ fn a_ride_through_a_pseudo_terminal_replays_to_the_same_bits() {
             }
             std::thread::sleep(Duration::from_millis(1000 / LINES_PER_SECOND));
         }
-        sentence(&answers)
+        String::from_utf8_lossy(&answers).into_owned()
     });
-    let ridden = rapidity(
+    let ridden = run(
+        folder.path(),
         &[
             "ride",
             "--scene",
@@ -85,18 +71,17 @@ fn a_ride_through_a_pseudo_terminal_replays_to_the_same_bits() {
             "--out",
             "r.mp4",
         ],
-        folder.path(),
     );
     over.store(true, Ordering::Relaxed);
     let answers = rider.join().unwrap();
-    assert!(ridden.status.success(), "{}", sentence(&ridden.stderr));
+    assert!(ridden.status.success(), "{}", told(&ridden));
     assert!(answers.contains("K1,"), "the brake was never told anything: {answers:?}");
 
     // The recording holds a ride that covers some distance.
     let frames = input::recording::Recording::open(&folder.path().join("r.mcap")).unwrap();
     let road = frames
         .filter_map(|entry| match entry.unwrap() {
-            input::recording::Entry::Frame(frame) => Some(frame.road),
+            input::recording::RecordingEntry::Frame(frame) => Some(frame.road),
             _ => None,
         })
         .last()
@@ -104,16 +89,17 @@ fn a_ride_through_a_pseudo_terminal_replays_to_the_same_bits() {
     assert!(road > 2.0, "the bicycle went {road} m");
 
     for threads in ["1", "2"] {
-        let verified = rapidity(&["ride", "--replay", "r.mcap", "--verify", "--threads", threads], folder.path());
-        assert!(verified.status.success(), "{}", sentence(&verified.stderr));
-        assert!(sentence(&verified.stdout).contains("identical to the bit"), "{}", sentence(&verified.stdout));
+        let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify", "--threads", threads]);
+        assert!(verified.status.success(), "{}", told(&verified));
+        assert!(said(&verified).contains("identical to the bit"), "{}", said(&verified));
     }
 }
 
 #[test]
 fn a_changed_recording_is_found_out() {
     let folder = tempfile::tempdir().unwrap();
-    let ridden = rapidity(
+    let ridden = run(
+        folder.path(),
         &[
             "ride",
             "--scene",
@@ -129,17 +115,16 @@ fn a_changed_recording_is_found_out() {
             "--out",
             "r.mp4",
         ],
-        folder.path(),
     );
-    assert!(ridden.status.success(), "{}", sentence(&ridden.stderr));
+    assert!(ridden.status.success(), "{}", told(&ridden));
     let path = folder.path().join("r.mcap");
     let mut bytes = std::fs::read(&path).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     std::fs::write(&path, bytes).unwrap();
-    let verified = rapidity(&["ride", "--replay", "r.mcap", "--verify"], folder.path());
+    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
     assert_eq!(verified.status.code(), Some(1));
-    assert!(sentence(&verified.stderr).contains("damaged"), "{}", sentence(&verified.stderr));
+    assert!(told(&verified).contains("damaged"), "{}", told(&verified));
 }
 
 #[test]
@@ -156,8 +141,8 @@ fn what_cannot_be_done_ends_in_one_sentence_and_a_status() {
         (&["town", "--out", "nowhere/town.glb"], 1, "nowhere"),
     ];
     for (arguments, status, word) in cases {
-        let output = rapidity(arguments, folder.path());
-        let told = sentence(&output.stderr) + &sentence(&output.stdout);
+        let output = run(folder.path(), arguments);
+        let told = told(&output) + &said(&output);
         assert_eq!(output.status.code(), Some(status), "{arguments:?}: {told}");
         assert!(told.contains(word), "{arguments:?}: {told}");
         assert!(told.lines().count() <= 2 && !told.contains("panicked"), "{arguments:?}: {told}");
@@ -166,12 +151,12 @@ fn what_cannot_be_done_ends_in_one_sentence_and_a_status() {
 
 #[test]
 fn without_a_driver_the_package_to_install_is_named() {
-    let output = Command::new(env!("CARGO_BIN_EXE_rapidity"))
-        .args(["render", "--scene", "lattice", "--out", "a.png"])
+    let folder = tempfile::tempdir().unwrap();
+    let output = rapidity(folder.path(), &["render", "--scene", "lattice", "--out", "a.png"])
         .env("VK_DRIVER_FILES", "/nonexistent")
         .env("VK_ICD_FILENAMES", "/nonexistent")
         .output()
         .expect("the program starts");
     assert_eq!(output.status.code(), Some(1));
-    assert!(sentence(&output.stderr).contains("mesa-vulkan-drivers"), "{}", sentence(&output.stderr));
+    assert!(told(&output).contains("mesa-vulkan-drivers"), "{}", told(&output));
 }

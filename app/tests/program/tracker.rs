@@ -1,36 +1,20 @@
 //! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is part of the ride,
 //! and replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
 //! would have another head the second time.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
+use crate::runner::{run, said, told};
 use std::io::Write;
 use std::net::TcpListener;
-use std::path::Path;
-use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use input::head::Tracking;
-use input::recording::{Entry, Recording};
+use input::recording::{Recording, RecordingEntry};
 use input::vrpn::{POSE, wire};
 
 /// Rate of poses, hertz.
 const RATE_HZ: u32 = 100;
 /// Sway of the head: amplitude, metres, and angular frequency, radians per second.
 const SWAY: (f64, f64) = (0.2, 3.0);
-
-fn rapidity(arguments: &[&str], folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rapidity"))
-        .args(arguments)
-        .current_dir(folder)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .output()
-        .expect("the program starts")
-}
-
-fn sentence(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 /// Starts a server whose "Head" sways for every client until it disconnects; returns its address.
 fn serve() -> String {
@@ -63,22 +47,22 @@ fn pose(time: Duration) -> Vec<u8> {
         payload.extend_from_slice(&value.to_be_bytes());
     }
     let (seconds, microseconds) = (1_000_000 + time.as_secs() as u32, time.subsec_micros());
-    wire::Message { seconds, microseconds, sender: 1, kind: 4, payload: &payload }.to_bytes()
+    wire::VrpnMessage { seconds, microseconds, sender: 1, kind: 4, payload: &payload }.to_bytes()
 }
 
 #[test]
 fn a_tracked_head_is_listed() {
     let folder = tempfile::tempdir().unwrap();
-    let listed = rapidity(&["devices", "--tracker", &serve(), "--seconds", "1.5"], folder.path());
-    let text = sentence(&listed.stdout);
-    assert!(listed.status.success(), "{}", sentence(&listed.stderr));
+    let listed = run(folder.path(), &["devices", "--tracker", &serve(), "--seconds", "1.5"]);
+    let text = said(&listed);
+    assert!(listed.status.success(), "{}", told(&listed));
     let device = text.lines().find(|line| line.starts_with("vrpn ")).unwrap_or_else(|| panic!("{text}"));
     assert!(device.contains("Head") && device.contains(" 0 bad, 0 dropped"), "{device}");
     let head = text.lines().find(|line| line.starts_with("head ")).unwrap_or_else(|| panic!("{text}"));
     assert!(head.starts_with("head tracked") && head.contains("+1.600") && head.ends_with("0 rejected"), "{head}");
 
     let other = serve().replace("Head", "Wand");
-    let text = sentence(&rapidity(&["devices", "--tracker", &other, "--seconds", "1.5"], folder.path()).stdout);
+    let text = said(&run(folder.path(), &["devices", "--tracker", &other, "--seconds", "1.5"]));
     assert!(text.contains("head not seen yet") && text.contains("no such device, but Head"), "{text}");
 }
 
@@ -88,15 +72,15 @@ fn a_ride_with_a_tracked_head_replays_to_the_same_bits() {
     let tracker = serve();
     let arguments = ["ride", "--scene", "lattice", "--realtime", "--seconds", "3", "--record", "r.mcap"];
     let picture = ["--size", "64x36", "--samples", "1", "--out", "r.mp4", "--tracker", &tracker];
-    let ridden = rapidity(&[&arguments[..], &picture].concat(), folder.path());
-    assert!(ridden.status.success(), "{}", sentence(&ridden.stderr));
+    let ridden = run(folder.path(), &[&arguments[..], &picture].concat());
+    assert!(ridden.status.success(), "{}", told(&ridden));
 
     let recording = Recording::open(&folder.path().join("r.mcap")).unwrap();
     let head = recording.header().desk.head.clone().expect("the header says how the head was tracked");
     assert_eq!(head.url.to_string(), tracker);
     let heads: Vec<_> = recording
         .filter_map(|entry| match entry.unwrap() {
-            Entry::Controls(record) => record.controls.head,
+            RecordingEntry::Controls(record) => record.controls.head,
             _ => None,
         })
         .filter(|head| head.tracked == Tracking::Tracked)
@@ -106,16 +90,16 @@ fn a_ride_with_a_tracked_head_replays_to_the_same_bits() {
     // The velocity is a mean of four frames, on a busy machine.
     assert!((0.5 * expected..1.5 * expected).contains(&fastest), "{fastest} of {expected} in {} frames", heads.len());
 
-    let verified = rapidity(&["ride", "--replay", "r.mcap", "--verify"], folder.path());
-    assert!(verified.status.success(), "{}", sentence(&verified.stderr));
-    assert!(sentence(&verified.stdout).contains("identical to the bit"), "{}", sentence(&verified.stdout));
+    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+    assert!(verified.status.success(), "{}", told(&verified));
+    assert!(said(&verified).contains("identical to the bit"), "{}", said(&verified));
 }
 
 #[test]
 fn a_wrong_place_is_told_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
-    let refused = rapidity(&["ride", "--tracker", "vrpn://cave"], folder.path());
+    let refused = run(folder.path(), &["ride", "--tracker", "vrpn://cave"]);
     assert_eq!(refused.status.code(), Some(2));
-    let text = sentence(&refused.stderr);
+    let text = told(&refused);
     assert!(text.contains("names no device of the server") && text.lines().count() == 1, "{text}");
 }

@@ -1,5 +1,7 @@
 //! Virtual X display for the program's windows, with time limits that suit a software driver.
 
+use crate::runner::rapidity;
+use image::RgbImage;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -9,15 +11,17 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Virtual display that ends with the test.
-pub struct Display {
+pub struct VirtualDisplay {
     server: Child,
+    size: [u32; 2],
     /// Name of the display, as in DISPLAY.
     pub name: String,
 }
 
-impl Display {
+impl VirtualDisplay {
     /// Opens a display of this size, pixels.
-    pub fn open([width, height]: [u32; 2]) -> Self {
+    pub fn open(size: [u32; 2]) -> Self {
+        let [width, height] = size;
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -27,7 +31,28 @@ impl Display {
         let mut number = String::new();
         let output = server.stdout.take().expect("standard output was asked for as a pipe");
         BufReader::new(output).read_line(&mut number).expect("the server names its display");
-        Self { server, name: format!(":{}", number.trim()) }
+        Self { server, size, name: format!(":{}", number.trim()) }
+    }
+
+    /// Command that runs the program in a folder, with its windows on this display.
+    pub fn rapidity(&self, folder: &Path, arguments: &[&str]) -> Command {
+        let mut command = rapidity(folder, arguments);
+        command.env("DISPLAY", &self.name);
+        command
+    }
+
+    /// Picture of the whole display; `None` while the server is not ready.
+    pub fn picture(&self) -> Option<RgbImage> {
+        let folder = tempfile::tempdir().expect("there is a folder for temporary files");
+        let shot = folder.path().join("screen.png");
+        let [width, height] = self.size;
+        let grabbed = Command::new("ffmpeg")
+            .args(["-loglevel", "error", "-y", "-f", "x11grab", "-video_size", &format!("{width}x{height}")])
+            .args(["-i", &self.name, "-frames:v", "1"])
+            .arg(&shot)
+            .status();
+        grabbed.expect("ffmpeg is installed (on Debian or Ubuntu: apt-get install ffmpeg)").success().then_some(())?;
+        Some(image::open(shot).expect("ffmpeg wrote a picture").into_rgb8())
     }
 
     /// Runs xdotool; its output if it succeeded.
@@ -41,7 +66,7 @@ impl Display {
     }
 }
 
-impl Drop for Display {
+impl Drop for VirtualDisplay {
     fn drop(&mut self) {
         let _ = self.server.kill();
         let _ = self.server.wait();
@@ -58,11 +83,4 @@ pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
         assert!(began.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
         std::thread::sleep(Duration::from_millis(100));
     }
-}
-
-/// Command that runs the program with its window on a display.
-pub fn rapidity(folder: &Path, display: &str, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rapidity"));
-    command.args(arguments).current_dir(folder).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");
-    command
 }

@@ -1,15 +1,13 @@
 //! Law: a display's channels become pictures of their own, and windows that show the same pictures. A wrong display,
 //! head or folder is refused in one sentence. A program that swapped the eyes, or showed both alike, would fail here.
-#![cfg(target_os = "linux")]
-#![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
-mod virtual_display;
 
+use crate::runner::{run, told};
+use crate::virtual_display::{VirtualDisplay, wait_for};
 use image::RgbImage;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use std::time::Duration;
-use virtual_display::{Display, rapidity, wait_for};
 
 /// Display whose eyes are far apart, so that their pictures differ clearly.
 const STEREO: &str = r#"
@@ -50,7 +48,7 @@ const SCENE: [&str; 6] = ["--scene", "lattice", "--edge", "0.5", "--renderer", "
 
 fn render(folder: &Path, arguments: &[&str]) -> Output {
     let scene = ["render"].iter().chain(&SCENE);
-    rapidity(folder, "", &scene.chain(arguments).copied().collect::<Vec<_>>()).output().unwrap()
+    run(folder, &scene.chain(arguments).copied().collect::<Vec<_>>())
 }
 
 fn picture(path: &Path) -> RgbImage {
@@ -70,15 +68,15 @@ fn two_windows_show_what_each_eye_sees() {
     let file = folder.path().join("stereo.toml");
     std::fs::write(&file, STEREO).unwrap();
     let rendered = render(folder.path(), &["--display", "stereo.toml", "--out", "walls", "--samples", "1"]);
-    assert!(rendered.status.success(), "{}", String::from_utf8_lossy(&rendered.stderr));
+    assert!(rendered.status.success(), "{}", told(&rendered));
     let [left, right] = ["l", "r"].map(|name| picture(&folder.path().join(format!("walls/{name}.png"))));
     assert_eq!(left.dimensions(), (320, 240));
     let apart = difference(&left, &right);
     assert!(apart > 4.0, "both eyes see the same: {apart}");
 
-    let display = Display::open([640, 240]);
+    let display = VirtualDisplay::open([640, 240]);
     let ride = ["ride"].iter().chain(&SCENE).chain(&["--display", "stereo.toml"]).copied().collect::<Vec<_>>();
-    let mut program = rapidity(folder.path(), &display.name, &ride).spawn().unwrap();
+    let mut program = display.rapidity(folder.path(), &ride).spawn().unwrap();
     let windows = wait_for("two windows", || {
         let found = display.tool(&["search", "--name", "Rapidity"])?;
         let windows: Vec<String> = found.lines().map(str::to_owned).collect();
@@ -90,17 +88,10 @@ fn two_windows_show_what_each_eye_sees() {
     display.tool(&["key", "F2"]);
 
     // Both windows show their own eye's picture, once the readings are hidden.
-    let shot = folder.path().join("screen.png");
     let mut closest = f64::INFINITY;
     wait_for("pictures in both windows", || {
         std::thread::sleep(Duration::from_millis(500));
-        let grabbed = Command::new("ffmpeg")
-            .args(["-loglevel", "error", "-y", "-f", "x11grab", "-video_size", "640x240", "-i", &display.name])
-            .args(["-frames:v", "1"])
-            .arg(&shot)
-            .status();
-        assert!(grabbed.expect("ffmpeg is installed (on Debian or Ubuntu: apt-get install ffmpeg)").success());
-        let screen = picture(&shot);
+        let screen = display.picture()?;
         let half = |x: u32| image::imageops::crop_imm(&screen, x, 0, 320, 240).to_image();
         let off = difference(&half(0), &left).max(difference(&half(320), &right));
         closest = closest.min(off);
@@ -127,7 +118,7 @@ fn what_cannot_be_drawn_is_refused_in_one_sentence() {
     ];
     for (arguments, said) in cases {
         let output = render(folder.path(), arguments);
-        let told = String::from_utf8_lossy(&output.stderr);
+        let told = told(&output);
         assert!(!output.status.success(), "{arguments:?} passed");
         assert!(told.contains(said), "{arguments:?}: {told}");
     }

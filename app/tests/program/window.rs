@@ -1,19 +1,18 @@
 //! Law: a window on a virtual display runs a ride, reacts to keys, takes a photo and closes on Escape, and its
 //! recording is complete and replays to the bit. A window that lost keys, drew nothing or ended without completing
 //! its file would show here.
-#![cfg(target_os = "linux")]
 
-mod virtual_display;
 
+use crate::runner::{run, told};
+use crate::virtual_display::{VirtualDisplay, wait_for};
 use std::time::Duration;
-use virtual_display::{Display, rapidity, wait_for};
 
 #[test]
 fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     let folder = tempfile::tempdir().unwrap();
-    let display = Display::open([640, 480]);
+    let display = VirtualDisplay::open([640, 480]);
     let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "320x240", "--record", "r.mcap"];
-    let mut program = rapidity(folder.path(), &display.name, &arguments).spawn().unwrap();
+    let mut program = display.rapidity(folder.path(), &arguments).spawn().unwrap();
 
     // Find the window, and press keys until each has had its effect.
     let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
@@ -35,6 +34,6 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     assert_eq!(picture.dimensions(), (320, 240));
     let first = *picture.get_pixel(0, 0);
     assert!(picture.pixels().any(|pixel| *pixel != first), "the photo shows nothing");
-    let verified = rapidity(folder.path(), "", &["ride", "--replay", "r.mcap", "--verify"]).output().unwrap();
-    assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
+    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+    assert!(verified.status.success(), "{}", told(&verified));
 }

@@ -1,0 +1,20 @@
+//! Tests of the program as a process, one module a subject.
+#![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
+
+#[cfg(target_os = "linux")]
+mod calibration;
+mod check;
+mod measure;
+mod probe;
+#[cfg(unix)]
+mod ride;
+mod runner;
+#[cfg(unix)]
+mod trace;
+mod tracker;
+#[cfg(target_os = "linux")]
+mod virtual_display;
+#[cfg(target_os = "linux")]
+mod walls;
+#[cfg(target_os = "linux")]
+mod window;
