@@ -10,8 +10,8 @@
 
 mod support;
 
-use glam::{DVec3, Vec3};
 use built_in::lattice::Lattice;
+use glam::{DVec3, Vec3};
 use physics::photo_surface::Kernel;
 use physics::{Beta, Event, Observer};
 use render::target::{Format, Radiance};

@@ -8,8 +8,8 @@
 
 mod support;
 
-use glam::{DVec2, DVec3};
 use built_in::town;
+use glam::{DVec2, DVec3};
 use physics::{Beta, Celerity, Event, Observer};
 use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance, texture};

@@ -7,8 +7,8 @@
 
 mod support;
 
-use glam::{DQuat, DVec3};
 use built_in::town;
+use glam::{DQuat, DVec3};
 use physics::worldline::WorldlineState;
 use physics::{Beta, Event};
 use render::display::Development;
@@ -73,7 +73,8 @@ const CHANNEL: &str = "[[window]]\nname = \"w\"\nsize = [960, 540]\n[[channel]]\
 fn cave(walls: usize, eyes: usize) -> Display {
     let mut display = Display::built_in("cave4").expect("it comes with the program");
     let screens = [1, 0, 2, 3];
-    let wanted = |eye: EyeSide, screen: usize| screens[..walls].contains(&screen) && (eyes == 2 || eye == EyeSide::Left);
+    let wanted =
+        |eye: EyeSide, screen: usize| screens[..walls].contains(&screen) && (eyes == 2 || eye == EyeSide::Left);
     display.channels.retain(|channel| wanted(channel.eye, channel.screen));
     for (channel, place) in display.channels.iter_mut().zip(0..) {
         channel.viewport = [SIDE * place, 0, SIDE, SIDE];

@@ -1,8 +1,8 @@
 //! What can go wrong in the program as a whole. Every part has an error of its own; here they meet, so that `main`
 //! reports once.
 
-use crate::output::film::FilmError;
 use crate::output::files::WriteError;
+use crate::output::film::FilmError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
 use crate::session::tracker::TrackerError;

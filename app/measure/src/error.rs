@@ -8,10 +8,9 @@ use render::GpuError;
 use ride::SetupError;
 use scene::SceneFault;
 use scene::refine::RefineError;
-use std::path::PathBuf;
 use thiserror::Error;
 
-/// Reason why something cannot be measured, or its results not be written.
+/// Reason why something cannot be measured.
 #[derive(Debug, Error)]
 pub enum MeasureError {
     /// A device that is missing or lost.
@@ -38,12 +37,4 @@ pub enum MeasureError {
     /// A plot that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// A table that cannot be written.
-    #[error("{}: could not be written: {reason}; choose another place", path.display())]
-    Write {
-        /// File to be written.
-        path: PathBuf,
-        /// Reason, in the system's words.
-        reason: String,
-    },
 }

@@ -137,7 +137,8 @@ fn draw<B: DrawingBackend>(
             if below { ((-7, 2), (HPos::Right, VPos::Top)) } else { ((8, -2), (HPos::Left, VPos::Bottom)) };
         let style = (FONT, 17).into_font().color(&colour).pos(Pos::new(anchor.0, anchor.1));
         let of_dial = rows.iter().filter(|row| row.dial.turned().is_some_and(|(name, _)| name == dial));
-        let points = of_dial.map(|row| (row.ms[0], row.arcmin[1], row.dial.turned().map_or(0.0, |(_, value)| value).to_string()));
+        let points = of_dial
+            .map(|row| (row.ms[0], row.arcmin[1], row.dial.turned().map_or(0.0, |(_, value)| value).to_string()));
         let marks = points.map(|(ms, arcmin, value)| {
             EmptyElement::at((ms, arcmin))
                 + Circle::new((0, 0), 6, colour.filled())

@@ -4,8 +4,8 @@
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
-use physics::apparent;
 use physics::Observer;
+use physics::apparent;
 use physics::photo_surface::{Kernel, PhotoSurfaceError, PhotoSurfaceMesh, Vertices};
 use rayon::prelude::*;
 
@@ -68,7 +68,11 @@ pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>)
 }
 
 impl Found {
-    fn time(&mut self, count: usize, work: impl FnOnce() -> Result<(), PhotoSurfaceError>) -> Result<(), PhotoSurfaceError> {
+    fn time(
+        &mut self,
+        count: usize,
+        work: impl FnOnce() -> Result<(), PhotoSurfaceError>,
+    ) -> Result<(), PhotoSurfaceError> {
         let began = Instant::now();
         work()?;
         self.ns.push(began.elapsed().as_secs_f64() * 1e9 / count.max(1) as f64);

@@ -146,7 +146,12 @@ impl Ride {
     }
 
     /// States after each step.
-    fn follow(&self, integrator: &dyn Integrator, step: f64, steps: u32) -> Result<Vec<WorldlineState>, WorldlineError> {
+    fn follow(
+        &self,
+        integrator: &dyn Integrator,
+        step: f64,
+        steps: u32,
+    ) -> Result<Vec<WorldlineState>, WorldlineError> {
         let start = Celerity::new(self.celerities[0]).unwrap_or_default();
         let mut state = WorldlineState::new(Event::default(), start, glam::DQuat::IDENTITY);
         let control = |state: &WorldlineState| Thrust::in_boost_axes(state, self.acceleration(state.proper_time));

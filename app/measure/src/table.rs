@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::row::Row;
-use crate::error::MeasureError;
 
 /// Columns of the file. Each dial fills the columns that apply to it; the others stay empty.
 const COLUMNS: [&str; 24] = [
@@ -135,9 +134,9 @@ impl Markdown {
 /// Writes all lines into one file.
 ///
 /// # Errors
-/// [`MeasureError::Write`] if the file cannot be written.
-pub fn write_csv(lines: &[Line], path: &Path) -> Result<(), MeasureError> {
-    std::fs::write(path, csv(lines)).map_err(|error| MeasureError::Write { path: path.to_owned(), reason: error.to_string() })
+/// The file cannot be written.
+pub fn write_csv(lines: &[Line], path: &Path) -> std::io::Result<()> {
+    std::fs::write(path, csv(lines))
 }
 
 fn csv(lines: &[Line]) -> String {

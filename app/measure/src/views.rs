@@ -60,8 +60,7 @@ pub fn along_circuit(scene: &Scene, count: u32) -> Vec<Shot> {
 /// time.
 pub fn further(shot: &Shot, own_m: f64) -> Shot {
     let Observer { event, celerity } = shot.observer;
-    let event =
-        Event { ct: event.ct + celerity.gamma() * own_m, position: event.position + celerity.vector() * own_m };
+    let event = Event { ct: event.ct + celerity.gamma() * own_m, position: event.position + celerity.vector() * own_m };
     Shot { observer: Observer { event, celerity }, ..*shot }
 }
 
@@ -82,7 +81,10 @@ mod tests {
     fn an_eye_goes_on_along_its_worldline() {
         let start = along_circuit(&built_in::lattice::Lattice::default().build(), 2)[1];
         let later = further(&start, 3.0);
-        let (way, time) = (later.observer.event.position.distance(start.observer.event.position), later.observer.event.ct - start.observer.event.ct);
+        let (way, time) = (
+            later.observer.event.position.distance(start.observer.event.position),
+            later.observer.event.ct - start.observer.event.ct,
+        );
         // At 0.8 c: u = 4/3, γ = 5/3.
         assert!((way - 4.0).abs() < 1e-12 && (time - 5.0).abs() < 1e-12, "{way} {time}");
     }

@@ -98,7 +98,8 @@ fn perceived_position(question: &Keys<'_>) -> Result<Answer, ProbeError> {
     let [left, right] = question.required("eyes", EYES)?.list_of(EYES)?;
     let source = question.source("source")?;
     let source = Source { position: source.vector("position")?, celerity: source.velocity()? };
-    let StereoPerception { position, gap } = perceived_place([left.vector()?, right.vector()?], &source, question.number("time")?)?;
+    let StereoPerception { position, gap } =
+        perceived_place([left.vector()?, right.vector()?], &source, question.number("time")?)?;
     Answer::default().vector("position", position)?.number("gap", gap)
 }
 

@@ -257,11 +257,11 @@ mod tests {
     //! errors astern are found.
 
     use super::*;
-    use view::Effects;
     use built_in::lattice::Lattice;
+    use physics::{Celerity, Event, Observer};
     use scene::refine::refine;
     use view::Camera;
-    use physics::{Celerity, Event, Observer};
+    use view::Effects;
 
     fn of(scene: &Scene, speed: f64, look: DVec3, drawn: EdgesDrawn) -> Certainty {
         let shot = Shot {

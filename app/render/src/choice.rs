@@ -36,9 +36,7 @@ impl Choice {
         let because = format!("{}: drawn by the {} renderer ({why})", scene.name, renderer.name());
         let dial = Dial { renderer, ..wanted };
         match (renderer, wanted.edge) {
-            (RendererName::Polygon, Some(edge_m)) => {
-                Ok(Self { scene: refine(&scene, edge_m as f32)?, dial, because })
-            }
+            (RendererName::Polygon, Some(edge_m)) => Ok(Self { scene: refine(&scene, edge_m as f32)?, dial, because }),
             _ => Ok(Self { scene, dial, because }),
         }
     }

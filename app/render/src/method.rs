@@ -44,15 +44,7 @@ pub trait Method {
     fn prepare_eye(&mut self, _gpu: &Gpu, _world: &mut World, _shots: &[(Shot, [u32; 2])]) {}
 
     /// Works out what all samples of one picture of `size` pixels share.
-    fn prepare_picture(
-        &mut self,
-        _gpu: &Gpu,
-        _world: &mut World,
-        _shot: &Shot,
-        _size: [u32; 2],
-        _subject: Subject,
-    ) {
-    }
+    fn prepare_picture(&mut self, _gpu: &Gpu, _world: &mut World, _shot: &Shot, _size: [u32; 2], _subject: Subject) {}
 
     /// True if there is something to draw from. Before that the plain world is drawn.
     fn is_ready(&self) -> bool {

@@ -33,7 +33,12 @@ fn in_frame_of(motion: &Motion, observer: &Observer) -> Observer {
 }
 
 /// View of a moving body, for the picture whose view of the resting world is `at_rest`.
-pub fn view(at_rest: &shaders::ViewUniforms, motion: &Motion, observer: &Observer, axes: Axes) -> shaders::ViewUniforms {
+pub fn view(
+    at_rest: &shaders::ViewUniforms,
+    motion: &Motion,
+    observer: &Observer,
+    axes: Axes,
+) -> shaders::ViewUniforms {
     let seen = seen_by(motion, observer);
     let group_from_observer = seen.observer_from_group.conjugate();
     let turned = |vector: Vec4| turn(group_from_observer, vector);
@@ -57,7 +62,12 @@ pub fn view(at_rest: &shaders::ViewUniforms, motion: &Motion, observer: &Observe
 /// `origin`. It is drawn at its place at the observer's time, contracted along its motion.
 ///
 /// *Equation:* r = a + q − (1 − 1/γ)(q·n) n + β (ct − ct_a), q from the anchor in the body's frame.
-pub fn plain_view(at_eye: &shaders::ViewUniforms, motion: &Motion, observer: &Observer, origin: DVec3) -> shaders::ViewUniforms {
+pub fn plain_view(
+    at_eye: &shaders::ViewUniforms,
+    motion: &Motion,
+    observer: &Observer,
+    origin: DVec3,
+) -> shaders::ViewUniforms {
     let uniform = match motion {
         Motion::Uniform(uniform) => uniform,
         Motion::Animated(animated) => return plain_pose(at_eye, animated, observer),

@@ -91,11 +91,7 @@ impl SceneRenderer {
     /// Scale in which targets hold the light of a shot.
     pub fn stored(&self, shot: &Shot) -> Stored {
         let moves = shot.observer.celerity != Celerity::ZERO || !self.motions.is_empty();
-        Stored {
-            white: self.white_luminance(),
-            scale: shot.scale(),
-            shifted: shot.effects.shift_light() && moves,
-        }
+        Stored { white: self.white_luminance(), scale: shot.scale(), shifted: shot.effects.shift_light() && moves }
     }
 
     /// Cost of the newest map, if the method has one.
@@ -142,8 +138,7 @@ impl SceneRenderer {
     /// [`GpuError::Lost`] if its memory went away with the device.
     pub fn show(&mut self, gpu: &Gpu, pending: Pending) -> Result<TransformReport, GpuError> {
         let Some(transformed) = pending.wait()? else { return Ok(TransformReport::default()) };
-        let report =
-            TransformReport { duration: transformed.duration, not_finite: transformed.stats.not_finite() };
+        let report = TransformReport { duration: transformed.duration, not_finite: transformed.stats.not_finite() };
         self.method.show(gpu, transformed);
         Ok(report)
     }

@@ -15,7 +15,14 @@ pub const NEAR_M: f64 = 0.02;
 /// * `motion` — the eye's celerity.
 /// * `geometry` — whether its aberration is to be drawn.
 /// * `scale` — what radiance is multiplied by, so that the target can hold it.
-pub fn shader_view(camera: &Camera, size: [u32; 2], offset: DVec2, motion: Celerity, geometry: bool, scale: f64) -> shaders::ViewUniforms {
+pub fn shader_view(
+    camera: &Camera,
+    size: [u32; 2],
+    offset: DVec2,
+    motion: Celerity,
+    geometry: bool,
+    scale: f64,
+) -> shaders::ViewUniforms {
     let [width, height] = size.map(f64::from);
     let tangents = camera.tangents(size);
     let (middle, half) = (tangents.middle(), tangents.half());

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use input::recording::{FrameDifference, RecordingEntry, Recording, RecordingError};
+use input::recording::{FrameDifference, Recording, RecordingEntry, RecordingError};
 use input::{Controls, Sample};
 use thiserror::Error;
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::ticks::TICKS_PER_SECOND;
-use crate::vehicle::{SettingsError, VehicleSettings, LightSpeed, LightSpeedError};
+use crate::vehicle::{LightSpeed, LightSpeedError, SettingsError, VehicleSettings};
 
 /// Initial data of a [`Simulation`](crate::Simulation), except for the scene itself.
 #[derive(Clone, Debug, PartialEq)]

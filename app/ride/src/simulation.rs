@@ -24,7 +24,7 @@ use view::Gaze;
 use crate::frame::RideFrame;
 use crate::setup::{Setup, SetupError};
 use crate::ticks::{TICKS_PER_SECOND, Ticks};
-use crate::vehicle::{Notice, Vehicle, LightSpeed};
+use crate::vehicle::{LightSpeed, Notice, Vehicle};
 
 /// Largest ratio of own time to real time.
 pub const FASTEST_TIME_SCALE: f64 = 16.0;

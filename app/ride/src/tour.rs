@@ -85,7 +85,11 @@ impl Tour {
             for line in self.lines..due {
                 let at = line * (SECOND / LINES_PER_SECOND);
                 self.pedal(at, wanted_m_s);
-                samples.push(Sample::bytes(at, SampleSource::Bicycle, self.line(line, at, steer_rad, brake).into_bytes()));
+                samples.push(Sample::bytes(
+                    at,
+                    SampleSource::Bicycle,
+                    self.line(line, at, steer_rad, brake).into_bytes(),
+                ));
             }
             self.lines = due;
         }

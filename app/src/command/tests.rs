@@ -3,10 +3,10 @@
 //! an option, let |beta| = 1 through, or ignore one of two options that contradict each other.
 
 use super::line::Cli;
-use clap::CommandFactory;
-use glam::DVec3;
 use ::render::display::{Development, Exposure, Gamut, Tone};
 use ::ride::{IntegratorKind, Nose};
+use clap::CommandFactory;
+use glam::DVec3;
 use view::{Effects, RendererName};
 
 use super::*;

@@ -238,4 +238,3 @@ fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<T
     }
     Ok(traced)
 }
-

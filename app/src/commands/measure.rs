@@ -19,7 +19,7 @@ use view::Gaze;
 
 use crate::command::MeasureOptions;
 use crate::error::Error;
-use crate::output::files::writable;
+use crate::output::files::{WriteError, writable};
 use crate::output::progress;
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
@@ -137,7 +137,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
 /// Writes the files that the options name.
 fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pixel_arcmin: f64) -> Result<(), Error> {
     if let Some(out) = &options.out {
-        table::write_csv(lines, out)?;
+        table::write_csv(lines, out).map_err(|error| WriteError::new(out, error))?;
         eprintln!("wrote {}", out.display());
     }
     if let Some(path) = options.plot.as_ref().filter(|_| !rows.is_empty()) {

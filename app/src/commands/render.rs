@@ -80,8 +80,7 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result
 fn inertial(viewpoint: &Viewpoint, start: Start, proper_time: f64) -> Gaze {
     let position = viewpoint.position.unwrap_or(start.position + DVec3::Y * EYE_HEIGHT_M);
     let celerity = viewpoint.celerity();
-    let event =
-        Event { ct: celerity.gamma() * proper_time, position: position + celerity.vector() * proper_time };
+    let event = Event { ct: celerity.gamma() * proper_time, position: position + celerity.vector() * proper_time };
     let look = viewpoint.look.unwrap_or(start.look);
     let observer_from_eye = Camera::looking(look, viewpoint.up, 1.0).observer_from_eye;
     Gaze { observer: Observer { event, celerity }, observer_from_eye }

@@ -104,7 +104,9 @@ impl Preferences {
         })?;
         let Dial { renderer, edge, transform, tolerance, map_scale } = preferences.ride;
         if renderer == RendererName::Raytrace {
-            return Err("renderer is \"raytrace\", which a ride cannot wait for: expected auto, polygon or image".to_owned());
+            return Err(
+                "renderer is \"raytrace\", which a ride cannot wait for: expected auto, polygon or image".to_owned()
+            );
         }
         let limits = [
             ("edge", edge, f64::MIN_POSITIVE, f64::MAX),

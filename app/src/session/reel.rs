@@ -92,4 +92,3 @@ impl Reel {
         self.due() < self.end
     }
 }
-

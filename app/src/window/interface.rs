@@ -1,7 +1,7 @@
 //! Interface drawn by egui over the picture: input goes in, shapes come out and are drawn in a last pass.
 
-use render::Gpu;
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
+use render::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
 

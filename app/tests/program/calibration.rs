@@ -2,7 +2,6 @@
 //! changes nothing else, and a picture drawn from that file uses them. A program that steered the vehicle with the
 //! arrow keys, or lost a comment, would fail here.
 
-
 use crate::runner::{run, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
 use image::Rgb;

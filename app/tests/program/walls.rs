@@ -1,7 +1,6 @@
 //! Law: a display's channels become pictures of their own, and windows that show the same pictures. A wrong display,
 //! head or folder is refused in one sentence. A program that swapped the eyes, or showed both alike, would fail here.
 
-
 use crate::runner::{run, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
 use image::RgbImage;

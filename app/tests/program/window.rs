@@ -2,7 +2,6 @@
 //! recording is complete and replays to the bit. A window that lost keys, drew nothing or ended without completing
 //! its file would show here.
 
-
 use crate::runner::{run, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
 use std::time::Duration;

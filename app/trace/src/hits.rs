@@ -9,17 +9,17 @@ mod onward;
 
 use super::curve::{Chord, Curve, SLACK};
 use super::surface::Surfaces;
-use view::Shot;
-use scene::falling::Falling;
-use scene::motion::{Animated, Ball, Motion, SeenBy};
-use scene::{Alpha, Scene};
 use glam::{DMat3, DQuat, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray;
 use physics::{Aberration, Beta, Boost, Celerity, FourVector, Observer};
+use scene::falling::Falling;
+use scene::motion::{Animated, Ball, Motion, SeenBy};
+use scene::{Alpha, Scene};
 use std::sync::Arc;
+use view::Shot;
 
 pub use onward::{Emission, Turn};
 

@@ -8,10 +8,10 @@
 //! is the same in every pixel but for a shift by a hash of the pixel's place. That gives noise instead of patterns,
 //! and the same picture for any number of threads.
 
-use view::Shot;
 use glam::{DVec2, DVec3};
 use physics::{Boost, FourVector, Observer};
 use std::f64::consts::TAU;
+use view::Shot;
 
 /// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,11 +5,11 @@
 //! multiplies by D⁴ (W eq. 4.13).
 
 use super::path::Seen;
-use view::Effects;
-use scene::carriers::Spectra;
-use scene::{Lamp, Scene};
 use glam::{DMat3, DVec3};
 use physics::colour::{Carrier, ShiftTable, Spectrum, luminance};
+use scene::carriers::Spectra;
+use scene::{Lamp, Scene};
+use view::Effects;
 
 /// Weights, and the index of their carrier. They are in cd/m² if the carrier's weights are.
 pub type Weights = (DVec3, usize);

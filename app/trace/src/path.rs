@@ -4,12 +4,12 @@
 //! glass filters the weights of what it shows, channel by channel, like a coloured surface the light that falls on
 //! it. After its last turn a ray treats a smooth surface as a rough one.
 
-use super::tracer::RayTracer;
 use super::finish::{Shares, fresnel, mirrored, refracted};
 use super::hits::{Found, Hit, Sight, Turn};
-use view::Effects;
+use super::tracer::RayTracer;
 use glam::DVec3;
 use std::ops::{Add, AddAssign, Mul};
+use view::Effects;
 
 /// Smallest share of a ray's light that is followed.
 const HIDDEN: f64 = 1e-4;

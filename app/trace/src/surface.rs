@@ -7,14 +7,14 @@
 use super::finish::Finish;
 use super::hits::{Bodies, Emission, Hit};
 use super::light::{Light, Sent};
+use glam::{DVec3, DVec4, Vec3, Vec4};
+use physics::Observer;
+use physics::colour::luminance;
 use scene::carriers::{Spectra, WHITE};
 use scene::falling::Falling;
 use scene::mipmap::linear_from_srgb;
 use scene::motion::Motion;
 use scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
-use glam::{DVec3, DVec4, Vec3, Vec4};
-use physics::Observer;
-use physics::colour::luminance;
 use std::f64::consts::TAU;
 
 /// Light that a scene's surfaces and its sky emit.

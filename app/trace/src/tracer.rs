@@ -1,18 +1,18 @@
 //! Pictures traced tile by tile, from the middle outwards.
 
-use crate::lens::Optics;
-use scene::carriers::Spectra;
-use scene::{Scene, SceneFault};
-use view::{Shot, Stored, sample_offset};
-use glam::{DVec2, DVec3};
 use crate::hits::{Bodies, Place, Sight};
-use image::Rgb32FImage;
+use crate::lens::Optics;
 use crate::light::Light;
 use crate::path::{Leg, Seen};
+use crate::surface::Surfaces;
+use glam::{DVec2, DVec3};
+use image::Rgb32FImage;
 use physics::Celerity;
 use rayon::prelude::*;
+use scene::carriers::Spectra;
+use scene::{Scene, SceneFault};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use crate::surface::Surfaces;
+use view::{Shot, Stored, sample_offset};
 
 /// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;

@@ -1,8 +1,8 @@
 //! Movable corners of channels: the chosen corner, the places of all corners, and the action of each key. No window
 //! and no device is used here.
 
-use room::{Channel, CornerWarp, Display, NotConvex, Warp};
 use glam::DVec2;
+use room::{Channel, CornerWarp, Display, NotConvex, Warp};
 use thiserror::Error;
 
 /// Distance that a key press moves a corner, pixels.

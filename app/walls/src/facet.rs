@@ -4,8 +4,8 @@
 //! pyramid around its middle; else into those faces of a cube around the eye on which it is seen. Each picture is as
 //! fine as all but the finest pixels of the screen need.
 
-use view::Tangents;
 use glam::{DMat3, DVec2, DVec3};
+use view::Tangents;
 
 /// Largest tangent that a single flat picture shows. Beyond it, six faces of a cube need fewer texels.
 const WIDEST: f64 = 1.75;

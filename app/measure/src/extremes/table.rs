@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
+use super::light;
 use super::row::{ExtremesRow, LIMIT};
 use super::worldline::{self, Lengths, Refused};
-use super::light;
 
 /// Amount of measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]

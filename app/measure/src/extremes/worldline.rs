@@ -115,7 +115,8 @@ fn resting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     for integrator in [&Exact as &dyn Integrator, &Rk4] {
         let place = DVec3::new(1e9, 1.6, -0.1);
-        let start = WorldlineState::new(Event { ct: 0.0, position: place }, Celerity::ZERO, DQuat::from_rotation_y(0.3));
+        let start =
+            WorldlineState::new(Event { ct: 0.0, position: place }, Celerity::ZERO, DQuat::from_rotation_y(0.3));
         let end = steps(integrator, &start, step, count, &Thrust::default())?;
         let exact = real(step) * real(count as f64);
         worst.meet([
@@ -185,7 +186,8 @@ fn any_speed(cases: u32) -> Result<Vec<ExtremesRow>, Refused> {
         let celerity = Celerity::new(direction(&mut random) * 10.0_f64.powf(power))?;
         let orientation = DQuat::from_axis_angle(direction(&mut random), random.random_range(0.0..TAU));
         let start = WorldlineState::new(Event::default(), celerity, orientation);
-        let thrust = Thrust { acceleration: direction(&mut random) * thrust_per_m(), turn_rate: direction(&mut random) * 0.05 };
+        let thrust =
+            Thrust { acceleration: direction(&mut random) * thrust_per_m(), turn_rate: direction(&mut random) * 0.05 };
         let step = LIGHT_M_PER_S * 10.0_f64.powf(random.random_range(-6.0..1.0));
         let end = Exact.step(&start, step, &thrust)?;
         let exact = Motion::at(&start).then(&Motion::under(&thrust, &real(step)));

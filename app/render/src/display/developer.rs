@@ -112,8 +112,13 @@ impl Developer {
         screen: &wgpu::TextureView,
     ) {
         let size = screen.texture().size();
-        let whole =
-            DevelopedPart { viewport: [0, 0, size.width, size.height], over: false, exposure: 1.0, gains: None, gamma: None };
+        let whole = DevelopedPart {
+            viewport: [0, 0, size.width, size.height],
+            over: false,
+            exposure: 1.0,
+            gains: None,
+            gamma: None,
+        };
         self.show_part(gpu, encoder, radiance, adaptation, development, screen, &whole);
     }
 

@@ -17,6 +17,6 @@ pub mod development;
 mod passes;
 
 pub use adaptation::{Adaptation, Seen};
-pub use developer::{Accumulator, Developer, DevelopedPart, LINEAR_FORMAT, copy, encoded, encodes, resample};
+pub use developer::{Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, resample};
 pub use development::{Development, Exposure, Gamut, Tone};
 pub use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};

@@ -135,8 +135,15 @@ impl MapRenderer {
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws =
-            Draws { streams: None, bends: false, mode, format, eye: shot.observer.event.position, moving: &[], sky: true };
+        let draws = Draws {
+            streams: None,
+            bends: false,
+            mode,
+            format,
+            eye: shot.observer.event.position,
+            moving: &[],
+            sky: true,
+        };
         for layer in 0..layers {
             let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());

@@ -5,9 +5,9 @@
 //! maps circles to circles (Penrose 1959), so the cap that the observer sees is known exactly from two points on the
 //! meridian through the motion. The cap is conservative, so that every pixel finds its pane.
 
-use view::Camera;
 use glam::{DMat3, DVec2, DVec3};
 use physics::{Celerity, LightConeCoordinates};
+use view::Camera;
 
 /// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;

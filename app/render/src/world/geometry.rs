@@ -1,11 +1,11 @@
 //! Geometry of the scene on the GPU: static attributes, indices, and the list of draws.
 
 use crate::gpu::Gpu;
+use bytemuck::{Pod, Zeroable, cast_slice};
+use glam::{DVec3, Vec3};
 use scene::cut::Cut;
 use scene::motion::Motion;
 use scene::{Alpha, Scene};
-use bytemuck::{Pod, Zeroable, cast_slice};
-use glam::{DVec3, Vec3};
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 

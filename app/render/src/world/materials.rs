@@ -1,12 +1,12 @@
 //! Materials on the GPU: a uniform and two textures for each.
 
-use scene::carriers::{Spectra, WHITE};
 use crate::gpu::Gpu;
-use scene::mipmap::mipmap;
-use scene::{Alpha, Material, Scene, Texture, Wrap};
 use bytemuck::bytes_of;
 use glam::Vec4;
 use rayon::prelude::*;
+use scene::carriers::{Spectra, WHITE};
+use scene::mipmap::mipmap;
+use scene::{Alpha, Material, Scene, Texture, Wrap};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// Number of samples along the longer side of a stretched footprint.

@@ -1,9 +1,9 @@
 //! Upload of the panorama, the picture of all directions around the scene.
 
 use crate::gpu::Gpu;
-use scene::Panorama;
 use half::f16;
 use rayon::prelude::*;
+use scene::Panorama;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 /// Texture of a panorama with all its mip levels; one black texel if the scene has none.

@@ -5,12 +5,12 @@
 
 use super::geometry::Attributes;
 use super::materials::Materials;
-use scene::carriers::{Spectra, WHITE};
 use crate::gpu::Gpu;
-use view::Effects;
 use crate::target::{DEPTH_FORMAT, Format};
+use scene::carriers::{Spectra, WHITE};
 use scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
+use view::Effects;
 
 /// Kind of values drawn of the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,15 +8,15 @@
 
 use super::geometry::{Draw, Geometry};
 use super::pipelines::Pipelines;
-use scene::carriers::Spectra;
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, texture};
-use scene::Scene;
-use scene::falling::Falling;
-use scene::motion::Motion;
 use crate::view_matrix::matrix;
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, Vec4};
+use scene::Scene;
+use scene::carriers::Spectra;
+use scene::falling::Falling;
+use scene::motion::Motion;
 use wgpu::util::DeviceExt;
 
 /// Side of the map, texels.

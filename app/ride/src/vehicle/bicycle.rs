@@ -16,12 +16,12 @@
 
 use glam::DVec3;
 use physics::Celerity;
-use physics::worldline::{Control, WorldlineState, Thrust};
+use physics::worldline::{Control, Thrust, WorldlineState};
 
 use super::ground::{GroundCourse, upright};
-use super::settings::BicycleSettings;
-use super::safe_controls::SafeControls;
 use super::light_speed::LightSpeed;
+use super::safe_controls::SafeControls;
+use super::settings::BicycleSettings;
 
 /// Speed below which a held brake decelerates in proportion to it, as a tyre deforms before it slips, m/s. The
 /// bicycle then comes to rest smoothly.

@@ -10,12 +10,12 @@ use view::Gaze;
 use super::bicycle::{BicycleControl, roll};
 use super::flight::{FlightControl, level};
 use super::ground::{GroundCourse, heading, placed, upright};
+use super::light_speed::LightSpeed;
 use super::notice::{Notice, RAPIDITY_CAP};
 use super::odometer::Odometer;
 use super::safe_controls::SafeControls;
 use super::settings::{IntegratorKind, SettingsError, VehicleSettings};
 use super::walls;
-use super::light_speed::LightSpeed;
 
 /// Longest piece that a step is cut into, seconds of own time.
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
@@ -206,7 +206,8 @@ impl Vehicle {
         } else {
             let course = if backward { course.reversed() } else { course };
             let forward = self.forward();
-            let control = BicycleControl::new(&settings.bicycle, self.light_speed, controls, course, self.blocked, forward);
+            let control =
+                BicycleControl::new(&settings.bicycle, self.light_speed, controls, course, self.blocked, forward);
             self.resistance = control.resistance(forward);
             self.integrate(own_s, &control);
         }

@@ -11,8 +11,8 @@
 use glam::DVec3;
 use physics::Celerity;
 
-use scene::{Surroundings, Wall};
 use super::light_speed::LightSpeed;
+use scene::{Surroundings, Wall};
 
 /// Half the width of a rider with elbows, metres.
 const BODY_RADIUS_M: f64 = 0.4;

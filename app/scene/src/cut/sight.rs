@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Observer};
 
-use crate::scene::Scene;
 use crate::motion::{Course, Motion, Seen};
+use crate::scene::Scene;
 
 /// Sight: how one observer sees meshes that rest in one frame, or an animated body.
 #[derive(Clone, Debug)]

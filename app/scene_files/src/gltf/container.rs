@@ -11,8 +11,8 @@ use std::path::{Component, Path, PathBuf};
 use ::gltf::json;
 use serde::Deserialize;
 
-use super::extras::SceneExtras;
 use super::error::GltfError;
+use super::extras::SceneExtras;
 use super::notices::{EXTENSIONS, Notices};
 
 /// Largest size of a file that is read, bytes: a `.glb` cannot count further.

@@ -13,11 +13,11 @@ use std::f32::consts::PI;
 use std::f64::consts::FRAC_PI_2;
 
 use super::container::Document;
+use super::error::GltfError;
 use super::extras::SceneExtras;
 use super::nodes::Placement;
-use super::spectrum::{Spectra, in_extras};
-use super::error::GltfError;
 use super::notices::Notices;
+use super::spectrum::{Spectra, in_extras};
 use scene::{Lamp, Lighting, Spot};
 
 /// Light of a scene.

@@ -8,9 +8,9 @@ use ::gltf::json::validation::Checked;
 use glam::{Mat2, Vec2};
 
 use super::container::Document;
-use super::spectrum::Spectra;
 use super::error::GltfError;
 use super::notices::Notices;
+use super::spectrum::Spectra;
 use scene::{Alpha, Material};
 
 /// Source of a mesh's texture coordinates: a set and a transform.

@@ -7,13 +7,13 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
 use super::animation::{self, Moved};
 use super::container::{Document, Transform};
-use super::extras::{NodeExtras, celerity};
-use super::primitive::Primitive;
 use super::error::GltfError;
+use super::extras::{NodeExtras, celerity};
 use super::notices::Notices;
+use super::primitive::Primitive;
+use physics::Event;
 use scene::Start;
 use scene::motion::{Animated, Keyed, Link, Track, Uniform};
-use physics::Event;
 use std::sync::Arc;
 
 /// Distance from the file's origin, metres, up to which f32 keeps a quarter of a millimetre and positions stay as the

@@ -13,8 +13,8 @@ use image::{ImageFormat, ImageReader, RgbaImage};
 use rayon::prelude::*;
 
 use super::container::Document;
-use super::material::textures_used;
 use super::error::GltfError;
+use super::material::textures_used;
 use super::notices::Notices;
 use super::progress::{Progress, Stage};
 use scene::{Material, Texture, Wrap};

@@ -8,9 +8,9 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 
 use super::accessor::{self, Purpose};
 use super::container::Document;
+use super::error::GltfError;
 use super::extras::COLOURS;
 use super::material::Channel;
-use super::error::GltfError;
 use super::notices::Notices;
 use scene::Mesh;
 

@@ -7,10 +7,10 @@
 
 use super::{Bend, Bodies, Found, Hit, Seer, Sight};
 use crate::surface::Surfaces;
-use scene::Scene;
-use scene::motion::{Motion, Uniform};
 use glam::{DMat3, DQuat, DVec3};
 use physics::{Aberration, Beta, Boost, Celerity, Event, Observer};
+use scene::Scene;
+use scene::motion::{Motion, Uniform};
 
 /// Distance from a surface at which a turned ray begins, relative to its coordinates. It is beyond the rounding error
 /// of a place on the surface.
