@@ -9,8 +9,7 @@ help: ## What can be made
 
 ride: ## Install what the system lacks, build, and ride; without a display, film 10 s of it into ride.mp4
 	@scripts/install ride
-	$(CARGO) build --release --bin rapidity
-	target/release/rapidity ride $(ARGS)
+	$(CARGO) run --release --bin rapidity -- ride $(ARGS)
 
 test: ## Install what the tests need, and run every test
 	@scripts/install test

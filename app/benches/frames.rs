@@ -7,6 +7,7 @@
 //! hides the cost.
 //!
 //! `cargo bench -p rapidity --bench frames`
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
 

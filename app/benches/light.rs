@@ -5,6 +5,7 @@
 //! ratios are of frame times in one round. A frame is drawn as in a window, without the window.
 //!
 //! `cargo bench -p rapidity --bench light`
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
 

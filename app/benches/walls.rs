@@ -4,6 +4,7 @@
 //! times in one round. A frame is drawn as in windows, without the windows.
 //!
 //! `cargo bench -p rapidity --bench walls`
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
 

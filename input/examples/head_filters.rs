@@ -11,6 +11,7 @@
 //!   same while it stands;
 //! - *shimmer*: shift of the picture by the noise at rest, where aberration is strongest and c is 30 km/h;
 //! - *error*: RMS difference along each axis from the true velocity at that moment, latency included.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example prints its figures")]
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,7 @@
 //! Cost of moving parts of a scene: the same vertices in one group, and in many groups with an eye each.
 //!
 //! The alternatives take turns; the ratio of the medians tells if moving objects cost more than resting ones.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed benchmark")]
 
 use std::hint::black_box;

@@ -19,7 +19,6 @@
 //! Sources are cited as W (Weiskopf, *Visualization of Four-Dimensional Spacetimes*, Tübingen 2001) and B (Borchers,
 //! *Interaktive und stereoskopische Visualisierung in der speziellen Relativitätstheorie*, Tübingen 2005).
 
-#![deny(clippy::print_stdout, clippy::print_stderr)] // libraries return, the program reports
 
 mod axis;
 mod double_double;

@@ -6,7 +6,6 @@
 //!
 //! A module is a list of files from `wgsl/`, concatenated: [`Module::source`].
 
-#![deny(clippy::print_stdout, clippy::print_stderr)] // libraries return, the program reports
 
 mod constants;
 mod declarations;
