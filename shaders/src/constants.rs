@@ -103,3 +103,18 @@ pub const HALF_LIMIT: f32 = 60_000.0;
 pub const NOT_BENT: f32 = 3e38;
 /// Largest number of samples along a stretched footprint in a panorama.
 pub const PANORAMA_LOOKS: f32 = 16.0;
+
+/// Square root of the sine of the altitude above which the sky has its zenith's colour.
+pub const SKY_ZENITH_FROM: f32 = 0.9;
+/// Sine of the depth below the horizon at which the haze has the ground's colour alone.
+pub const SKY_HAZE_DEPTH: f32 = 0.25;
+/// Brightness of the haze, in units of the light that the ground returns.
+pub const SKY_HAZE: f32 = 2.0;
+/// Radiance of the glow at the sun, in units of the sun's light.
+pub const SKY_GLOW: f32 = 0.25;
+/// Power of the cosine of the angle from the sun by which the glow fades.
+pub const SKY_GLOW_POWER: u32 = 24;
+/// Radiance of the sun's disc, in units of the sun's light.
+pub const SKY_SUN: f32 = 4.0;
+/// Cosines of the angles from the sun's middle at the outer and inner edge of its disc.
+pub const SKY_SUN_EDGE: [f32; 2] = [0.99985, 0.99995];

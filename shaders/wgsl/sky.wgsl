@@ -27,10 +27,11 @@ fn vertex(@builtin(vertex_index) index: u32) -> Pixel {
 // A gradient from the horizon up, haze below, and the glow around the sun.
 fn sky(direction: vec3<f32>) -> vec3<f32> {
     let height = direction.y;
-    let clear = mix(lighting.horizon.rgb, lighting.zenith.rgb, smoothstep(0.0, 0.9, sqrt(max(height, 0.0))));
-    let haze = mix(lighting.ground.rgb * 2.0, clear, smoothstep(-0.25, 0.0, height));
+    let clear = mix(lighting.horizon.rgb, lighting.zenith.rgb, smoothstep(0.0, SKY_ZENITH_FROM, sqrt(max(height, 0.0))));
+    let haze = mix(lighting.ground.rgb * SKY_HAZE, clear, smoothstep(-SKY_HAZE_DEPTH, 0.0, height));
     let towards_sun = max(dot(direction, lighting.sun_direction.xyz), 0.0);
-    let glow = 0.25 * pow(towards_sun, 24.0) + 4.0 * smoothstep(0.99985, 0.99995, towards_sun);
+    let glow = SKY_GLOW * pow(towards_sun, SKY_GLOW_POWER)
+        + SKY_SUN * smoothstep(SKY_SUN_OUTER, SKY_SUN_INNER, towards_sun);
     return haze + glow * lighting.sun.rgb;
 }
 

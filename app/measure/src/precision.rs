@@ -106,6 +106,7 @@ mod tests {
 
     use super::*;
     use crate::views::along_circuit;
+    use physics::photo_surface::accuracy::DIRECTION_ERROR_RAD;
     use ride::LightSpeed;
 
     #[test]
@@ -115,7 +116,7 @@ mod tests {
         let views = Views { scene, light_speed: LightSpeed::OLD_TOWN, shots };
         let (_, lines) = measure(&views).unwrap();
         let most = |line: &Line| line.numbers.iter().find(|(name, _)| *name == "direction_rad_most").unwrap().1;
-        assert!(most(&lines[0]) < 7e-7, "{lines:?}");
+        assert!(most(&lines[0]) < DIRECTION_ERROR_RAD, "{lines:?}");
         assert!(most(&lines[1]) < 6e-8 && most(&lines[1]) > 0.0, "{lines:?}");
     }
 }

@@ -7,6 +7,7 @@
 
 use glam::{DVec2, DVec3};
 use physics::Aberration;
+use physics::photo_surface::accuracy::direction_error_rad;
 use physics::interpolation_error::TriangleInterpolation;
 
 use scene::Scene;
@@ -21,10 +22,6 @@ const FEW: usize = 8;
 
 /// Rounding error of a direction in f32, radians.
 const STEP: f64 = f32::EPSILON as f64;
-
-/// Accuracy of the transform's kernel (`physics::photo_surface`): error in radians up to γ, that γ, error in radians
-/// beyond.
-const KERNEL: (f64, f64, f64) = (7e-7, 1e9, 4e-4);
 
 /// Error from which on a picture gets a notice, pixels.
 const NOTICED_PX: f64 = 2.0;
@@ -136,7 +133,7 @@ impl Certainty {
             let at = eye.truncate() / -eye.z;
             eye.z < 0.0 && at.cmpgt(tangents.low).all() && at.cmplt(tangents.high).all()
         };
-        let kernel = if shot.observer.celerity.gamma() <= KERNEL.1 { KERNEL.0 } else { KERNEL.2 };
+        let kernel = direction_error_rad(shot.observer.celerity.gamma());
         let mut certainty = Self { pixel_rad, ..Self::default() };
         match drawn {
             EdgesDrawn::ByKernel => certainty.rounded_rad = kernel,

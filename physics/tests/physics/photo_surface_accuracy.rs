@@ -8,16 +8,13 @@
 
 use exact_reference::random::{direction, direction_off, seeded, size};
 use glam::DVec3;
+use physics::photo_surface::accuracy::{DIRECTION_ERROR_RAD, EXTREME_DIRECTION_ERROR_RAD};
 use physics::photo_surface::{Instructions, Kernel, PhotoSurfaceEye, PhotoSurfaceMesh, Vertices};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Angle of a few roundings of f32, amplified by 1/D ≤ 4 where the f32 form serves; radians.
-const DIRECTION_RAD: f64 = 7e-7;
 /// Relative error of a few roundings of f32.
 const RELATIVE: f64 = 2e-6;
-/// Angle beyond γ = 1e9, where the roundings of f64 in d × e show, multiplied by 2γ; radians. Measured 2e-4 at 1e12.
-const EXTREME_DIRECTION_RAD: f64 = 4e-4;
 /// Relative error of distance and D there: they suffer where they are least, dead astern.
 const EXTREME_RELATIVE: f64 = 2e-4;
 /// Relative error of the textbook form, which loses γ² roundings of f64; γ ≤ 10 here.
@@ -152,16 +149,16 @@ fn assert_accurate(gamma: (f64, f64), direction_bound: f64, relative_bound: f64)
 
 #[test]
 fn directions_hold_at_every_speed_of_a_ride() {
-    assert_accurate((1.0, 4.0), DIRECTION_RAD, RELATIVE);
-    assert_accurate((4.0, 16.0), DIRECTION_RAD, RELATIVE);
+    assert_accurate((1.0, 4.0), DIRECTION_ERROR_RAD, RELATIVE);
+    assert_accurate((4.0, 16.0), DIRECTION_ERROR_RAD, RELATIVE);
 }
 
 #[test]
 fn directions_hold_at_extreme_speed() {
-    assert_accurate((16.0, 1e3), DIRECTION_RAD, RELATIVE);
-    assert_accurate((1e3, 1e6), DIRECTION_RAD, RELATIVE);
-    assert_accurate((1e6, 1e9), DIRECTION_RAD, RELATIVE);
-    assert_accurate((1e9, 1e12), EXTREME_DIRECTION_RAD, EXTREME_RELATIVE);
+    assert_accurate((16.0, 1e3), DIRECTION_ERROR_RAD, RELATIVE);
+    assert_accurate((1e3, 1e6), DIRECTION_ERROR_RAD, RELATIVE);
+    assert_accurate((1e6, 1e9), DIRECTION_ERROR_RAD, RELATIVE);
+    assert_accurate((1e9, 1e12), EXTREME_DIRECTION_ERROR_RAD, EXTREME_RELATIVE);
 }
 
 #[test]
@@ -196,7 +193,7 @@ fn chunks_of_many_vertices_are_as_accurate_as_single_ones() {
         for (index, offset) in offsets.iter().enumerate() {
             let got = DVec3::from_array([0, 1, 2].map(|axis: usize| f64::from(position[axis][index])));
             let want = reference(offset.as_dvec3(), origin, eye, u).position;
-            assert!(angle(got, want) <= DIRECTION_RAD, "vertex {index} at |u| = {speed}");
+            assert!(angle(got, want) <= DIRECTION_ERROR_RAD, "vertex {index} at |u| = {speed}");
         }
     }
 }
