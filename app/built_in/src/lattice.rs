@@ -1,7 +1,7 @@
 //! Lattice of boxes: the simplest scene that shows how straight lines bend, and the one that tests know exactly.
 
-use scene::{Lighting, Material, Mesh, Scene, Start};
 use glam::{DVec3, Vec2, Vec3};
+use scene::{Lighting, Material, Mesh, Scene, Start};
 
 /// Dimensions of a lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]

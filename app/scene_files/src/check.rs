@@ -9,7 +9,7 @@ use std::path::Path;
 use glam::DVec3;
 use physics::colour::Spectrum;
 
-use crate::read::{LoadError, read};
+use crate::read::{SceneReadError, read};
 use scene::collision::Collision;
 use scene::motion::Motion;
 use scene::{Material, Scene, SceneFault, Surroundings};
@@ -29,7 +29,7 @@ const DARK: f64 = 1.0 / 300.0;
 pub enum CheckError {
     /// A file that gives no scene.
     #[error(transparent)]
-    Load(#[from] LoadError),
+    Load(#[from] SceneReadError),
     /// A scene that breaks a promise of its types.
     #[error(transparent)]
     Damaged(#[from] SceneFault),
@@ -408,6 +408,6 @@ mod tests {
 
     #[test]
     fn a_file_that_is_no_scene_is_an_error() {
-        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(LoadError::Gltf(_)))));
+        assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(SceneReadError::Gltf(_)))));
     }
 }

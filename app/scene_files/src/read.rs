@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Why a file gives no scene.
 #[derive(Debug, thiserror::Error)]
-pub enum LoadError {
+pub enum SceneReadError {
     /// A glTF file, or what was taken for one.
     #[error(transparent)]
     Gltf(#[from] GltfError),
@@ -20,6 +20,6 @@ pub enum LoadError {
 ///
 /// # Errors
 /// What is wrong with the file, and where.
-pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, LoadError> {
+pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, SceneReadError> {
     if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
 }

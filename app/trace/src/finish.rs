@@ -5,8 +5,8 @@
 //! (`KHR_materials_transmission`): bent if the glass has a volume (`KHR_materials_volume`), straight on if it is a
 //! pane. The rest is diffuse.
 
-use scene::Material;
 use glam::DVec3;
+use scene::Material;
 
 /// Largest roughness of a mirror.
 const SMOOTH: f32 = 0.1;

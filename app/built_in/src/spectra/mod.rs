@@ -295,9 +295,9 @@ mod tests {
     //! would be black in one room, burnt out in another, or have a wall in the way.
 
     use super::*;
-    use scene_files::check::Report;
-    use scene::collision::Collision;
     use scene::Surroundings;
+    use scene::collision::Collision;
+    use scene_files::check::Report;
 
     #[test]
     fn nothing_is_wrong_with_it() {

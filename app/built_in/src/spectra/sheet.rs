@@ -4,8 +4,8 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 use rayon::prelude::*;
 
-use scene::Mesh;
 use crate::turn::circle;
+use scene::Mesh;
 
 /// Number of sides of round bodies.
 const SIDES: u32 = 48;

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::surface::Surface;
-use scene::Mesh;
 use crate::turn::circle;
+use scene::Mesh;
 
 /// Linear colour that multiplies a surface's picture.
 pub(super) type Tint = Vec3;

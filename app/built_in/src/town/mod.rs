@@ -29,10 +29,10 @@ use glam::{DVec3, Vec3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use scene::{Lighting, Scene, Start};
 use builder::{Builder, Frame};
 use house::Builders;
 use plan::{Plan, Use, on_ground};
+use scene::{Lighting, Scene, Start};
 
 /// Seed of the town that everybody sees.
 pub const TOWN_SEED: u64 = 1;

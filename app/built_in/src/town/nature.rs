@@ -8,8 +8,8 @@ use super::builder::{Builder, Corner, Frame};
 use super::canvas::{cloud, smoothstep};
 use super::plan::ground;
 use super::surface::Surface;
-use scene::Lighting;
 use crate::turn::circle;
+use scene::Lighting;
 
 /// Middle of the town in plan (x, z), metres.
 pub(super) const MIDDLE: Vec2 = vec2(48.0, -4.0);
