@@ -162,7 +162,8 @@ impl Bodies {
         Turn { emission: self.emission(scene, observer, found), position: found.hit.position, direction }
     }
 
-    /// Observer at a turn, the direction of the turned ray seen by it, and the distance at which each body's ray begins.
+    /// Observer at a turn, direction in which that observer sees the turned ray, and distance at which each body's ray
+    /// begins.
     ///
     /// Mirrors and glass obey their laws in the frame in which they rest. So a turned ray is what an observer sees who
     /// rests on the surface at the event at which the light left it. That event and the surface's celerity define this

@@ -25,7 +25,7 @@ pub struct Cut {
     pub meshes: Vec<CutMesh>,
     /// Tolerance that was kept, pixels: the requested one, unless that would have made too many triangles.
     pub tolerance_px: f64,
-    /// Edges that were cut, as [`edge_key`]s. The next cut keeps them cut until their error is below half the allowed
+    /// Edges that were cut, by their keys. The next cut keeps them cut until their error is below half the allowed
     /// one.
     pub split: HashSet<u64, FixedHasher>,
 }

@@ -27,8 +27,8 @@ pub enum RefineError {
     },
     /// Coordinates that are too large for edges so short.
     #[error(
-        "edges of {edge} m are shorter than the coordinates of mesh \"{mesh}\" can resolve; use --edge {enough} or more, \
-         or move the mesh closer to the scene's origin"
+        "edges of {edge} m are shorter than the coordinates of mesh \"{mesh}\" can resolve; use --edge {enough} or \
+         more, or move the mesh closer to the scene's origin"
     )]
     TooFine {
         /// Name of the mesh.

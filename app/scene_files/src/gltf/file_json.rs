@@ -1,7 +1,7 @@
 //! JSON of a glTF file, as it is read and written.
 //!
-//! Its lists are those of the `gltf` crate, but for the nodes: that crate keeps their transforms in f32, and here they
-//! have all the digits of the file. So one pass over the text gives everything.
+//! The lists have the types of the `gltf` crate, except for the nodes: that crate keeps transforms in f32, and here
+//! nodes have all digits of the file. One pass over the text gives everything.
 
 use ::gltf::json::{self, Extras, Index};
 use serde::{Deserialize, Serialize};

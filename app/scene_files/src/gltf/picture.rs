@@ -167,7 +167,8 @@ impl Encoded {
     fn decode(&self, document: &Document) -> Result<RgbaImage, GltfError> {
         let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), self.format);
         let mut limits = image::Limits::default();
-        limits.max_alloc = Some(4 * self.decoded_bytes() + (1 << 20)); // 16 bits a channel, and the decoder's own buffers
+        // 16 bits a channel, and the decoder's own buffers.
+        limits.max_alloc = Some(4 * self.decoded_bytes() + (1 << 20));
         reader.limits(limits);
         let damaged =
             |error: image::ImageError| document.damaged(&format!("images[{}]", self.source), error.to_string());

@@ -45,8 +45,8 @@ pub enum PanoramaError {
     },
     /// A picture that does not show all directions.
     #[error(
-        "{path} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a cube \
-         side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)"
+        "{path} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a \
+         cube side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)"
     )]
     Shape {
         /// Path of the picture.
