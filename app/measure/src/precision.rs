@@ -13,7 +13,7 @@ use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
 use super::views::Views;
 use crate::error::MeasureError;
-use scene::cut::Sight;
+use scene::cut::SeenFrom;
 
 /// Number of times that each is timed.
 const ROUNDS: usize = 5;
@@ -43,7 +43,7 @@ pub fn measure(Views { scene, shots, .. }: &Views) -> Result<(String, Vec<Line>)
         for _ in 0..ROUNDS {
             short.time(offsets.len(), || by_kernel(&observer, &vertices, &mut streams))?;
             long.time(offsets.len(), || {
-                in_full(&Sight::new(scene, &observer, None), &offsets, &mut places);
+                in_full(&SeenFrom::new(scene, &observer, None), &offsets, &mut places);
                 Ok(())
             })?;
         }
@@ -87,7 +87,7 @@ fn by_kernel(observer: &Observer, vertices: &Vertices, [x, y, z]: &mut [Vec<f32>
 }
 
 /// Bends vertices in f64, like `render` those of a cut.
-fn in_full(sight: &Sight, offsets: &[Vec3], places: &mut [Vec3]) {
+fn in_full(sight: &SeenFrom, offsets: &[Vec3], places: &mut [Vec3]) {
     places.par_iter_mut().zip(offsets).for_each(|(place, offset)| {
         *place = (sight.observer_from_group * sight.bend.apparent(offset.as_dvec3() - sight.place)).as_vec3();
     });

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::quantiles::Sorted;
 use super::table::{Line, Markdown};
 use super::views::Views;
-use scene::carriers::Spectra;
+use scene::carriers::SceneCarriers;
 
 const NODES: [usize; 6] = [255, 511, 1023, 2047, 4095, ShiftTable::NODES];
 /// Number of Doppler factors looked up, from 1/20 to 20.
@@ -21,7 +21,7 @@ const WEIGHTS: [DVec3; 4] = [DVec3::ONE, DVec3::X, DVec3::Y, DVec3::Z];
 
 /// Measures the tables on all carriers of the scene's light: ΔE2000 of a colour as bright as white.
 pub fn measure(Views { scene, .. }: &Views) -> (String, Vec<Line>) {
-    let carriers = Spectra::of(scene).carriers;
+    let carriers = SceneCarriers::of(scene).carriers;
     // Spread evenly over ln D, in steps that are no multiple of any table's node distance.
     let doppler = |number: u32| FARTHEST.powf(2.0 * (f64::from(number) + 0.381_966) / f64::from(DOPPLERS) - 1.0);
     let places = (0..carriers.len()).flat_map(|carrier| (0..DOPPLERS).map(move |number| (carrier, doppler(number))));

@@ -11,7 +11,7 @@ use physics::photo_surface::accuracy::direction_error_rad;
 use physics::interpolation_error::TriangleInterpolation;
 
 use scene::Scene;
-use scene::cut::{Chord, Cut, Sight};
+use scene::cut::{EdgeChord, Cut, SeenFrom};
 use view::Shot;
 
 /// Number of edges sampled.
@@ -121,7 +121,7 @@ impl Certainty {
     /// Certainty of a picture that shows these edges. `sight_of` returns how each motion is seen.
     pub fn of(
         edges: &Edges,
-        sight_of: impl Fn(Option<usize>) -> Sight,
+        sight_of: impl Fn(Option<usize>) -> SeenFrom,
         shot: &Shot,
         size: [u32; 2],
         drawn: EdgesDrawn,
@@ -151,7 +151,7 @@ impl Certainty {
                 sights.push((*motion, sight_of(*motion)));
                 sights.len() - 1
             });
-            let sight: &Sight = &sights[index].1;
+            let sight: &SeenFrom = &sights[index].1;
             let [from, to] = [a, b].map(|end| sight.towards(*end));
             let (middle, seen) = (0.5 * (from + to), sight.bend.apparent(0.5 * (from + to)));
             if !seen.is_finite() {
@@ -168,10 +168,10 @@ impl Certainty {
                 let rounded = 2.0 * STEP * about / seen.length();
                 certainty.rounded_rad = certainty.rounded_rad.max(rounded);
             } else {
-                let error = match &sight.course {
+                let error = match &sight.body {
                     None => sight.bend.error(middle, 0.5 * (from.length() + to.length())),
-                    Some(course) => {
-                        Chord::of(|place| course.seen(place), [*a, *b], 0.0).map_or(0.0, |chord| chord.error_rad)
+                    Some(body) => {
+                        EdgeChord::of(|place| body.seen(place), [*a, *b], 0.0).map_or(0.0, |chord| chord.error_rad)
                     }
                 };
                 certainty.drawn_rad = certainty.drawn_rad.max(error);
@@ -270,7 +270,7 @@ mod tests {
             effects: Effects::ALL,
             stored_scale: None,
         };
-        let sight = |motion| Sight::new(scene, &shot.observer, motion);
+        let sight = |motion| SeenFrom::new(scene, &shot.observer, motion);
         Certainty::of(&Edges::of(scene), sight, &shot, [1280, 720], drawn)
     }
 

@@ -13,7 +13,7 @@ use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, World};
 use physics::Observer;
-use scene::cut::Sight;
+use scene::cut::SeenFrom;
 use view::{Occasion, Shot};
 
 /// One way of drawing a scene as a moving observer sees it.
@@ -87,7 +87,7 @@ pub struct Sample<'a> {
     /// View 0 is of the resting scene, view 1 + i of motion i.
     pub views: Vec<shaders::ViewUniforms>,
     /// View of each motion from the observer.
-    pub sights: &'a [Sight],
+    pub sights: &'a [SeenFrom],
     /// Content of the picture.
     pub subject: Subject,
     /// Format of the target.

@@ -16,7 +16,7 @@ use glam::{DMat4, DVec2, Vec4};
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
-use scene::cut::Sight;
+use scene::cut::SeenFrom;
 use scene::motion::Motion;
 use std::time::Duration;
 use view::{Dial, Effects, Occasion, RendererName, Shot, Stored, Transform};
@@ -109,14 +109,14 @@ impl SceneRenderer {
         if !shot.effects.geometry {
             return Certainty::default();
         }
-        let sight = |motion| Sight::of(self.world.origin, &self.motions, &shot.observer, motion);
+        let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
         let estimate = |edges: &Edges, drawn: EdgesDrawn| Certainty::of(edges, sight, shot, size, drawn);
         self.method.certainty(&self.edges, &estimate)
     }
 
     /// View of the resting scene from the observer of a shot, then the view of each motion.
-    pub fn sights(&self, shot: &Shot) -> Vec<Sight> {
-        let sight = |motion| Sight::of(self.world.origin, &self.motions, &shot.observer, motion);
+    pub fn sights(&self, shot: &Shot) -> Vec<SeenFrom> {
+        let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
         std::iter::once(None).chain((0..self.motions.len()).map(Some)).map(sight).collect()
     }
 

@@ -20,10 +20,10 @@ const DARKEST: f64 = 1e-30;
 /// Carriers of a scene, each once.
 ///
 /// For every carrier the shaders get weights relative to what is white at rest. Absolute luminance differs by many
-/// orders of magnitude from black body to black body, and half floats hold only a few. [`Spectra::factor`] is the
+/// orders of magnitude from black body to black body, and half floats hold only a few. [`SceneCarriers::factor`] is the
 /// ratio.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spectra {
+pub struct SceneCarriers {
     /// Carriers, to which the weights belong.
     pub carriers: Vec<Carrier>,
     /// Carrier of the light that each material reflects or, if unlit, emits, in the scene's order.
@@ -36,7 +36,7 @@ pub struct Spectra {
     luminances: Vec<f64>,
 }
 
-impl Spectra {
+impl SceneCarriers {
     /// Finds the carriers of a scene.
     pub fn of(scene: &Scene) -> Self {
         let mut carriers = vec![Carrier::white()];

@@ -30,8 +30,8 @@ const STEEP: f64 = 0.5;
 /// Solid part of a scene, ready for queries. Positions are world metres.
 pub struct Collision {
     origin: DVec3,
-    floors: Surfaces,
-    walls: Surfaces,
+    floors: SolidTree,
+    walls: SolidTree,
 }
 
 impl Collision {
@@ -42,34 +42,29 @@ impl Collision {
     pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
         scene.validate()?;
         let (mut floors, mut walls) = (Vec::new(), Vec::new());
-        for mesh in scene.meshes.iter().filter(|mesh| mesh.solid) {
-            for corners in mesh.indices.as_chunks::<3>().0 {
-                let triangle = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
-                match normal(triangle) {
-                    Some(normal) if normal.y.abs() < STEEP => walls.push(triangle),
-                    Some(_) => floors.push(triangle),
-                    None => {}
-                }
+        for triangle in solid_triangles(scene) {
+            match normal(triangle) {
+                Some(normal) if normal.y.abs() < STEEP => walls.push(triangle),
+                Some(_) => floors.push(triangle),
+                None => {}
             }
         }
-        Ok(Self { origin: scene.origin, floors: Surfaces::new(floors), walls: Surfaces::new(walls) })
+        Ok(Self { origin: scene.origin, floors: SolidTree::new(floors), walls: SolidTree::new(walls) })
     }
 }
 
 impl Surroundings for Collision {
     /// Highest floor that is not more than [`STEP`] above a point, or `None` if there is none below.
     fn height_below(&self, position: DVec3) -> Option<Ground> {
-        let from = position - self.origin + STEP * DVec3::Y;
+        let from = above(position, self.origin);
         if self.floors.triangles.is_empty() || !from.is_finite() {
             return None;
         }
         let ray = Ray::new(vector(from), vector(DVec3::NEG_Y));
-        let (index, depth) = self.floors.hierarchy.cast_ray(&ray, f64::MAX, |index, _| {
-            let depth = from.y - height(self.floors.triangles[index as usize], plan(from))?;
-            (depth >= 0.0).then_some(depth)
-        })?;
-        let normal = normal(self.floors.triangles[index as usize])?;
-        Some(Ground { height: position.y + STEP - depth, normal: normal * normal.y.signum() })
+        let floor = |index: u32| self.floors.triangles[index as usize];
+        let (index, depth) =
+            self.floors.hierarchy.cast_ray(&ray, f64::MAX, |index, _| depth_below(floor(index), from))?;
+        ground(position, floor(index), depth)
     }
 
     /// Nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
@@ -99,13 +94,57 @@ impl Surroundings for Collision {
     }
 }
 
+/// Highest floor of a scene that is not more than [`STEP`] above a point: the answer of [`Collision::height_below`]
+/// for a single question, from one pass over the triangles and without a hierarchy.
+///
+/// # Errors
+/// [`SceneFault`] if the scene breaks a promise of its types.
+pub fn ground_below(scene: &Scene, position: DVec3) -> Result<Option<Ground>, SceneFault> {
+    scene.validate()?;
+    let from = above(position, scene.origin);
+    if !from.is_finite() {
+        return Ok(None);
+    }
+    let floor = |triangle: &[DVec3; 3]| normal(*triangle).is_some_and(|normal| normal.y.abs() >= STEEP);
+    let below = |triangle| Some((depth_below(triangle, from)?, triangle));
+    // The plan is looked at first: hardly any triangle is below the point, and normals cost a root.
+    let nearest = solid_triangles(scene).filter_map(below).filter(|(_, triangle)| floor(triangle));
+    let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(nearest.and_then(|(depth, triangle)| ground(position, triangle, depth)))
+}
+
+/// Triangles of the solid meshes, metres relative to the scene's origin.
+fn solid_triangles(scene: &Scene) -> impl Iterator<Item = [DVec3; 3]> {
+    scene.meshes.iter().filter(|mesh| mesh.solid).flat_map(|mesh| {
+        let triangles = mesh.indices.as_chunks::<3>().0.iter();
+        triangles.map(|corners| corners.map(|corner| mesh.positions[corner as usize].as_dvec3()))
+    })
+}
+
+/// Place from which the ground below a point is sought, relative to the scene's origin.
+fn above(position: DVec3, origin: DVec3) -> DVec3 {
+    position - origin + STEP * DVec3::Y
+}
+
+/// Depth of a triangle below a point, metres; `None` if it is not below.
+fn depth_below(triangle: [DVec3; 3], from: DVec3) -> Option<f64> {
+    let depth = from.y - height(triangle, plan(from))?;
+    (depth >= 0.0).then_some(depth)
+}
+
+/// Ground that a floor is, at `depth` below the place from which it is sought.
+fn ground(position: DVec3, floor: [DVec3; 3], depth: f64) -> Option<Ground> {
+    let normal = normal(floor)?;
+    Some(Ground { height: position.y + STEP - depth, normal: normal * normal.y.signum() })
+}
+
 /// Triangles, relative to the scene's origin, with the hierarchy that finds them.
-struct Surfaces {
+struct SolidTree {
     triangles: Vec<[DVec3; 3]>,
     hierarchy: Bvh,
 }
 
-impl Surfaces {
+impl SolidTree {
     fn new(triangles: Vec<[DVec3; 3]>) -> Self {
         let boxes: Vec<Aabb> =
             triangles.iter().map(|&[a, b, c]| Aabb::new(vector(a.min(b).min(c)), vector(a.max(b).max(c)))).collect();
@@ -349,6 +388,34 @@ mod tests {
         assert_eq!(street.height_below(DVec3::NAN), None);
         assert_eq!(street.nearest_wall(DVec3::ZERO, f64::NAN), None);
         assert_eq!(street.height_below(DVec3::new(1e3, 0.0, 0.0)), None, "beyond the edge of the world");
+    }
+
+    #[test]
+    fn a_single_question_is_answered_like_many() {
+        let mut random = ChaCha8Rng::seed_from_u64(9);
+        for origin in [DVec3::ZERO, DVec3::new(1e6, -3e3, 7e5)] {
+            let triangle = |random: &mut ChaCha8Rng| {
+                let centre = (Vec3::from_array(random.random()) - 0.5) * 20.0;
+                [(); 3].map(|()| centre + 2.0 * Vec3::from_array(random.random()))
+            };
+            let triangles: Vec<[Vec3; 3]> = (0..2000).map(|_| triangle(&mut random)).collect();
+            let degenerate = [[Vec3::ZERO; 3], [Vec3::NAN, Vec3::X, Vec3::Z], [Vec3::ZERO, Vec3::X, Vec3::X * 2.0]];
+            let holes = [triangle(&mut random), triangle(&mut random)];
+            let meshes = vec![mesh(&triangles, true), mesh(&degenerate, true), mesh(&holes, false)];
+            let scene = Scene { origin, materials: vec![Material::default()], meshes, ..Scene::default() };
+            let collision = Collision::new(&scene).unwrap();
+            let mut hits = 0;
+            for _ in 0..1000 {
+                let point = origin + (DVec3::from_array(random.random()) - 0.5) * 20.0;
+                let found = ground_below(&scene, point).unwrap();
+                assert_eq!(found, collision.height_below(point), "below {point}");
+                hits += usize::from(found.is_some());
+            }
+            assert!(hits > 100, "only {hits} of the points had ground below them");
+            for nowhere in [DVec3::NAN, origin.with_y(f64::INFINITY)] {
+                assert_eq!(ground_below(&scene, nowhere), Ok(None));
+            }
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@
 pub mod carriers;
 pub mod collision;
 pub mod cut;
-pub mod falling;
+pub mod irradiance;
 mod lamp;
 mod lighting;
 mod material;

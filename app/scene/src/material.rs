@@ -9,11 +9,11 @@ pub struct Material {
     pub name: String,
     /// Linear factor of the base colour, and opacity.
     pub base_colour: [f32; 4],
-    /// Index into [`Scene::textures`]; its colour multiplies the factor.
+    /// Index into [`Scene::textures`](crate::Scene::textures); its colour multiplies the factor.
     pub base_colour_texture: Option<usize>,
     /// Linear radiance that the surface emits.
     pub emissive: [f32; 3],
-    /// Index into [`Scene::textures`]; its colour multiplies `emissive`.
+    /// Index into [`Scene::textures`](crate::Scene::textures); its colour multiplies `emissive`.
     pub emissive_texture: Option<usize>,
     /// True if the base colour is the radiance itself and no light falls on the surface (KHR_materials_unlit).
     pub unlit: bool,

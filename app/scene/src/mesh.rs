@@ -10,11 +10,11 @@ use glam::{Vec2, Vec3};
 pub struct Mesh {
     /// Name from the file's node and mesh, for messages.
     pub name: String,
-    /// Index into [`Scene::materials`].
+    /// Index into [`Scene::materials`](crate::Scene::materials).
     pub material: usize,
-    /// Positions of the vertices, metres, relative to [`Scene::origin`].
+    /// Positions of the vertices, metres, relative to [`Scene::origin`](crate::Scene::origin).
     /// Uniformly moving meshes have them in their own frame; animated meshes in their body's frame, without that
-    /// origin (see [`motion`]).
+    /// origin (see [`crate::motion`]).
     pub positions: Vec<Vec3>,
     /// Normals of the vertices, unit vectors, world axes.
     pub normals: Vec<Vec3>,
@@ -26,6 +26,6 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// True if a vehicle collides with the mesh and rides on it; false for foliage and signs.
     pub solid: bool,
-    /// Index into [`Scene::motions`]; `None` if the mesh rests in the world.
+    /// Index into [`Scene::motions`](crate::Scene::motions); `None` if the mesh rests in the world.
     pub motion: Option<usize>,
 }

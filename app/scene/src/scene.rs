@@ -29,13 +29,13 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Meshes, one for each primitive and instance.
     pub meshes: Vec<Mesh>,
-    /// How some of them move.
+    /// Motions that meshes refer to by index.
     pub motions: Vec<Motion>,
     /// Sun and sky, in the world frame.
     pub light: Lighting,
     /// Lamps at rest in the world; only the ray tracer draws them.
     pub lamps: Vec<Lamp>,
-    /// Spectrum of that light: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum of
+    /// Spectrum of [`Scene::light`]: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum of
     /// the colours themselves.
     pub illuminant: Option<Spectrum>,
     /// Luminance that is shown as white at rest, cd/m². `None`: luminance of the brightest spectrum at rest; 1 if

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::motion::{Animated, Ball, Link, Motion, Uniform};
+use crate::motion::{Animated, Ball, ChainLink, Motion, Uniform};
 use crate::scene::Scene;
 
 /// Number of sampled times between two keys.
@@ -120,8 +120,8 @@ impl Animated {
     fn looks(&self) -> Vec<f64> {
         let keyed = || {
             self.links().iter().filter_map(|link| match link {
-                Link::Fixed(_) => None,
-                Link::Keyed(keyed) => Some(keyed),
+                ChainLink::Fixed(_) => None,
+                ChainLink::Keyed(keyed) => Some(keyed),
             })
         };
         let tracks = keyed().flat_map(|keyed| {

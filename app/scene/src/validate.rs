@@ -1,4 +1,4 @@
-//! What the types of a scene promise, checked.
+//! Check of the promises of a scene's types: array lengths, indices, and values that have a range.
 
 use crate::lamp::Lamp;
 use crate::lighting::Panorama;
@@ -19,7 +19,7 @@ pub struct SceneFault {
 }
 
 impl Scene {
-    /// Checks what these types promise: array lengths and indices, not coordinates.
+    /// Checks the promises of the scene's types: array lengths and indices, not coordinates.
     ///
     /// Loaders keep the promises. This check is for scenes made by hand; after it, code may index freely.
     ///
@@ -32,6 +32,7 @@ impl Scene {
         }
     }
 
+    /// First broken promise, in words.
     fn fault(&self) -> Option<String> {
         let texture = |texture: &Texture| {
             let bytes = u64::from(texture.width) * u64::from(texture.height) * 4;

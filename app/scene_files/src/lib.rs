@@ -1,4 +1,4 @@
-//! Scenes from files and into files: glTF 2.0 both ways, pictures of everything around, and a report on what a file holds.
+//! Scenes from files and into files: glTF 2.0 both ways, panoramas, and a report on the contents of a scene.
 
 pub mod check;
 pub mod export;
@@ -6,4 +6,4 @@ pub mod gltf;
 pub mod panorama;
 mod read;
 
-pub use read::{LoadError, read};
+pub use read::{SceneReadError, read};

@@ -1,17 +1,17 @@
-//! Any file that gives a scene.
+//! Scene from a file of any kind.
 
 use crate::gltf::{self, GltfError};
 use crate::panorama::{self, PanoramaError};
 use scene::Scene;
 use std::path::Path;
 
-/// Why a file gives no scene.
+/// Reason why a file gives no scene.
 #[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// A glTF file, or what was taken for one.
+pub enum SceneReadError {
+    /// A file that is not a valid glTF scene.
     #[error(transparent)]
     Gltf(#[from] GltfError),
-    /// A picture.
+    /// A picture that is not a panorama.
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
 }
@@ -19,7 +19,7 @@ pub enum LoadError {
 /// Reads a scene from a file: a picture all around, by the ending of its name, or glTF.
 ///
 /// # Errors
-/// What is wrong with the file, and where.
-pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, LoadError> {
+/// [`SceneReadError`], with the fault and its place.
+pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, SceneReadError> {
     if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
 }

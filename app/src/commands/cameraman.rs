@@ -15,7 +15,7 @@ use render::{CutStats, Gpu, Pending, SceneRenderer};
 use scene::Scene;
 use std::path::Path;
 use std::sync::atomic::Ordering;
-use trace::{Lens, Optics, RayTracer, Traced};
+use trace::{CameraLens, Optics, RayTracer, Traced};
 use view::{Dial, Gaze, Occasion, RendererName, Shot};
 
 /// Dial of pictures that are kept.
@@ -76,7 +76,7 @@ impl<'gpu> Cameraman<'gpu> {
     #[must_use]
     pub fn with_rays(mut self, rays: &RayOptions, speed_of_light: f64) -> Self {
         if let Maker::Traced(tracer) = self.maker {
-            let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| Lens { aperture_m, focus_m });
+            let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| CameraLens { aperture_m, focus_m });
             let optics = Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light };
             let tracer = tracer.with_optics(optics).with_bounces(rays.bounces.unwrap_or(0));
             self.maker = Maker::Traced(Box::new(tracer));

@@ -5,7 +5,7 @@ use crate::output::progress;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
 use scene::{Scene, TooFast};
-use scene_files::gltf::Stage;
+use scene_files::gltf::LoadStage;
 use scene_files::read;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -15,7 +15,7 @@ use thiserror::Error;
 pub enum SceneError {
     /// A file that gives no scene.
     #[error(transparent)]
-    File(#[from] scene_files::LoadError),
+    File(#[from] scene_files::SceneReadError),
     /// An animation faster than light.
     #[error("{}: {fault}", path.display())]
     TooFast {
@@ -45,8 +45,8 @@ pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, Scen
             let bar = progress::bar(path.display().to_string(), 0);
             let mut scene = read(path, |progress| {
                 let stage = match progress.stage {
-                    Stage::Pictures => "pictures",
-                    Stage::Meshes => "meshes",
+                    LoadStage::Pictures => "pictures",
+                    LoadStage::Meshes => "meshes",
                 };
                 bar.set_message(format!("{}: {stage}", path.display()));
                 bar.set_length(progress.total as u64);

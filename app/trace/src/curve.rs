@@ -32,7 +32,7 @@ pub struct Curve<'a> {
 }
 
 /// A piece of a curve, and the chord that stands for it.
-pub struct Chord {
+pub struct CurveChord {
     /// Values of s at the ends.
     pub span: [f64; 2],
     /// Values of y at the ends, metres.
@@ -66,7 +66,7 @@ impl Curve<'_> {
         ball: &Ball,
         world_radius: f64,
         reach: &Ball,
-        meets: impl Fn(&Chord) -> Option<T>,
+        meets: impl Fn(&CurveChord) -> Option<T>,
     ) -> Option<T> {
         let near = world_radius * (1.0 + SLACK);
         let last = reach.centre.distance(self.observer.event.position) + reach.radius + near;
@@ -84,7 +84,7 @@ impl Curve<'_> {
             let from = self.at(s).0;
             let piece = loop {
                 let to = self.at(s + chord).0;
-                let piece = Chord { span: [s, s + chord], ends: [from, to] };
+                let piece = CurveChord { span: [s, s + chord], ends: [from, to] };
                 if self.leaves(&piece) <= STRICT * SLACK * ball.radius || chord < 1e-9 * near {
                     break piece;
                 }
@@ -100,7 +100,7 @@ impl Curve<'_> {
     }
 
     /// Distance of the curve from a chord of it, as measured at three places.
-    fn leaves(&self, chord: &Chord) -> f64 {
+    fn leaves(&self, chord: &CurveChord) -> f64 {
         let [a, b] = chord.ends;
         let off = |share: f64| {
             let s = chord.span[0] + (chord.span[1] - chord.span[0]) * share;
@@ -110,7 +110,7 @@ impl Curve<'_> {
     }
 
     /// Value of s at which a piece of the curve passes through the plane of a triangle.
-    pub fn crosses(&self, chord: &Chord, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    pub fn crosses(&self, chord: &CurveChord, [a, b, c]: [DVec3; 3]) -> Option<f64> {
         let normal = (b - a).cross(c - a);
         let height = |place: DVec3| normal.dot(place - a);
         let [first, last] = chord.span;

@@ -15,7 +15,7 @@ use view::Shot;
 
 /// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lens {
+pub struct CameraLens {
     /// Diameter of the aperture, metres.
     pub aperture_m: f64,
     /// Distance of the focal plane of apparent positions, metres along the axis of the picture, observer's frame.
@@ -26,7 +26,7 @@ pub struct Lens {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Optics {
     /// Lens; `None` stands for a pinhole.
-    pub lens: Option<Lens>,
+    pub lens: Option<CameraLens>,
     /// Time that the shutter is open, metres of light travel by the observer's clock, half before and half after the
     /// picture's moment.
     pub exposure_m: f64,
@@ -34,7 +34,7 @@ pub struct Optics {
 
 /// Place in the lens and moment of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Draw {
+struct LensDraw {
     /// Place in the unit disc.
     lens: DVec2,
     /// Moment in units of the exposure, −½ to ½.
@@ -54,7 +54,7 @@ impl Optics {
     /// *Equation:* a thin lens brings together the rays that cross at a point of its focal plane. From the place o in
     /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2).
     pub fn look(&self, shot: &Shot, ahead: DVec3, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
-        let draw = Draw::of(pixel, sample);
+        let draw = LensDraw::of(pixel, sample);
         let observer = shot.observer;
         let tau = self.exposure_m * draw.moment;
         let mut ahead = ahead;
@@ -77,7 +77,7 @@ impl Optics {
     }
 }
 
-impl Draw {
+impl LensDraw {
     /// Draw for a sample of a pixel.
     ///
     /// *Equation:* the additive recurrence x_n = n (1/g, 1/g², 1/g³) + x₀ mod 1 with g⁴ = g + 1 (Roberts' R₃), the
@@ -115,22 +115,22 @@ mod tests {
     fn samples_fill_the_lens_and_the_exposure_evenly() {
         for pixel in [[0, 0], [1, 0], [0, 1], [917, 401]] {
             let count = 256;
-            let draws: Vec<_> = (0..count).map(|sample| Draw::of(pixel, sample)).collect();
+            let draws: Vec<_> = (0..count).map(|sample| LensDraw::of(pixel, sample)).collect();
             assert!(draws.iter().all(|draw| draw.lens.length() <= 1.0 && draw.moment.abs() <= 0.5));
             // Each of eight rings and sectors of equal area, and each eighth of the time, has an eighth of the
             // samples to within a quarter of that. Independent random numbers would be further off in one part of
             // eight.
-            let parts = |part: &dyn Fn(&Draw) -> f64| {
+            let parts = |part: &dyn Fn(&LensDraw) -> f64| {
                 let mut counts = [0; 8];
                 draws.iter().for_each(|draw| counts[(part(draw) * 8.0).min(7.0) as usize] += 1);
                 counts
             };
-            let sector = |draw: &Draw| draw.lens.y.atan2(draw.lens.x).rem_euclid(TAU) / TAU;
+            let sector = |draw: &LensDraw| draw.lens.y.atan2(draw.lens.x).rem_euclid(TAU) / TAU;
             for counts in [parts(&|draw| draw.lens.length_squared()), parts(&sector), parts(&|draw| draw.moment + 0.5)]
             {
                 assert!(counts.iter().all(|count| (24..=40).contains(count)), "{counts:?} at {pixel:?}");
             }
         }
-        assert_ne!(Draw::of([3, 4], 0), Draw::of([4, 3], 0));
+        assert_ne!(LensDraw::of([3, 4], 0), LensDraw::of([4, 3], 0));
     }
 }

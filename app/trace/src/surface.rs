@@ -1,74 +1,75 @@
-//! The light that leaves a point towards the observer, in the frame in which the point rests: the f64 twin of
+//! Light that leaves a point of a surface towards the observer, in the frame in which the point rests: the f64 twin of
 //! `surface.wgsl` and `sky.wgsl`.
 //!
 //! Textures are sampled at their full size, as the mean of the four nearest texels weighted by distance. The mean
 //! over a pixel is left to the pixel's samples.
 
+use super::bodies::Bodies;
 use super::finish::Finish;
-use super::hits::{Bodies, Emission, Hit};
-use super::light::{Light, Sent};
+use super::hit::{Emission, RayHit};
+use super::light::{LightShifts, SentLight};
 use glam::{DVec3, DVec4, Vec3, Vec4};
 use physics::Observer;
 use physics::colour::luminance;
-use scene::carriers::{Spectra, WHITE};
-use scene::falling::Falling;
+use scene::carriers::{SceneCarriers, WHITE};
+use scene::irradiance::Irradiance;
 use scene::mipmap::linear_from_srgb;
 use scene::motion::Motion;
 use scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
 use std::f64::consts::TAU;
 
 /// Light that a scene's surfaces and its sky emit.
-pub struct Surfaces {
+pub struct LitSurfaces {
     /// Scene as it was given.
     pub scene: Scene,
-    spectra: Spectra,
-    /// Light that falls on what rests, and on each motion.
-    falling: (Falling, Vec<Falling>),
+    carriers: SceneCarriers,
+    /// Irradiance of the resting scene, and of each motion.
+    irradiance: (Irradiance, Vec<Irradiance>),
     /// Linear value of each sRGB code.
     linear: [f64; 256],
 }
 
-impl Surfaces {
-    /// Computes the light that falls on what rests and on what moves.
-    pub fn new(scene: Scene, spectra: Spectra) -> Self {
-        let sky = &spectra.carriers[spectra.sky];
+impl LitSurfaces {
+    /// Computes the irradiance of the resting scene and of its motions.
+    pub fn new(scene: Scene, carriers: SceneCarriers) -> Self {
+        let sky = &carriers.carriers[carriers.sky];
         let on_moving = |motion: &Motion| match motion {
-            Motion::Uniform(uniform) => Falling::on_moving(&scene.light, uniform.celerity, sky),
+            Motion::Uniform(uniform) => Irradiance::on_moving(&scene.light, uniform.celerity, sky),
             // This is computed again for every picture.
-            Motion::Animated(_) => Falling::at_rest(&scene.light),
+            Motion::Animated(_) => Irradiance::at_rest(&scene.light),
         };
-        let falling = (Falling::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
+        let irradiance = (Irradiance::at_rest(&scene.light), scene.motions.iter().map(on_moving).collect());
         let linear = std::array::from_fn(|code| f64::from(linear_from_srgb(code as f32 / 255.0)));
-        Self { scene, spectra, falling, linear }
+        Self { scene, carriers, irradiance, linear }
     }
 
     /// True if the material's mask leaves the surface there.
-    pub fn is_there(&self, hit: &Hit) -> bool {
+    pub fn is_there(&self, hit: &RayHit) -> bool {
         match self.scene.materials[self.scene.meshes[hit.mesh].material].alpha {
             Alpha::Opaque | Alpha::Blend => true,
             Alpha::Mask(threshold) => self.base(hit).w >= f64::from(threshold),
         }
     }
 
-    /// Light that falls on each motion, as an observer sees it. `geometry` is true if light takes its time.
-    pub fn falling(&self, observer: &Observer, geometry: bool) -> Vec<Falling> {
-        let sky = &self.spectra.carriers[self.spectra.sky];
-        let falling = |(motion, falling): (&Motion, &Falling)| match motion {
-            Motion::Uniform(_) => *falling,
-            Motion::Animated(animated) => Falling::on_animated(&self.scene.light, animated, observer, geometry, sky),
+    /// Irradiance of each of the scene's motions, as an observer sees it. `geometry` is true if light takes its time.
+    pub fn irradiances(&self, observer: &Observer, geometry: bool) -> Vec<Irradiance> {
+        let sky = &self.carriers.carriers[self.carriers.sky];
+        let irradiance = |(motion, irradiance): (&Motion, &Irradiance)| match motion {
+            Motion::Uniform(_) => *irradiance,
+            Motion::Animated(animated) => Irradiance::on_animated(&self.scene.light, animated, observer, geometry, sky),
         };
-        self.scene.motions.iter().zip(&self.falling.1).map(falling).collect()
+        self.scene.motions.iter().zip(&self.irradiance.1).map(irradiance).collect()
     }
 
-    /// Opacity of a point, and the weights that it emits. `moving` is the light that falls on each motion.
+    /// Opacity of a point, and the weights that it emits. `moving`: irradiance of each motion.
     pub fn light(
         &self,
-        hit: &Hit,
+        hit: &RayHit,
         emission: Emission,
-        moving: &[Falling],
+        moving: &[Irradiance],
         bodies: &Bodies,
-        light: &Light,
-    ) -> (f64, Sent) {
+        light: &LightShifts,
+    ) -> (f64, SentLight) {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
         let base = self.base(hit);
@@ -80,38 +81,38 @@ impl Surfaces {
         let source = material.unlit || (material.spectrum.is_some() && material.is_source());
         let mut of_lamps = Vec::new();
         if !source {
-            let mut falling = self.falling_on(hit, bodies, moving);
+            let mut irradiance = self.irradiance_on(hit, bodies, moving);
             for (lamp, light_of_it) in self.of_lamps(hit, emission, bodies, light) {
                 match light.carrier_of_lamp(lamp, mesh.material) {
-                    None => falling += light_of_it,
+                    None => irradiance += light_of_it,
                     Some(carrier) => of_lamps.push((weights * light_of_it, carrier)),
                 }
             }
-            weights *= falling;
+            weights *= irradiance;
         }
         let mut emitted = if source { DVec3::ZERO } else { rgb(material.emissive) };
         if emitted != DVec3::ZERO {
             emitted *= self.look_up(material.emissive_texture, hit).truncate();
         }
         let opacity = if material.alpha == Alpha::Blend { base.w.clamp(0.0, 1.0) } else { 1.0 };
-        let returned = (weights, self.spectra.materials[mesh.material]);
-        (opacity, Sent { returned, of_lamps, emitted: (emitted, WHITE) })
+        let returned = (weights, self.carriers.materials[mesh.material]);
+        (opacity, SentLight { returned, of_lamps, emitted: (emitted, WHITE) })
     }
 
     /// Light from a world direction in which there is no surface.
-    pub fn sky(&self, direction: DVec3, background: Option<[f32; 3]>) -> Sent {
+    pub fn sky(&self, direction: DVec3, background: Option<[f32; 3]>) -> SentLight {
         // Backgrounds and panoramas are given relative to white.
-        let white = self.spectra.white_luminance;
+        let white = self.carriers.white_luminance;
         let sent = match (background, &self.scene.panorama) {
             (Some(colour), _) => (rgb(colour) * white, WHITE),
             (None, Some(panorama)) => (surrounding(panorama, direction) * white, WHITE),
-            (None, None) => (sky(&self.scene.light, direction), self.spectra.sky),
+            (None, None) => (sky(&self.scene.light, direction), self.carriers.sky),
         };
-        Sent { returned: sent, ..Sent::default() }
+        SentLight { returned: sent, ..SentLight::default() }
     }
 
     /// Finish of a point; `None` if it is rough or animated.
-    pub fn finish(&self, hit: &Hit) -> Option<Finish> {
+    pub fn finish(&self, hit: &RayHit) -> Option<Finish> {
         let mesh = &self.scene.meshes[hit.mesh];
         if mesh.motion.is_some_and(|motion| self.scene.motions[motion].animated().is_some()) {
             return None;
@@ -121,7 +122,7 @@ impl Surfaces {
     }
 
     /// Interpolated normal of a point in its body's frame, on the visible side.
-    pub fn normal(&self, hit: &Hit) -> DVec3 {
+    pub fn normal(&self, hit: &RayHit) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let [a, b, c] = hit.corners.map(|corner| mesh.normals[corner].as_dvec3());
         let normal = (a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]).normalize_or_zero();
@@ -129,7 +130,7 @@ impl Surfaces {
     }
 
     /// Base colour and opacity of a point.
-    fn base(&self, hit: &Hit) -> DVec4 {
+    fn base(&self, hit: &RayHit) -> DVec4 {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
         let [a, b, c] = hit.corners.map(|corner| Vec4::from_array(mesh.colours[corner]).as_dvec4());
@@ -137,21 +138,21 @@ impl Surfaces {
         Vec4::from_array(material.base_colour).as_dvec4() * colour * self.look_up(material.base_colour_texture, hit)
     }
 
-    /// Light that falls on a point, by its interpolated normal on the visible side.
-    fn falling_on(&self, hit: &Hit, bodies: &Bodies, moving: &[Falling]) -> DVec3 {
+    /// Irradiance of a point, by its interpolated normal on the visible side.
+    fn irradiance_on(&self, hit: &RayHit, bodies: &Bodies, moving: &[Irradiance]) -> DVec3 {
         let mesh = &self.scene.meshes[hit.mesh];
         let normal = self.normal(hit);
-        if let Some(falling) = mesh.motion.and_then(|motion| moving.get(motion)) {
-            return falling.on(normal, 1.0);
+        if let Some(irradiance) = mesh.motion.and_then(|motion| moving.get(motion)) {
+            return irradiance.on(normal, 1.0);
         }
-        let falling = &self.falling.0;
-        let asks = self.scene.light.shadows && normal.dot(falling.sun_direction) > 0.0;
-        let lit = !asks || bodies.sunlit(hit.position, normal, falling.sun_direction);
-        falling.on(normal, if lit { 1.0 } else { 0.0 })
+        let irradiance = &self.irradiance.0;
+        let asks = self.scene.light.shadows && normal.dot(irradiance.sun_direction) > 0.0;
+        let lit = !asks || bodies.sunlit(hit.position, normal, irradiance.sun_direction);
+        irradiance.on(normal, if lit { 1.0 } else { 0.0 })
     }
 
     /// Light of the lamps that reach a point: indices of lamps, and weights on each lamp's carrier.
-    fn of_lamps(&self, hit: &Hit, emission: Emission, bodies: &Bodies, light: &Light) -> Vec<(usize, DVec3)> {
+    fn of_lamps(&self, hit: &RayHit, emission: Emission, bodies: &Bodies, light: &LightShifts) -> Vec<(usize, DVec3)> {
         let scene = &self.scene;
         if scene.lamps.is_empty() {
             return Vec::new();
@@ -175,7 +176,7 @@ impl Surfaces {
         scene.lamps.iter().enumerate().filter_map(of).collect()
     }
 
-    fn look_up(&self, texture: Option<usize>, hit: &Hit) -> DVec4 {
+    fn look_up(&self, texture: Option<usize>, hit: &RayHit) -> DVec4 {
         let Some(texture) = texture.map(|index| &self.scene.textures[index]).filter(|texture| !texture.rgba.is_empty())
         else {
             return DVec4::ONE;

@@ -1,15 +1,13 @@
 //! Pictures traced tile by tile, from the middle outwards.
 
-use crate::hits::{Bodies, Place, Sight};
+use crate::hit::TracedPlace;
 use crate::lens::Optics;
-use crate::light::Light;
-use crate::path::{Leg, Seen};
-use crate::surface::Surfaces;
+use crate::light::ObservedLight;
+use crate::path::{LitObserver, LitScene};
 use glam::{DVec2, DVec3};
 use image::Rgb32FImage;
 use physics::Celerity;
 use rayon::prelude::*;
-use scene::carriers::Spectra;
 use scene::{Scene, SceneFault};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use view::{Shot, Stored, sample_offset};
@@ -17,17 +15,15 @@ use view::{Shot, Stored, sample_offset};
 /// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
 
-/// A scene that is ready to be traced.
+/// Tracer of one scene.
 pub struct RayTracer {
-    pub(crate) surfaces: Surfaces,
-    pub(crate) bodies: Bodies,
-    pub(crate) light: Light,
-    pub(crate) background: Option<[f32; 3]>,
-    pub(crate) optics: Optics,
-    pub(crate) bounces: u32,
+    scene: LitScene,
+    optics: Optics,
+    /// Largest number of turns of a ray.
+    bounces: u32,
 }
 
-/// Result of tracing, rows from the top. Pixels that were not traced are black.
+/// Traced picture, rows from the top. Pixels that were not traced are black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
     /// Width and height, pixels.
@@ -72,11 +68,8 @@ impl RayTracer {
     /// [`SceneFault`] if the scene breaks a promise of its types.
     pub fn new(scene: Scene, background: Option<[f32; 3]>, exact_light: bool) -> Result<Self, SceneFault> {
         scene.validate()?;
-        let spectra = Spectra::of(&scene);
-        let bodies = Bodies::of(&scene);
-        let light = Light::new(&spectra, &scene, exact_light);
-        let surfaces = Surfaces::new(scene, spectra);
-        Ok(Self { surfaces, bodies, light, background, optics: Optics::default(), bounces: 0 })
+        let scene = LitScene::new(scene, background, exact_light);
+        Ok(Self { scene, optics: Optics::default(), bounces: 0 })
     }
 
     /// Tracer with this lens and shutter.
@@ -89,7 +82,7 @@ impl RayTracer {
     #[must_use]
     pub fn with_bounces(mut self, bounces: u32) -> Self {
         self.bounces = bounces;
-        self.bodies.clear_glass = bounces > 0;
+        self.scene.set_clear_glass(bounces > 0);
         self
     }
 
@@ -106,7 +99,7 @@ impl RayTracer {
         finished: impl Fn() + Sync,
     ) -> Traced {
         let tiles = tiles(size);
-        let sight = self.bodies.sight(&self.surfaces, shot);
+        let observer = self.scene.observer(&shot.observer, shot.effects.geometry);
         // The next free thread takes the next tile, so the order holds for any number of threads.
         let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
@@ -116,7 +109,8 @@ impl RayTracer {
                     return None;
                 }
                 let tile = tiles[next.fetch_add(1, Ordering::Relaxed)];
-                let seen: Vec<_> = pixels(tile).map(|pixel| self.pixel(shot, &sight, size, pixel, samples)).collect();
+                let seen: Vec<_> =
+                    pixels(tile).map(|pixel| self.pixel(shot, &observer, size, pixel, samples)).collect();
                 finished();
                 Some((tile, seen))
             })
@@ -131,9 +125,8 @@ impl RayTracer {
                 (light[index], at_rest[index]) = (seen.light, seen.at_rest);
             }
         }
-        let shifted = shot.effects.shift_light()
-            && (shot.observer.celerity != Celerity::ZERO || !self.surfaces.scene.motions.is_empty());
-        let stored = Stored { white: self.light.white, scale: shot.scale(), shifted };
+        let shifted = shot.effects.shift_light() && (shot.observer.celerity != Celerity::ZERO || self.scene.moves());
+        let stored = Stored { white: self.scene.white(), scale: shot.scale(), shifted };
         Traced { size, light, at_rest, stored, done, tiles: tiles.len() }
     }
 
@@ -143,31 +136,37 @@ impl RayTracer {
     }
 
     /// Place in the scene that each pixel's centre shows, row by row; `None` for a pixel that shows no surface.
-    pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<Place>> {
-        let sight = self.bodies.sight(&self.surfaces, shot);
+    pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<TracedPlace>> {
+        let observer = self.scene.observer(&shot.observer, shot.effects.geometry);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
             let seen = (shot.camera.observer_from_eye * ahead(shot, size, *pixel, DVec2::ZERO)).normalize();
-            let hit = self.bodies.first(&sight, seen, &sight.start(), |hit| self.surfaces.is_there(hit))?;
-            Some(self.bodies.place(seen, &hit))
+            self.scene.place(&observer, seen)
         };
         pixels.par_iter().map(place).collect()
     }
 
     /// Mean of a pixel's samples.
-    fn pixel(&self, shot: &Shot, sight: &Sight, size: [u32; 2], pixel: [u32; 2], samples: u32) -> Seen {
+    fn pixel(
+        &self,
+        shot: &Shot,
+        observer: &LitObserver,
+        size: [u32; 2],
+        pixel: [u32; 2],
+        samples: u32,
+    ) -> ObservedLight {
         let samples = samples.max(1);
-        let mut sum = Seen::default();
+        let mut sum = ObservedLight::default();
         let (effects, bounces) = (shot.effects, self.bounces);
         for sample in 0..samples {
             let ahead = ahead(shot, size, pixel, sample_offset(sample, samples));
             if self.optics.is_pinhole() {
                 let seen = (shot.camera.observer_from_eye * ahead).normalize();
-                sum += self.along(Leg::first(sight, seen, effects, bounces));
+                sum += self.scene.seen(observer, seen, effects, bounces);
             } else {
                 let (observer, seen) = self.optics.look(shot, ahead, pixel, sample);
-                let sight = self.bodies.sight_of(&self.surfaces, &observer, effects.geometry);
-                sum += self.along(Leg::first(&sight, seen, effects, bounces));
+                let observer = self.scene.observer(&observer, effects.geometry);
+                sum += self.scene.seen(&observer, seen, effects, bounces);
             }
         }
         sum * (1.0 / f64::from(samples))
@@ -179,6 +178,7 @@ fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) ->
     shot.camera.ahead(size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
 }
 
+/// Part of a picture that is traced in one go: its first column and row, and those beyond it.
 #[derive(Clone, Copy)]
 struct Tile {
     first: [u32; 2],
@@ -198,6 +198,7 @@ fn tiles(size: [u32; 2]) -> Vec<Tile> {
     tiles
 }
 
+/// Column and row of each pixel of a tile.
 fn pixels(tile: Tile) -> impl Iterator<Item = [u32; 2]> {
     (tile.first[1]..tile.beyond[1])
         .flat_map(move |row| (tile.first[0]..tile.beyond[0]).map(move |column| [column, row]))

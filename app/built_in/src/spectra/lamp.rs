@@ -8,7 +8,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3, Vec3Swizzles, vec2, vec3};
 
-use super::sheet::Sheet;
+use super::sheet::HallSheet;
 use crate::turn::circle;
 
 /// Albedo of everything in a room.
@@ -26,7 +26,7 @@ const CLEARANCE_M: f32 = 1e-3;
 
 /// Solid body in a room.
 #[derive(Clone, Copy)]
-pub(super) enum Body {
+pub(super) enum RoomBody {
     Ball { centre: Vec3, radius: f32 },
     Block { low: Vec3, high: Vec3 },
     Drum { base: Vec3, radius: f32, height: f32 },
@@ -41,11 +41,11 @@ pub(super) struct Room {
     /// Height of the lamp, metres.
     pub(super) lamp_height: f32,
     /// Bodies in the room.
-    pub(super) bodies: Vec<Body>,
+    pub(super) bodies: Vec<RoomBody>,
 }
 
-impl Body {
-    pub(super) fn build(self, sheet: &mut Sheet) {
+impl RoomBody {
+    pub(super) fn build(self, sheet: &mut HallSheet) {
         match self {
             Self::Ball { centre, radius } => sheet.ball(centre, radius),
             Self::Block { low, high } => sheet.block(low, high),
@@ -161,7 +161,7 @@ mod tests {
 
     use super::*;
 
-    fn room(bodies: Vec<Body>) -> Room {
+    fn room(bodies: Vec<RoomBody>) -> Room {
         let bounds = [vec3(-4.0, 0.0, -10.0), vec3(4.0, 5.0, 0.0)];
         Room { bounds, lamp: [vec2(-1.0, -6.0), vec2(1.0, -4.0)], lamp_height: 5.0, bodies }
     }
@@ -183,9 +183,9 @@ mod tests {
     #[test]
     fn shadows_fall_where_something_stands() {
         let bodies = [
-            Body::Ball { centre: vec3(0.0, 2.5, -5.0), radius: 1.6 },
-            Body::Block { low: vec3(-1.6, 2.0, -6.6), high: vec3(1.6, 3.0, -3.4) },
-            Body::Drum { base: vec3(0.0, 2.0, -5.0), radius: 2.0, height: 0.5 },
+            RoomBody::Ball { centre: vec3(0.0, 2.5, -5.0), radius: 1.6 },
+            RoomBody::Block { low: vec3(-1.6, 2.0, -6.6), high: vec3(1.6, 3.0, -3.4) },
+            RoomBody::Drum { base: vec3(0.0, 2.0, -5.0), radius: 2.0, height: 0.5 },
         ];
         for body in bodies {
             let room = room(vec![body]);

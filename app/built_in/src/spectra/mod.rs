@@ -15,8 +15,8 @@ mod sheet;
 use glam::{DVec3, Vec3, vec2, vec3};
 use physics::colour::Spectrum;
 
-use self::lamp::{Body, Room};
-use self::sheet::Sheet;
+use self::lamp::{Room, RoomBody};
+use self::sheet::HallSheet;
 use crate::turn::circle;
 use scene::{Lighting, Material, Mesh, Scene, Start};
 
@@ -150,7 +150,8 @@ fn room(number: usize) -> Vec<Mesh> {
         lamp_height,
         bodies: bodies(number, front),
     };
-    let sheet = |name: &str, kind: usize| Sheet::new(format!("{name} at {kelvin} K"), ROOMS + 3 * number + kind, FINE);
+    let sheet =
+        |name: &str, kind: usize| HallSheet::new(format!("{name} at {kelvin} K"), ROOMS + 3 * number + kind, FINE);
 
     let mut floor = sheet("floor", FLOOR);
     floor.patch(vec3(left, 0.0, front), Vec3::X * WIDTH, Vec3::NEG_Z * DEPTH);
@@ -190,24 +191,24 @@ fn room(number: usize) -> Vec<Mesh> {
 }
 
 /// Bodies of a room, left and right of the way; every other room is its neighbour's mirror image.
-fn bodies(number: usize, front: f32) -> Vec<Body> {
+fn bodies(number: usize, front: f32) -> Vec<RoomBody> {
     let mirrored = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
     let at = |x: f32, y: f32, z: f32| vec3(x * mirrored, y, front - z);
-    let block = |x: f32, base: f32, z: f32, half: f32, height: f32| Body::Block {
+    let block = |x: f32, base: f32, z: f32, half: f32, height: f32| RoomBody::Block {
         low: at(x, base, z) - vec3(half, 0.0, half),
         high: at(x, base, z) + vec3(half, height, half),
     };
     vec![
         // A ball on a plinth, a column with a block for a capital; a ball on the floor, a drum on a cube.
         block(-2.8, 0.0, 3.2, 0.6, 0.9),
-        Body::Ball { centre: at(-2.8, 1.55, 3.2), radius: 0.65 },
-        Body::Drum { base: at(-3.0, 0.0, 6.9), radius: 0.38, height: 2.6 },
+        RoomBody::Ball { centre: at(-2.8, 1.55, 3.2), radius: 0.65 },
+        RoomBody::Drum { base: at(-3.0, 0.0, 6.9), radius: 0.38, height: 2.6 },
         block(-3.0, 2.6, 6.9, 0.5, 0.3),
-        Body::Ball { centre: at(-2.3, 0.45, 5.3), radius: 0.45 },
-        Body::Ball { centre: at(2.9, 0.9, 4.0), radius: 0.9 },
+        RoomBody::Ball { centre: at(-2.3, 0.45, 5.3), radius: 0.45 },
+        RoomBody::Ball { centre: at(2.9, 0.9, 4.0), radius: 0.9 },
         block(2.9, 0.0, 7.2, 0.7, 1.4),
-        Body::Drum { base: at(2.9, 1.4, 7.2), radius: 0.45, height: 0.9 },
-        Body::Drum { base: at(2.3, 0.0, 1.7), radius: 0.3, height: 0.7 },
+        RoomBody::Drum { base: at(2.9, 1.4, 7.2), radius: 0.45, height: 0.9 },
+        RoomBody::Drum { base: at(2.3, 0.0, 1.7), radius: 0.3, height: 0.7 },
     ]
 }
 
@@ -217,7 +218,7 @@ fn outside() -> Vec<Mesh> {
 
     // The pavement lies round the hall.
     let shell = WIDTH / 2.0 + 2.0 * HALF_WALL;
-    let mut pavement = Sheet::new("pavement", PAVING, COARSE);
+    let mut pavement = HallSheet::new("pavement", PAVING, COARSE);
     let mut slab = |x: [f32; 2], z: [f32; 2]| {
         pavement.patch(vec3(x[0], 0.0, z[0]), Vec3::X * (x[1] - x[0]), Vec3::Z * (z[1] - z[0]));
     };
@@ -227,7 +228,7 @@ fn outside() -> Vec<Mesh> {
     slab([-PAVEMENT, PAVEMENT], [END, END - PAVEMENT]);
 
     // A gate at either end, walls and a roof between.
-    let mut hall = Sheet::new("hall", STONE, COARSE);
+    let mut hall = HallSheet::new("hall", STONE, COARSE);
     for (behind, before) in [(0.0, GATE), (END - GATE, END)] {
         let (outer, inner) = (GATE_WIDTH / 2.0, DOOR / 2.0);
         hall.block(vec3(-outer, 0.0, behind), vec3(-inner, GATE_HEIGHT, before));
@@ -240,7 +241,7 @@ fn outside() -> Vec<Mesh> {
     hall.patch(vec3(-shell, roof, 0.0), Vec3::X * 2.0 * shell, Vec3::Z * END);
 
     // Bollards along the way to the gate, plinths for two balls.
-    let mut bollards = Sheet::new("bollards", PLASTER, COARSE);
+    let mut bollards = HallSheet::new("bollards", PLASTER, COARSE);
     for (side, row) in [-1.0, 1.0].into_iter().flat_map(|side| (0..3).map(move |row| (side, row as f32))) {
         let base = vec3(side * 8.2, 0.0, 3.0 + 4.0 * row);
         bollards.drum(base, 0.22, 1.0);
@@ -250,13 +251,13 @@ fn outside() -> Vec<Mesh> {
     bollards.drum(vec3(4.6, 0.0, 3.0), 0.6, 0.7);
 
     // The two greens: wooden boards and a ball to the left, metal plates and a ball to the right.
-    let mut boards = Sheet::new("painted boards", GREEN_ON_PINE, COARSE);
+    let mut boards = HallSheet::new("painted boards", GREEN_ON_PINE, COARSE);
     for board in 0..6 {
         let left = -7.8 + 0.75 * board as f32;
         boards.block(vec3(left, 0.8, GATE), vec3(left + 0.7, 5.2, GATE + 0.1));
     }
     boards.ball(vec3(-4.6, 1.35, 3.0), 0.75);
-    let mut plates = Sheet::new("painted plates", GREEN_ON_ALUMINIUM, COARSE);
+    let mut plates = HallSheet::new("painted plates", GREEN_ON_ALUMINIUM, COARSE);
     for (column, row) in (0..2).flat_map(|column| (0..2).map(move |row| (column as f32, row as f32))) {
         let corner = vec3(3.35 + 2.25 * column, 0.8 + 2.225 * row, GATE);
         plates.block(corner, corner + vec3(2.2, 2.175, 0.1));

@@ -11,13 +11,13 @@ use scene::Mesh;
 const SIDES: u32 = 48;
 
 /// Mesh under construction, of one material; texture coordinates are metres.
-pub(super) struct Sheet {
+pub(super) struct HallSheet {
     mesh: Mesh,
     /// Longest edge of a patch's cells, metres.
     cell: f32,
 }
 
-impl Sheet {
+impl HallSheet {
     pub(super) fn new(name: impl Into<String>, material: usize, cell: f32) -> Self {
         Self { mesh: Mesh { name: name.into(), material, solid: true, ..Mesh::default() }, cell }
     }

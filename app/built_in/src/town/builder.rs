@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use super::surface::Surface;
+use super::surface::TownSurface;
 use crate::turn::circle;
 use scene::Mesh;
 
@@ -17,14 +17,14 @@ pub(super) type Tint = Vec3;
 
 /// A corner of a face.
 #[derive(Clone, Copy)]
-pub(super) struct Corner {
+pub(super) struct MeshCorner {
     pub(super) at: Vec3,
     pub(super) uv: Vec2,
     /// Share of the light that reaches the corner.
     pub(super) light: f32,
 }
 
-impl Corner {
+impl MeshCorner {
     pub(super) fn new(at: Vec3, uv: Vec2) -> Self {
         Self { at, uv, light: 1.0 }
     }
@@ -32,7 +32,7 @@ impl Corner {
 
 /// Local frame of a building or piece: an origin and right-handed axes.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct SiteFrame {
     pub(super) origin: Vec3,
     /// Unit vector to the right, as seen by an observer in front.
     pub(super) right: Vec3,
@@ -41,7 +41,7 @@ pub(super) struct Frame {
     pub(super) out: Vec3,
 }
 
-impl Frame {
+impl SiteFrame {
     /// Upright frame whose front faces along the horizontal direction `out`.
     pub(super) fn facing(origin: Vec3, out: Vec3) -> Self {
         Self { origin, right: Vec3::Y.cross(out), up: Vec3::Y, out }
@@ -75,7 +75,7 @@ impl Frame {
 pub(super) struct Builder {
     districts: Vec<String>,
     current: usize,
-    meshes: BTreeMap<(usize, Surface), Mesh>,
+    meshes: BTreeMap<(usize, TownSurface), Mesh>,
 }
 
 impl Builder {
@@ -88,8 +88,8 @@ impl Builder {
     }
 
     /// Finished meshes, in the order of districts and surfaces.
-    pub(super) fn finish(self, material_of: impl Fn(Surface) -> usize) -> Vec<Mesh> {
-        let named = |((_, surface), mesh): ((usize, Surface), Mesh)| Mesh {
+    pub(super) fn finish(self, material_of: impl Fn(TownSurface) -> usize) -> Vec<Mesh> {
+        let named = |((_, surface), mesh): ((usize, TownSurface), Mesh)| Mesh {
             material: material_of(surface),
             solid: surface.solid(),
             ..mesh
@@ -98,14 +98,14 @@ impl Builder {
     }
 
     /// Adds a flat convex face, counter-clockwise as seen from its front.
-    pub(super) fn face(&mut self, surface: Surface, tint: Tint, corners: &[Corner]) {
+    pub(super) fn face(&mut self, surface: TownSurface, tint: Tint, corners: &[MeshCorner]) {
         let normal = normal_of(corners.iter().map(|corner| corner.at));
         let normals = vec![normal; corners.len()];
         self.smooth_face(surface, tint, corners, &normals);
     }
 
     /// Adds a convex face with a normal of its own at each corner.
-    pub(super) fn smooth_face(&mut self, surface: Surface, tint: Tint, corners: &[Corner], normals: &[Vec3]) {
+    pub(super) fn smooth_face(&mut self, surface: TownSurface, tint: Tint, corners: &[MeshCorner], normals: &[Vec3]) {
         let mesh = self.meshes.entry((self.current, surface)).or_insert_with(|| Mesh {
             name: format!("{}: {}", self.districts.get(self.current).map_or("town", String::as_str), surface.name()),
             ..Mesh::default()
@@ -130,25 +130,25 @@ impl Builder {
     }
 
     /// Adds a flat convex face with its picture in metres, and the share of light at each corner.
-    pub(super) fn lit(&mut self, surface: Surface, tint: Tint, corners: &[(Vec3, f32)]) {
+    pub(super) fn lit(&mut self, surface: TownSurface, tint: Tint, corners: &[(Vec3, f32)]) {
         let normal = normal_of(corners.iter().map(|corner| corner.0));
         let (right, up) = axes_of(normal);
         let tile = surface.tile();
         let corners: Vec<_> = corners
             .iter()
-            .map(|&(at, light)| Corner { at, uv: vec2(at.dot(right), -at.dot(up)) / tile, light })
+            .map(|&(at, light)| MeshCorner { at, uv: vec2(at.dot(right), -at.dot(up)) / tile, light })
             .collect();
         self.face(surface, tint, &corners);
     }
 
     /// Adds a flat convex face with its picture in metres.
-    pub(super) fn metric(&mut self, surface: Surface, tint: Tint, corners: &[Vec3]) {
+    pub(super) fn metric(&mut self, surface: TownSurface, tint: Tint, corners: &[Vec3]) {
         let corners: Vec<_> = corners.iter().map(|&at| (at, 1.0)).collect();
         self.lit(surface, tint, &corners);
     }
 
     /// Adds a face like `metric`, turned over if necessary so that its front faces along `towards`.
-    pub(super) fn facing(&mut self, surface: Surface, tint: Tint, corners: &[Vec3], towards: Vec3) {
+    pub(super) fn facing(&mut self, surface: TownSurface, tint: Tint, corners: &[Vec3], towards: Vec3) {
         let mut corners = corners.to_vec();
         if normal_of(corners.iter().copied()).dot(towards) < 0.0 {
             corners.reverse();
@@ -157,7 +157,7 @@ impl Builder {
     }
 
     /// Adds the four upright sides of a box between two corners in `frame`.
-    pub(super) fn walls(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
+    pub(super) fn walls(&mut self, surface: TownSurface, tint: Tint, frame: &SiteFrame, low: Vec3, high: Vec3) {
         let p = |x: bool, y: bool, z: bool| {
             let pick = |high_side, low, high| if high_side { high } else { low };
             frame.point(pick(x, low.x, high.x), pick(y, low.y, high.y), pick(z, low.z, high.z))
@@ -174,21 +174,21 @@ impl Builder {
     }
 
     /// Adds a box between two corners in `frame`, without its underside.
-    pub(super) fn block(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
+    pub(super) fn block(&mut self, surface: TownSurface, tint: Tint, frame: &SiteFrame, low: Vec3, high: Vec3) {
         self.walls(surface, tint, frame, low, high);
         let p = |x, z| frame.point(x, high.y, z);
         self.metric(surface, tint, &[p(low.x, high.z), p(high.x, high.z), p(high.x, low.z), p(low.x, low.z)]);
     }
 
     /// Adds a box with its underside.
-    pub(super) fn beam(&mut self, surface: Surface, tint: Tint, frame: &Frame, low: Vec3, high: Vec3) {
+    pub(super) fn beam(&mut self, surface: TownSurface, tint: Tint, frame: &SiteFrame, low: Vec3, high: Vec3) {
         self.block(surface, tint, frame, low, high);
         let p = |x, z| frame.point(x, low.y, z);
         self.metric(surface, tint * 0.6, &[p(low.x, low.z), p(high.x, low.z), p(high.x, high.z), p(low.x, high.z)]);
     }
 
     /// Adds a thin rod with three sides from one point to another.
-    pub(super) fn rod(&mut self, surface: Surface, tint: Tint, from: Vec3, to: Vec3, thickness: f32) {
+    pub(super) fn rod(&mut self, surface: TownSurface, tint: Tint, from: Vec3, to: Vec3, thickness: f32) {
         let axis = (to - from).normalize_or(Vec3::Y);
         let (side, up) = axis.any_orthonormal_pair();
         let edge = |k: u32| {
@@ -202,7 +202,14 @@ impl Builder {
     }
 
     /// Adds a body of revolution about the frame's upright axis through (radius, height) pairs from bottom to top.
-    pub(super) fn turned(&mut self, surface: Surface, tint: Tint, frame: &Frame, sides: u32, profile: &[(f32, f32)]) {
+    pub(super) fn turned(
+        &mut self,
+        surface: TownSurface,
+        tint: Tint,
+        frame: &SiteFrame,
+        sides: u32,
+        profile: &[(f32, f32)],
+    ) {
         let tile = surface.tile();
         let ring = |side: u32| circle(side as f32 / sides as f32);
         let mut along = 0.0;
@@ -220,7 +227,7 @@ impl Builder {
                 let mut corners = Vec::with_capacity(4);
                 let mut normals = Vec::with_capacity(4);
                 let mut push = |c, k, r, y, v| {
-                    corners.push(Corner::new(at(c, r, y), uv(k, v)));
+                    corners.push(MeshCorner::new(at(c, r, y), uv(k, v)));
                     normals.push(normal(c));
                 };
                 if r0 > 0.0 {
@@ -240,9 +247,9 @@ impl Builder {
     /// Adds a prism with flat sides and a flat top over a regular polygon, from `low` to `high`.
     pub(super) fn prism(
         &mut self,
-        surface: Surface,
+        surface: TownSurface,
         tint: Tint,
-        frame: &Frame,
+        frame: &SiteFrame,
         sides: u32,
         radius: [f32; 2],
         height: [f32; 2],

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use scene::{Texture, Wrap};
 
 /// Picture while it is being painted.
-pub(super) struct Canvas {
+pub(super) struct PaintCanvas {
     /// Number of pixels across and down.
     width: usize,
     height: usize,
@@ -61,7 +61,7 @@ impl Area {
     }
 }
 
-impl Canvas {
+impl PaintCanvas {
     /// Makes a canvas of `size` metres, each pixel coloured by `colour` (in parallel).
     pub(super) fn new(pixels: [usize; 2], size: Vec2, colour: impl Fn(Vec2) -> Vec3 + Sync) -> Self {
         Self::with_opacity(pixels, size, |p| colour(p).extend(1.0))

@@ -4,13 +4,13 @@ use glam::{Vec2, vec2};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::builder::{Builder, Corner, Frame, Tint};
+use super::builder::{Builder, MeshCorner, SiteFrame, Tint};
 use super::paint::{ground_floors, timber};
-use super::surface::Surface;
+use super::surface::TownSurface;
 
 /// Bay of a storey, upright in a frame's plane.
 pub(super) struct Bay {
-    pub(super) surface: Surface,
+    pub(super) surface: TownSurface,
     pub(super) tint: Tint,
     /// Index of the bay in the picture.
     pub(super) cell: usize,
@@ -19,11 +19,11 @@ pub(super) struct Bay {
 }
 
 impl Bay {
-    pub(super) fn build(&self, builder: &mut Builder, frame: &Frame) {
+    pub(super) fn build(&self, builder: &mut Builder, frame: &SiteFrame) {
         let [left, right] = self.across;
         let [bottom, top] = self.height;
         let corner = |x: f32, y: f32, u: usize, v: f32| {
-            Corner::new(frame.point(x, y, 0.0), vec2((self.cell + u) as f32 / timber::BAYS as f32, v))
+            MeshCorner::new(frame.point(x, y, 0.0), vec2((self.cell + u) as f32 / timber::BAYS as f32, v))
         };
         let corners = [
             corner(left, bottom, 0, 1.0),
@@ -74,7 +74,7 @@ pub(super) fn upper_bays(bays: usize, dice: &mut ChaCha8Rng) -> Vec<usize> {
 
 /// Gable over the street, in a frame whose origin is its lower left corner.
 pub(super) struct Gable {
-    pub(super) surface: Surface,
+    pub(super) surface: TownSurface,
     pub(super) tint: Tint,
     pub(super) width: f32,
     /// Height at which the roof's slopes meet, metres.
@@ -90,7 +90,7 @@ const STOREY: f32 = 2.45;
 const HEAD: f32 = 2.1;
 
 impl Gable {
-    pub(super) fn build(&self, builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
+    pub(super) fn build(&self, builder: &mut Builder, frame: &SiteFrame, dice: &mut ChaCha8Rng) {
         let top = self.height * self.hip.unwrap_or(1.0);
         let rows = (top / STOREY).ceil() as usize;
         for row in 0..rows {
@@ -120,7 +120,7 @@ impl Gable {
     }
 
     /// Builds the part below the roof of a bay that begins `place` bays right of the middle.
-    fn cut_bay(&self, builder: &mut Builder, frame: &Frame, (place, cell): (f32, usize), [low, high]: [f32; 2]) {
+    fn cut_bay(&self, builder: &mut Builder, frame: &SiteFrame, (place, cell): (f32, usize), [low, high]: [f32; 2]) {
         let middle = self.width / 2.0;
         let bay = self.width / self.bays as f32;
         let left = middle + place * bay;
@@ -136,7 +136,7 @@ impl Gable {
         }
         let corner = |p: &Vec2| {
             let u = (cell as f32 + (p.x - left) / bay) / timber::BAYS as f32;
-            Corner::new(frame.point(p.x, p.y, 0.0), vec2(u, 1.0 - (p.y - low) / STOREY))
+            MeshCorner::new(frame.point(p.x, p.y, 0.0), vec2(u, 1.0 - (p.y - low) / STOREY))
         };
         builder.face(self.surface, self.tint, &cut.iter().map(corner).collect::<Vec<_>>());
     }

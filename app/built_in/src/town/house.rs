@@ -7,12 +7,12 @@ use glam::{Vec3, vec3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::builder::{Builder, Frame, Tint};
+use super::builder::{Builder, SiteFrame, Tint};
 use super::facade::{Bay, Gable, ground_bays, upper_bays};
 use super::paint::{ground_floors, timber};
 use super::plan::{Lot, ground};
 use super::roof::{Roof, chimney, dormer};
-use super::surface::Surface;
+use super::surface::TownSurface;
 
 /// Depth of a house on a large enough lot, and width of a bay, metres.
 const DEPTH: f32 = 9.0;
@@ -29,7 +29,7 @@ pub(super) struct Builders {
 /// Measures of a finished house, for furnishing the street.
 pub(super) struct House {
     /// Frame at the left end of the front, on the ground, facing the street.
-    pub(super) frame: Frame,
+    pub(super) frame: SiteFrame,
     pub(super) width: f32,
     /// Middle of each bay of the ground floor, metres, and its kind.
     pub(super) bays: Vec<(f32, usize)>,
@@ -49,7 +49,7 @@ struct Storey {
 
 /// House under construction.
 struct Design {
-    frame: Frame,
+    frame: SiteFrame,
     width: f32,
     depth: f32,
     /// Lean of the left and right side walls, metres to the right per metre of depth.
@@ -133,7 +133,7 @@ impl Builders {
         }));
 
         Design {
-            frame: Frame { origin: vec3(a.x, base, a.y), right, up: Vec3::Y, out: right.cross(Vec3::Y) },
+            frame: SiteFrame { origin: vec3(a.x, base, a.y), right, up: Vec3::Y, out: right.cross(Vec3::Y) },
             width,
             depth: if closing > 0.0 { (0.6 * width / closing).min(DEPTH) } else { DEPTH },
             lean,
@@ -172,7 +172,7 @@ impl Design {
 
     fn build_ground_floor(&self, builder: &mut Builder, plan: &[usize]) {
         for (k, &cell) in plan.iter().enumerate() {
-            let surface = Surface::GroundFloor(self.ground_floor);
+            let surface = TownSurface::GroundFloor(self.ground_floor);
             let tint = Vec3::ONE.lerp(self.tint, 0.5);
             let height = [0.0, self.storeys[0].top];
             Bay { surface, tint, cell, across: self.across(k), height }.build(builder, &self.frame);
@@ -192,7 +192,7 @@ impl Design {
                     windows.push((across[0] + across[1]) / 2.0);
                 }
                 let height = [storey.bottom, storey.top];
-                Bay { surface: Surface::Front(self.front), tint: self.tint, cell, across, height }
+                Bay { surface: TownSurface::Front(self.front), tint: self.tint, cell, across, height }
                     .build(builder, &plane);
             }
             if storey.juts > below.juts {
@@ -200,7 +200,7 @@ impl Design {
                 let (w, inner, outer) = (self.width, below.juts, storey.juts);
                 let corners =
                     [under(0.0, inner, 0.35), under(w, inner, 0.35), under(w, outer, 0.8), under(0.0, outer, 0.8)];
-                builder.lit(Surface::Planks, Vec3::splat(0.9), &corners);
+                builder.lit(TownSurface::Planks, Vec3::splat(0.9), &corners);
             }
         }
         windows
@@ -214,12 +214,12 @@ impl Design {
             for (side, x) in [0.0, self.width].into_iter().enumerate() {
                 let corners = [self.back(side, bottom), p(x, bottom, z), p(x, top, z), self.back(side, top)];
                 let out = self.frame.right * (2.0 * side as f32 - 1.0);
-                builder.facing(Surface::Plaster, self.wall, &corners, out);
+                builder.facing(TownSurface::Plaster, self.wall, &corners, out);
             }
         }
         let (top, _) = self.top();
         let corners = [self.back(1, 0.0), self.back(0, 0.0), self.back(0, top), self.back(1, top)];
-        builder.facing(Surface::Plaster, self.wall, &corners, -self.frame.out);
+        builder.facing(TownSurface::Plaster, self.wall, &corners, -self.frame.out);
     }
 
     /// Builds a roof whose gable faces the street.
@@ -232,13 +232,13 @@ impl Design {
             height: dice.random_range(1.15..1.45) * self.width / 2.0,
             overhang: [0.22, 0.38, 0.15],
             hips: [hip, None],
-            surface: Surface::Tiles,
+            surface: TownSurface::Tiles,
             near: Some((self.frame.origin, self.frame.out, 3.0)),
             tint: roof_tint(dice),
         };
         roof.build(builder);
         let gable = Gable {
-            surface: Surface::Front(self.front),
+            surface: TownSurface::Front(self.front),
             tint: self.tint,
             width: self.width,
             height: roof.height,
@@ -248,7 +248,7 @@ impl Design {
         };
         gable.build(builder, &self.frame.at(0.0, top, juts), dice);
         let [_, end] = roof.ridge();
-        builder.facing(Surface::Plaster, self.wall, &[walls[2], walls[3], end], -self.frame.out);
+        builder.facing(TownSurface::Plaster, self.wall, &[walls[2], walls[3], end], -self.frame.out);
         let x = self.width / 2.0 + dice.random_range(-0.9..0.9);
         let z = -self.depth * dice.random_range(0.3..0.7);
         if dice.random_bool(0.7) {
@@ -267,14 +267,14 @@ impl Design {
             height: dice.random_range(1.15..1.45) * span / 2.0,
             overhang: [0.42, 0.12, 0.12],
             hips: [None, None],
-            surface: Surface::Tiles,
+            surface: TownSurface::Tiles,
             near: Some((self.frame.origin, self.frame.out, 3.0)),
             tint,
         };
         roof.build(builder);
         let [right_end, left_end] = roof.ridge();
-        builder.facing(Surface::Plaster, self.wall, &[b, c, right_end], self.frame.right);
-        builder.facing(Surface::Plaster, self.wall, &[d, a, left_end], -self.frame.right);
+        builder.facing(TownSurface::Plaster, self.wall, &[b, c, right_end], self.frame.right);
+        builder.facing(TownSurface::Plaster, self.wall, &[d, a, left_end], -self.frame.right);
         let slope = 2.0 * roof.height / span;
         let inset = 0.75;
         let dormers = dice.random_range(1..if self.width > 7.4 { 4 } else { 3 });

@@ -2,9 +2,9 @@
 
 use glam::{Vec3, vec2, vec3};
 
-use super::builder::{Builder, Corner, Frame, Tint};
+use super::builder::{Builder, MeshCorner, SiteFrame, Tint};
 use super::paint::timber;
-use super::surface::Surface;
+use super::surface::TownSurface;
 use crate::turn::circle;
 
 /// Number of pieces of a half circle in an arch.
@@ -34,7 +34,7 @@ impl Arch {
     }
 
     /// Builds the face of the wall, in the plane of `frame`.
-    pub(super) fn face(&self, builder: &mut Builder, surface: Surface, tint: Tint, frame: &Frame) {
+    pub(super) fn face(&self, builder: &mut Builder, surface: TownSurface, tint: Tint, frame: &SiteFrame) {
         let p = |x: f32, y: f32| frame.point(x, y, 0.0);
         let [left, right] = self.wall;
         let (l, r) = (self.middle - self.half, self.middle + self.half);
@@ -58,7 +58,7 @@ impl Arch {
     }
 
     /// Builds jambs and vault of the passage.
-    pub(super) fn vault(&self, builder: &mut Builder, surface: Surface, tint: Tint, frame: &Frame) {
+    pub(super) fn vault(&self, builder: &mut Builder, surface: TownSurface, tint: Tint, frame: &SiteFrame) {
         let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
         let (l, r) = (self.middle - self.half, self.middle + self.half);
         let d = -self.depth;
@@ -78,12 +78,12 @@ impl Arch {
 /// Builds an upright rectangle that shows a whole picture; its lower left corner is at (x, y) in the frame.
 pub(super) fn panel(
     builder: &mut Builder,
-    surface: Surface,
-    frame: &Frame,
+    surface: TownSurface,
+    frame: &SiteFrame,
     [x, y]: [f32; 2],
     [width, height]: [f32; 2],
 ) {
-    let corner = |u: f32, v: f32| Corner::new(frame.point(x + u * width, y + v * height, 0.0), vec2(u, 1.0 - v));
+    let corner = |u: f32, v: f32| MeshCorner::new(frame.point(x + u * width, y + v * height, 0.0), vec2(u, 1.0 - v));
     builder.face(surface, Vec3::ONE, &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]);
 }
 
@@ -91,7 +91,7 @@ pub(super) fn panel(
 pub(super) fn window_panel(
     builder: &mut Builder,
     front: usize,
-    frame: &Frame,
+    frame: &SiteFrame,
     [x, y]: [f32; 2],
     [width, height]: [f32; 2],
 ) {
@@ -100,21 +100,21 @@ pub(super) fn window_panel(
     let corner = |s: f32, t: f32| {
         let u = (bay + (s - 0.5) * w / timber::STRIP.x * timber::BAYS as f32) / timber::BAYS as f32;
         let v = 1.0 - (low + t * (high - low)) / timber::STRIP.y;
-        Corner::new(frame.point(x + s * width, y + t * height, 0.0), vec2(u, v))
+        MeshCorner::new(frame.point(x + s * width, y + t * height, 0.0), vec2(u, v))
     };
     builder.face(
-        Surface::Front(front),
+        TownSurface::Front(front),
         Vec3::ONE,
         &[corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)],
     );
 }
 
 /// Builds a round face about the frame's origin that shows its whole picture.
-pub(super) fn disc(builder: &mut Builder, surface: Surface, frame: &Frame, radius: f32) {
-    let corners: Vec<Corner> = (0..16)
+pub(super) fn disc(builder: &mut Builder, surface: TownSurface, frame: &SiteFrame, radius: f32) {
+    let corners: Vec<MeshCorner> = (0..16)
         .map(|k| {
             let c = circle(k as f32 / 16.0);
-            Corner::new(frame.point(radius * c.x, radius * c.y, 0.0), vec2(0.5 + 0.49 * c.x, 0.5 - 0.49 * c.y))
+            MeshCorner::new(frame.point(radius * c.x, radius * c.y, 0.0), vec2(0.5 + 0.49 * c.x, 0.5 - 0.49 * c.y))
         })
         .collect();
     builder.face(surface, Vec3::ONE, &corners);
@@ -124,9 +124,9 @@ pub(super) fn disc(builder: &mut Builder, surface: Surface, frame: &Frame, radiu
 /// stone.
 pub(super) fn stepped_gable(
     builder: &mut Builder,
-    surface: Surface,
+    surface: TownSurface,
     tint: Tint,
-    frame: &Frame,
+    frame: &SiteFrame,
     half: f32,
     height: f32,
     steps: u32,
@@ -140,7 +140,13 @@ pub(super) fn stepped_gable(
         for side in [-1.0_f32, 1.0] {
             let [a, b] = [side * x, side * (x - tread)];
             let (low_x, high_x) = (a.min(b) - 0.06, a.max(b) + 0.06);
-            builder.beam(Surface::Ashlar, Vec3::ONE, frame, vec3(low_x, high, -0.52), vec3(high_x, high + 0.14, 0.07));
+            builder.beam(
+                TownSurface::Ashlar,
+                Vec3::ONE,
+                frame,
+                vec3(low_x, high, -0.52),
+                vec3(high_x, high + 0.14, 0.07),
+            );
         }
     }
 }
@@ -148,8 +154,8 @@ pub(super) fn stepped_gable(
 /// Builds a wall round a regular polygon with an inside, from `low` to `high`, and its rim.
 pub(super) fn basin(
     builder: &mut Builder,
-    surface: Surface,
-    frame: &Frame,
+    surface: TownSurface,
+    frame: &SiteFrame,
     sides: u32,
     [outer, inner]: [f32; 2],
     [low, high]: [f32; 2],

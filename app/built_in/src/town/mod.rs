@@ -29,9 +29,9 @@ use glam::{DVec3, Vec3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use builder::{Builder, Frame};
+use builder::{Builder, SiteFrame};
 use house::Builders;
-use plan::{Plan, Use, on_ground};
+use plan::{TownPlan, Use, on_ground};
 use scene::{Lighting, Scene, Start};
 
 /// Seed of the town that everybody sees.
@@ -49,7 +49,7 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
 /// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs
 /// clockwise on a map, some 415 m, at least 1.5 m clear of anything solid.
 pub fn build(seed: u64) -> Scene {
-    let plan = Plan::new(&mut dice(seed, 0));
+    let plan = TownPlan::new(&mut dice(seed, 0));
     let mut builder = Builder::default();
 
     // Pave the ground.
@@ -70,9 +70,9 @@ pub fn build(seed: u64) -> Scene {
                     let house = builders.house(&mut builder, lot, &mut dice);
                     furniture::furnish(&mut builder, &house, number, &mut dice);
                 }
-                Use::TownHall => town_hall::build(&mut builder, &Frame::facing(on_ground(a), out), a.distance(b)),
+                Use::TownHall => town_hall::build(&mut builder, &SiteFrame::facing(on_ground(a), out), a.distance(b)),
                 Use::Church => {
-                    church::build(&mut builder, &Frame::facing(on_ground((a + b) / 2.0), out), a.distance(b));
+                    church::build(&mut builder, &SiteFrame::facing(on_ground((a + b) / 2.0), out), a.distance(b));
                 }
                 Use::Gate => {}
             }
@@ -81,7 +81,7 @@ pub fn build(seed: u64) -> Scene {
     builder.district("gate");
     let gate = plan.gate_station();
     let ahead = Vec3::new(gate.ahead.x, 0.0, gate.ahead.y);
-    gate::build(&mut builder, &Frame::facing(on_ground(gate.at), -ahead), plan::GATE_DEPTH);
+    gate::build(&mut builder, &SiteFrame::facing(on_ground(gate.at), -ahead), plan::GATE_DEPTH);
     square::furnish(&mut builder, &mut dice(seed, 3));
     for (number, station) in plan.festive_stations().into_iter().enumerate() {
         furniture::bunting(&mut builder, station, number);
@@ -103,7 +103,7 @@ pub fn build(seed: u64) -> Scene {
         origin: DVec3::ZERO,
         textures,
         materials,
-        meshes: builder.finish(surface::Surface::number),
+        meshes: builder.finish(surface::TownSurface::number),
         light: daylight(),
         start: Start { position: circuit[0], look },
         circuit,

@@ -90,7 +90,7 @@ pub(super) struct Lot {
 }
 
 /// Plan of the whole town.
-pub(super) struct Plan {
+pub(super) struct TownPlan {
     /// Stations of the way, which is closed: the last one is followed by the first.
     pub(super) way: Vec<Station>,
     /// Stations at which the way leaves the square and comes back to it.
@@ -112,7 +112,7 @@ pub(super) fn on_ground(p: Vec2) -> Vec3 {
     vec3(p.x, ground(p), p.y)
 }
 
-impl Plan {
+impl TownPlan {
     pub(super) fn new(dice: &mut ChaCha8Rng) -> Self {
         let way = way();
         let crossing = |north: bool| {

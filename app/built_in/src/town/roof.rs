@@ -2,9 +2,9 @@
 
 use glam::{Vec3, vec2, vec3};
 
-use super::builder::{Builder, Corner, Frame, Tint};
+use super::builder::{Builder, MeshCorner, SiteFrame, Tint};
 use super::paint::timber;
-use super::surface::Surface;
+use super::surface::TownSurface;
 
 /// Thickness of a roof, metres.
 const THICKNESS: f32 = 0.15;
@@ -19,7 +19,7 @@ pub(super) struct Roof {
     pub(super) overhang: [f32; 3],
     /// Share of the gable's height from which a hip leans back, at the first gable and at the other.
     pub(super) hips: [Option<f32>; 2],
-    pub(super) surface: Surface,
+    pub(super) surface: TownSurface,
     /// Region seen from so near that underside and edges matter: a point, the direction out of it, and the depth
     /// behind it, metres.
     pub(super) near: Option<(Vec3, Vec3, f32)>,
@@ -84,7 +84,7 @@ impl Roof {
         let Some((origin, out, reach)) = self.near else { return };
         if top.iter().any(|corner| (*corner - origin).dot(out) > -1.5) {
             let below: Vec<_> = top.iter().rev().map(|&corner| (corner - drop, 0.5)).collect();
-            builder.lit(Surface::Planks, Vec3::splat(0.8), &below);
+            builder.lit(TownSurface::Planks, Vec3::splat(0.8), &below);
         }
         let high = top.iter().map(|corner| corner.y).fold(f32::MIN, f32::max);
         let count = top.len();
@@ -93,7 +93,7 @@ impl Roof {
             let at_ridge = p.y.min(q.y) > high - 0.02 || (ridge_edges == 2 && p.y.max(q.y) > high - 0.02);
             let hidden = ((p + q) / 2.0 - origin).dot(out) < -reach;
             if !(at_ridge || hidden) {
-                builder.metric(Surface::Planks, Vec3::splat(0.75), &[p - drop, q - drop, q, p]);
+                builder.metric(TownSurface::Planks, Vec3::splat(0.75), &[p - drop, q - drop, q, p]);
             }
         }
     }
@@ -101,7 +101,7 @@ impl Roof {
 
 /// Builds a dormer with a window on a slope that rises by `slope` per metre behind `frame`'s origin, which lies on
 /// it.
-pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: usize, tint: Tint) {
+pub(super) fn dormer(builder: &mut Builder, frame: &SiteFrame, slope: f32, front: usize, tint: Tint) {
     let (half, height, rise) = (0.68, 1.35, 0.62);
     let p = |x: f32, y: f32, z: f32| frame.point(x, y, z);
     let reach = |y: f32| -y / slope;
@@ -112,9 +112,9 @@ pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: us
             1.0 - y / timber::STRIP.y,
         )
     };
-    let corner = |x: f32, y: f32, s: f32, t: f32| Corner::new(p(x, y, 0.0), uv(s, t));
+    let corner = |x: f32, y: f32, s: f32, t: f32| MeshCorner::new(p(x, y, 0.0), uv(s, t));
     builder.face(
-        Surface::Front(front),
+        TownSurface::Front(front),
         Vec3::splat(0.95),
         &[
             corner(-half, -0.05, -1.1, 0.84),
@@ -124,23 +124,27 @@ pub(super) fn dormer(builder: &mut Builder, frame: &Frame, slope: f32, front: us
         ],
     );
     let planks = Vec3::splat(0.9);
-    builder.metric(Surface::Planks, planks, &[p(-half, height, 0.0), p(half, height, 0.0), p(0.0, height + rise, 0.0)]);
+    builder.metric(
+        TownSurface::Planks,
+        planks,
+        &[p(-half, height, 0.0), p(half, height, 0.0), p(0.0, height + rise, 0.0)],
+    );
     for side in [-1.0, 1.0] {
         let cheek = [p(side * half, 0.0, 0.0), p(side * half, height, 0.0), p(side * half, height, reach(height))];
-        builder.facing(Surface::Planks, planks, &cheek, frame.right * side);
+        builder.facing(TownSurface::Planks, planks, &cheek, frame.right * side);
         let eaves = height - 0.14 * rise / half;
         let x = side * (half + 0.14);
         let top = height + rise;
         let roof = [p(x, eaves, 0.18), p(x, eaves, reach(eaves)), p(0.0, top, reach(top)), p(0.0, top, 0.18)];
-        builder.facing(Surface::Tiles, tint, &roof, Vec3::Y);
+        builder.facing(TownSurface::Tiles, tint, &roof, Vec3::Y);
     }
 }
 
 /// Builds a chimney through the roof; `frame`'s origin lies at its foot.
-pub(super) fn chimney(builder: &mut Builder, frame: &Frame, height: f32, tint: Tint) {
-    builder.walls(Surface::Rubble, tint, frame, vec3(-0.33, 0.0, -0.28), vec3(0.33, height, 0.28));
-    builder.block(Surface::Ashlar, tint * 0.9, frame, vec3(-0.4, height, -0.35), vec3(0.4, height + 0.12, 0.35));
+pub(super) fn chimney(builder: &mut Builder, frame: &SiteFrame, height: f32, tint: Tint) {
+    builder.walls(TownSurface::Rubble, tint, frame, vec3(-0.33, 0.0, -0.28), vec3(0.33, height, 0.28));
+    builder.block(TownSurface::Ashlar, tint * 0.9, frame, vec3(-0.4, height, -0.35), vec3(0.4, height + 0.12, 0.35));
     if height > 2.35 {
-        builder.prism(Surface::Paint, vec3(0.5, 0.24, 0.15), frame, 4, [0.16, 0.12], [height + 0.12, height + 0.5]);
+        builder.prism(TownSurface::Paint, vec3(0.5, 0.24, 0.15), frame, 4, [0.16, 0.12], [height + 0.12, height + 0.5]);
     }
 }

@@ -4,14 +4,14 @@ use glam::{Vec2, Vec3, vec2, vec3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::builder::{Builder, Frame};
+use super::builder::{Builder, SiteFrame};
 use super::canvas::Area;
 use super::house::{linear, roof_tint};
 use super::nature::{MIDDLE, tree};
 use super::paint::timber::FRONTS;
-use super::plan::{Lot, Plan, SQUARE, Use, on_ground};
+use super::plan::{Lot, SQUARE, TownPlan, Use, on_ground};
 use super::roof::Roof;
-use super::surface::Surface;
+use super::surface::TownSurface;
 use crate::turn::circle;
 
 /// Semi-axes of the town wall, its height, metres, and its number of stretches.
@@ -20,7 +20,7 @@ const WALL_HEIGHT: f32 = 6.5;
 const STRETCHES: u32 = 36;
 
 /// Builds a second row of houses behind the lots of both sides.
-pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8Rng) {
+pub(super) fn second_row(builder: &mut Builder, plan: &TownPlan, dice: &mut ChaCha8Rng) {
     builder.district("second row");
     let mut built: Vec<Vec2> = vec![];
     for row in &plan.rows {
@@ -38,7 +38,7 @@ pub(super) fn second_row(builder: &mut Builder, plan: &Plan, dice: &mut ChaCha8R
             built.push(place);
             let direction = (lot.front[1] - lot.front[0]).normalize();
             let out = vec3(-direction.y, 0.0, direction.x);
-            let frame = Frame::facing(on_ground(place), out).rotated(dice.random_range(-0.03..0.03));
+            let frame = SiteFrame::facing(on_ground(place), out).rotated(dice.random_range(-0.03..0.03));
             if dice.random_bool(0.22) {
                 tree(builder, &frame, dice.random_range(9.0..13.0), 16, dice);
             } else {
@@ -56,7 +56,7 @@ fn behind(lot: &Lot, depth: f32) -> Vec2 {
 }
 
 /// Builds a house of which only roof and gables are visible.
-fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
+fn plain_house(builder: &mut Builder, frame: &SiteFrame, dice: &mut ChaCha8Rng) {
     let (half, deep) = (dice.random_range(3.4..4.4), dice.random_range(3.8..5.0));
     let height = dice.random_range(8.0..11.5);
     let front = dice.random_range(0..8);
@@ -67,7 +67,7 @@ fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
         height: half * dice.random_range(1.2..1.5),
         overhang: [0.3, 0.3, 0.3],
         hips: [None, dice.random_bool(0.5).then_some(0.5)],
-        surface: Surface::Tiles,
+        surface: TownSurface::Tiles,
         near: None,
         tint: roof_tint(dice),
     };
@@ -77,14 +77,14 @@ fn plain_house(builder: &mut Builder, frame: &Frame, dice: &mut ChaCha8Rng) {
     let hipped = c.lerp(far, 0.5);
     let hipped_left = d.lerp(far, 0.5);
     let foot = |corner: Vec3| corner - Vec3::Y * height;
-    builder.metric(Surface::Plaster, wall, &[foot(a), foot(b), b, near, a]);
+    builder.metric(TownSurface::Plaster, wall, &[foot(a), foot(b), b, near, a]);
     if roof.hips[1].is_some() {
-        builder.metric(Surface::Plaster, wall, &[foot(c), foot(d), d, hipped_left, hipped, c]);
+        builder.metric(TownSurface::Plaster, wall, &[foot(c), foot(d), d, hipped_left, hipped, c]);
     } else {
-        builder.metric(Surface::Plaster, wall, &[foot(c), foot(d), d, far, c]);
+        builder.metric(TownSurface::Plaster, wall, &[foot(c), foot(d), d, far, c]);
     }
-    builder.metric(Surface::Plaster, wall, &[foot(b), foot(c), c, b]);
-    builder.metric(Surface::Plaster, wall, &[foot(d), foot(a), a, d]);
+    builder.metric(TownSurface::Plaster, wall, &[foot(b), foot(c), c, b]);
+    builder.metric(TownSurface::Plaster, wall, &[foot(d), foot(a), a, d]);
 }
 
 /// Builds trees in the yards inside the ring of streets.
@@ -102,7 +102,7 @@ pub(super) fn yards(builder: &mut Builder, dice: &mut ChaCha8Rng) {
         (72.0, 28.0),
     ] {
         let place = vec2(x + dice.random_range(-3.0..3.0), z + dice.random_range(-3.0..3.0));
-        tree(builder, &Frame::turned(on_ground(place), 0.0), dice.random_range(8.0..13.0), 16, dice);
+        tree(builder, &SiteFrame::turned(on_ground(place), 0.0), dice.random_range(8.0..13.0), 16, dice);
     }
 }
 
@@ -118,19 +118,19 @@ pub(super) fn town_wall(builder: &mut Builder) {
         let (a, b, c, d) = (at(k, 0.0), at(k + 1, 0.0), at(k, 1.4), at(k + 1, 1.4));
         let middle = MIDDLE.extend(0.0);
         let inward = vec3(middle.x, 0.0, middle.y) - a;
-        builder.facing(Surface::Rubble, Vec3::ONE, &[a, b, b + up, a + up], inward);
-        builder.facing(Surface::Rubble, Vec3::ONE, &[c, d, d + up, c + up], -inward);
+        builder.facing(TownSurface::Rubble, Vec3::ONE, &[a, b, b + up, a + up], inward);
+        builder.facing(TownSurface::Rubble, Vec3::ONE, &[c, d, d + up, c + up], -inward);
         let ridge = Vec3::Y * (WALL_HEIGHT + 1.3);
         let lift = Vec3::Y * (WALL_HEIGHT - 0.2);
         let (near, far) = (at(k, -0.9), at(k + 1, -0.9));
         let (outer, outer_far) = (at(k, 1.8), at(k + 1, 1.8));
         let (top, top_far) = (at(k, 0.6) + ridge, at(k + 1, 0.6) + ridge);
-        builder.facing(Surface::Tiles, Vec3::splat(0.9), &[near + lift, far + lift, top_far, top], Vec3::Y);
-        builder.facing(Surface::Tiles, Vec3::splat(0.9), &[outer + lift, outer_far + lift, top_far, top], Vec3::Y);
+        builder.facing(TownSurface::Tiles, Vec3::splat(0.9), &[near + lift, far + lift, top_far, top], Vec3::Y);
+        builder.facing(TownSurface::Tiles, Vec3::splat(0.9), &[outer + lift, outer_far + lift, top_far, top], Vec3::Y);
         if k % 6 == 3 {
-            let tower = Frame::facing(at(k, 0.7), inward.normalize());
-            builder.prism(Surface::Rubble, Vec3::ONE, &tower, 8, [3.2, 3.2], [0.0, 13.0]);
-            builder.prism(Surface::Tiles, vec3(0.9, 0.8, 0.78), &tower, 8, [3.8, 0.0], [12.8, 19.0]);
+            let tower = SiteFrame::facing(at(k, 0.7), inward.normalize());
+            builder.prism(TownSurface::Rubble, Vec3::ONE, &tower, 8, [3.2, 3.2], [0.0, 13.0]);
+            builder.prism(TownSurface::Tiles, vec3(0.9, 0.8, 0.78), &tower, 8, [3.8, 0.0], [12.8, 19.0]);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::builder::{Builder, Corner};
-use super::plan::{Lot, Plan, Station, Use, on_ground};
-use super::surface::Surface;
+use super::builder::{Builder, MeshCorner};
+use super::plan::{Lot, Station, TownPlan, Use, on_ground};
+use super::surface::TownSurface;
 
 /// Width of a pavement and of its kerb, and height of the kerb, metres.
 pub(super) const PAVEMENT: f32 = 0.95;
@@ -15,7 +15,7 @@ const UNDER: f32 = 1.6;
 
 /// Strip of the street's cross section, from its left to its right edge.
 struct Strip {
-    surface: Surface,
+    surface: TownSurface,
     /// Distances of the edges right of the middle, metres.
     across: [f32; 2],
     /// Heights of the edges above the ground, metres.
@@ -35,21 +35,21 @@ fn section(station: &Station, level: f32) -> Vec<Strip> {
     let mut strip = |surface, a: f32, b: f32, ha: f32, hb: f32, la: f32, lb: f32| {
         strips.push(Strip { surface, across: [a, b], height: [ha, hb], light: [la, lb] });
     };
-    strip(Surface::Slabs, -left - UNDER, -l - KERB, step, step, 0.0, 0.95);
-    strip(Surface::Ashlar, -l - KERB, -l, step, step, 0.9, 0.9);
-    strip(Surface::Ashlar, -l, -l, step, gutter, 0.75, 0.6);
-    strip(Surface::Cobbles, -l, -l + 0.4, gutter, 0.0, 0.72, 0.96);
-    strip(Surface::Cobbles, -l + 0.4, 0.0, 0.0, camber, 0.96, 1.0);
-    strip(Surface::Cobbles, 0.0, r - 0.4, camber, 0.0, 1.0, 0.96);
-    strip(Surface::Cobbles, r - 0.4, r, 0.0, gutter, 0.96, 0.72);
-    strip(Surface::Ashlar, r, r, gutter, step, 0.6, 0.75);
-    strip(Surface::Ashlar, r, r + KERB, step, step, 0.9, 0.9);
-    strip(Surface::Slabs, r + KERB, right + UNDER, step, step, 0.95, 0.0);
+    strip(TownSurface::Slabs, -left - UNDER, -l - KERB, step, step, 0.0, 0.95);
+    strip(TownSurface::Ashlar, -l - KERB, -l, step, step, 0.9, 0.9);
+    strip(TownSurface::Ashlar, -l, -l, step, gutter, 0.75, 0.6);
+    strip(TownSurface::Cobbles, -l, -l + 0.4, gutter, 0.0, 0.72, 0.96);
+    strip(TownSurface::Cobbles, -l + 0.4, 0.0, 0.0, camber, 0.96, 1.0);
+    strip(TownSurface::Cobbles, 0.0, r - 0.4, camber, 0.0, 1.0, 0.96);
+    strip(TownSurface::Cobbles, r - 0.4, r, 0.0, gutter, 0.96, 0.72);
+    strip(TownSurface::Ashlar, r, r, gutter, step, 0.6, 0.75);
+    strip(TownSurface::Ashlar, r, r + KERB, step, step, 0.9, 0.9);
+    strip(TownSurface::Slabs, r + KERB, right + UNDER, step, step, 0.95, 0.0);
     strips
 }
 
 /// Paves the street from the square round and back to it.
-pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
+pub(super) fn pave(builder: &mut Builder, plan: &TownPlan) {
     let stations = plan.street_stations();
     // A bend of ten metres' radius needs only every second station.
     let mut chosen: Vec<&Station> = stations.iter().step_by(2).collect();
@@ -68,7 +68,7 @@ pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
                 let foot = station.beside(strip.across[side]);
                 let at = on_ground(foot) + Vec3::Y * strip.height[side];
                 let across = if strip.across[0] == strip.across[1] { strip.height[side] } else { strip.across[side] };
-                Corner { at, uv: vec2(across, -along) / tile, light: strip.light[side] }
+                MeshCorner { at, uv: vec2(across, -along) / tile, light: strip.light[side] }
             };
             builder.face(
                 a.surface,
@@ -89,7 +89,7 @@ pub(super) fn pave(builder: &mut Builder, plan: &Plan) {
 const BORDER: f32 = 1.8;
 
 /// Paves the market square: setts inside, a border of slabs along the fronts.
-pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
+pub(super) fn pave_square(builder: &mut Builder, plan: &TownPlan) {
     builder.district("market square");
     let outline = square_outline(plan);
     let count = outline.len();
@@ -110,19 +110,19 @@ pub(super) fn pave_square(builder: &mut Builder, plan: &Plan) {
         let next = (k + 1) % count;
         if outline[k].1 > 0.0 {
             let corners = [(inner[k][1], 1.0), (inner[next][0], 1.0), (outline[next].0, 0.55), (outline[k].0, 0.55)];
-            builder.lit(Surface::Slabs, Vec3::ONE, &corners.map(|(p, light)| (on_ground(p), light)));
+            builder.lit(TownSurface::Slabs, Vec3::ONE, &corners.map(|(p, light)| (on_ground(p), light)));
         }
     }
     let mut middle: Vec<Vec2> = inner.into_iter().flatten().collect();
     middle.dedup();
     for triangle in triangulate(&middle) {
-        builder.metric(Surface::Setts, Vec3::ONE, &triangle.map(on_ground));
+        builder.metric(TownSurface::Setts, Vec3::ONE, &triangle.map(on_ground));
     }
 }
 
 /// Corners of the square, clockwise on a map, each with the width of the border along the side that begins there,
 /// which is 0 across the mouths of the streets.
-fn square_outline(plan: &Plan) -> Vec<(Vec2, f32)> {
+fn square_outline(plan: &TownPlan) -> Vec<(Vec2, f32)> {
     let mut outline = vec![];
     for row in &plan.rows {
         // The row's lots at the square follow one another.

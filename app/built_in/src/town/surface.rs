@@ -6,13 +6,13 @@
 use glam::{Vec2, vec2};
 use rayon::prelude::*;
 
-use super::canvas::Canvas;
+use super::canvas::PaintCanvas;
 use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
 use scene::{Alpha, Material, Texture, Wrap};
 
 /// Kind of surface.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Surface {
+pub(super) enum TownSurface {
     Cobbles,
     Setts,
     Slabs,
@@ -51,7 +51,7 @@ pub(super) enum Surface {
 struct Recipe {
     name: String,
     /// Function that paints the picture, if there is one.
-    picture: Option<Box<dyn Fn(u32) -> Canvas + Send + Sync>>,
+    picture: Option<Box<dyn Fn(u32) -> PaintCanvas + Send + Sync>>,
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
     alpha: Alpha,
@@ -59,10 +59,10 @@ struct Recipe {
     double_sided: bool,
 }
 
-impl Surface {
+impl TownSurface {
     /// Every surface, in the order of the scene's materials.
     fn all() -> Vec<Self> {
-        use Surface::*;
+        use TownSurface::*;
         let mut all = vec![
             Cobbles, Setts, Slabs, Ashlar, Rubble, Plaster, Tiles, Slate, Planks, Paint, Iron, Gold, Lantern, Water,
             Awning, Produce, Signs, Clock, Lancet, Portal, Staves, Bark, Leaves, Flowers, Ivy, Grass, Hills,
@@ -80,19 +80,19 @@ impl Surface {
     /// Size of one repetition of its picture, metres.
     pub(super) fn tile(self) -> Vec2 {
         match self {
-            Surface::Cobbles => vec2(5.0, 5.0),
-            Surface::Setts => vec2(5.76, 5.76),
-            Surface::Slabs => vec2(4.0, 4.0),
-            Surface::Ashlar | Surface::Rubble | Surface::Plaster => vec2(4.0, 4.0),
-            Surface::Front(_) => timber::STRIP,
-            Surface::GroundFloor(_) => ground_floors::STRIP,
-            Surface::Tiles => vec2(4.32, 4.32),
-            Surface::Slate => vec2(3.0, 3.0),
-            Surface::Planks | Surface::Bark => vec2(2.0, 2.0),
-            Surface::Water => vec2(3.0, 3.0),
-            Surface::Staves => vec2(0.72, 0.925),
-            Surface::Grass => vec2(9.0, 9.0),
-            Surface::Hills => vec2(60.0, 60.0),
+            TownSurface::Cobbles => vec2(5.0, 5.0),
+            TownSurface::Setts => vec2(5.76, 5.76),
+            TownSurface::Slabs => vec2(4.0, 4.0),
+            TownSurface::Ashlar | TownSurface::Rubble | TownSurface::Plaster => vec2(4.0, 4.0),
+            TownSurface::Front(_) => timber::STRIP,
+            TownSurface::GroundFloor(_) => ground_floors::STRIP,
+            TownSurface::Tiles => vec2(4.32, 4.32),
+            TownSurface::Slate => vec2(3.0, 3.0),
+            TownSurface::Planks | TownSurface::Bark => vec2(2.0, 2.0),
+            TownSurface::Water => vec2(3.0, 3.0),
+            TownSurface::Staves => vec2(0.72, 0.925),
+            TownSurface::Grass => vec2(9.0, 9.0),
+            TownSurface::Hills => vec2(60.0, 60.0),
             _ => Vec2::ONE,
         }
     }
@@ -101,22 +101,22 @@ impl Surface {
     pub(super) fn solid(self) -> bool {
         !matches!(
             self,
-            Surface::Leaves
-                | Surface::Flowers
-                | Surface::Ivy
-                | Surface::Signs
-                | Surface::Awning
-                | Surface::Clock
-                | Surface::Lancet
-                | Surface::Lantern
+            TownSurface::Leaves
+                | TownSurface::Flowers
+                | TownSurface::Ivy
+                | TownSurface::Signs
+                | TownSurface::Awning
+                | TownSurface::Clock
+                | TownSurface::Lancet
+                | TownSurface::Lantern
         )
     }
 
     fn recipe(self) -> Recipe {
         let tile = self.tile();
         let square = |size: usize,
-                      paint: fn([usize; 2], Vec2, u32) -> Canvas|
-         -> Option<Box<dyn Fn(u32) -> Canvas + Send + Sync>> {
+                      paint: fn([usize; 2], Vec2, u32) -> PaintCanvas|
+         -> Option<Box<dyn Fn(u32) -> PaintCanvas + Send + Sync>> {
             Some(Box::new(move |seed| paint([size, size], tile, seed)))
         };
         let plain = Recipe {
@@ -131,22 +131,22 @@ impl Surface {
         let clamped = [Wrap::Clamp; 2];
         let cut_out = Recipe { alpha: Alpha::Mask(0.5), wrap: clamped, ..plain_like(&plain) };
         match self {
-            Surface::Cobbles => Recipe { picture: square(1024, masonry::cobbles), ..plain },
-            Surface::Setts => Recipe { picture: square(1024, masonry::setts), ..plain },
-            Surface::Slabs => Recipe { picture: square(1024, masonry::slabs), ..plain },
-            Surface::Ashlar => Recipe { picture: square(1024, masonry::ashlar), ..plain },
-            Surface::Rubble => Recipe { picture: square(1024, masonry::rubble), ..plain },
-            Surface::Plaster => Recipe { picture: square(512, masonry::plaster), ..plain },
-            Surface::Tiles => Recipe { picture: square(1024, masonry::tiles), ..plain },
-            Surface::Slate => Recipe { picture: square(512, masonry::slate), ..plain },
-            Surface::Planks => Recipe { picture: square(512, masonry::planks), ..plain },
-            Surface::Front(number) => Recipe {
+            TownSurface::Cobbles => Recipe { picture: square(1024, masonry::cobbles), ..plain },
+            TownSurface::Setts => Recipe { picture: square(1024, masonry::setts), ..plain },
+            TownSurface::Slabs => Recipe { picture: square(1024, masonry::slabs), ..plain },
+            TownSurface::Ashlar => Recipe { picture: square(1024, masonry::ashlar), ..plain },
+            TownSurface::Rubble => Recipe { picture: square(1024, masonry::rubble), ..plain },
+            TownSurface::Plaster => Recipe { picture: square(512, masonry::plaster), ..plain },
+            TownSurface::Tiles => Recipe { picture: square(1024, masonry::tiles), ..plain },
+            TownSurface::Slate => Recipe { picture: square(512, masonry::slate), ..plain },
+            TownSurface::Planks => Recipe { picture: square(512, masonry::planks), ..plain },
+            TownSurface::Front(number) => Recipe {
                 name: format!("house front {}", number + 1),
                 picture: Some(Box::new(move |seed| timber::front(&timber::FRONTS[number], seed + 31 * number as u32))),
                 wrap: [Wrap::Repeat, Wrap::Clamp],
                 ..plain
             },
-            Surface::GroundFloor(number) => Recipe {
+            TownSurface::GroundFloor(number) => Recipe {
                 name: format!("ground floor {}", number + 1),
                 picture: Some(Box::new(move |seed| {
                     ground_floors::ground_floor(&ground_floors::GROUND_FLOORS[number], seed + 47 * number as u32)
@@ -154,31 +154,31 @@ impl Surface {
                 wrap: [Wrap::Repeat, Wrap::Clamp],
                 ..plain
             },
-            Surface::Paint => plain,
-            Surface::Iron => Recipe { base_colour: [0.035, 0.035, 0.04, 1.0], ..plain },
-            Surface::Gold => Recipe { base_colour: [0.75, 0.48, 0.10, 1.0], ..plain },
-            Surface::Lantern => Recipe { base_colour: [0.80, 0.74, 0.55, 1.0], ..plain },
-            Surface::Water => Recipe { picture: square(256, nature::water), ..plain },
-            Surface::Awning => Recipe { picture: square(256, signs::awning), double_sided: true, ..plain },
-            Surface::Produce => Recipe { picture: square(512, nature::produce), ..plain },
-            Surface::Signs => Recipe { picture: square(512, signs::signs), double_sided: true, ..plain },
-            Surface::Clock => Recipe { picture: square(512, signs::clock), wrap: clamped, ..plain },
-            Surface::Lancet => Recipe {
+            TownSurface::Paint => plain,
+            TownSurface::Iron => Recipe { base_colour: [0.035, 0.035, 0.04, 1.0], ..plain },
+            TownSurface::Gold => Recipe { base_colour: [0.75, 0.48, 0.10, 1.0], ..plain },
+            TownSurface::Lantern => Recipe { base_colour: [0.80, 0.74, 0.55, 1.0], ..plain },
+            TownSurface::Water => Recipe { picture: square(256, nature::water), ..plain },
+            TownSurface::Awning => Recipe { picture: square(256, signs::awning), double_sided: true, ..plain },
+            TownSurface::Produce => Recipe { picture: square(512, nature::produce), ..plain },
+            TownSurface::Signs => Recipe { picture: square(512, signs::signs), double_sided: true, ..plain },
+            TownSurface::Clock => Recipe { picture: square(512, signs::clock), wrap: clamped, ..plain },
+            TownSurface::Lancet => Recipe {
                 picture: Some(Box::new(|seed| tracery::lancet([512, 1024], tracery::LANCET, seed))),
                 ..cut_out
             },
-            Surface::Portal => Recipe {
+            TownSurface::Portal => Recipe {
                 picture: Some(Box::new(|seed| tracery::portal([512, 512], tracery::PORTAL, seed))),
                 wrap: clamped,
                 ..plain
             },
-            Surface::Staves => Recipe { picture: square(256, masonry::staves), ..plain },
-            Surface::Bark => Recipe { picture: square(256, nature::bark), ..plain },
-            Surface::Leaves => Recipe { picture: square(512, nature::leaves), double_sided: true, ..cut_out },
-            Surface::Flowers => Recipe { picture: square(512, nature::flowers), double_sided: true, ..cut_out },
-            Surface::Ivy => Recipe { picture: square(512, nature::ivy), double_sided: true, ..cut_out },
-            Surface::Grass => Recipe { picture: square(512, nature::grass), ..plain },
-            Surface::Hills => Recipe { picture: square(512, nature::woods), unlit: true, ..plain },
+            TownSurface::Staves => Recipe { picture: square(256, masonry::staves), ..plain },
+            TownSurface::Bark => Recipe { picture: square(256, nature::bark), ..plain },
+            TownSurface::Leaves => Recipe { picture: square(512, nature::leaves), double_sided: true, ..cut_out },
+            TownSurface::Flowers => Recipe { picture: square(512, nature::flowers), double_sided: true, ..cut_out },
+            TownSurface::Ivy => Recipe { picture: square(512, nature::ivy), double_sided: true, ..cut_out },
+            TownSurface::Grass => Recipe { picture: square(512, nature::grass), ..plain },
+            TownSurface::Hills => Recipe { picture: square(512, nature::woods), unlit: true, ..plain },
         }
     }
 
@@ -194,7 +194,7 @@ fn plain_like(recipe: &Recipe) -> Recipe {
 
 /// Paints every picture, and lists the materials and textures.
 pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
-    let recipes: Vec<Recipe> = Surface::all().into_iter().map(Surface::recipe).collect();
+    let recipes: Vec<Recipe> = TownSurface::all().into_iter().map(TownSurface::recipe).collect();
     let pictures: Vec<Option<Texture>> = recipes
         .par_iter()
         .map(|recipe| recipe.picture.as_ref().map(|paint| paint(seed).finish(&recipe.name, recipe.wrap)))

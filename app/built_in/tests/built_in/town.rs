@@ -6,8 +6,9 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use built_in::town;
 use glam::{DVec2, DVec3, Vec3, dvec2};
-use rapidity::scene::{Scene, town};
+use scene::Scene;
 
 /// Scene built once: painting takes seconds without optimisation.
 fn scene() -> &'static Scene {

@@ -15,7 +15,7 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use rayon::prelude::*;
 
 use scene::Scene;
-use scene::cut::{Cut, Fineness, Sight, Viewpoint};
+use scene::cut::{Cut, CutFineness, SeenFrom, CutViewpoint};
 use view::{Occasion, Shot};
 
 use crate::certainty::{Certainty, Edges, EdgesDrawn};
@@ -100,7 +100,7 @@ impl Adaptive {
     pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
         let Some((first, _)) = shots.first() else { return };
         let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
-        let viewpoint = Viewpoint { observer: first.observer, pictures };
+        let viewpoint = CutViewpoint { observer: first.observer, pictures };
         let made = match (&mut self.cutter, &self.shown) {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
@@ -172,12 +172,12 @@ impl Method for Adaptive {
 }
 
 /// Cuts a scene for one viewpoint.
-fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Option<&Cut>) -> Made {
+fn make(scene: &Scene, viewpoint: &CutViewpoint, tolerance: Tolerance, before: Option<&Cut>) -> Made {
     let started = Instant::now();
     let fineness = match tolerance.occasion {
-        Occasion::Still => Fineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
+        Occasion::Still => CutFineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
         Occasion::Ride => {
-            Fineness { tolerance_px: RIDE_SHARE * tolerance.pixels, turn_rad: RIDE_TURN_RAD, triangles: RIDE_TRIANGLES }
+            CutFineness { tolerance_px: RIDE_SHARE * tolerance.pixels, turn_rad: RIDE_TURN_RAD, triangles: RIDE_TRIANGLES }
         }
     };
     let cut = Cut::new(scene, viewpoint, fineness, before);
@@ -189,14 +189,14 @@ fn make(scene: &Scene, viewpoint: &Viewpoint, tolerance: Tolerance, before: Opti
 
 /// Apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated. Vertices
 /// without an apparent position are put at the eye.
-fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
+fn apparent(scene: &Scene, cut: &Cut, viewpoint: &CutViewpoint) -> Vec<f32> {
     let stride = stream_stride(cut.vertex_count()) as usize / 4;
     let mut streams = vec![0.0_f32; stream_count(&scene.motions) as usize * stride];
     let (mut x, rest) = streams.split_at_mut(stride);
     let (mut y, rest) = rest.split_at_mut(stride);
     let (mut z, mut log2_doppler) = rest.split_at_mut(stride);
     let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
-    let sights: Vec<Sight> = motions.map(|motion| Sight::new(scene, &viewpoint.observer, motion)).collect();
+    let sights: Vec<SeenFrom> = motions.map(|motion| SeenFrom::new(scene, &viewpoint.observer, motion)).collect();
     let mut jobs = Vec::new();
     for (mesh, source) in cut.meshes.iter().zip(&scene.meshes) {
         let sight = &sights[source.motion.map_or(0, |motion| 1 + motion)];
@@ -209,9 +209,9 @@ fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
     jobs.into_par_iter().for_each(|(sight, vertices, [x, y, z], log2_doppler)| {
         let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
         for (place, vertex) in vertices.iter().enumerate() {
-            let seen = match &sight.course {
+            let seen = match &sight.body {
                 None => sight.apparent(vertex.place),
-                Some(course) => course.seen(vertex.place).map_or(glam::DVec3::ZERO, |seen| {
+                Some(body) => body.seen(vertex.place).map_or(glam::DVec3::ZERO, |seen| {
                     log2_doppler[place] = seen.doppler.log2() as f32;
                     seen.apparent
                 }),
@@ -226,18 +226,18 @@ fn apparent(scene: &Scene, cut: &Cut, viewpoint: &Viewpoint) -> Vec<f32> {
 
 /// Thread that cuts while others draw, with its channels.
 struct Cutter {
-    wanted: Sender<(Viewpoint, Arc<Cut>)>,
+    wanted: Sender<(CutViewpoint, Arc<Cut>)>,
     made: Receiver<Made>,
     busy: bool,
     /// Viewpoint of the cut requested last.
-    asked: Option<Viewpoint>,
+    asked: Option<CutViewpoint>,
     /// Earliest time of the next request.
     due: Instant,
 }
 
 impl Cutter {
     fn start(scene: Arc<Scene>, tolerance: Tolerance) -> Self {
-        let (wanted, wishes) = bounded::<(Viewpoint, Arc<Cut>)>(1);
+        let (wanted, wishes) = bounded::<(CutViewpoint, Arc<Cut>)>(1);
         let (makes, made) = bounded(1);
         std::thread::Builder::new()
             .name("cut".to_owned())
@@ -253,7 +253,7 @@ impl Cutter {
     }
 
     /// Returns the newest cut, if there is a new one, and requests the next one.
-    fn follow(&mut self, viewpoint: &Viewpoint, shown: &Arc<Cut>) -> Option<Made> {
+    fn follow(&mut self, viewpoint: &CutViewpoint, shown: &Arc<Cut>) -> Option<Made> {
         let made = self.made.try_recv().ok();
         if let Some(made) = &made {
             self.busy = false;

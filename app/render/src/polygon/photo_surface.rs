@@ -25,7 +25,7 @@ use physics::Observer;
 use physics::photo_surface::{Kernel, PhotoSurfaceError, PhotoSurfaceEye, PhotoSurfaceMesh, Stats, Vertices};
 use rayon::prelude::*;
 use scene::Scene;
-use scene::motion::{Animated, Course};
+use scene::motion::{Animated, ObservedBody};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 use std::time::Instant;
@@ -200,7 +200,7 @@ fn transform(runs: &[Run], stride: u64, staging: Staging, observers: &[Observer]
             Run::Still { observer, vertices } => (&observers[*observer], vertices),
             Run::Animated { animated, places } => {
                 stats.vertices += count;
-                stats.not_finite_results += solve(&Course::new(animated, &observers[0]), places, streams, log2_doppler);
+                stats.not_finite_results += solve(&ObservedBody::new(animated, &observers[0]), places, streams, log2_doppler);
                 continue;
             }
         };
@@ -219,7 +219,7 @@ fn transform(runs: &[Run], stride: u64, staging: Staging, observers: &[Observer]
 /// Writes the apparent positions of an animated body's vertices, and log2 D. Vertices without an apparent position
 /// are put at the eye. Returns their number.
 fn solve(
-    course: &Course,
+    body: &ObservedBody,
     places: &[DVec3],
     [x, y, z]: [&mut [MaybeUninit<f32>]; 3],
     log2_doppler: &mut [MaybeUninit<f32>],
@@ -229,7 +229,7 @@ fn solve(
     let solved = chunks.map(|(places, (((x, y), z), log2_doppler))| {
         let mut nowhere = 0;
         for (index, place) in places.iter().enumerate() {
-            let seen = course.seen(*place);
+            let seen = body.seen(*place);
             let apparent = seen.map_or(DVec3::ZERO, |seen| seen.apparent).as_vec3();
             let apparent = if apparent.is_finite() { apparent } else { glam::Vec3::ZERO };
             nowhere += usize::from(seen.is_none());

@@ -4,7 +4,7 @@ use crate::gpu::Gpu;
 use bytemuck::bytes_of;
 use glam::Vec4;
 use rayon::prelude::*;
-use scene::carriers::{Spectra, WHITE};
+use scene::carriers::{SceneCarriers, WHITE};
 use scene::mipmap::mipmap;
 use scene::{Alpha, Material, Scene, Texture, Wrap};
 use wgpu::util::{DeviceExt, TextureDataOrder};
@@ -25,7 +25,7 @@ pub struct Materials {
 
 impl Materials {
     /// Uploads textures with all their mip levels, and the uniforms.
-    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra) -> Self {
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &SceneCarriers) -> Self {
         let layout = layout(gpu);
         let white = Texture {
             name: "white".to_owned(),

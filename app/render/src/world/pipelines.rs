@@ -7,7 +7,7 @@ use super::geometry::Attributes;
 use super::materials::Materials;
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, Format};
-use scene::carriers::{Spectra, WHITE};
+use scene::carriers::{SceneCarriers, WHITE};
 use scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
 use view::Effects;
@@ -61,7 +61,7 @@ pub struct Pipelines {
 impl Pipelines {
     /// Loads the shaders for the scene's materials. If `background` is true, one radiance is shown instead of the
     /// sky.
-    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &Spectra, background: bool) -> Self {
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &SceneCarriers, background: bool) -> Self {
         let light_layout = light_layout(gpu);
         let module = |module: shaders::Module| {
             gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -10,9 +10,9 @@ use crate::target::Format;
 use bytemuck::bytes_of;
 use glam::DVec3;
 use physics::Observer;
-use scene::carriers::Spectra;
-use scene::cut::Sight;
-use scene::falling::Falling;
+use scene::carriers::SceneCarriers;
+use scene::cut::SeenFrom;
+use scene::irradiance::Irradiance;
 use scene::motion::Animated;
 use scene::{Lighting, Scene};
 use std::ops::Range;
@@ -27,7 +27,7 @@ pub struct World {
     materials: Materials,
     pipelines: Pipelines,
     /// Carriers of the scene, to which the weights belong.
-    pub spectra: Spectra,
+    pub spectra: SceneCarriers,
     /// World position of the scene's origin, metres. Plain positions are relative to it.
     pub origin: DVec3,
     /// Light that falls on what rests, then on each motion. The groups of views have the same order.
@@ -65,7 +65,7 @@ pub struct Draws<'a> {
     pub eye: DVec3,
     /// Sight of each of the scene's motions, in the order of the views after each part's own view. If it is empty,
     /// moving bodies are not drawn.
-    pub moving: &'a [Sight],
+    pub moving: &'a [SeenFrom],
     /// True if the sky is drawn where there is no opaque surface. Otherwise the target keeps its values there.
     pub sky: bool,
 }
@@ -88,7 +88,7 @@ impl TargetPart {
 impl World {
     /// Uploads `scene`. `background` is a linear radiance that replaces the scene's sky.
     pub fn new(gpu: &Gpu, scene: &Scene, background: Option<[f32; 3]>) -> Self {
-        let spectra = Spectra::of(scene);
+        let spectra = SceneCarriers::of(scene);
         let geometry = Geometry::new(gpu, scene);
         let materials = Materials::new(gpu, scene, &spectra);
         let pipelines = Pipelines::new(gpu, scene, &spectra, background.is_some());
@@ -139,7 +139,7 @@ impl World {
         let lighting = shaders::LightingUniforms { sun_direction, ..self.lit_at_rest };
         for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
             let Some(animated) = animated else { continue };
-            let falling = Falling::on_animated(&self.light, animated, observer, delayed, sky);
+            let falling = Irradiance::on_animated(&self.light, animated, observer, delayed, sky);
             gpu.queue.write_buffer(uniform, 0, bytes_of(&with_falling(&lighting, &falling)));
         }
     }

@@ -14,8 +14,8 @@ use crate::view_matrix::matrix;
 use bytemuck::bytes_of;
 use glam::{DMat4, DVec3, Vec4};
 use scene::Scene;
-use scene::carriers::Spectra;
-use scene::falling::Falling;
+use scene::carriers::SceneCarriers;
+use scene::irradiance::Irradiance;
 use scene::motion::Motion;
 use wgpu::util::DeviceExt;
 
@@ -43,17 +43,17 @@ impl Light {
         scene: &Scene,
         geometry: &Geometry,
         pipelines: &Pipelines,
-        spectra: &Spectra,
+        spectra: &SceneCarriers,
         background: Option<[f32; 3]>,
     ) -> Self {
         let moving = scene.motions.iter().map(|motion| match motion {
             Motion::Uniform(uniform) => {
-                Falling::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
+                Irradiance::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
             }
             // This is written for every picture.
-            Motion::Animated(_) => Falling::at_rest(&scene.light),
+            Motion::Animated(_) => Irradiance::at_rest(&scene.light),
         });
-        let at_rest = lighting(scene, &Falling::at_rest(&scene.light), true, spectra, background);
+        let at_rest = lighting(scene, &Irradiance::at_rest(&scene.light), true, spectra, background);
         let moving = moving.map(|falling| lighting(scene, &falling, false, spectra, background));
         let upload = |lighting| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -124,9 +124,9 @@ impl Light {
 /// cast shadows.
 fn lighting(
     scene: &Scene,
-    falling: &Falling,
+    falling: &Irradiance,
     shadowed: bool,
-    spectra: &Spectra,
+    spectra: &SceneCarriers,
     background: Option<[f32; 3]>,
 ) -> shaders::LightingUniforms {
     let light = &scene.light;
@@ -148,7 +148,7 @@ fn lighting(
 }
 
 /// Lighting with other light that falls.
-pub fn with_falling(lighting: &shaders::LightingUniforms, falling: &Falling) -> shaders::LightingUniforms {
+pub fn with_falling(lighting: &shaders::LightingUniforms, falling: &Irradiance) -> shaders::LightingUniforms {
     let [ambient_red, ambient_green, ambient_blue] = falling.ambient.map(|channel| channel.as_vec4());
     shaders::LightingUniforms {
         sun_direction: falling.sun_direction.as_vec3().extend(lighting.sun_direction.w),

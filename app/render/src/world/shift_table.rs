@@ -3,10 +3,10 @@
 use crate::gpu::Gpu;
 use crate::textures::view_from_rows;
 use physics::colour::ShiftTable;
-use scene::carriers::Spectra;
+use scene::carriers::SceneCarriers;
 
 /// The shift table of all carriers, for the shaders: of weights relative to white.
-pub fn upload(gpu: &Gpu, spectra: &Spectra) -> wgpu::TextureView {
+pub fn upload(gpu: &Gpu, spectra: &SceneCarriers) -> wgpu::TextureView {
     let table = ShiftTable::new(&spectra.carriers, shaders::SHIFT_NODES as usize);
     let rows_of_a_carrier = 3 * shaders::SHIFT_NODES as usize;
     let carriers = table.texels().chunks_exact(rows_of_a_carrier).zip(spectra.luminances());

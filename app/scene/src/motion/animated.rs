@@ -2,7 +2,7 @@
 //!
 //! A point p of the body is at x = M p at each moment of the world, and moves at β = M' p, with M' from the product
 //! rule along the chain. Both are exact functions of time, so the retarded event can be solved for to the last bits
-//! ([`super::Course`]).
+//! ([`super::ObservedBody`]).
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use physics::retarded::Worldline;
@@ -18,7 +18,7 @@ pub struct Animated {
     /// Name of the last node of the chain, for messages.
     pub name: String,
     /// Transforms from the root down; the last one's own frame is the body's.
-    links: Vec<Link>,
+    links: Vec<ChainLink>,
     pub(crate) speed_of_light_m_s: f64,
     /// Bounding ball of the whole body, in its own frame.
     pub(crate) ball: Ball,
@@ -26,7 +26,7 @@ pub struct Animated {
 
 /// Transform of a chain.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Link {
+pub enum ChainLink {
     /// Constant transform.
     Fixed(DAffine3),
     /// Transform that changes with time.
@@ -102,12 +102,12 @@ impl Keyed {
 
 impl Animated {
     /// Makes a body of this name at the end of a chain.
-    pub fn new(name: impl Into<String>, links: Vec<Link>) -> Self {
+    pub fn new(name: impl Into<String>, links: Vec<ChainLink>) -> Self {
         Self { name: name.into(), links, speed_of_light_m_s: SPEED_OF_LIGHT_M_S, ball: Ball::default() }
     }
 
     /// Transforms of the chain, from the root down.
-    pub fn links(&self) -> &[Link] {
+    pub fn links(&self) -> &[ChainLink] {
         &self.links
     }
 
@@ -130,11 +130,11 @@ impl Animated {
         let mut rate = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
         for link in &self.links {
             match link {
-                Link::Fixed(fixed) => {
+                ChainLink::Fixed(fixed) => {
                     rate = changed(&rate, fixed);
                     whole *= *fixed;
                 }
-                Link::Keyed(keyed) => {
+                ChainLink::Keyed(keyed) => {
                     let (local, local_rate) = keyed.at(time_s);
                     let (of_rest, of_link) = (changed(&rate, &local), whole.matrix3 * local_rate.translation);
                     rate = DAffine3 {
@@ -157,9 +157,9 @@ impl Animated {
 
     /// Largest factor by which a length of the body may be longer in the world.
     pub fn stretch(&self) -> f64 {
-        let of_link = |link: &Link| match link {
-            Link::Fixed(fixed) => stretch(fixed.matrix3),
-            Link::Keyed(keyed) => keyed.scale.abs().max_element(),
+        let of_link = |link: &ChainLink| match link {
+            ChainLink::Fixed(fixed) => stretch(fixed.matrix3),
+            ChainLink::Keyed(keyed) => keyed.scale.abs().max_element(),
         };
         self.links.iter().map(of_link).product()
     }
@@ -167,10 +167,10 @@ impl Animated {
     /// Ball in the world that a ball fixed to the body never leaves.
     pub fn reach(&self, ball: Ball) -> Ball {
         self.links.iter().rev().fold(ball, |ball, link| match link {
-            Link::Fixed(fixed) => {
+            ChainLink::Fixed(fixed) => {
                 Ball { centre: fixed.transform_point3(ball.centre), radius: stretch(fixed.matrix3) * ball.radius }
             }
-            Link::Keyed(keyed) => {
+            ChainLink::Keyed(keyed) => {
                 let [least, most] = keyed.translation.bounds();
                 let out = (keyed.scale * ball.centre).length() + keyed.scale.abs().max_element() * ball.radius;
                 Ball { centre: 0.5 * (least + most), radius: 0.5 * least.distance(most) + out }
@@ -215,27 +215,27 @@ mod tests {
     //! Law under test: a pose's rate is its derivative, through scaled and turned links. A product rule applied the
     //! wrong way round differs from finite differences.
 
-    use super::super::track::Keys;
+    use super::super::track::TrackKeys;
     use super::*;
 
     #[test]
     fn a_rate_is_the_derivative_of_the_pose() {
-        let turn = Keys::slerp(vec![0.0, 1.0], vec![DQuat::IDENTITY, DQuat::from_rotation_z(2.0)]).unwrap();
-        let way = Keys::linear(vec![-1.0, 2.0], vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)]).unwrap();
-        let spin = Keys::slerp(vec![0.0, 2.0], vec![DQuat::IDENTITY, DQuat::from_rotation_x(-1.0)]).unwrap();
+        let turn = TrackKeys::slerp(vec![0.0, 1.0], vec![DQuat::IDENTITY, DQuat::from_rotation_z(2.0)]).unwrap();
+        let way = TrackKeys::linear(vec![-1.0, 2.0], vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)]).unwrap();
+        let spin = TrackKeys::slerp(vec![0.0, 2.0], vec![DQuat::IDENTITY, DQuat::from_rotation_x(-1.0)]).unwrap();
         let fixed = DAffine3::from_scale_rotation_translation(
             DVec3::new(1.0, -2.0, 0.5),
             DQuat::from_rotation_y(0.4),
             DVec3::new(3.0, 0.0, 1.0),
         );
         let keyed =
-            |translation, rotation| Link::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
+            |translation, rotation| ChainLink::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
         let mut body = Animated::new(
             "body",
             vec![
-                Link::Fixed(fixed),
+                ChainLink::Fixed(fixed),
                 keyed(Track::Keyed(way), Track::Keyed(turn)),
-                Link::Fixed(fixed),
+                ChainLink::Fixed(fixed),
                 keyed(Track::Fixed(DVec3::Y), Track::Keyed(spin)),
             ],
         );

@@ -13,12 +13,12 @@ pub enum Track<V> {
     /// Constant value.
     Fixed(V),
     /// Value given by keys.
-    Keyed(Keys<V>),
+    Keyed(TrackKeys<V>),
 }
 
 /// Values at given times, and their interpolation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Keys<V> {
+pub struct TrackKeys<V> {
     times_s: Vec<f64>,
     values: Vec<V>,
     /// Slopes into and out of each key, per second; `None` for linear interpolation.
@@ -59,12 +59,12 @@ pub enum KeyFault {
 }
 
 /// Position of a time among the keys.
-enum Place {
+enum KeyPlace {
     At(usize),
     Between { before: usize, share: f64, length_s: f64 },
 }
 
-impl<V: Copy> Keys<V> {
+impl<V: Copy> TrackKeys<V> {
     fn checked(
         times_s: Vec<f64>,
         values: Vec<V>,
@@ -116,20 +116,20 @@ impl<V: Copy> Keys<V> {
         self
     }
 
-    fn place(&self, time_s: f64) -> Place {
+    fn place(&self, time_s: f64) -> KeyPlace {
         let time = match self.repeats {
             Some([from, to]) => from + (time_s - from).rem_euclid(to - from),
             None => time_s,
         };
         let after = self.times_s.partition_point(|&key| key <= time);
         if after == 0 {
-            return Place::At(0);
+            return KeyPlace::At(0);
         }
         if after == self.times_s.len() {
-            return Place::At(after - 1);
+            return KeyPlace::At(after - 1);
         }
         let [from, to] = [self.times_s[after - 1], self.times_s[after]];
-        Place::Between { before: after - 1, share: (time - from) / (to - from), length_s: to - from }
+        KeyPlace::Between { before: after - 1, share: (time - from) / (to - from), length_s: to - from }
     }
 }
 
@@ -142,7 +142,7 @@ fn hermite(share: f64) -> ([f64; 4], [f64; 4]) {
     (values, rates)
 }
 
-impl Keys<DVec3> {
+impl TrackKeys<DVec3> {
     /// Makes keys with linear interpolation.
     ///
     /// # Errors
@@ -162,8 +162,8 @@ impl Keys<DVec3> {
     /// Value at a time, and its change per second.
     fn at(&self, time_s: f64) -> (DVec3, DVec3) {
         let (before, share, length_s) = match self.place(time_s) {
-            Place::At(key) => return (self.values[key], DVec3::ZERO),
-            Place::Between { before, share, length_s } => (before, share, length_s),
+            KeyPlace::At(key) => return (self.values[key], DVec3::ZERO),
+            KeyPlace::Between { before, share, length_s } => (before, share, length_s),
         };
         let (a, b) = (self.values[before], self.values[before + 1]);
         let Some(tangents) = &self.tangents else { return (a + (b - a) * share, (b - a) / length_s) };
@@ -174,7 +174,7 @@ impl Keys<DVec3> {
     }
 }
 
-impl Keys<DQuat> {
+impl TrackKeys<DQuat> {
     /// Makes keys of rotations that turn evenly from key to key, the shorter way round (slerp).
     ///
     /// # Errors
@@ -206,8 +206,8 @@ impl Keys<DQuat> {
     /// Rotation at a time, and its angular velocity about its own turned axes, radians per second.
     fn at(&self, time_s: f64) -> (DQuat, DVec3) {
         let (before, share, length_s) = match self.place(time_s) {
-            Place::At(key) => return (self.values[key].normalize(), DVec3::ZERO),
-            Place::Between { before, share, length_s } => (before, share, length_s),
+            KeyPlace::At(key) => return (self.values[key].normalize(), DVec3::ZERO),
+            KeyPlace::Between { before, share, length_s } => (before, share, length_s),
         };
         let (a, b) = (self.values[before], self.values[before + 1]);
         let Some(tangents) = &self.tangents else {
@@ -277,7 +277,7 @@ impl Track<DQuat> {
 }
 
 impl<V: Copy> Track<V> {
-    pub(crate) fn keys(&self) -> Option<&Keys<V>> {
+    pub(crate) fn keys(&self) -> Option<&TrackKeys<V>> {
         match self {
             Self::Fixed(_) => None,
             Self::Keyed(keys) => Some(keys),
@@ -294,7 +294,7 @@ mod tests {
     use super::*;
 
     /// Velocity of a turned place by the rotation's rate, R' = R [ω]×, and by finite differences.
-    fn turned(keys: &Keys<DQuat>, time_s: f64, place: DVec3) -> (DVec3, DVec3) {
+    fn turned(keys: &TrackKeys<DQuat>, time_s: f64, place: DVec3) -> (DVec3, DVec3) {
         let step = 1e-6;
         let [before, after] = [-step, step].map(|step| keys.at(time_s + step).0 * place);
         let (rotation, rate) = keys.at(time_s);
@@ -311,8 +311,8 @@ mod tests {
             .to_vec();
         let place = DVec3::new(0.3, -0.7, 1.1);
         for keys in [
-            Keys::slerp(times.clone(), turns.clone()).unwrap(),
-            Keys::cubic_rotation(times.clone(), turns, slopes).unwrap(),
+            TrackKeys::slerp(times.clone(), turns.clone()).unwrap(),
+            TrackKeys::cubic_rotation(times.clone(), turns, slopes).unwrap(),
         ] {
             for time in [0.2, 0.9, 1.4, 2.8] {
                 let (said, found) = turned(&keys, time, place);
@@ -321,7 +321,7 @@ mod tests {
         }
         let values = vec![DVec3::X, DVec3::new(0.0, 2.0, 1.0), DVec3::Z];
         let tangents = vec![[DVec3::X, DVec3::Y], [DVec3::Z, DVec3::X], [DVec3::Y, DVec3::Y]];
-        let keys = Keys::cubic(times, values.clone(), tangents).unwrap();
+        let keys = TrackKeys::cubic(times, values.clone(), tangents).unwrap();
         for (key, time) in [0.0, 1.0, 3.0].into_iter().enumerate() {
             assert!(keys.at(time).0.distance(values[key]) < 1e-15);
         }
@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn what_repeats_was_always_so() {
-        let keys = Keys::linear(vec![1.0, 2.0, 4.0], vec![DVec3::ZERO, DVec3::X, DVec3::ZERO]).unwrap();
+        let keys = TrackKeys::linear(vec![1.0, 2.0, 4.0], vec![DVec3::ZERO, DVec3::X, DVec3::ZERO]).unwrap();
         assert_eq!(keys.at(-7.0).0, DVec3::ZERO);
         let keys = keys.repeating([1.0, 4.0], DVec3::ZERO);
         for turn in [-5.0, -1.0, 0.0, 3.0] {
@@ -345,11 +345,11 @@ mod tests {
 
     #[test]
     fn keys_that_are_none_are_refused() {
-        let linear = |times: &[f64], count| Keys::linear(times.to_vec(), vec![DVec3::ZERO; count]);
+        let linear = |times: &[f64], count| TrackKeys::linear(times.to_vec(), vec![DVec3::ZERO; count]);
         assert_eq!(linear(&[], 0), Err(KeyFault::Lengths { times: 0, values: 0 }));
         assert_eq!(linear(&[0.0, 0.0], 2), Err(KeyFault::Order { key: 1 }));
         assert_eq!(linear(&[f64::NAN], 1), Err(KeyFault::NotFinite { key: 0 }));
-        let none = Keys::slerp(vec![0.0], vec![DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0)]);
+        let none = TrackKeys::slerp(vec![0.0], vec![DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0)]);
         assert_eq!(none, Err(KeyFault::NoRotation { key: 0 }));
     }
 }

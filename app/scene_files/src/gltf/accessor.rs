@@ -12,7 +12,7 @@ use super::error::GltfError;
 use scene::MAX_TRIANGLES;
 
 /// Components of an accessor's elements, one after the other.
-pub(super) struct Numbers<T> {
+pub(super) struct AccessorNumbers<T> {
     pub(super) values: Vec<T>,
     /// Number of components of an element.
     pub(super) width: usize,
@@ -63,7 +63,7 @@ pub(super) fn read<T: Copy>(
     place: &str,
     purpose: Purpose,
     convert: impl Fn(f64) -> T,
-) -> Result<Numbers<T>, GltfError> {
+) -> Result<AccessorNumbers<T>, GltfError> {
     let count = count(document, index, place)?;
     let accessor = document.item(&document.json.accessors, index, place)?;
     let place = format!("accessors[{index}]");
@@ -118,7 +118,7 @@ pub(super) fn read<T: Copy>(
             }
         }
     }
-    Ok(Numbers { values, width })
+    Ok(AccessorNumbers { values, width })
 }
 
 /// Layout of elements in a buffer view.

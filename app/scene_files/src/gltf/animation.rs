@@ -15,7 +15,7 @@ use super::accessor::{self, Purpose};
 use super::container::Document;
 use super::error::GltfError;
 use super::notices::Notices;
-use scene::motion::{KeyFault, Keys};
+use scene::motion::{KeyFault, TrackKeys};
 
 /// Tolerance within which the first and last pose of an animation are equal, so that it repeats; covers f32 rounding
 /// and exporters. Metres for each metre of size, and in a rotation's components.
@@ -23,14 +23,14 @@ const SAME: f64 = 1e-5;
 
 /// Keys of a node's translation and rotation.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Moved {
-    pub(super) translation: Option<Keys<DVec3>>,
-    pub(super) rotation: Option<Keys<DQuat>>,
+pub(super) struct NodeKeys {
+    pub(super) translation: Option<TrackKeys<DVec3>>,
+    pub(super) rotation: Option<TrackKeys<DQuat>>,
 }
 
 /// Keys of every animated node, by the node's index.
-pub(super) fn moved(document: &Document, notices: &mut Notices) -> Result<BTreeMap<usize, Moved>, GltfError> {
-    let mut moved = BTreeMap::<usize, Moved>::new();
+pub(super) fn moved(document: &Document, notices: &mut Notices) -> Result<BTreeMap<usize, NodeKeys>, GltfError> {
+    let mut moved = BTreeMap::<usize, NodeKeys>::new();
     for (number, animation) in document.json.animations.iter().enumerate() {
         let of_animation = read(document, number, animation, notices)?;
         if of_animation.is_empty() {
@@ -56,8 +56,8 @@ fn read(
     number: usize,
     animation: &Animation,
     notices: &mut Notices,
-) -> Result<BTreeMap<usize, Moved>, GltfError> {
-    let mut moved = BTreeMap::<usize, Moved>::new();
+) -> Result<BTreeMap<usize, NodeKeys>, GltfError> {
+    let mut moved = BTreeMap::<usize, NodeKeys>::new();
     for (index, channel) in animation.channels.iter().enumerate() {
         let place = format!("animations[{number}].channels[{index}]");
         let node = channel.target.node.value();
@@ -70,7 +70,7 @@ fn read(
             (Property::Scale, _) => Some("changes a scale"),
             (Property::MorphTargetWeights, _) => Some("changes a shape (morph targets)"),
             (_, Interpolation::Step) => Some("jumps (STEP), which is faster than light"),
-            _ if document.transforms[node].matrix.is_some() => Some("moves a node that has a matrix"),
+            _ if document.json.nodes[node].matrix.is_some() => Some("moves a node that has a matrix"),
             _ => None,
         };
         if let Some(refused) = refused {
@@ -85,9 +85,9 @@ fn read(
             let values = values.into_iter().map(DVec3::from_array);
             let keys = if cubic {
                 let (values, tangents) = thirds(values.collect());
-                Keys::<DVec3>::cubic(times, values, tangents)
+                TrackKeys::<DVec3>::cubic(times, values, tangents)
             } else {
-                Keys::linear(times, values.collect())
+                TrackKeys::linear(times, values.collect())
             };
             of_node.translation = Some(keys.map_err(fault)?);
         } else {
@@ -95,9 +95,9 @@ fn read(
             let values = values.into_iter().map(DQuat::from_array);
             let keys = if cubic {
                 let (values, tangents) = thirds(values.collect());
-                Keys::cubic_rotation(times, values, tangents)
+                TrackKeys::cubic_rotation(times, values, tangents)
             } else {
-                Keys::slerp(times, values.collect())
+                TrackKeys::slerp(times, values.collect())
             };
             of_node.rotation = Some(keys.map_err(fault)?);
         }
@@ -125,17 +125,17 @@ fn thirds<V: Copy>(values: Vec<V>) -> (Vec<V>, Vec<[V; 2]>) {
 }
 
 /// Makes an animation that ends as it began repeat for ever; leaves any other as it is.
-fn repeated(mut moved: BTreeMap<usize, Moved>) -> BTreeMap<usize, Moved> {
+fn repeated(mut moved: BTreeMap<usize, NodeKeys>) -> BTreeMap<usize, NodeKeys> {
     let spans = moved.values().flat_map(|of_node| {
-        [of_node.translation.as_ref().map(Keys::span_s), of_node.rotation.as_ref().map(Keys::span_s)]
+        [of_node.translation.as_ref().map(TrackKeys::span_s), of_node.rotation.as_ref().map(TrackKeys::span_s)]
     });
     let whole = spans.flatten().reduce(|[from, to], [first, last]| [from.min(first), to.max(last)]);
     let Some(whole) = whole.filter(|[from, to]| from < to) else { return moved };
-    let same_place = |keys: &Keys<DVec3>| {
+    let same_place = |keys: &TrackKeys<DVec3>| {
         let [first, last] = keys.ends();
         first.distance(last) <= SAME * (1.0 + first.length())
     };
-    let same_turn = |keys: &Keys<DQuat>| {
+    let same_turn = |keys: &TrackKeys<DQuat>| {
         let [first, last] = keys.ends().map(DQuat::normalize);
         (1.0 - first.dot(last).abs()) <= SAME * SAME
     };

@@ -13,6 +13,7 @@ use serde::Deserialize;
 
 use super::error::GltfError;
 use super::extras::SceneExtras;
+use super::file_json::GltfJson;
 use super::notices::{EXTENSIONS, Notices};
 
 /// Largest size of a file that is read, bytes: a `.glb` cannot count further.
@@ -21,37 +22,14 @@ const MAX_FILE: u64 = u32::MAX as u64;
 /// File that has been opened and parsed as JSON; indices in it are not yet checked.
 pub(super) struct Document {
     pub(super) path: PathBuf,
-    pub(super) json: json::Root,
-    pub(super) transforms: Vec<Transform>,
+    pub(super) json: GltfJson,
     buffers: Vec<Vec<u8>>,
-}
-
-/// Transform of a node with all digits the file has; the `gltf` crate keeps f32.
-#[derive(Deserialize)]
-pub(super) struct Transform {
-    pub(super) matrix: Option<[f64; 16]>,
-    pub(super) translation: Option<[f64; 3]>,
-    pub(super) rotation: Option<[f64; 4]>,
-    pub(super) scale: Option<[f64; 3]>,
-}
-
-#[derive(Deserialize)]
-struct Transforms {
-    #[serde(default)]
-    nodes: Vec<Transform>,
 }
 
 /// Part of the JSON that every version of the format has.
 #[derive(Deserialize)]
-struct Head {
-    asset: Asset,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Asset {
-    version: String,
-    min_version: Option<String>,
+struct VersionJson {
+    asset: json::Asset,
 }
 
 impl Document {
@@ -70,18 +48,22 @@ impl Document {
             return Err(not_gltf("it is neither a .glb nor JSON".into()));
         }
 
-        // The version is checked first: with another version, later steps fail with unhelpful messages.
-        let head: Head = serde_json::from_slice(text).map_err(|error| not_gltf(error.to_string()))?;
-        let needed = head.asset.min_version.as_deref().unwrap_or("2.0");
-        if !head.asset.version.starts_with("2.") || needed != "2.0" {
-            return Err(not_gltf(format!("its version is {} (at least {needed})", head.asset.version)));
+        let json: GltfJson = match serde_json::from_slice(text) {
+            Ok(json) => json,
+            Err(error) => {
+                // With another version the parser's sentence is of no help.
+                let head = serde_json::from_slice::<VersionJson>(text).ok();
+                let fault = head.and_then(|head| version_fault(&head.asset)).unwrap_or_else(|| error.to_string());
+                return Err(not_gltf(fault));
+            }
+        };
+        if let Some(fault) = version_fault(&json.asset) {
+            return Err(not_gltf(fault));
         }
-        let json: json::Root = serde_json::from_slice(text).map_err(|error| not_gltf(error.to_string()))?;
-        let transforms: Transforms = serde_json::from_slice(text).map_err(|error| not_gltf(error.to_string()))?;
         if let Some(name) = json.extensions_required.iter().find(|name| !EXTENSIONS.contains(&name.as_str())) {
             return Err(GltfError::Extension { path: path.into(), name: name.clone() });
         }
-        let mut document = Self { path: path.into(), json, transforms: transforms.nodes, buffers: Vec::new() };
+        let mut document = Self { path: path.into(), json, buffers: Vec::new() };
         document.buffers = document.read_buffers(blob)?;
         Ok(document)
     }
@@ -179,6 +161,13 @@ impl Document {
     pub(super) fn too_large(&self, place: &str, fault: impl Into<String>) -> GltfError {
         GltfError::TooLarge { path: self.path.clone(), place: place.into(), fault: fault.into() }
     }
+}
+
+/// Refusal of a file's version, if it is not 2.0 or compatible.
+fn version_fault(asset: &json::Asset) -> Option<String> {
+    let needed = asset.min_version.as_deref().unwrap_or("2.0");
+    let good = asset.version.starts_with("2.") && needed == "2.0";
+    (!good).then(|| format!("its version is {} (at least {needed})", asset.version))
 }
 
 /// Part of a slice, by numbers from a file; `None` if it does not exist.

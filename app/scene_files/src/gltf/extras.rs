@@ -130,6 +130,11 @@ fn read<T: for<'a> Deserialize<'a> + Default>(extras: &Extras) -> Result<T, Stri
     }
 }
 
+/// Extras with this value.
+pub(crate) fn to_extras(value: &Value) -> Extras {
+    Some(serde_json::value::to_raw_value(value).expect("a JSON value is JSON"))
+}
+
 /// Celerity of a node, `extras.celerity`, γβ along the world's axes, and `extras.at`, the world time (metres of light
 /// travel, default 0) at which the node is where the file has it. `None` if there is no celerity; `at` alone belongs
 /// to another program.
@@ -158,8 +163,9 @@ impl NodeExtras {
         read(extras)
     }
 
-    pub(crate) fn to_json(&self) -> serde_json::Value {
-        serde_json::json!({ "rapidity": self })
+    /// Extras of a node to be written.
+    pub(crate) fn to_extras(&self) -> Extras {
+        to_extras(&serde_json::json!({ "rapidity": self }))
     }
 }
 
@@ -196,11 +202,12 @@ impl SceneExtras {
         })
     }
 
-    pub(crate) fn into_json(self) -> serde_json::Value {
+    /// Extras of a scene to be written.
+    pub(crate) fn into_extras(self) -> Extras {
         let start =
             self.start.map(|start| StartJson { position: start.position.to_array(), look: start.look.to_array() });
         let (origin, light, white) = (self.origin, Some(self.light), self.white);
         let json = SceneJson { origin, light, white, panorama: self.panorama, start, circuit: self.circuit };
-        serde_json::json!({ "rapidity": json })
+        to_extras(&serde_json::json!({ "rapidity": json }))
     }
 }

@@ -15,9 +15,9 @@ use std::f64::consts::FRAC_PI_2;
 use super::container::Document;
 use super::error::GltfError;
 use super::extras::SceneExtras;
-use super::nodes::Placement;
+use super::nodes::NodePlacement;
 use super::notices::Notices;
-use super::spectrum::{Spectra, in_extras};
+use super::spectrum::{SpectrumReader, in_extras};
 use scene::{Lamp, Lighting, Spot};
 
 /// Light of a scene.
@@ -35,8 +35,8 @@ pub(super) fn lighting(
     document: &Document,
     scene: Option<usize>,
     extras: &SceneExtras,
-    placements: &[Placement],
-    spectra: &mut Spectra<'_>,
+    placements: &[NodePlacement],
+    spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
 ) -> Result<Lights, GltfError> {
     let (sun, lamps) = sun_and_lamps(document, placements, spectra, notices)?;
@@ -62,8 +62,8 @@ struct Sun {
 
 fn sun_and_lamps(
     document: &Document,
-    placements: &[Placement],
-    spectra: &mut Spectra<'_>,
+    placements: &[NodePlacement],
+    spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
 ) -> Result<(Option<Sun>, Vec<Lamp>), GltfError> {
     // Every light's spectrum is checked, even if the light does not shine, so that every mistake is reported.
@@ -135,7 +135,7 @@ fn owner(index: usize, light: &Light) -> String {
 }
 
 /// Refuses spectra on nodes that are not lights, which would otherwise be lost silently.
-fn refuse_spectra_of_other_nodes(document: &Document, spectra: &mut Spectra<'_>) {
+fn refuse_spectra_of_other_nodes(document: &Document, spectra: &mut SpectrumReader<'_>) {
     for (index, node) in document.json.nodes.iter().enumerate() {
         let light = node.extensions.as_ref().is_some_and(|extensions| extensions.khr_lights_punctual.is_some());
         if !light && in_extras(&node.extras).is_some() {

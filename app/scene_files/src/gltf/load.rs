@@ -8,18 +8,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-use scene::collision::Collision;
+use scene::collision::ground_below;
 use scene::motion::Motion;
-use scene::{Alpha, MAX_TRIANGLES, Mesh, Panorama, Scene, Start, Surroundings};
+use scene::{Alpha, MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
 
 use super::container::Document;
 use super::error::GltfError;
 use super::extras::SceneExtras;
-use super::nodes::{Bounds, Moves, Placement};
+use super::nodes::{Bounds, NodeMotion, NodePlacement};
 use super::notices::{EXTENSIONS, Notices};
 use super::primitive::Primitive;
-use super::progress::{Progress, Stage};
-use super::spectrum::Spectra;
+use super::progress::{LoadStage, Progress};
+use super::spectrum::SpectrumReader;
 use super::{light, material, nodes, picture, primitive};
 use crate::panorama;
 
@@ -43,7 +43,7 @@ const MAX_MESHES: usize = 1_000_000;
 pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, GltfError> {
     let document = Document::open(path)?;
     let mut notices = Notices::default();
-    note_what_is_not_drawn(&document, &mut notices);
+    note_undrawn_features(&document, &mut notices);
 
     // Find the placements, and refuse a scene that is too large before any of it is unpacked.
     let scene_index = document.scene_index(&mut notices)?;
@@ -52,7 +52,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
     let instances = instances(&document, &placements, &mut notices)?;
 
     // Read surfaces and light.
-    let mut spectra = Spectra::new(&document);
+    let mut spectra = SpectrumReader::new(&document);
     let (mut materials, channels) = material::materials(&document, &mut spectra, &mut notices)?;
     let light::Lights { lighting, illuminant, lamps } =
         light::lighting(&document, scene_index, &extras, &placements, &mut spectra, &mut notices)?;
@@ -85,7 +85,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         .map(|instance| {
             let primitive = &primitives[&(instance.mesh, instance.primitive)];
             let placed = match &instance.placement.motion {
-                Some(Moves::Animated { animated, body_from_node }) => {
+                Some(NodeMotion::Animated { animated, body_from_node }) => {
                     let (mut mesh, not_finite) = primitive.place(instance.name.clone(), *body_from_node, DVec3::ZERO);
                     if animated.at(0.0).world_from_body.matrix3.determinant() < 0.0 {
                         mesh.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
@@ -94,7 +94,7 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
                 }
                 _ => primitive.place(instance.name.clone(), instance.placement.transform, origin),
             };
-            progress(Progress { stage: Stage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
+            progress(Progress { stage: LoadStage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
             placed
         })
         .collect();
@@ -106,8 +106,8 @@ pub fn load(path: &Path, progress: impl Fn(Progress) + Sync) -> Result<Scene, Gl
         let opaque = materials[mesh.material].alpha == Alpha::Opaque;
         mesh.motion = instance.placement.motion.as_ref().map(|moves| {
             let motion = match moves {
-                Moves::Uniform(uniform) => Motion::Uniform(*uniform),
-                Moves::Animated { animated, .. } => Motion::Animated(Arc::clone(animated)),
+                NodeMotion::Uniform(uniform) => Motion::Uniform(*uniform),
+                NodeMotion::Animated { animated, .. } => Motion::Animated(Arc::clone(animated)),
             };
             motions.iter().position(|known| *known == motion).unwrap_or_else(|| {
                 motions.push(motion);
@@ -167,7 +167,7 @@ fn around(
 
 /// Primitive of a mesh, placed at a node.
 struct Instance<'a> {
-    placement: &'a Placement,
+    placement: &'a NodePlacement,
     mesh: usize,
     primitive: usize,
     name: String,
@@ -176,7 +176,7 @@ struct Instance<'a> {
 /// Instances of all primitives that are drawn, checked against the limits.
 fn instances<'a>(
     document: &Document,
-    placements: &'a [Placement],
+    placements: &'a [NodePlacement],
     notices: &mut Notices,
 ) -> Result<Vec<Instance<'a>>, GltfError> {
     let mut instances = Vec::new();
@@ -221,13 +221,13 @@ fn instance_name(document: &Document, node: usize, mesh: usize, primitive: usize
 /// Start on the ground below a camera, or at the camera if there is no ground, with the camera's direction of view.
 fn start_below(camera: DAffine3, scene: &Scene) -> Start {
     let look = (camera.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
-    let collision = Collision::new(scene).expect("loaded scenes keep the promises of their types");
-    let ground = collision.height_below(camera.translation);
+    let ground = ground_below(scene, camera.translation).expect("loaded scenes keep the promises of their types");
     let height = ground.map_or(camera.translation.y, |ground| ground.height);
     Start { position: camera.translation.with_y(height), look }
 }
 
-fn note_what_is_not_drawn(document: &Document, notices: &mut Notices) {
+/// Adds a notice for every feature that the file uses and that is not drawn.
+fn note_undrawn_features(document: &Document, notices: &mut Notices) {
     let json = &document.json;
     for name in json.extensions_used.iter().filter(|name| !EXTENSIONS.contains(&name.as_str())) {
         notices.add(format!("the extension {name} is not drawn"));

@@ -10,19 +10,23 @@ use glam::{Mat2, Vec2};
 use super::container::Document;
 use super::error::GltfError;
 use super::notices::Notices;
-use super::spectrum::Spectra;
+use super::spectrum::SpectrumReader;
 use scene::{Alpha, Material};
+
+/// Attenuation distance, metres, from which on a volume absorbs no light. glTF's default is infinity, which JSON cannot
+/// write; `export` writes this number.
+pub(crate) const NO_ABSORPTION: f32 = f32::MAX;
 
 /// Source of a mesh's texture coordinates: a set and a transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Channel {
+pub(super) struct UvChannel {
     /// Number n of the set `TEXCOORD_n`.
     pub(super) set: u32,
     linear: Mat2,
     offset: Vec2,
 }
 
-impl Channel {
+impl UvChannel {
     const FIRST: Self = Self { set: 0, linear: Mat2::IDENTITY, offset: Vec2::ZERO };
 
     fn of(texture: &json::texture::Info) -> Self {
@@ -49,9 +53,9 @@ impl Channel {
 /// Texture indices are still those of the file; `picture::textures` replaces them.
 pub(super) fn materials(
     document: &Document,
-    spectra: &mut Spectra<'_>,
+    spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
-) -> Result<(Vec<Material>, Vec<Channel>), GltfError> {
+) -> Result<(Vec<Material>, Vec<UvChannel>), GltfError> {
     let mut materials = Vec::new();
     let mut channels = Vec::new();
     for (index, material) in document.json.materials.iter().enumerate() {
@@ -61,7 +65,7 @@ pub(super) fn materials(
     }
     if uses_default(document) {
         materials.push(Material { name: "default".into(), ..Material::default() });
-        channels.push(Channel::FIRST);
+        channels.push(UvChannel::FIRST);
     }
     Ok((materials, channels))
 }
@@ -74,9 +78,9 @@ fn read(
     document: &Document,
     index: usize,
     material: &json::Material,
-    spectra: &mut Spectra<'_>,
+    spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
-) -> Result<(Material, Channel), GltfError> {
+) -> Result<(Material, UvChannel), GltfError> {
     let place = format!("materials[{index}]");
     let surface = &material.pbr_metallic_roughness;
     let extensions = material.extensions.as_ref();
@@ -91,7 +95,7 @@ fn read(
     let transmission = extensions.and_then(|extensions| extensions.transmission.as_ref());
     let index = extensions.and_then(|extensions| extensions.ior.as_ref()).map_or(1.5, |extension| extension.ior.0);
     let volume = extensions.and_then(|extensions| extensions.volume.as_ref());
-    if volume.is_some_and(|volume| volume.attenuation_distance.0.is_finite()) {
+    if volume.is_some_and(|volume| volume.attenuation_distance.0 < NO_ABSORPTION) {
         notices.add(format!("the glass of material \"{}\" does not absorb light on its way", name));
     }
     let read = Material {
@@ -120,14 +124,14 @@ fn read(
     if !numbers.copied().all(f32::is_finite) {
         return Err(document.damaged(&place, "its colours are beyond all numbers"));
     }
-    let channels: Vec<Channel> =
-        [&surface.base_color_texture, &material.emissive_texture].into_iter().flatten().map(Channel::of).collect();
+    let channels: Vec<UvChannel> =
+        [&surface.base_color_texture, &material.emissive_texture].into_iter().flatten().map(UvChannel::of).collect();
     if let [base, emissive] = channels[..]
         && base != emissive
     {
         notices.add(format!("the emissive map of material \"{}\" is drawn where its base colour is", read.name));
     }
-    Ok((read, channels.first().copied().unwrap_or(Channel::FIRST)))
+    Ok((read, channels.first().copied().unwrap_or(UvChannel::FIRST)))
 }
 
 /// Indices of the file's textures that any material draws.

@@ -5,15 +5,16 @@
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
-use super::animation::{self, Moved};
-use super::container::{Document, Transform};
+use super::animation::{self, NodeKeys};
+use super::container::Document;
 use super::error::GltfError;
 use super::extras::{NodeExtras, celerity};
+use super::file_json::NodeJson;
 use super::notices::Notices;
 use super::primitive::Primitive;
 use physics::Event;
 use scene::Start;
-use scene::motion::{Animated, Keyed, Link, Track, Uniform};
+use scene::motion::{Animated, ChainLink, Keyed, Track, Uniform};
 use std::sync::Arc;
 
 /// Distance from the file's origin, metres, up to which f32 keeps a quarter of a millimetre and positions stay as the
@@ -21,7 +22,7 @@ use std::sync::Arc;
 const NEAR: f64 = 4096.0;
 
 /// Placement of a node that has a mesh, a light or a camera.
-pub(super) struct Placement {
+pub(super) struct NodePlacement {
     /// Index into the file's nodes.
     pub(super) node: usize,
     /// Index into the file's meshes, not yet checked.
@@ -36,12 +37,12 @@ pub(super) struct Placement {
     pub(super) solid: Option<bool>,
     /// Motion of the node, or of its nearest moving ancestor, with that ancestor's anchor: connected nodes move
     /// together.
-    pub(super) motion: Option<Moves>,
+    pub(super) motion: Option<NodeMotion>,
 }
 
 /// Motion of a node.
 #[derive(Clone)]
-pub(super) enum Moves {
+pub(super) enum NodeMotion {
     Uniform(Uniform),
     /// Node moved by keys. `body_from_node`: transform from the node's frame to that of the last node of the chain.
     Animated {
@@ -50,7 +51,7 @@ pub(super) enum Moves {
     },
 }
 
-impl Moves {
+impl NodeMotion {
     /// Motion of a child with the transform `local`.
     fn of_child(&self, local: DAffine3) -> Self {
         match self {
@@ -68,7 +69,7 @@ pub(super) fn placements(
     document: &Document,
     scene: Option<usize>,
     notices: &mut Notices,
-) -> Result<Vec<Placement>, GltfError> {
+) -> Result<Vec<NodePlacement>, GltfError> {
     let nodes = &document.json.nodes;
     let roots = match scene {
         Some(scene) => document.json.scenes[scene].nodes.iter().map(|node| node.value()).collect(),
@@ -77,23 +78,24 @@ pub(super) fn placements(
     let moved = animation::moved(document, notices)?;
     let mut reached = vec![false; nodes.len()];
     let mut placements = Vec::new();
-    let mut stack: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None::<Moves>)).collect();
+    let mut stack: Vec<_> =
+        roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None::<NodeMotion>)).collect();
     while let Some((index, parent, inherited)) = stack.pop() {
         let place = format!("nodes[{index}]");
         let node = document.item(nodes, index, &place)?;
         if std::mem::replace(&mut reached[index], true) {
             return Err(document.damaged(&place, "it has two parents or is its own ancestor"));
         }
-        let local = local(&document.transforms[index], &place, notices);
+        let local = local(node, &place, notices);
         let transform = parent * local;
         let own =
             celerity(&node.extras).map_err(|(key, fault)| document.damaged(&format!("{place}.extras.{key}"), fault))?;
         let uniform = own.map(|(celerity, ct)| {
-            Moves::Uniform(Uniform { celerity, anchor: Event { ct, position: transform.translation } })
+            NodeMotion::Uniform(Uniform { celerity, anchor: Event { ct, position: transform.translation } })
         });
         let motion = match (uniform, moved.get(&index), inherited) {
-            (None, Some(moved), inherited @ (None | Some(Moves::Animated { .. }))) => {
-                let keyed = keyed(&document.transforms[index], moved);
+            (None, Some(moved), inherited @ (None | Some(NodeMotion::Animated { .. }))) => {
+                let keyed = keyed(node, moved);
                 let name = node.name.clone().unwrap_or(place.clone());
                 Some(animated(name, parent, inherited, keyed))
             }
@@ -109,7 +111,7 @@ pub(super) fn placements(
             let extras = NodeExtras::read(&node.extras);
             let extras = extras.map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
             let mesh = node.mesh.map(|mesh| mesh.value());
-            placements.push(Placement {
+            placements.push(NodePlacement {
                 node: index,
                 mesh,
                 light: light.map(|light| light.light.value()),
@@ -127,29 +129,29 @@ pub(super) fn placements(
 
 /// Motion of a chain that ends in an animated node. `parent`: transform from its parent's frame to the file's, used
 /// if nothing above it moves.
-fn animated(name: String, parent: DAffine3, inherited: Option<Moves>, keyed: Keyed) -> Moves {
+fn animated(name: String, parent: DAffine3, inherited: Option<NodeMotion>, keyed: Keyed) -> NodeMotion {
     let mut links = match inherited {
-        Some(Moves::Animated { animated, body_from_node }) => {
+        Some(NodeMotion::Animated { animated, body_from_node }) => {
             let mut links = animated.links().to_vec();
-            links.push(Link::Fixed(body_from_node));
+            links.push(ChainLink::Fixed(body_from_node));
             links
         }
-        _ => vec![Link::Fixed(parent)],
+        _ => vec![ChainLink::Fixed(parent)],
     };
-    links.retain(|link| *link != Link::Fixed(DAffine3::IDENTITY));
-    links.push(Link::Keyed(keyed));
-    Moves::Animated { animated: Arc::new(Animated::new(name, links)), body_from_node: DAffine3::IDENTITY }
+    links.retain(|link| *link != ChainLink::Fixed(DAffine3::IDENTITY));
+    links.push(ChainLink::Keyed(keyed));
+    NodeMotion::Animated { animated: Arc::new(Animated::new(name, links)), body_from_node: DAffine3::IDENTITY }
 }
 
 /// Transform of an animated node; quantities without keys are constant, as the node has them.
-fn keyed(transform: &Transform, moved: &Moved) -> Keyed {
-    let rotation = transform.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+fn keyed(node: &NodeJson, moved: &NodeKeys) -> Keyed {
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let rotation = if rotation.length().is_normal() { rotation.normalize() } else { DQuat::IDENTITY };
-    let translation = DVec3::from_array(transform.translation.unwrap_or_default());
+    let translation = DVec3::from_array(node.translation.unwrap_or_default());
     Keyed {
         translation: moved.translation.clone().map_or(Track::Fixed(translation), Track::Keyed),
         rotation: moved.rotation.clone().map_or(Track::Fixed(rotation), Track::Keyed),
-        scale: DVec3::from_array(transform.scale.unwrap_or([1.0; 3])),
+        scale: DVec3::from_array(node.scale.unwrap_or([1.0; 3])),
     }
 }
 
@@ -167,11 +169,12 @@ fn orphans(document: &Document) -> Vec<usize> {
     if orphans.is_empty() && !nodes.is_empty() { vec![0] } else { orphans }
 }
 
-fn local(transform: &Transform, place: &str, notices: &mut Notices) -> DAffine3 {
-    if let Some(matrix) = &transform.matrix {
+/// Transform from a node's frame to its parent's.
+fn local(node: &NodeJson, place: &str, notices: &mut Notices) -> DAffine3 {
+    if let Some(matrix) = &node.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(matrix));
     }
-    let rotation = transform.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let length = rotation.length();
     let rotation = if length.is_normal() {
         rotation / length
@@ -179,8 +182,8 @@ fn local(transform: &Transform, place: &str, notices: &mut Notices) -> DAffine3 
         notices.add(format!("{place} has a rotation without direction, which is left out"));
         DQuat::IDENTITY
     };
-    let scale = DVec3::from_array(transform.scale.unwrap_or([1.0; 3]));
-    let translation = DVec3::from_array(transform.translation.unwrap_or_default());
+    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]));
+    let translation = DVec3::from_array(node.translation.unwrap_or_default());
     DAffine3 { matrix3: DMat3::from_quat(rotation) * DMat3::from_diagonal(scale), translation }
 }
 

@@ -1,4 +1,4 @@
-//! Sentences about what a file asks for and is not drawn.
+//! Notices: sentences about features of a file that are not drawn.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,8 @@ pub(super) const EXTENSIONS: [&str; 8] = [
     "KHR_texture_transform",
 ];
 
-/// Sentences for [`scene::Scene::notices`], each once, with how often it holds, in the order in which they came up.
+/// Sentences for [`scene::Scene::notices`] in the order of their first appearance, each once, with the number of its
+/// appearances.
 #[derive(Default)]
 pub(super) struct Notices {
     sentences: Vec<(String, usize)>,

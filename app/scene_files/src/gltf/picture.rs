@@ -16,7 +16,7 @@ use super::container::Document;
 use super::error::GltfError;
 use super::material::textures_used;
 use super::notices::Notices;
-use super::progress::{Progress, Stage};
+use super::progress::{LoadStage, Progress};
 use scene::{Material, Texture, Wrap};
 
 /// Longest side of a picture, pixels: the limit of graphics processors.
@@ -61,7 +61,7 @@ pub(super) fn textures(
         let wrap = [wrap(sampler.wrap_s)?, wrap(sampler.wrap_t)?];
         let nearest = sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest));
         let name = texture.name.clone().or_else(|| image.name.clone()).unwrap_or_else(|| format!("picture {source}"));
-        looks.insert(index, Look { source, name, wrap, nearest });
+        looks.insert(index, TextureLook { source, name, wrap, nearest });
     }
 
     // Decode each picture once.
@@ -87,7 +87,7 @@ pub(super) fn textures(
     let (done, total) = (AtomicUsize::new(0), encoded.len());
     let decode = |picture: &Encoded| {
         let pixels = picture.decode(document)?;
-        progress(Progress { stage: Stage::Pictures, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
+        progress(Progress { stage: LoadStage::Pictures, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
         Ok((picture.source, pixels))
     };
     let pictures: BTreeMap<usize, RgbaImage> = encoded.par_iter().map(decode).collect::<Result<_, GltfError>>()?;
@@ -105,7 +105,7 @@ pub(super) fn textures(
             .or_insert(textures.len());
         if place == textures.len() {
             let (width, height) = picture.dimensions();
-            let Look { name, wrap, nearest, .. } = look;
+            let TextureLook { name, wrap, nearest, .. } = look;
             textures.push(Texture { name, width, height, rgba: picture.as_raw().clone(), wrap, nearest });
         }
         place_of_index.insert(index, place);
@@ -119,7 +119,7 @@ pub(super) fn textures(
 }
 
 /// Texture of the file before its picture is decoded.
-struct Look {
+struct TextureLook {
     /// Index into the file's images.
     source: usize,
     name: String,
@@ -167,7 +167,8 @@ impl Encoded {
     fn decode(&self, document: &Document) -> Result<RgbaImage, GltfError> {
         let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), self.format);
         let mut limits = image::Limits::default();
-        limits.max_alloc = Some(4 * self.decoded_bytes() + (1 << 20)); // 16 bits a channel, and the decoder's own buffers
+        // 16 bits a channel, and the decoder's own buffers.
+        limits.max_alloc = Some(4 * self.decoded_bytes() + (1 << 20));
         reader.limits(limits);
         let damaged =
             |error: image::ImageError| document.damaged(&format!("images[{}]", self.source), error.to_string());

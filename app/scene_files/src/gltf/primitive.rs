@@ -10,7 +10,7 @@ use super::accessor::{self, Purpose};
 use super::container::Document;
 use super::error::GltfError;
 use super::extras::COLOURS;
-use super::material::Channel;
+use super::material::UvChannel;
 use super::notices::Notices;
 use scene::Mesh;
 
@@ -67,7 +67,7 @@ impl Primitive {
     pub(super) fn read(
         document: &Document,
         (mesh, index): (usize, usize),
-        channels: &[Channel],
+        channels: &[UvChannel],
         notices: &mut Notices,
     ) -> Result<Self, GltfError> {
         let place = format!("meshes[{mesh}].primitives[{index}]");

@@ -2,7 +2,7 @@
 
 /// Stage of `load`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum LoadStage {
     /// Decoding of pictures.
     Pictures,
     /// Placing of meshes.
@@ -13,7 +13,7 @@ pub enum Stage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Current stage.
-    pub stage: Stage,
+    pub stage: LoadStage,
     /// Number of pictures or meshes that are ready.
     pub done: usize,
     /// Total number of pictures or meshes.

@@ -13,12 +13,13 @@ use serde_json::{Value, json};
 
 use super::container::Document;
 use super::error::{GltfError, SpectrumFault};
+use super::extras;
 
 /// Keys of the kinds of spectra.
 const KINDS: [&str; 4] = ["planck", "sampled", "rgb", "gray"];
 
 /// Reader of a file's spectra, which collects their faults.
-pub(super) struct Spectra<'a> {
+pub(super) struct SpectrumReader<'a> {
     document: &'a Document,
     faults: Vec<SpectrumFault>,
 }
@@ -26,7 +27,7 @@ pub(super) struct Spectra<'a> {
 /// Path of keys below `spectrum`, and the fault there.
 type Refusal = (&'static str, String);
 
-impl<'a> Spectra<'a> {
+impl<'a> SpectrumReader<'a> {
     pub(super) fn new(document: &'a Document) -> Self {
         Self { document, faults: Vec::new() }
     }
@@ -141,6 +142,11 @@ pub(crate) fn to_json(spectrum: &Spectrum) -> Value {
         Spectrum::Rgb(rgb) => json!({ "rgb": rgb }),
         Spectrum::Gray => json!({ "gray": true }),
     }
+}
+
+/// Extras of an object to be written that has this spectrum.
+pub(crate) fn to_extras(spectrum: &Spectrum) -> Extras {
+    extras::to_extras(&json!({ "spectrum": to_json(spectrum) }))
 }
 
 fn is_csv(name: &str) -> bool {

@@ -9,6 +9,7 @@ use image::{Rgb32FImage, RgbImage};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::super::load;
 use super::*;
 
 /// Tolerance for bilinear interpolation of a smooth function over faces of [`SIDE`] pixels; at edges the outer half
@@ -182,7 +183,7 @@ fn other_proportions_are_refused_with_those_that_are_not() {
         );
     }
     for (width, height) in [(2, 1), (1999, 1000), (2001, 1000), (6, 1), (1, 6), (12, 9), (9, 12)] {
-        assert!(Shape::of(width, height).is_some(), "{width} × {height}");
+        assert!(PanoramaShape::of(width, height).is_some(), "{width} × {height}");
     }
 }
 

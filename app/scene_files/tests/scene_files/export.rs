@@ -11,9 +11,9 @@ use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Spectrum;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rapidity::scene::export::{ExportError, write_glb};
-use rapidity::scene::gltf::load;
-use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, Start, Texture, Wrap};
+use scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, Start, Texture, Wrap};
+use scene_files::export::{ExportError, write_glb};
+use scene_files::gltf::load;
 use tempfile::TempDir;
 
 /// Scene in which everything differs from its default, with numbers that have no short decimal form.

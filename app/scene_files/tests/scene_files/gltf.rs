@@ -5,17 +5,15 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
-mod scene_file;
-
 use std::sync::Mutex;
 
+use crate::support::{GltfUnderTest, png, write};
 use glam::{DVec3, Vec2, Vec3};
 use physics::{Celerity, Event};
-use rapidity::scene::export::write_glb;
-use rapidity::scene::gltf::{Progress, Stage, load};
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Alpha, Scene, Wrap};
-use scene_file::{File, png, write};
+use scene::motion::{Motion, Uniform};
+use scene::{Alpha, Scene, Wrap};
+use scene_files::export::write_glb;
+use scene_files::gltf::{LoadStage, Progress, load};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -27,7 +25,7 @@ fn face_normal(scene: &Scene, triangle: usize) -> Vec3 {
 
 #[test]
 fn a_triangle_comes_in_as_it_is() {
-    let scene = File::triangle().scene();
+    let scene = GltfUnderTest::triangle().scene();
     let mesh = &scene.meshes[0];
     assert_eq!(scene.name, "scene");
     assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y]);
@@ -43,7 +41,7 @@ fn a_triangle_comes_in_as_it_is() {
 
 #[test]
 fn what_moves_hangs_together_and_is_not_solid() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["scenes"][0]["nodes"] = json!([0, 3]);
     file.json["nodes"] = json!([
         { "mesh": 0, "translation": [1, 2, 3], "children": [1, 2], "extras": { "celerity": [0, 0, -0.75], "at": 5 } },
@@ -76,7 +74,7 @@ fn what_moves_hangs_together_and_is_not_solid() {
 #[test]
 fn strips_and_fans_keep_their_winding() {
     for (mode, indices) in [(5, [0, 1, 2, 3]), (6, [0, 1, 3, 2])] {
-        let mut file = File::triangle();
+        let mut file = GltfUnderTest::triangle();
         let square = file.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
         file.attribute("POSITION", square);
         file.indices(&indices);
@@ -91,7 +89,7 @@ fn strips_and_fans_keep_their_winding() {
 
 #[test]
 fn incomplete_triangles_are_left_out_and_named() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.indices(&[0, 1, 2, 0, 1]);
     let scene = file.scene();
     assert_eq!(scene.triangle_count(), 1);
@@ -100,7 +98,7 @@ fn incomplete_triangles_are_left_out_and_named() {
 
 #[test]
 fn transforms_compose_from_child_to_root() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     // Root: moved by 10 along x. Child: scaled by 2, then turned by 90° about y (x goes to −z).
     let half = 0.5_f64.sqrt();
     file.json["nodes"] = json!([
@@ -117,7 +115,7 @@ fn transforms_compose_from_child_to_root() {
 
 #[test]
 fn a_matrix_is_read_by_columns() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["nodes"][0]["matrix"] = json!([0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]);
     let positions = &file.scene().meshes[0].positions;
     assert_eq!(*positions, [Vec3::new(5.0, 6.0, 7.0), Vec3::new(5.0, 8.0, 7.0), Vec3::new(4.0, 6.0, 7.0)]);
@@ -126,7 +124,7 @@ fn a_matrix_is_read_by_columns() {
 #[test]
 fn mirrored_nodes_are_not_inside_out() {
     for scale in [[-1.0, 1.0, 1.0], [1.0, -3.0, 1.0], [2.0, 1.0, -0.5], [-1.0, -2.0, -3.0]] {
-        let mut file = File::triangle();
+        let mut file = GltfUnderTest::triangle();
         file.json["nodes"][0]["scale"] = json!(scale);
         let scene = file.scene();
         // Front faces and normals agree: both point along the mirrored +z.
@@ -138,7 +136,7 @@ fn mirrored_nodes_are_not_inside_out() {
 
 #[test]
 fn normals_stay_perpendicular_under_uneven_scale() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let slope = file.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0]);
     file.attribute("POSITION", slope);
     let half = 0.5_f32.sqrt();
@@ -151,7 +149,7 @@ fn normals_stay_perpendicular_under_uneven_scale() {
 
 #[test]
 fn flattened_nodes_keep_their_normal() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["nodes"][0]["scale"] = json!([1, 1, 0]);
     assert_eq!(file.scene().meshes[0].normals, [Vec3::Z; 3]);
 }
@@ -159,7 +157,7 @@ fn flattened_nodes_keep_their_normal() {
 #[test]
 fn far_worlds_keep_their_millimetres() {
     // At a thousand kilometres, f32 has steps of 6 cm.
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["nodes"] = json!([
         { "translation": [1_000_000.125, -2_000_000.25, 3e9], "children": [1] },
         { "translation": [0.001, 0, 0], "mesh": 0 },
@@ -174,14 +172,14 @@ fn far_worlds_keep_their_millimetres() {
 
 #[test]
 fn near_worlds_keep_the_files_coordinates() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["nodes"][0]["translation"] = json!([100.5, 0, -7]);
     assert_eq!(file.scene().origin, DVec3::ZERO);
 }
 
 #[test]
 fn integers_become_numbers() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     // Quantised positions are used as they are, normalised coordinates and colours as fractions.
     let positions = file.accessor(&[0, 0, 0, 0, 9, 0, 0, 0, 0, 254, 0, 0], 5120, "VEC3", 3);
     let view = file.json["accessors"][positions]["bufferView"].as_u64().unwrap() as usize;
@@ -204,7 +202,7 @@ fn integers_become_numbers() {
 
 #[test]
 fn colours_without_opacity_are_opaque() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let colours = file.floats("VEC3", &[[0.5, 0.25, 0.75]; 3].concat());
     file.attribute("COLOR_0", colours);
     assert_eq!(file.scene().meshes[0].colours, [[0.5, 0.25, 0.75, 1.0]; 3]);
@@ -212,7 +210,7 @@ fn colours_without_opacity_are_opaque() {
 
 #[test]
 fn sparse_accessors_replace_elements() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let indices = file.view(&[1]);
     let values = file.view(&[7.0_f32, 8.0, 9.0].map(f32::to_le_bytes).concat());
     file.json["accessors"][0]["sparse"] = json!({
@@ -229,7 +227,7 @@ fn sparse_accessors_replace_elements() {
 
 #[test]
 fn materials_carry_what_is_drawn() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let texture = file.texture(json!({ "wrapS": 33071, "wrapT": 33648, "magFilter": 9728 }));
     file.material(json!({
         "name": "leaf",
@@ -258,7 +256,7 @@ fn materials_carry_what_is_drawn() {
 
 #[test]
 fn textures_of_one_picture_and_sampling_become_one() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let first = file.texture(json!({}));
     let unused = file.push("textures", json!({ "source": 0, "sampler": 0 }));
     let same = file.push("textures", json!({ "source": 0 }));
@@ -275,7 +273,7 @@ fn textures_of_one_picture_and_sampling_become_one() {
 
 #[test]
 fn texture_transforms_are_baked() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let uvs = file.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
     file.attribute("TEXCOORD_1", uvs);
     let texture = file.texture(json!({}));
@@ -294,7 +292,7 @@ fn texture_transforms_are_baked() {
 
 #[test]
 fn what_is_not_drawn_is_named() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     file.json["extensionsUsed"] = json!(["KHR_materials_clearcoat", "KHR_materials_unlit"]);
     file.json["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
     file.json["animations"] = json!([{ "channels": [], "samplers": [] }, { "channels": [], "samplers": [] }]);
@@ -315,7 +313,7 @@ fn what_is_not_drawn_is_named() {
 
 #[test]
 fn a_visitor_starts_on_the_ground_below_the_first_camera() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let ground = file.floats("VEC3", &[0.0, 0.25, 0.0, 0.0, 0.25, 9.0, 9.0, 0.25, 0.0]);
     file.attribute("POSITION", ground);
     file.json["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }]);
@@ -331,7 +329,7 @@ fn a_visitor_starts_on_the_ground_below_the_first_camera() {
 
 #[test]
 fn vertices_that_are_nowhere_are_counted() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let positions = file.floats("VEC3", &[0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0, 0.0, f32::INFINITY, 0.0]);
     file.attribute("POSITION", positions);
     let notices = file.scene().notices;
@@ -341,7 +339,7 @@ fn vertices_that_are_nowhere_are_counted() {
 #[test]
 fn buffers_and_pictures_beside_or_within_a_gltf_are_read() {
     let folder = TempDir::new().unwrap();
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let texture = file.texture(json!({}));
     file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     file.json["images"][0] = json!({ "uri": "a%20flag.png" });
@@ -361,7 +359,7 @@ fn buffers_and_pictures_beside_or_within_a_gltf_are_read() {
 
 #[test]
 fn a_missing_picture_is_a_notice() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let texture = file.texture(json!({}));
     file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     file.json["images"][0] = json!({ "uri": "nowhere.png" });
@@ -372,7 +370,7 @@ fn a_missing_picture_is_a_notice() {
 
 #[test]
 fn progress_ends_with_everything_done() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let texture = file.texture(json!({}));
     file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     let folder = TempDir::new().unwrap();
@@ -381,6 +379,6 @@ fn progress_ends_with_everything_done() {
         seen.lock().unwrap().push(progress);
     })
     .unwrap();
-    let expected = [Stage::Pictures, Stage::Meshes].map(|stage| Progress { stage, done: 1, total: 1 });
+    let expected = [LoadStage::Pictures, LoadStage::Meshes].map(|stage| Progress { stage, done: 1, total: 1 });
     assert_eq!(seen.into_inner().unwrap(), expected);
 }

@@ -6,14 +6,12 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
-mod scene_file;
-
 use std::path::Path;
 
+use crate::support::{GltfUnderTest, load_bytes, png, write};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rapidity::scene::gltf::load;
-use scene_file::{File, load_bytes, png, write};
+use scene_files::gltf::load;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -35,7 +33,7 @@ fn files_that_are_no_scenes_are_refused_with_advice() {
     refused(&write(&folder, "other.gltf", b"{ \"name\": 1 }"), "missing field `asset`");
     refused(&write(&folder, "old.gltf", b"{ \"asset\": { \"version\": \"1.0\" }, \"nodes\": {} }"), "version is 1.0");
     refused(&write(&folder, "bare.gltf", b"{ \"asset\": { \"version\": \"2.0\" } }"), "nothing to draw");
-    let whole = File::triangle().glb();
+    let whole = GltfUnderTest::triangle().glb();
     refused(&write(&folder, "short.glb", &whole[..whole.len() - 8]), "cut short");
     refused(&write(&folder, "magic.glb", b"glTF"), "cut short");
     refused(&write(&folder, "v1.glb", b"glTF\x01\0\0\0\x0c\0\0\0"), "version 1");
@@ -43,8 +41,8 @@ fn files_that_are_no_scenes_are_refused_with_advice() {
 
 #[test]
 fn contradictions_are_named_with_their_place() {
-    let refused = |change: fn(&mut File), words: &[&str]| {
-        let mut file = File::triangle();
+    let refused = |change: fn(&mut GltfUnderTest), words: &[&str]| {
+        let mut file = GltfUnderTest::triangle();
         change(&mut file);
         let error = file.error();
         assert!(words.iter().all(|word| error.contains(word)), "{words:?} are not in: {error}");
@@ -52,7 +50,7 @@ fn contradictions_are_named_with_their_place() {
     refused(|file| file.json["nodes"][0]["mesh"] = json!(5), &["nodes[0].mesh", "no number 5 among 1"]);
     refused(|file| file.json["scene"] = json!(3), &["at scene", "no number 3"]);
     let moving = |extras: Value, key: &str, fault: &str| {
-        let mut file = File::triangle();
+        let mut file = GltfUnderTest::triangle();
         file.json["nodes"][0]["extras"] = extras;
         let error = file.error();
         assert!(error.contains(key) && error.contains(fault), "{error}");
@@ -97,7 +95,7 @@ fn contradictions_are_named_with_their_place() {
 #[test]
 fn a_bomb_of_instances_is_refused_before_it_goes_off() {
     // The file has ten thousand nodes, each with a mesh whose ten thousand primitives share one accessor.
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let primitive = file.primitive().clone();
     file.json["meshes"][0]["primitives"] = json!(vec![primitive; 10_000]);
     file.json["nodes"] = json!(vec![json!({ "mesh": 0 }); 10_000]);
@@ -108,7 +106,7 @@ fn a_bomb_of_instances_is_refused_before_it_goes_off() {
 
 #[test]
 fn a_picture_bomb_is_refused_before_it_is_decoded() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let texture = file.texture(json!({}));
     file.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } }));
     // The size stands at byte 16 of a PNG, behind its signature; its checksum is at 29.
@@ -130,8 +128,8 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 /// File that uses nearly everything that the loader reads.
-fn rich_file() -> File {
-    let mut file = File::triangle();
+fn rich_file() -> GltfUnderTest {
+    let mut file = GltfUnderTest::triangle();
     let normals = file.floats("VEC3", &[[0.0, 0.0, 1.0]; 3].concat());
     file.attribute("NORMAL", normals);
     let uvs = file.floats("VEC2", &[0.0; 6]);

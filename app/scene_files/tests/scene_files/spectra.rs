@@ -6,33 +6,32 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
-mod scene_file;
-
 use std::f32::consts::PI;
 
+use crate::support::{GltfUnderTest, png, write};
+use built_in::spectra;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
-use rapidity::scene::check::{Report, check};
-use rapidity::scene::collision::Collision;
-use rapidity::scene::export::write_glb;
-use rapidity::scene::gltf::{GltfError, load};
-use rapidity::scene::refine::refine;
-use rapidity::scene::source::read;
-use rapidity::scene::{Lighting, Material, Scene, spectra};
-use rapidity::vehicle::Surroundings;
-use scene_file::{File, png, write};
+use scene::Surroundings;
+use scene::collision::Collision;
+use scene::refine::refine;
+use scene::{Lighting, Material, Scene};
+use scene_files::check::{Report, check};
+use scene_files::export::write_glb;
+use scene_files::gltf::{GltfError, load};
+use scene_files::read;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-fn with_spectrum(spectrum: &Value) -> File {
-    let mut file = File::triangle();
+fn with_spectrum(spectrum: &Value) -> GltfUnderTest {
+    let mut file = GltfUnderTest::triangle();
     file.material(json!({ "name": "lamp", "extras": { "spectrum": spectrum, "of somebody else": 1 } }));
     file
 }
 
 /// File with a triangle and lights, each at a node of its own.
-fn with_lights(lights: &[Value]) -> File {
-    let mut file = File::triangle();
+fn with_lights(lights: &[Value]) -> GltfUnderTest {
+    let mut file = GltfUnderTest::triangle();
     file.json["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
     for light in 0..lights.len() {
         let node = file.push("nodes", json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
@@ -41,7 +40,7 @@ fn with_lights(lights: &[Value]) -> File {
     file
 }
 
-fn ours(file: &mut File, extras: Value) {
+fn ours(file: &mut GltfUnderTest, extras: Value) {
     file.json["scenes"][0]["extras"] = json!({ "rapidity": extras });
 }
 
@@ -64,7 +63,7 @@ fn every_kind_of_spectrum_is_read() {
     ] {
         assert_eq!(with_spectrum(&written).scene().materials[0].spectrum, Some(meant));
     }
-    assert_eq!(File::triangle().scene().materials[0].spectrum, None);
+    assert_eq!(GltfUnderTest::triangle().scene().materials[0].spectrum, None);
 }
 
 #[test]
@@ -222,19 +221,19 @@ fn our_own_words_about_light_come_last() {
 #[test]
 fn a_white_that_is_none_is_refused() {
     for white in [json!(0), json!(-1), json!("bright"), json!([1])] {
-        let mut file = File::triangle();
+        let mut file = GltfUnderTest::triangle();
         ours(&mut file, json!({ "white": white }));
         let error = file.error();
         assert!(error.contains("scenes[0].extras.rapidity"), "{error}");
     }
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     ours(&mut file, json!({ "whit": 1 }));
     assert!(file.error().contains("unknown field `whit`"), "{}", file.error());
 }
 
 #[test]
 fn a_report_names_spectra_and_what_darkens_them() {
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     let black = json!({ "baseColorFactor": [0, 0, 0, 1] });
     let planck = json!({ "spectrum": { "planck": 2800 } });
     file.material(json!({ "name": "lamp", "extensions": { "KHR_materials_unlit": {} }, "extras": planck }));
@@ -274,7 +273,7 @@ fn a_report_warns_of_what_is_burnt_out_or_black() {
         "are black (default)",
     );
     let quiet = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = File::triangle().scene();
+        let mut scene = GltfUnderTest::triangle().scene();
         change(&mut scene);
         let warnings = Report::new(&scene).unwrap().warnings;
         assert!(!warnings.iter().any(|warning| warning.contains("white")), "{warnings:?}");
@@ -298,7 +297,7 @@ fn the_built_in_hall_survives_a_file() {
 fn a_panorama_beside_the_scene_surrounds_it() {
     let folder = TempDir::new().unwrap();
     write(&folder, "sky.png", &png(2, 1, &[255, 0, 0, 255, 0, 255, 0, 255]));
-    let mut file = File::triangle();
+    let mut file = GltfUnderTest::triangle();
     ours(&mut file, json!({ "panorama": "sky.png" }));
     let scene = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap();
     assert_eq!(scene.panorama.unwrap().rgb, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);

@@ -5,18 +5,18 @@
 
 use std::path::PathBuf;
 
-use rapidity::scene::Scene;
-use rapidity::scene::gltf::{GltfError, load};
+use scene::Scene;
+use scene_files::gltf::{GltfError, load};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// File under construction: JSON and the binary chunk that it refers to.
-pub struct File {
+pub struct GltfUnderTest {
     pub json: Value,
     pub blob: Vec<u8>,
 }
 
-impl File {
+impl GltfUnderTest {
     /// File with one triangle in the plane z = 0, at the only node.
     pub fn triangle() -> Self {
         let mut file = Self {

@@ -3,13 +3,13 @@
 //! A scene of hundreds of meshes reveals faults of a loader or writer that one of three meshes hides. A town with a
 //! hole in its street would not carry a bicycle.
 
-use rapidity::scene::check::Report;
-use rapidity::scene::collision::Collision;
-use rapidity::scene::export::write_glb;
-use rapidity::scene::gltf::load;
-use rapidity::scene::refine::refine;
-use rapidity::scene::town;
-use rapidity::vehicle::Surroundings;
+use built_in::town;
+use scene::Surroundings;
+use scene::collision::Collision;
+use scene::refine::refine;
+use scene_files::check::Report;
+use scene_files::export::write_glb;
+use scene_files::gltf::load;
 use tempfile::TempDir;
 
 #[test]
@@ -32,7 +32,7 @@ fn the_town_is_sound_and_survives_a_file() {
     assert!(back == town, "a part is lost: {:?}", back.notices);
 
     // A circuit would allow longer edges far from it; without one, all are cut.
-    let anywhere = rapidity::scene::Scene { circuit: Vec::new(), ..town };
+    let anywhere = scene::Scene { circuit: Vec::new(), ..town };
     let refined = refine(&anywhere, 4.0).unwrap();
     assert!(Report::new(&refined).unwrap().longest_edge <= 4.0);
 }

@@ -3,9 +3,9 @@
 use glam::{Vec2, Vec3, ivec2, vec2, vec3};
 
 use super::masonry::{ashlar_at, plaster_at, rubble_at};
-use super::openings::{Door, Window, door, window};
+use super::openings::{Door, PaintedWindow, door, window};
 use super::timber::{beam, join};
-use crate::town::canvas::{Area, Canvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{Area, PaintCanvas, chance, cloud, noise, smoothstep};
 
 /// Width of a bay and height of a ground floor, metres.
 const BAY: f32 = 2.4;
@@ -21,7 +21,7 @@ pub(in crate::town) const BARE: usize = 5;
 
 /// Material of a ground floor's wall.
 #[derive(Clone, Copy, PartialEq)]
-enum Wall {
+enum GroundFloorWall {
     Ashlar,
     Rubble,
     Plaster(Vec3),
@@ -31,7 +31,7 @@ enum Wall {
 
 /// Materials and colours of a ground floor.
 pub(in crate::town) struct GroundFloor {
-    wall: Wall,
+    wall: GroundFloorWall,
     stone: Vec3,
     door: Vec3,
     shutter: Vec3,
@@ -40,31 +40,31 @@ pub(in crate::town) struct GroundFloor {
 /// Ground floors of the town.
 pub(in crate::town) const GROUND_FLOORS: [GroundFloor; 5] = [
     GroundFloor {
-        wall: Wall::Ashlar,
+        wall: GroundFloorWall::Ashlar,
         stone: vec3(0.66, 0.55, 0.45),
         door: vec3(0.33, 0.21, 0.13),
         shutter: vec3(0.26, 0.36, 0.28),
     },
     GroundFloor {
-        wall: Wall::Plaster(vec3(0.90, 0.85, 0.74)),
+        wall: GroundFloorWall::Plaster(vec3(0.90, 0.85, 0.74)),
         stone: vec3(0.68, 0.58, 0.47),
         door: vec3(0.20, 0.32, 0.26),
         shutter: vec3(0.23, 0.37, 0.30),
     },
     GroundFloor {
-        wall: Wall::Rubble,
+        wall: GroundFloorWall::Rubble,
         stone: vec3(0.62, 0.57, 0.50),
         door: vec3(0.40, 0.20, 0.14),
         shutter: vec3(0.36, 0.24, 0.17),
     },
     GroundFloor {
-        wall: Wall::Plaster(vec3(0.84, 0.80, 0.75)),
+        wall: GroundFloorWall::Plaster(vec3(0.84, 0.80, 0.75)),
         stone: vec3(0.55, 0.51, 0.47),
         door: vec3(0.22, 0.29, 0.40),
         shutter: vec3(0.45, 0.20, 0.16),
     },
     GroundFloor {
-        wall: Wall::Timbered(vec3(0.88, 0.80, 0.64)),
+        wall: GroundFloorWall::Timbered(vec3(0.88, 0.80, 0.64)),
         stone: vec3(0.34, 0.23, 0.16),
         door: vec3(0.44, 0.27, 0.14),
         shutter: vec3(0.30, 0.22, 0.16),
@@ -72,13 +72,13 @@ pub(in crate::town) const GROUND_FLOORS: [GroundFloor; 5] = [
 ];
 
 /// Paints a ground floor: a strip of six bays, with bare wall where they meet.
-pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
+pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> PaintCanvas {
     let courses = ivec2(20, 9);
-    let mut canvas = Canvas::new([2048, 512], STRIP, |p| {
+    let mut canvas = PaintCanvas::new([2048, 512], STRIP, |p| {
         let base = match style.wall {
-            Wall::Ashlar => ashlar_at(p, STRIP, courses, seed),
-            Wall::Rubble => rubble_at(p, STRIP, seed),
-            Wall::Plaster(colour) | Wall::Timbered(colour) => {
+            GroundFloorWall::Ashlar => ashlar_at(p, STRIP, courses, seed),
+            GroundFloorWall::Rubble => rubble_at(p, STRIP, seed),
+            GroundFloorWall::Plaster(colour) | GroundFloorWall::Timbered(colour) => {
                 // Plaster flakes off above the damp plinth.
                 let edge = 0.55 + 0.10 * noise(p * vec2(2.5, 1.0), ivec2(36, 40), seed + 2);
                 let plinth = ashlar_at(p, STRIP, courses, seed) * 0.92;
@@ -88,12 +88,12 @@ pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
         };
         base * (1.0 - 0.34 * smoothstep(0.35, 0.0, p.y)) * (1.0 - 0.42 * smoothstep(HEIGHT - 0.6, HEIGHT, p.y))
     });
-    if let Wall::Timbered(_) = style.wall {
+    if let GroundFloorWall::Timbered(_) = style.wall {
         for bay in 0..6 {
             frame_bay(&mut canvas, bay, style.stone, seed + 20 + bay as u32);
         }
     }
-    let paned = |opening: Area, arched: bool, shutter: Option<Vec3>, casements: u32, rows: u32| Window {
+    let paned = |opening: Area, arched: bool, shutter: Option<Vec3>, casements: u32, rows: u32| PaintedWindow {
         opening,
         frame: vec3(0.88, 0.86, 0.80),
         surround: Some(style.stone),
@@ -132,7 +132,7 @@ pub(in crate::town) fn ground_floor(style: &GroundFloor, seed: u32) -> Canvas {
 }
 
 /// Paints posts and beams of a timbered ground floor, clear of doors and windows.
-fn frame_bay(canvas: &mut Canvas, bay: usize, timber: Vec3, seed: u32) {
+fn frame_bay(canvas: &mut PaintCanvas, bay: usize, timber: Vec3, seed: u32) {
     let left = bay as f32 * BAY;
     let mut beams = vec![
         beam(left, 0.5, left, HEIGHT, 0.22),

@@ -2,7 +2,7 @@
 
 use glam::{IVec2, Vec2, Vec3, ivec2, vec2, vec3};
 
-use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{PaintCanvas, chance, cloud, noise, smoothstep};
 
 /// Stone of a course, as seen from a point.
 struct Stone {
@@ -50,8 +50,8 @@ fn dome(stone: &Stone, edge: f32) -> f32 {
 }
 
 /// Paints street cobbles in rows across the way.
-pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| {
+pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| {
         let wobble = vec2(noise(p * 4.0, ivec2(20, 20), seed), noise(p * 4.0, ivec2(20, 20), seed + 9)) * 0.012;
         let stone = course(p + wobble, tile, ivec2(26, 33), 0.45, 0.045, 0.016, seed);
         let own = chance(stone.id.x, stone.id.y, seed + 1);
@@ -69,12 +69,12 @@ pub(in crate::town) fn cobbles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Can
 }
 
 /// Paints small setts laid in overlapping arcs, as on market squares.
-pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
     // Width of an arc, and its rise as a share of that.
     const SPAN: f32 = 1.44;
     const RISE: f32 = 0.2;
     let columns = (tile.x / SPAN).round() as i32;
-    Canvas::new(pixels, tile, |p| {
+    PaintCanvas::new(pixels, tile, |p| {
         let column = (p.x / SPAN).floor();
         let across = p.x - (column + 0.5) * SPAN;
         // Rings are arcs of a circle about the middle of the column, cut off at its sides.
@@ -105,8 +105,8 @@ pub(in crate::town) fn setts(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
 }
 
 /// Paints pavement slabs.
-pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| {
+pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(5, 8), 0.5, 0.012, 0.014, seed);
         let own = chance(stone.id.x, stone.id.y, seed + 1);
         let base = vec3(0.60, 0.58, 0.53).lerp(vec3(0.56, 0.53, 0.50), chance(stone.id.x, stone.id.y, seed + 2));
@@ -118,8 +118,8 @@ pub(in crate::town) fn slabs(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
 }
 
 /// Paints squared sandstone in courses.
-pub(in crate::town) fn ashlar(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| ashlar_at(p, tile, ivec2(6, 11), seed))
+pub(in crate::town) fn ashlar(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| ashlar_at(p, tile, ivec2(6, 11), seed))
 }
 
 /// Colour of squared sandstone at a point.
@@ -143,8 +143,8 @@ pub(super) fn ashlar_at(p: Vec2, tile: Vec2, cells: IVec2, seed: u32) -> Vec3 {
 }
 
 /// Paints irregular fieldstones in mortar.
-pub(in crate::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| rubble_at(p, tile, seed))
+pub(in crate::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| rubble_at(p, tile, seed))
 }
 
 /// Colour of a fieldstone wall at a point: cells about scattered points.
@@ -180,8 +180,8 @@ pub(super) fn rubble_at(p: Vec2, tile: Vec2, seed: u32) -> Vec3 {
 }
 
 /// Paints lime plaster, nearly white, to be tinted.
-pub(in crate::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| Vec3::splat(0.92) * plaster_at(p, tile, seed))
+pub(in crate::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| Vec3::splat(0.92) * plaster_at(p, tile, seed))
 }
 
 /// Unevenness of plaster as a factor on its colour.
@@ -199,10 +199,10 @@ pub(super) fn plaster_at(p: Vec2, tile: Vec2, seed: u32) -> f32 {
 }
 
 /// Paints beaver-tail roof tiles, each course overlapping the one below.
-pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
     let cells = ivec2(24, 27);
     let cell = tile / cells.as_vec2();
-    Canvas::new(pixels, tile, |p| {
+    PaintCanvas::new(pixels, tile, |p| {
         // The rounded tail of the course above hangs into this one.
         let place = |row: f32| {
             let wrapped = (row as i32).rem_euclid(cells.y);
@@ -239,8 +239,8 @@ pub(in crate::town) fn tiles(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
 }
 
 /// Paints slates for spires.
-pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| {
+pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| {
         let stone = course(p, tile, ivec2(14, 18), 0.25, 0.03, 0.008, seed);
         let own = chance(stone.id.x, stone.id.y, seed + 1);
         let base = vec3(0.36, 0.38, 0.42).lerp(vec3(0.40, 0.38, 0.40), own) * (0.8 + 0.35 * (own * 9.0).fract());
@@ -250,8 +250,8 @@ pub(in crate::town) fn slate(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canva
 }
 
 /// Paints weathered boards running up the picture.
-pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| {
+pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| {
         let board = (p.x / 0.2).floor();
         let within = p.x / 0.2 - board;
         let own = chance(board as i32, 3, seed);
@@ -263,8 +263,8 @@ pub(in crate::town) fn planks(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canv
 }
 
 /// Paints staves of a barrel with four hoops, from its foot to its rim.
-pub(in crate::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, tile, |p| {
+pub(in crate::town) fn staves(pixels: [usize; 2], tile: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, tile, |p| {
         let q = p / tile;
         let stave = (q.x * 6.0).floor();
         let within = (q.x * 6.0).fract();

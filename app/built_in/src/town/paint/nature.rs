@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
-use crate::town::canvas::{Canvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{PaintCanvas, chance, cloud, noise, smoothstep};
 use crate::turn::circle;
 
 /// Topmost of many scattered things at a point: `layers` sheets of them, each on a jittered lattice of `cells` per
@@ -37,8 +37,8 @@ fn leaf(p: Vec2) -> f32 {
 }
 
 /// Paints a spray of foliage in a unit square, transparent between the leaves.
-pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::with_opacity(pixels, size, |at| {
+pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let ragged = 0.40 + 0.16 * cloud(p * 5.0, ivec2(64, 64), 3, seed);
         let reach = (p - 0.5).length();
@@ -53,8 +53,8 @@ pub(in crate::town) fn leaves(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
 }
 
 /// Paints a hanging mat of ivy.
-pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::with_opacity(pixels, size, |at| {
+pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let edge = p.x.min(1.0 - p.x).min(p.y + 0.3).min(1.0 - p.y);
         let ragged = 0.10 + 0.09 * cloud(p * 7.0, ivec2(64, 64), 3, seed + 4);
@@ -68,8 +68,8 @@ pub(in crate::town) fn ivy(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas 
 }
 
 /// Paints geraniums and their leaves over the edge of a box, in a unit square that is full below and ragged above.
-pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::with_opacity(pixels, size, |at| {
+pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::with_opacity(pixels, size, |at| {
         let p = at / size;
         let crest = 0.62 + 0.36 * noise(vec2(p.x * 9.0, 0.5), ivec2(9, 9), seed);
         let hem = 0.10 + 0.10 * noise(vec2(p.x * 12.0, 4.5), ivec2(12, 12), seed + 1);
@@ -96,8 +96,8 @@ pub(in crate::town) fn flowers(pixels: [usize; 2], size: Vec2, seed: u32) -> Can
 }
 
 /// Paints grass seen from above.
-pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, size, |p| {
+pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, size, |p| {
         let broad = cloud(p / 1.5, ivec2(6, 6), 4, seed);
         let blade = noise(p * vec2(24.0, 12.0), ivec2(216, 108), seed + 1)
             + noise(p * vec2(11.0, 26.0), ivec2(99, 234), seed + 2);
@@ -106,16 +106,16 @@ pub(in crate::town) fn grass(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
 }
 
 /// Paints wooded slopes seen from afar.
-pub(in crate::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, size, |p| {
+pub(in crate::town) fn woods(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, size, |p| {
         let crowns = noise(p * 0.2, ivec2(12, 12), seed) * 0.5 + noise(p * 0.6, ivec2(36, 36), seed + 1);
         vec3(0.50, 0.58, 0.36) * (1.0 + 0.25 * crowns)
     })
 }
 
 /// Paints rippled water that mirrors the sky.
-pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, size, |p| {
+pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, size, |p| {
         let ripple =
             noise(p * vec2(5.0, 9.0), ivec2(15, 27), seed) + 0.6 * noise(p * vec2(13.0, 10.0), ivec2(39, 30), seed + 1);
         vec3(0.30, 0.42, 0.45) * (1.0 + 0.16 * ripple) + Vec3::splat(0.12) * smoothstep(0.7, 1.1, ripple)
@@ -123,8 +123,8 @@ pub(in crate::town) fn water(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
 }
 
 /// Paints bark of a lime tree.
-pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
-    Canvas::new(pixels, size, |p| {
+pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
+    PaintCanvas::new(pixels, size, |p| {
         let ridge =
             noise(p * vec2(10.0, 2.0), ivec2(20, 4), seed) + 0.6 * noise(p * vec2(24.0, 6.0), ivec2(48, 12), seed + 1);
         vec3(0.38, 0.33, 0.27) * (0.85 + 0.28 * ridge)
@@ -132,14 +132,14 @@ pub(in crate::town) fn bark(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas
 }
 
 /// Paints heaps of fruit and vegetables, four kinds side by side in a unit square.
-pub(in crate::town) fn produce(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn produce(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     const KINDS: [[Vec3; 2]; 4] = [
         [vec3(0.72, 0.13, 0.10), vec3(0.80, 0.34, 0.14)],
         [vec3(0.90, 0.55, 0.12), vec3(0.92, 0.74, 0.20)],
         [vec3(0.35, 0.52, 0.17), vec3(0.58, 0.66, 0.25)],
         [vec3(0.36, 0.16, 0.30), vec3(0.70, 0.52, 0.30)],
     ];
-    Canvas::new(pixels, size, |at| {
+    PaintCanvas::new(pixels, size, |at| {
         let p = at / size;
         let kind = (p.x * 4.0) as usize % 4;
         match scatter(p, 22.0, 3, seed + kind as u32, |p| p.length() - 0.85) {

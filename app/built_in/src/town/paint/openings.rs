@@ -2,10 +2,10 @@
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
+use crate::town::canvas::{Area, ENDLESS, PaintCanvas, chance, noise, smoothstep};
 
 /// Style and place of a window.
-pub(super) struct Window {
+pub(super) struct PaintedWindow {
     pub(super) opening: Area,
     /// Colour of frame and glazing bars.
     pub(super) frame: Vec3,
@@ -19,14 +19,14 @@ pub(super) struct Window {
     pub(super) arched: bool,
 }
 
-impl Window {
+impl PaintedWindow {
     fn distance(&self, area: Area, p: Vec2) -> f32 {
         if self.arched { area.arch_distance(p) } else { area.distance(p) }
     }
 }
 
 /// Paints a window with its shutters, surround, frame, bars and the look of its glass by day.
-pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
+pub(super) fn window(canvas: &mut PaintCanvas, window: &PaintedWindow, seed: u32) {
     let opening = window.opening;
     let extent = opening.extent();
     if let Some(colour) = window.shutter {
@@ -99,7 +99,7 @@ pub(super) fn window(canvas: &mut Canvas, window: &Window, seed: u32) {
 }
 
 /// Paints a louvred shutter.
-fn shutter(canvas: &mut Canvas, area: Area, colour: Vec3) {
+fn shutter(canvas: &mut PaintCanvas, area: Area, colour: Vec3) {
     canvas.halo(area, 0.05, 0.35);
     canvas.fill(
         area,
@@ -130,7 +130,7 @@ pub(super) struct Door {
 }
 
 /// Paints a door of boards and panels in a stone surround.
-pub(super) fn door(canvas: &mut Canvas, door: &Door, seed: u32) {
+pub(super) fn door(canvas: &mut PaintCanvas, door: &Door, seed: u32) {
     let Door { opening, arched, .. } = *door;
     let outline = |area: Area, p: Vec2| {
         if arched { area.arch_distance(p) } else { area.distance(p) }

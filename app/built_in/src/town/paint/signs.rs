@@ -2,11 +2,11 @@
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
-use crate::town::canvas::{Area, Canvas, ENDLESS, cloud, noise, smoothstep};
+use crate::town::canvas::{Area, ENDLESS, PaintCanvas, cloud, noise, smoothstep};
 use crate::turn::circle;
 
 /// Paints a clock face that fills a unit square: gilt hours on blue, hands at twenty to eleven.
-pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     let hand = |p: Vec2, turns: f32, length: f32, width: f32| {
         let c = circle(turns);
         let axis = vec2(c.y, c.x);
@@ -15,7 +15,7 @@ pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
             .max(along - length)
             .max(-0.06 - along)
     };
-    Canvas::new(pixels, size, |at| {
+    PaintCanvas::new(pixels, size, |at| {
         let p = at - size / 2.0;
         let r = p.length();
         let gold = vec3(0.86, 0.68, 0.28) * (0.92 + 0.1 * noise(at * 60.0, ENDLESS, seed));
@@ -37,10 +37,10 @@ pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> Canva
 }
 
 /// Paints striped cloth, four kinds above one another, two stripes of each per metre.
-pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     const STRIPES: [Vec3; 4] =
         [vec3(0.66, 0.17, 0.14), vec3(0.20, 0.40, 0.27), vec3(0.22, 0.33, 0.55), vec3(0.80, 0.58, 0.20)];
-    Canvas::new(pixels, size, |p| {
+    PaintCanvas::new(pixels, size, |p| {
         let along = (p.x * 2.0).fract();
         let stripe = smoothstep(-0.01, 0.01, 0.25 - (along - 0.5).abs());
         let kind = ((size.y - p.y) / size.y * 4.0) as usize % 4;
@@ -50,10 +50,10 @@ pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
 }
 
 /// Paints guild signs, four by four in a unit square.
-pub(in crate::town) fn signs(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn signs(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     const GROUNDS: [Vec3; 4] =
         [vec3(0.14, 0.26, 0.19), vec3(0.42, 0.12, 0.10), vec3(0.13, 0.19, 0.36), vec3(0.86, 0.80, 0.66)];
-    Canvas::with_opacity(pixels, size, |at| -> Vec4 {
+    PaintCanvas::with_opacity(pixels, size, |at| -> Vec4 {
         let cell = (at / size * 4.0).floor().as_ivec2();
         let p = (at / size * 4.0).fract() * 2.0 - 1.0;
         let kind = (cell.x + 4 * cell.y).rem_euclid(8);

@@ -6,8 +6,8 @@
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::masonry::plaster_at;
-use super::openings::{Window, window};
-use crate::town::canvas::{Area, Canvas, ENDLESS, chance, noise, smoothstep};
+use super::openings::{PaintedWindow, window};
+use crate::town::canvas::{Area, ENDLESS, PaintCanvas, chance, noise, smoothstep};
 
 /// Number of bays in a strip.
 pub(in crate::town) const BAYS: usize = 6;
@@ -156,7 +156,7 @@ impl Beam {
 }
 
 /// Paints beams onto a wall: first their shade, then the wood.
-pub(super) fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32) {
+pub(super) fn join(canvas: &mut PaintCanvas, beams: &[Beam], colour: Vec3, seed: u32) {
     for beam in beams {
         canvas.darken(beam.area().grown(0.06), |p| {
             let (distance, _) = beam.locate(p);
@@ -180,8 +180,8 @@ pub(super) fn join(canvas: &mut Canvas, beams: &[Beam], colour: Vec3, seed: u32)
 }
 
 /// Paints one storey of a house front.
-pub(in crate::town) fn front(style: &Front, seed: u32) -> Canvas {
-    let mut canvas = Canvas::new([2048, 512], STRIP, |p| {
+pub(in crate::town) fn front(style: &Front, seed: u32) -> PaintCanvas {
+    let mut canvas = PaintCanvas::new([2048, 512], STRIP, |p| {
         let damp = 1.0 - 0.10 * smoothstep(HEIGHT - 0.5, HEIGHT, p.y);
         style.plaster * plaster_at(p, STRIP, seed) * damp
     });
@@ -287,7 +287,7 @@ fn braces(bay: usize, manner: u32) -> Vec<Beam> {
 }
 
 /// Paints a moulding at the lower edge of a plastered storey.
-fn cornice(canvas: &mut Canvas, left: f32, plaster: Vec3) {
+fn cornice(canvas: &mut PaintCanvas, left: f32, plaster: Vec3) {
     let band = Area::new(left, 0.0, BAY, 0.16);
     canvas.darken(band.grown(0.05), |p| 1.0 - 0.22 * smoothstep(0.05, 0.0, band.distance(p)));
     canvas.fill(
@@ -301,10 +301,10 @@ fn cornice(canvas: &mut Canvas, left: f32, plaster: Vec3) {
 }
 
 /// Paints the windows of a bay.
-fn windows(canvas: &mut Canvas, style: &Front, bay: usize, left: f32, seed: u32) {
+fn windows(canvas: &mut PaintCanvas, style: &Front, bay: usize, left: f32, seed: u32) {
     let centre = left + BAY / 2.0;
     let plastered = style.timber.is_none();
-    let kind = |x: f32, width: f32, shutter: Option<Vec3>| Window {
+    let kind = |x: f32, width: f32, shutter: Option<Vec3>| PaintedWindow {
         opening: Area::new(x - width / 2.0, SILL, width, HEAD - SILL),
         frame: style.frame,
         surround: plastered.then_some(vec3(0.70, 0.62, 0.52)),

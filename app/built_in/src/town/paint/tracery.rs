@@ -4,13 +4,13 @@ use glam::{Vec2, ivec2, vec2, vec3};
 
 use super::masonry::ashlar_at;
 use super::openings::{Door, door};
-use crate::town::canvas::{Area, Canvas, chance, smoothstep};
+use crate::town::canvas::{Area, PaintCanvas, chance, smoothstep};
 
 /// Size of a church window, metres.
 pub(in crate::town) const LANCET: Vec2 = vec2(1.6, 4.2);
 
 /// Paints a pointed church window with tracery; outside its outline the picture is transparent.
-pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     let half = size.x / 2.0;
     let pointed = move |p: Vec2, inset: f32| {
         // The point is made of two circles about the opposite springers.
@@ -19,7 +19,7 @@ pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
         let spring = size.y - radius * 0.866;
         if p.y > spring { vec2(x + half, p.y - spring).length() - radius + inset } else { (x - half).max(-p.y) + inset }
     };
-    let mut canvas = Canvas::new(pixels, size, |p| {
+    let mut canvas = PaintCanvas::new(pixels, size, |p| {
         let d = pointed(p, 0.0);
         let stone = ashlar_at(p, size, ivec2(2, 12), seed) * (0.8 + 0.2 * smoothstep(0.0, 0.03, -d));
         let inner = pointed(p, 0.2);
@@ -47,9 +47,9 @@ pub(in crate::town) fn lancet(pixels: [usize; 2], size: Vec2, seed: u32) -> Canv
 pub(in crate::town) const PORTAL: Vec2 = vec2(3.6, 4.4);
 
 /// Paints a stepped round portal with a double door.
-pub(in crate::town) fn portal(pixels: [usize; 2], size: Vec2, seed: u32) -> Canvas {
+pub(in crate::town) fn portal(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
     let opening = Area::new(0.8, 0.0, 2.0, 3.1);
-    let mut canvas = Canvas::new(pixels, size, |p| {
+    let mut canvas = PaintCanvas::new(pixels, size, |p| {
         let wall = ashlar_at(p, size, ivec2(5, 12), seed);
         // Archivolts: rings of stone, each set back behind the one before.
         let d = opening.arch_distance(p);

@@ -14,7 +14,7 @@ use super::animated::{Animated, Pose};
 
 /// Animated body together with the observer that sees it.
 #[derive(Clone, Debug)]
-pub struct Course {
+pub struct ObservedBody {
     animated: Arc<Animated>,
     observer: Observer,
     bend: TriangleInterpolation,
@@ -23,7 +23,7 @@ pub struct Course {
 
 /// Point of an animated body as the observer sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct SeenPoint {
     /// Retarded event: the event in the world at which the light left the point.
     pub event: Event,
     /// Apparent position relative to the observer, observer's axes, metres.
@@ -32,7 +32,7 @@ pub struct Seen {
     pub doppler: f64,
 }
 
-impl Course {
+impl ObservedBody {
     /// Pairs an animated body with one observer.
     pub fn new(animated: &Arc<Animated>, observer: &Observer) -> Self {
         Self {
@@ -49,7 +49,7 @@ impl Course {
     /// *Equation:* D = D_observer / D_source, each γ + u·n with n in the world towards the source.
     ///
     /// *Accuracy:* 1e-9, and far better (tests/tests/animated.rs).
-    pub fn seen(&self, place: DVec3) -> Option<Seen> {
+    pub fn seen(&self, place: DVec3) -> Option<SeenPoint> {
         let found = retarded(self.observer.event, &self.animated.point(place)).ok()?;
         let towards = found.position - self.observer.event.position;
         let apparent = self.bend.apparent(towards);
@@ -57,7 +57,7 @@ impl Course {
         let doppler =
             self.aberration.observer_from_world(towards).1 / Aberration::new(sent).observer_from_world(towards).1;
         let event = Event { ct: found.ct, position: found.position };
-        (apparent.is_finite() && doppler > 0.0).then_some(Seen { event, apparent, doppler })
+        (apparent.is_finite() && doppler > 0.0).then_some(SeenPoint { event, apparent, doppler })
     }
 
     /// Observer that sees the body.

@@ -14,7 +14,7 @@ use physics::{Aberration, Celerity, Observer};
 
 /// Irradiance of a diffuse surface by its normal: weights on the sky's carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Falling {
+pub struct Irradiance {
     /// Unit vector towards the sun, surface's frame.
     pub sun_direction: DVec3,
     /// Light of the sun on a surface that faces it.
@@ -23,7 +23,7 @@ pub struct Falling {
     pub ambient: [DVec4; 3],
 }
 
-impl Falling {
+impl Irradiance {
     /// Light on meshes that rest in the world.
     pub fn at_rest(light: &Lighting) -> Self {
         let [sky, ground, sun] = [light.sky, light.ground, light.sun].map(|colour| Vec3::from_array(colour).as_dvec3());
@@ -116,7 +116,7 @@ mod tests {
 
     /// Means over directions of the moving frame: mean of L', and mean of L' times the direction.
     fn summed(light: &Lighting, celerity: Celerity, carrier: &Carrier) -> (DVec3, [DVec3; 3]) {
-        let rest = Falling::at_rest(light);
+        let rest = Irradiance::at_rest(light);
         let object = Aberration::new(celerity);
         let back = carrier.rgb_from_weights(1.0).inverse();
         let count = 4000;
@@ -141,11 +141,12 @@ mod tests {
     #[test]
     fn at_rest_light_is_the_scenes_own() {
         let light = Lighting::default();
-        let falling = Falling::on_moving(&light, Celerity::ZERO, &Carrier::white());
-        assert_eq!(falling.on(DVec3::Y, 0.0), Vec3::from_array(light.sky).as_dvec3());
-        let below = falling.on(DVec3::NEG_Y, 0.0) - Vec3::from_array(light.ground).as_dvec3();
+        let irradiance = Irradiance::on_moving(&light, Celerity::ZERO, &Carrier::white());
+        assert_eq!(irradiance.on(DVec3::Y, 0.0), Vec3::from_array(light.sky).as_dvec3());
+        let below = irradiance.on(DVec3::NEG_Y, 0.0) - Vec3::from_array(light.ground).as_dvec3();
         assert!(below.length() < 1e-15);
-        let facing = falling.on(light.sun_direction.as_dvec3(), 1.0) - falling.on(light.sun_direction.as_dvec3(), 0.0);
+        let facing =
+            irradiance.on(light.sun_direction.as_dvec3(), 1.0) - irradiance.on(light.sun_direction.as_dvec3(), 0.0);
         assert!((facing - Vec3::from_array(light.sun).as_dvec3()).length() < 1e-6);
     }
 
@@ -153,12 +154,12 @@ mod tests {
     fn the_hemisphere_of_a_moving_surface_is_the_worlds_boosted() {
         let (light, carrier) = (Lighting::default(), Carrier::white());
         for beta in [DVec3::X * 0.1, DVec3::new(0.3, -0.2, 0.6), DVec3::Y * -0.9] {
-            let falling = Falling::on_moving(&light, celerity(beta), &carrier);
+            let irradiance = Irradiance::on_moving(&light, celerity(beta), &carrier);
             let (mean, sums) = summed(&light, celerity(beta), &carrier);
             for channel in 0..3 {
                 let scale = mean.length();
-                assert!((falling.ambient[channel].w - mean[channel]).abs() < 0.01 * scale, "{beta}");
-                let slope = falling.ambient[channel].truncate();
+                assert!((irradiance.ambient[channel].w - mean[channel]).abs() < 0.01 * scale, "{beta}");
+                let slope = irradiance.ambient[channel].truncate();
                 assert!((slope - 2.0 * sums[channel]).length() < 0.02 * scale, "{beta}: {slope} {:?}", sums[channel]);
             }
         }
@@ -169,13 +170,13 @@ mod tests {
         // The body flies into the sun at 0.6 c: D = 2. Grey light of a white carrier keeps about its colour.
         let light = Lighting { sun: [1.0; 3], sun_direction: Vec3::X, ..Lighting::default() };
         let carrier = Carrier::white();
-        let falling = Falling::on_moving(&light, celerity(DVec3::X * 0.6), &carrier);
-        assert!((falling.sun_direction - DVec3::X).length() < 1e-15);
-        let seen = carrier.rgb_from_weights(1.0) * falling.sun;
+        let irradiance = Irradiance::on_moving(&light, celerity(DVec3::X * 0.6), &carrier);
+        assert!((irradiance.sun_direction - DVec3::X).length() < 1e-15);
+        let seen = carrier.rgb_from_weights(1.0) * irradiance.sun;
         let shifted = carrier.rgb_from_weights(2.0) * DVec3::ONE * 4.0;
         assert!((seen - shifted).length() < 1e-9 * shifted.length(), "{seen} {shifted}");
         // Light from abeam comes from ahead in the body's frame: cos θ' = β, D = γ.
-        let abeam = Falling::on_moving(&light, celerity(DVec3::NEG_Z * 0.6), &carrier);
+        let abeam = Irradiance::on_moving(&light, celerity(DVec3::NEG_Z * 0.6), &carrier);
         assert!((abeam.sun_direction - DVec3::new(0.8, 0.0, -0.6)).length() < 1e-15);
     }
 }

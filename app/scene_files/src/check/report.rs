@@ -1,0 +1,135 @@
+//! Report on the contents of a scene.
+
+use std::fmt;
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::descriptions::{moving, spectra};
+use super::survey::Survey;
+use super::warnings::warnings;
+use crate::read::{SceneReadError, read};
+use scene::collision::Collision;
+use scene::{Scene, SceneFault};
+
+/// Reason why there is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// A file that gives no scene.
+    #[error(transparent)]
+    Load(#[from] SceneReadError),
+    /// A scene that breaks a promise of its types.
+    #[error(transparent)]
+    Damaged(#[from] SceneFault),
+}
+
+/// Report on the contents of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Name of the scene.
+    pub name: String,
+    /// Number of meshes.
+    pub meshes: usize,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of materials.
+    pub materials: usize,
+    /// Number of textures.
+    pub textures: usize,
+    /// Size of all textures without mipmaps, in bytes.
+    pub texture_bytes: usize,
+    /// Spectra, each with the materials or lights that have it.
+    pub spectra: Vec<String>,
+    /// Luminance that is shown as white, cd/m², if the scene sets it.
+    pub white: Option<f64>,
+    /// Width and height of the panorama, in pixels, if there is one.
+    pub panorama: Option<[u32; 2]>,
+    /// Motions, one line each: the moving body, its motion and its largest speed.
+    pub moving: Vec<String>,
+    /// Least and greatest corner of the box round all finite vertices, world metres; `None` if there are none.
+    pub bounds: Option<[DVec3; 2]>,
+    /// Length of the longest finite edge, metres; `refine` would split it first.
+    pub longest_edge: f64,
+    /// Features that the file asks for and that are not drawn.
+    pub notices: Vec<String>,
+    /// Likely mistakes that disturb an observer, each with advice.
+    pub warnings: Vec<String>,
+}
+
+/// Loads a file and reports on it.
+///
+/// # Errors
+/// [`CheckError`] if the file gives no scene.
+pub fn check(path: &Path) -> Result<Report, CheckError> {
+    Ok(Report::new(&read(path, |_| {})?)?)
+}
+
+impl Report {
+    /// Surveys every triangle once.
+    ///
+    /// # Errors
+    /// [`SceneFault`] if the scene breaks a promise of its types.
+    pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
+        let collision = Collision::new(scene)?;
+        let survey = Survey::of(scene);
+        let bounds = survey.bounds.map(|bounds| bounds.map(|corner| scene.origin + corner));
+        Ok(Self {
+            name: scene.name.clone(),
+            meshes: scene.meshes.len(),
+            triangles: scene.triangle_count(),
+            vertices: scene.vertex_count(),
+            materials: scene.materials.len(),
+            textures: scene.textures.len(),
+            texture_bytes: scene.textures.iter().map(|texture| texture.rgba.len()).sum(),
+            spectra: spectra(scene),
+            white: scene.white,
+            panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
+            moving: moving(scene),
+            bounds,
+            longest_edge: survey.longest_edge,
+            notices: scene.notices.clone(),
+            warnings: warnings(scene, &survey, &collision),
+        })
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "scene       {}", self.name)?;
+        writeln!(f, "triangles   {}, {} vertices, {} meshes", self.triangles, self.vertices, self.meshes)?;
+        let megabytes = self.texture_bytes as f64 / 1e6;
+        writeln!(f, "materials   {}, {} textures of {megabytes:.1} MB", self.materials, self.textures)?;
+        for spectrum in &self.spectra {
+            writeln!(f, "spectrum    {spectrum}")?;
+        }
+        if let Some(white) = self.white {
+            writeln!(f, "white       {white} cd/m²")?;
+        }
+        if let Some([width, height]) = self.panorama {
+            writeln!(f, "panorama    {width} × {height} pixels")?;
+        }
+        if let Some([least, most]) = self.bounds {
+            let size = most - least;
+            writeln!(f, "size        {:.3} × {:.3} × {:.3} m (x, y, z)", size.x, size.y, size.z)?;
+            writeln!(f, "from        {:.3}, {:.3}, {:.3} m", least.x, least.y, least.z)?;
+            writeln!(f, "to          {:.3}, {:.3}, {:.3} m", most.x, most.y, most.z)?;
+        }
+        for moving in &self.moving {
+            writeln!(f, "moves       {moving}")?;
+        }
+        writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
+        for notice in &self.notices {
+            writeln!(f, "notice:     {notice}")?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "warning:    {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

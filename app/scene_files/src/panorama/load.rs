@@ -1,0 +1,37 @@
+//! Pictures as scenes without meshes.
+
+use std::fs;
+use std::path::Path;
+
+use super::decode::decode;
+use super::error::PanoramaError;
+use scene::{Lighting, Scene};
+
+/// File name endings of pictures.
+const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
+
+/// True if a file is a picture, judged by its name.
+pub fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
+}
+
+/// Loads a picture as a scene without meshes: the observer is in its middle and looks at the middle of the picture.
+///
+/// # Errors
+/// [`PanoramaError`].
+pub fn load(path: &Path) -> Result<Scene, PanoramaError> {
+    let cannot_read = |error| PanoramaError::Read { path: path.into(), error };
+    // Only regular files are read: reading a pipe would never end.
+    if !fs::metadata(path).map_err(cannot_read)?.is_file() {
+        return Err(PanoramaError::Format { path: path.into() });
+    }
+    let mut notices = Vec::new();
+    let panorama = decode(&fs::read(path).map_err(cannot_read)?, path, |notice| notices.push(notice))?;
+    Ok(Scene {
+        name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        panorama: Some(panorama),
+        light: Lighting { shadows: false, ..Lighting::default() },
+        notices,
+        ..Scene::default()
+    })
+}
