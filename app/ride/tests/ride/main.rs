@@ -5,4 +5,5 @@ mod tour;
 mod town;
 mod vehicle_bicycle;
 mod vehicle_flight;
+mod vehicle_gaze;
 mod vehicle_walls;
