@@ -14,6 +14,8 @@
 //! # Ok::<(), probe::ProbeError>(())
 //! ```
 
+#![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
+
 mod answers;
 mod error;
 mod json;

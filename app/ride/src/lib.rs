@@ -1,6 +1,8 @@
 //! Samples in, observers out: the vehicle that a rider drives, the ticks of its simulation, replays, the scripted tour,
 //! and the log of a ride.
 
+#![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
+
 mod frame;
 mod log;
 mod replay;

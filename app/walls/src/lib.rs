@@ -10,6 +10,8 @@
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
 //!   developed, multiplied by its projector's gains, and put into its window.
 
+#![deny(clippy::print_stdout, clippy::print_stderr, reason = "only the program prints")]
+
 pub mod calibration;
 mod combine;
 mod curved;
