@@ -16,7 +16,7 @@ pub mod vehicle;
 pub use frame::RideFrame;
 pub use log::{LogError, RideLog};
 pub use replay::{Replay, ReplayError, Replayed};
-pub use setup::{Setup, SetupError, RideStart};
+pub use setup::{RideStart, Setup, SetupError};
 pub use simulation::{FASTEST_TIME_SCALE, Simulation};
 pub use ticks::TICKS_PER_SECOND;
 pub use tour::Tour;

@@ -5,7 +5,7 @@
 
 use crate::frame::RideFrame;
 use input::Sample;
-use input::recording::{ControlsRecord, RecordingEntry, RideHeader, Recorder, RecordingError};
+use input::recording::{ControlsRecord, Recorder, RecordingEntry, RecordingError, RideHeader};
 use std::path::Path;
 use thiserror::Error;
 
@@ -51,7 +51,11 @@ impl RideLog {
         let (number, at) = (frame.record.frame, frame.record.at);
         if let Some(entries) = &mut self.kept {
             entries.extend(samples.iter().cloned().map(RecordingEntry::Sample));
-            entries.push(RecordingEntry::Controls(ControlsRecord { frame: number, at, controls: frame.controls.clone() }));
+            entries.push(RecordingEntry::Controls(ControlsRecord {
+                frame: number,
+                at,
+                controls: frame.controls.clone(),
+            }));
             entries.push(RecordingEntry::Frame(frame.record.clone()));
             if entries.len() >= MOST_ENTRIES {
                 self.kept = None;

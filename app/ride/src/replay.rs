@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use input::recording::{FrameDifference, RecordingEntry, Recording, RecordingError};
+use input::recording::{FrameDifference, Recording, RecordingEntry, RecordingError};
 use input::{Controls, Sample};
 use thiserror::Error;
 
@@ -86,7 +86,7 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
     }
 }
 
-/// RideFrame that was simulated again.
+/// Frame that was simulated again, and its difference from the recorded one.
 #[derive(Clone, Debug)]
 pub struct Replayed {
     /// Simulated frame.

@@ -8,12 +8,12 @@
 //! there is any.
 
 use glam::DVec3;
-use physics::worldline::{Control, FacingMotion, WorldlineState, Thrust, Transport};
+use physics::worldline::{Control, FacingMotion, Thrust, Transport, WorldlineState};
 
 use super::ground::{GroundCourse, heading, upright};
-use super::settings::{FlightSettings, Nose};
-use super::safe_controls::SafeControls;
 use super::light_speed::LightSpeed;
+use super::safe_controls::SafeControls;
+use super::settings::{FlightSettings, Nose};
 
 /// Celerity below which the nose no longer follows the motion.
 const SOFTENING: f64 = 0.05;
@@ -30,12 +30,17 @@ pub(super) struct FlightControl<'a> {
     light_speed: LightSpeed,
     controls: &'a SafeControls,
     transport: Transport,
-    /// GroundCourse of the ground ahead; `None` in flight.
+    /// Course along the ground ahead; `None` in flight.
     course: Option<GroundCourse>,
 }
 
 impl<'a> FlightControl<'a> {
-    pub(super) fn new(settings: &'a FlightSettings, light_speed: LightSpeed, controls: &'a SafeControls, course: Option<GroundCourse>) -> Self {
+    pub(super) fn new(
+        settings: &'a FlightSettings,
+        light_speed: LightSpeed,
+        controls: &'a SafeControls,
+        course: Option<GroundCourse>,
+    ) -> Self {
         let alignment = ALIGNMENT_PER_S / light_speed.speed_of_light_m_s();
         let transport = match settings.nose {
             Nose::FacesMotion => Transport::FacingMotion(FacingMotion { softening: SOFTENING, alignment }),

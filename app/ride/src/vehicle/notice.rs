@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-
 /// Largest rapidity of a vehicle, γ = 2.7e11. There, a boost and its inverse in f64 are off by |δu| ≈ εγ = 6e-5
 /// (NUMERICS).
 pub const RAPIDITY_CAP: f64 = 27.0;
