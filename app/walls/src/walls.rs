@@ -32,8 +32,9 @@ pub struct Walls {
     pub display: Display,
     pub(crate) quality: Quality,
     pub(crate) pictures: Vec<ChannelPicture>,
+    /// Passes that develop pictures for the screens.
     pub(crate) passes: Developer,
-    /// Passes as above, for pictures in linear light.
+    /// Passes that develop pictures into linear light.
     pub(crate) linear_passes: Developer,
     /// Combiners of both eyes' pictures, one entry per window.
     pub(crate) combiners: Vec<Option<Combiner>>,
