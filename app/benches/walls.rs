@@ -23,7 +23,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
 use view::{Camera, Dial, Effects, Occasion};
-use walls::{Head, Occupant, Quality, Walls};
+use walls::{RoomHead, Occupant, Quality, Walls};
 
 /// Side of a wall, pixels.
 const SIDE: u32 = 320;
@@ -111,7 +111,7 @@ impl Row {
         Ok(Self {
             name: name.to_owned(),
             renderer: SceneRenderer::new(gpu, scene, format, None, dial, Occasion::Ride)?,
-            occupant: Occupant { vehicle, head: Head::at_rest(display.viewer.head_m) },
+            occupant: Occupant { vehicle, head: RoomHead::at_rest(display.viewer.head_m) },
             walls: Walls::new(gpu, display, quality, SCREEN),
             screens,
             frames: Vec::new(),

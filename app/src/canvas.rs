@@ -7,7 +7,7 @@ use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use view::{Effects, Gaze, Shot, Stored};
-use walls::preview::{Onlooker, Preview};
+use walls::preview::{RoomOnlooker, Preview};
 use walls::{DrawnChannels, Occupant, SubmittedRoom, Walls};
 
 /// Target of a ride's frames.
@@ -36,7 +36,7 @@ pub struct RoomPreview {
     pub walls: Walls,
     preview: Preview,
     /// Point of view from outside.
-    pub onlooker: Onlooker,
+    pub onlooker: RoomOnlooker,
     /// True while a mouse button turns the view.
     pub held: bool,
     occupant: Option<Occupant>,
@@ -64,7 +64,7 @@ pub struct Watcher {
     /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
     pub vehicle: physics::worldline::WorldlineState,
     /// Head in the vehicle's room, if one is tracked.
-    pub head: Option<walls::Head>,
+    pub head: Option<walls::RoomHead>,
 }
 
 impl Submitted {
@@ -91,7 +91,7 @@ impl Canvas {
     /// The room itself, seen from outside.
     pub fn preview(gpu: &Gpu, walls: Walls, screen: wgpu::TextureFormat) -> Self {
         let preview = Preview::new(gpu, &walls, screen);
-        let onlooker = Onlooker::outside(&walls);
+        let onlooker = RoomOnlooker::outside(&walls);
         Self::Preview(Box::new(RoomPreview { walls, preview, onlooker, held: false, occupant: None }))
     }
 
@@ -122,7 +122,7 @@ impl Canvas {
             let pending = renderer.submit(gpu, &shot.observer, effects)?;
             return Ok(Submitted::Picture { shot, pending });
         };
-        let head = watcher.head.unwrap_or(walls::Head::at_rest(walls.display.viewer.head_m));
+        let head = watcher.head.unwrap_or(walls::RoomHead::at_rest(walls.display.viewer.head_m));
         let occupant = Occupant { vehicle: watcher.vehicle, head };
         Ok(Submitted::Room(walls.submit(gpu, renderer, &occupant, effects)?))
     }

@@ -7,7 +7,7 @@ use physics::colour::{Spectrum, SpectrumError};
 use physics::{Beta, Celerity, CelerityError, Event, Observer};
 
 use crate::error::ProbeError;
-use crate::json::{Node, quoted};
+use crate::json::{JsonNode, quoted};
 
 const NUMBER: &str = "a number";
 const VECTOR: &str = "a list of three numbers [x, y, z]";
@@ -22,25 +22,25 @@ const COLOUR: &str = "a list of three numbers [red, green, blue]";
 const OBJECT: &str = "an object";
 
 /// A value and its path in the question.
-pub(super) struct Place<'a> {
+pub(super) struct QuestionValue<'a> {
     path: String,
-    node: &'a Node,
+    node: &'a JsonNode,
 }
 
 /// An object in the question, without duplicate keys.
-pub(super) struct Keys<'a> {
+pub(super) struct QuestionKeys<'a> {
     path: String,
-    entries: &'a [(String, Node)],
+    entries: &'a [(String, JsonNode)],
 }
 
-impl<'a> Place<'a> {
+impl<'a> QuestionValue<'a> {
     pub(super) fn wrong(&self, expected: &'static str) -> ProbeError {
         ProbeError::Wrong { key: self.path.clone(), found: self.node.to_string(), expected }
     }
 
     pub(super) fn number(&self) -> Result<f64, ProbeError> {
         match self.node {
-            Node::Number(number) => Ok(*number),
+            JsonNode::Number(number) => Ok(*number),
             _ => Err(self.wrong(NUMBER)),
         }
     }
@@ -52,28 +52,28 @@ impl<'a> Place<'a> {
 
     pub(super) fn text(&self, expected: &'static str) -> Result<&'a str, ProbeError> {
         match self.node {
-            Node::Text(text) => Ok(text),
+            JsonNode::Text(text) => Ok(text),
             _ => Err(self.wrong(expected)),
         }
     }
 
     /// Entries of a list of any length.
-    pub(super) fn list(&self, expected: &'static str) -> Result<Vec<Place<'a>>, ProbeError> {
-        let Node::List(entries) = self.node else { return Err(self.wrong(expected)) };
+    pub(super) fn list(&self, expected: &'static str) -> Result<Vec<QuestionValue<'a>>, ProbeError> {
+        let JsonNode::List(entries) = self.node else { return Err(self.wrong(expected)) };
         Ok(entries.iter().enumerate().map(|(index, node)| self.entry(index, node)).collect())
     }
 
     /// Entries of a list of this length.
-    pub(super) fn list_of<const N: usize>(&self, expected: &'static str) -> Result<[Place<'a>; N], ProbeError> {
+    pub(super) fn list_of<const N: usize>(&self, expected: &'static str) -> Result<[QuestionValue<'a>; N], ProbeError> {
         match self.node {
-            Node::List(entries) if entries.len() == N => {
+            JsonNode::List(entries) if entries.len() == N => {
                 Ok(std::array::from_fn(|index| self.entry(index, &entries[index])))
             }
             _ => Err(self.wrong(expected)),
         }
     }
 
-    fn entry(&self, index: usize, node: &'a Node) -> Self {
+    fn entry(&self, index: usize, node: &'a JsonNode) -> Self {
         Self { path: format!("{}[{index}]", self.path), node }
     }
 
@@ -96,9 +96,9 @@ impl<'a> Place<'a> {
     }
 
     /// Object that has only the known keys.
-    pub(super) fn object(&self, expected: &'static str, known: &[&str]) -> Result<Keys<'a>, ProbeError> {
-        let Node::Object(entries) = self.node else { return Err(self.wrong(expected)) };
-        let keys = Keys::new(self.path.clone(), entries)?;
+    pub(super) fn object(&self, expected: &'static str, known: &[&str]) -> Result<QuestionKeys<'a>, ProbeError> {
+        let JsonNode::Object(entries) = self.node else { return Err(self.wrong(expected)) };
+        let keys = QuestionKeys::new(self.path.clone(), entries)?;
         keys.only(known)?;
         Ok(keys)
     }
@@ -110,7 +110,7 @@ impl<'a> Place<'a> {
     /// Velocity under its own key. Three numbers are a celerity; an object has the key `celerity` or `beta`.
     pub(super) fn velocity(&self) -> Result<Celerity, ProbeError> {
         match self.node {
-            Node::Object(_) => self.object(OBJECT, &["celerity", "beta"])?.velocity(),
+            JsonNode::Object(_) => self.object(OBJECT, &["celerity", "beta"])?.velocity(),
             _ => self.velocity_from(Celerity::new),
         }
     }
@@ -151,16 +151,16 @@ impl<'a> Place<'a> {
     }
 }
 
-impl<'a> Keys<'a> {
+impl<'a> QuestionKeys<'a> {
     /// Keys of the whole line.
-    pub(super) fn of_line(node: &'a Node) -> Result<Self, ProbeError> {
+    pub(super) fn of_line(node: &'a JsonNode) -> Result<Self, ProbeError> {
         match node {
-            Node::Object(entries) => Self::new(String::new(), entries),
+            JsonNode::Object(entries) => Self::new(String::new(), entries),
             _ => Err(ProbeError::NotAnObject { found: node.to_string() }),
         }
     }
 
-    fn new(path: String, entries: &'a [(String, Node)]) -> Result<Self, ProbeError> {
+    fn new(path: String, entries: &'a [(String, JsonNode)]) -> Result<Self, ProbeError> {
         let keys = Self { path, entries };
         let mut seen = HashSet::new();
         match entries.iter().find(|(key, _)| !seen.insert(key)) {
@@ -177,12 +177,12 @@ impl<'a> Keys<'a> {
         }
     }
 
-    pub(super) fn optional(&self, key: &str) -> Option<Place<'a>> {
+    pub(super) fn optional(&self, key: &str) -> Option<QuestionValue<'a>> {
         let (_, node) = self.entries.iter().find(|(name, _)| name == key)?;
-        Some(Place { path: self.path_of(key), node })
+        Some(QuestionValue { path: self.path_of(key), node })
     }
 
-    pub(super) fn required(&self, key: &str, expected: &'static str) -> Result<Place<'a>, ProbeError> {
+    pub(super) fn required(&self, key: &str, expected: &'static str) -> Result<QuestionValue<'a>, ProbeError> {
         self.optional(key).ok_or_else(|| ProbeError::Missing { key: self.path_of(key), expected })
     }
 
@@ -203,7 +203,7 @@ impl<'a> Keys<'a> {
     }
 
     /// Keys of a source.
-    pub(super) fn source(&self, key: &str) -> Result<Keys<'a>, ProbeError> {
+    pub(super) fn source(&self, key: &str) -> Result<QuestionKeys<'a>, ProbeError> {
         self.required(key, SOURCE)?.object(SOURCE, &["position", "celerity", "beta"])
     }
 

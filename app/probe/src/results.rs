@@ -8,9 +8,9 @@ use crate::error::ProbeError;
 
 /// An answer that is filled key by key. A number that is not finite has no JSON form and is an error.
 #[derive(Debug, Default)]
-pub(super) struct Answer(Map<String, Value>);
+pub(super) struct AnswerObject(Map<String, Value>);
 
-impl Answer {
+impl AnswerObject {
     pub(super) fn number(self, key: &'static str, number: f64) -> Result<Self, ProbeError> {
         finite(key, &[number])?;
         Ok(self.with(key, number.into()))

@@ -6,13 +6,13 @@ use view::Gaze;
 
 use crate::vehicle::{Notice, Vehicle};
 
-/// One frame: what it shows, and what is recorded of it.
+/// One frame of a ride: the view that is shown, and the numbers that are recorded.
 #[derive(Clone, Debug)]
 pub struct RideFrame {
     /// Numbers that a replay has to reproduce to the bit.
     pub record: FrameRecord,
-    /// Controls of the last tick, with all actions since the last frame. Actions that concern the ride itself have
-    /// been performed.
+    /// Controls of the last tick, with all actions since the last frame. Actions that concern the ride itself have been
+    /// performed already.
     pub controls: Controls,
     /// View that the frame shows.
     pub gaze: Gaze,

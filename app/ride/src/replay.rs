@@ -86,7 +86,7 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
     }
 }
 
-/// RideFrame that was simulated again.
+/// Frame that was simulated again, and its difference from the recorded one.
 #[derive(Clone, Debug)]
 pub struct Replayed {
     /// Simulated frame.

@@ -1,4 +1,4 @@
-//! Closed way on the ground: the nearest length along it, the points ahead, and its curvature. Heights are ignored.
+//! Closed route on the ground: the nearest length along it, the points ahead, and its curvature. Heights are ignored.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use glam::DVec3;
 pub(super) struct Route {
     /// Corners, level; the first one is repeated at the end.
     points: Vec<DVec3>,
-    /// Length of the way up to each corner, metres.
+    /// Length of the route up to each corner, metres.
     along: Vec<f64>,
 }
 
-/// Distance from the expected place beyond which the whole way is searched, metres.
+/// Distance from the expected place beyond which the whole route is searched, metres.
 const LOST_M: f64 = 8.0;
 
 impl Route {
@@ -45,7 +45,7 @@ impl Route {
         self.points[next - 1].lerp(self.points[next], (along_m - from) / (to - from))
     }
 
-    /// Length at which the way is nearest to `position`, metres. The search prefers lengths close to `before_m`; that
+    /// Length at which the route is nearest to `position`, metres. The search prefers lengths close to `before_m`; that
     /// is NaN if no earlier length is known.
     pub(super) fn nearest(&self, position: DVec3, before_m: f64) -> f64 {
         let position = DVec3 { y: 0.0, ..position };
@@ -70,7 +70,7 @@ impl Route {
         feet.filter(|(along_m, _)| admitted(*along_m)).min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// Curvature of the way at this length, radians per metre: of the circle through this point and the points
+    /// Curvature of the route at this length, radians per metre: of the circle through this point and the points
     /// `spacing_m` before and after it.
     pub(super) fn curvature(&self, along_m: f64, spacing_m: f64) -> f64 {
         let [a, b, c] = [-spacing_m, 0.0, spacing_m].map(|shift| self.point(along_m + shift));
@@ -82,6 +82,8 @@ impl Route {
 
 #[cfg(test)]
 mod tests {
+    //! Law under test: a closed route has the length and the curvature of its curve, and the nearest point moves
+    //! along it steadily. A wrong program jumps to the other branch at a crossing, or loses a round.
     use super::*;
 
     fn circle(radius: f64) -> Route {
@@ -96,41 +98,41 @@ mod tests {
 
     #[test]
     fn a_circle_has_its_length_and_curvature() {
-        let way = circle(8.0);
+        let route = circle(8.0);
         // A polygon of 720 corners is shorter by (π/720)²/6.
-        assert!((way.length() / (std::f64::consts::TAU * 8.0) - 1.0).abs() < 4e-6);
+        assert!((route.length() / (std::f64::consts::TAU * 8.0) - 1.0).abs() < 4e-6);
         for along_m in [0.0, 13.0, 50.0] {
-            assert!((way.curvature(along_m, 1.5) - 1.0 / 8.0).abs() < 1e-3);
-            assert!((way.point(along_m).length() - 8.0).abs() < 1e-3);
+            assert!((route.curvature(along_m, 1.5) - 1.0 / 8.0).abs() < 1e-3);
+            assert!((route.point(along_m).length() - 8.0).abs() < 1e-3);
         }
     }
 
     #[test]
     fn rounds_are_counted_on() {
-        let way = circle(8.0);
-        assert!(way.point(1.0).distance(way.point(1.0 + 3.0 * way.length())) < 1e-9);
-        assert!(way.point(-1.0).distance(way.point(way.length() - 1.0)) < 1e-9);
+        let route = circle(8.0);
+        assert!(route.point(1.0).distance(route.point(1.0 + 3.0 * route.length())) < 1e-9);
+        assert!(route.point(-1.0).distance(route.point(route.length() - 1.0)) < 1e-9);
     }
 
     #[test]
-    fn where_a_way_meets_itself_one_stays_on_his_own_branch() {
+    fn at_a_crossing_the_nearest_point_stays_on_its_branch() {
         // A figure of eight: at the crossing both branches are equally near.
         let corners = [(-10.0, -10.0), (10.0, 10.0), (20.0, 0.0), (10.0, -10.0), (-10.0, 10.0), (-20.0, 0.0)];
         let corners = corners.map(|(x, z)| DVec3::new(x, 0.0, z));
-        let way = Route::new(&corners).unwrap();
+        let route = Route::new(&corners).unwrap();
         let first = 200f64.sqrt();
         let second = 3.0 * first + 2.0 * first;
         for expected in [first, second] {
-            let along_m = way.nearest(DVec3::new(0.0, 5.0, 0.0), expected - 1.0);
+            let along_m = route.nearest(DVec3::new(0.0, 5.0, 0.0), expected - 1.0);
             assert!((along_m - expected).abs() < 1e-9, "{along_m} instead of {expected}");
         }
         // A position far from the expected one is still found.
-        assert!((way.nearest(DVec3::new(21.0, 0.0, 0.0), 0.0) - 3.0 * first).abs() < 1e-9);
-        assert!((way.nearest(DVec3::new(-10.0, 0.0, -10.0), f64::NAN)).abs() < 1e-9);
+        assert!((route.nearest(DVec3::new(21.0, 0.0, 0.0), 0.0) - 3.0 * first).abs() < 1e-9);
+        assert!((route.nearest(DVec3::new(-10.0, 0.0, -10.0), f64::NAN)).abs() < 1e-9);
     }
 
     #[test]
-    fn a_way_that_leads_nowhere_is_none() {
+    fn a_route_needs_three_finite_corners() {
         let (a, b) = (DVec3::X, DVec3::Z);
         assert!(Route::new(&[]).is_none());
         assert!(Route::new(&[a, b]).is_none());

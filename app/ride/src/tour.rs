@@ -1,11 +1,11 @@
-//! Built-in tour: a simulated rider who follows a closed way round a scene, for films and demonstrations without a
-//! person on the bicycle.
+//! Built-in tour: a simulated rider on a closed route round a scene, for films and demonstrations without a person on
+//! the bicycle.
 //!
-//! The rider takes no short cut through the program. The rider sits on an instrumented bicycle and produces what its
-//! sensors would send, as lines of the `B1` protocol ([`input::bicycle`]); these pass through the real decoder and
-//! may be recorded. The rider steers towards a point of the way a little ahead (pure pursuit: δ = atan(2 L sin α /
-//! l), α the bearing of that point at the distance l), slows down before bends, and pulls the brake where coasting is
-//! not enough. The answers depend on the vehicle and the time alone, so a tour repeats to the bit.
+//! The rider takes no short cut through the program: it produces the lines of the `B1` protocol ([`input::bicycle`])
+//! that the sensors of an instrumented bicycle would send. These pass through the real decoder and may be recorded.
+//! The rider steers towards a point of the route a little ahead (pure pursuit: δ = atan(2 L sin α / l), α the bearing
+//! of that point at the distance l), slows down before bends, and pulls the brake where coasting is not enough. Its
+//! samples depend on the vehicle and the time alone, so a tour repeats to the bit.
 
 use glam::{DQuat, DVec3};
 use input::line::sealed;
@@ -32,15 +32,15 @@ const AIM_M: f64 = 1.8;
 /// Pull of the brake lever per m/s of excess speed, and its largest pull, which stays within the first stage.
 const LEVER_PER_M_S: f64 = 0.3;
 const FARTHEST_LEVER: f64 = 0.45;
-/// Route per turn of the crank, metres.
+/// Distance per turn of the crank, metres.
 const DEVELOPMENT_M: f64 = 5.5;
 /// Largest angle of the handlebar, radians.
 const FARTHEST_STEER_RAD: f64 = 0.8;
 
-/// Simulated rider who follows a way.
+/// Simulated rider that follows a closed route.
 #[derive(Clone, Debug)]
 pub struct Tour {
-    way: Route,
+    route: Route,
     bicycle: BicycleConfig,
     /// Number of lines produced so far.
     lines: u64,
@@ -48,7 +48,7 @@ pub struct Tour {
     wheel_m_s: f64,
     wheel: Magnet,
     crank: Magnet,
-    /// Present length along the way, metres.
+    /// Present length along the route, metres.
     along_m: f64,
 }
 
@@ -56,13 +56,13 @@ impl Tour {
     /// Top speed of the rider, m/s: 25 km/h, a celerity of 5/6 in the old town.
     pub const CRUISE_M_S: f64 = 25.0 / 3.6;
 
-    /// Creates a rider for a closed way, a polyline on the ground, on a bicycle whose sensors are calibrated as
-    /// [`BicycleConfig::default`] says. `None` if the way has fewer than three different corners, or one that is not
+    /// Creates a rider for a closed route, a polyline on the ground, on a bicycle whose sensors are calibrated as
+    /// [`BicycleConfig::default`] says. `None` if the route has fewer than three different corners, or one that is not
     /// finite.
     pub fn new(circuit: &[DVec3]) -> Option<Self> {
         let bicycle = BicycleConfig::default();
         Some(Self {
-            way: Route::new(circuit)?,
+            route: Route::new(circuit)?,
             lines: 0,
             wheel_m_s: 0.0,
             wheel: Magnet::new(bicycle.metres_per_pulse()),
@@ -100,11 +100,11 @@ impl Tour {
     fn decide(&mut self, vehicle: &Vehicle) -> (f64, f64, f64) {
         let state = vehicle.state();
         let speed = vehicle.light_speed().metres_per_own_second(state.celerity.magnitude());
-        self.along_m = self.way.nearest(state.position, self.along_m);
+        self.along_m = self.route.nearest(state.position, self.along_m);
 
         // The rider steers towards a point ahead.
         let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
-        let aim = self.way.point(self.along_m + AIM_M.max(AIM_S * speed));
+        let aim = self.route.point(self.along_m + AIM_M.max(AIM_S * speed));
         let (ahead, left) = in_plane(state.orientation, aim - state.position);
         let steer_rad = (2.0 * wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE)).atan();
         // A point behind is turned to as sharply as possible.
@@ -113,7 +113,7 @@ impl Tour {
         // The rider slows down in time for the bends ahead.
         let looks = (0..).map(|n| f64::from(n) * OUTLOOK_SPACING_M).take_while(|&distance| distance < OUTLOOK_M);
         let wanted_m_s = looks.fold(Self::CRUISE_M_S, |slowest, distance| {
-            let bend_m_s = BEND_RAD_S / self.way.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
+            let bend_m_s = BEND_RAD_S / self.route.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
             slowest.min(bend_m_s.hypot((2.0 * FORESIGHT_M_S2 * distance).sqrt()))
         });
         let brake = (LEVER_PER_M_S * (speed - wanted_m_s)).clamp(0.0, FARTHEST_LEVER);
@@ -154,9 +154,9 @@ fn in_plane(orientation: DQuat, displacement: DVec3) -> (f64, f64) {
 /// Magnet on a wheel, and the sensor that counts its passes.
 #[derive(Clone, Debug)]
 struct Magnet {
-    /// Route between two pulses, metres.
+    /// Distance between two pulses, metres.
     spacing_m: f64,
-    /// Route since the last pulse, metres.
+    /// Distance since the last pulse, metres.
     since_m: f64,
     pulses: u32,
     last_us: u32,

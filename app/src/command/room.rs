@@ -4,7 +4,7 @@ use clap::Args;
 use glam::DVec3;
 use physics::Celerity;
 use room::{Viewer, room_from_turned};
-use walls::Head;
+use walls::RoomHead;
 
 use super::values;
 
@@ -45,9 +45,9 @@ pub struct RoomOptions {
 
 impl RoomOptions {
     /// Head that the options describe, in front of a display with this viewer.
-    pub fn head(&self, viewer: &Viewer) -> Head {
+    pub fn head(&self, viewer: &Viewer) -> RoomHead {
         let turn = |degrees: Option<f64>| degrees.unwrap_or(0.0);
-        Head {
+        RoomHead {
             place_m: self.head.unwrap_or(viewer.head_m),
             room_from_head: room_from_turned(turn(self.head_yaw), turn(self.head_pitch), turn(self.head_roll)),
             celerity: self.head_celerity.unwrap_or_default(),

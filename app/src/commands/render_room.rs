@@ -15,7 +15,7 @@ use room::Display;
 use scene::Start;
 use std::path::Path;
 use view::{Camera, Dial, Occasion, RendererName};
-use walls::preview::Onlooker;
+use walls::preview::RoomOnlooker;
 use walls::{Occupant, Quality, Walls};
 
 /// Carries out `rapidity render --display`.
@@ -81,7 +81,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
         eprintln!("wrote {}", path.display());
     }
     if options.room.preview {
-        let mut onlooker = Onlooker::outside(&walls);
+        let mut onlooker = RoomOnlooker::outside(&walls);
         onlooker.from_m = options.room.preview_from.unwrap_or(onlooker.from_m);
         let path = folder.join("room.png");
         save(&walls.develop_room(gpu, picture.size, &occupant, &onlooker, &picture.development())?, &path)?;

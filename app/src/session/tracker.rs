@@ -7,7 +7,7 @@ use physics::Celerity;
 use room::Display;
 use serde::Deserialize;
 use thiserror::Error;
-use walls::Head;
+use walls::RoomHead;
 
 /// Reason why a head cannot be tracked.
 #[derive(Debug, Error)]
@@ -62,8 +62,8 @@ pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option
 /// Head as a tracker reports it, in a world whose speed of light is `speed_of_light` m/s.
 ///
 /// A velocity that is not finite counts as zero.
-pub fn head(state: &HeadState, speed_of_light: f64) -> Head {
-    Head {
+pub fn head(state: &HeadState, speed_of_light: f64) -> RoomHead {
+    RoomHead {
         place_m: state.position_m,
         room_from_head: DMat3::from_quat(state.orientation),
         celerity: Celerity::new(state.velocity_m_s / speed_of_light).unwrap_or_default(),

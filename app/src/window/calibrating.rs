@@ -3,7 +3,7 @@
 use crate::session::start::WINDOW;
 use egui::{Align2, Area, Frame, Grid, Id, RichText, Ui};
 use room::{Display, file};
-use walls::calibration::{Calibration, Key};
+use walls::calibration::{Calibration, CornerKey};
 use winit::keyboard::KeyCode;
 
 /// Corners that are being moved.
@@ -63,14 +63,14 @@ impl Calibrating {
 }
 
 /// Calibration key of a key of the keyboard.
-fn key(code: KeyCode) -> Option<Key> {
+fn key(code: KeyCode) -> Option<CornerKey> {
     Some(match code {
-        KeyCode::Tab => Key::Tab,
-        KeyCode::ArrowRight => Key::Right,
-        KeyCode::ArrowLeft => Key::Left,
-        KeyCode::ArrowUp => Key::Up,
-        KeyCode::ArrowDown => Key::Down,
-        KeyCode::Backspace => Key::Back,
+        KeyCode::Tab => CornerKey::Tab,
+        KeyCode::ArrowRight => CornerKey::Right,
+        KeyCode::ArrowLeft => CornerKey::Left,
+        KeyCode::ArrowUp => CornerKey::Up,
+        KeyCode::ArrowDown => CornerKey::Down,
+        KeyCode::Backspace => CornerKey::Back,
         _ => return None,
     })
 }

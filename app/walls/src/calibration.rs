@@ -18,7 +18,7 @@ pub const NAMES: [&str; 4] = ["upper left", "upper right", "lower right", "lower
 
 /// Key that chooses or moves corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
+pub enum CornerKey {
     /// Chooses the next corner, or with Shift the one before. After a channel's last corner comes the next channel.
     Tab,
     /// Moves the corner to the right.
@@ -55,14 +55,14 @@ pub enum CalibrationError {
 /// Corners of all channels of a display, one of them chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    channels: Vec<Nudged>,
+    channels: Vec<ChannelCorners>,
     channel: usize,
     corner: usize,
 }
 
 /// Corners of one channel, pixels from the viewport's upper left, y down.
 #[derive(Clone, Debug, PartialEq)]
-struct Nudged {
+struct ChannelCorners {
     name: String,
     viewport: [DVec2; 4],
     in_file: [DVec2; 4],
@@ -74,7 +74,7 @@ struct Nudged {
 impl Calibration {
     /// Creates the calibration of a display as its file describes it. The first corner is chosen.
     pub fn new(display: &Display) -> Self {
-        let nudged = |channel: &Channel| {
+        let corners = |channel: &Channel| {
             let [width, height] = channel.size().map(f64::from);
             let viewport = [DVec2::ZERO, DVec2::new(width, 0.0), DVec2::new(width, height), DVec2::new(0.0, height)];
             let pixels = |place: DVec2| (place * DVec2::new(width, height) * PER_PIXEL).round() / PER_PIXEL;
@@ -83,9 +83,9 @@ impl Calibration {
                 _ => viewport,
             };
             let measured = matches!(channel.warp, Some(Warp::Grid(_)));
-            Nudged { name: channel.name.clone(), viewport, in_file: corners, now: corners, measured }
+            ChannelCorners { name: channel.name.clone(), viewport, in_file: corners, now: corners, measured }
         };
-        Self { channels: display.channels.iter().map(nudged).collect(), channel: 0, corner: 0 }
+        Self { channels: display.channels.iter().map(corners).collect(), channel: 0, corner: 0 }
     }
 
     /// Indices of the channel and of its corner that keys act on.
@@ -97,60 +97,62 @@ impl Calibration {
     ///
     /// # Errors
     /// [`CalibrationError`]; the corner then stays where it is.
-    pub fn press(&mut self, key: Key, shift: bool) -> Result<Option<usize>, CalibrationError> {
-        if key == Key::Tab {
+    pub fn press(&mut self, key: CornerKey, shift: bool) -> Result<Option<usize>, CalibrationError> {
+        if key == CornerKey::Tab {
             self.choose(shift);
             return Ok(None);
         }
         let step = if shift { LONG_STEP } else { STEP };
-        let (nudged, corner) = (&mut self.channels[self.channel], self.corner);
-        if nudged.measured {
-            return Err(CalibrationError::MeasuredWarp { channel: nudged.name.clone() });
+        let (corners, corner) = (&mut self.channels[self.channel], self.corner);
+        if corners.measured {
+            return Err(CalibrationError::MeasuredWarp { channel: corners.name.clone() });
         }
-        let mut moved = nudged.now;
+        let mut moved = corners.now;
         moved[corner] = match key {
-            Key::Tab => moved[corner],
-            Key::Right => moved[corner] + DVec2::new(step, 0.0),
-            Key::Left => moved[corner] - DVec2::new(step, 0.0),
-            Key::Down => moved[corner] + DVec2::new(0.0, step),
-            Key::Up => moved[corner] - DVec2::new(0.0, step),
-            Key::Back if shift => nudged.viewport[corner],
-            Key::Back => nudged.in_file[corner],
+            CornerKey::Tab => moved[corner],
+            CornerKey::Right => moved[corner] + DVec2::new(step, 0.0),
+            CornerKey::Left => moved[corner] - DVec2::new(step, 0.0),
+            CornerKey::Down => moved[corner] + DVec2::new(0.0, step),
+            CornerKey::Up => moved[corner] - DVec2::new(0.0, step),
+            CornerKey::Back if shift => corners.viewport[corner],
+            CornerKey::Back => corners.in_file[corner],
         };
-        if moved == nudged.now {
+        if moved == corners.now {
             return Ok(None);
         }
-        nudged.warp_of(moved).map_err(|error| CalibrationError::NotConvex { channel: nudged.name.clone(), error })?;
-        nudged.now = moved;
+        corners.warp_of(moved).map_err(|error| CalibrationError::NotConvex { channel: corners.name.clone(), error })?;
+        corners.now = moved;
         Ok(Some(self.channel))
     }
 
     /// Present warp of a channel; `None` if it has none.
     pub fn warp(&self, channel: usize) -> Option<Warp> {
-        let nudged = &self.channels[channel];
-        nudged.warp_of(nudged.now).expect("corners that no picture has are refused").map(Warp::Corners)
+        let corners = &self.channels[channel];
+        corners.warp_of(corners.now).expect("corners that no picture has are refused").map(Warp::Corners)
     }
 
     /// Names and corners (pixels) of the channels whose corners differ from the file's; `None` for the viewport's own
     /// corners.
     pub fn changed(&self) -> Vec<(&str, Option<[DVec2; 4]>)> {
-        let changed = self.channels.iter().filter(|nudged| nudged.now != nudged.in_file);
-        changed.map(|nudged| (nudged.name.as_str(), (nudged.now != nudged.viewport).then_some(nudged.now))).collect()
+        let changed = self.channels.iter().filter(|corners| corners.now != corners.in_file);
+        changed
+            .map(|corners| (corners.name.as_str(), (corners.now != corners.viewport).then_some(corners.now)))
+            .collect()
     }
 
     /// Records that the file now has the present corners.
     pub fn saved(&mut self) {
-        for nudged in &mut self.channels {
-            nudged.in_file = nudged.now;
+        for corners in &mut self.channels {
+            corners.in_file = corners.now;
         }
     }
 
     /// Sentence that names the chosen corner and its place.
     pub fn sentence(&self) -> String {
-        let nudged = &self.channels[self.channel];
-        let DVec2 { x, y } = nudged.now[self.corner];
-        let unsaved = if nudged.now == nudged.in_file { "" } else { ", not saved" };
-        format!("{}: {} corner at {x}, {y} pixels{unsaved}", nudged.name, NAMES[self.corner])
+        let corners = &self.channels[self.channel];
+        let DVec2 { x, y } = corners.now[self.corner];
+        let unsaved = if corners.now == corners.in_file { "" } else { ", not saved" };
+        format!("{}: {} corner at {x}, {y} pixels{unsaved}", corners.name, NAMES[self.corner])
     }
 
     fn choose(&mut self, backwards: bool) {
@@ -161,7 +163,7 @@ impl Calibration {
     }
 }
 
-impl Nudged {
+impl ChannelCorners {
     /// Warp that corners given in pixels make; `None` if they are the viewport's own.
     fn warp_of(&self, pixels: [DVec2; 4]) -> Result<Option<CornerWarp>, NotConvex> {
         let size = self.viewport[2];

@@ -13,7 +13,7 @@ pub struct Combiner(Pass);
 impl Combiner {
     /// Combiner for a window of this kind; `None` if each channel has its own pixels. The pictures must be linear.
     pub fn new(gpu: &Gpu, combine: Combine, swap_eyes: bool, screen: wgpu::TextureFormat) -> Option<Self> {
-        let way = match combine {
+        let pattern = match combine {
             Combine::None => return None,
             Combine::Rows => shaders::COMBINE_ROWS,
             Combine::Columns => shaders::COMBINE_COLUMNS,
@@ -23,7 +23,7 @@ impl Combiner {
             Combine::AnaglyphHalfColour => shaders::COMBINE_HALF_COLOUR,
         };
         let overrides = [
-            ("COMBINE", f64::from(way)),
+            ("COMBINE", f64::from(pattern)),
             ("SWAP_EYES", f64::from(u8::from(swap_eyes))),
             ("ENCODE", f64::from(u8::from(encodes(screen)))),
         ];

@@ -1,7 +1,7 @@
 //! Channels on curved screens or behind a projector's lens: drawn as flat pictures, in which every pixel looks up its
 //! place.
 
-use crate::facet::{Facet, Grid, facets};
+use crate::facet::{Facet, SurfaceGrid, facets};
 use bytemuck::bytes_of;
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ const GRID: usize = 48;
 /// Map from a viewport's pixels to points of the room, and the flat pictures seen in these directions.
 pub struct Curved {
     points: wgpu::TextureView,
-    grid: Grid,
+    grid: SurfaceGrid,
     /// Flat pictures and the targets they are drawn into.
     pub facets: Vec<(Facet, Radiance)>,
     /// Picture that the channel shows.
@@ -36,7 +36,7 @@ impl Curved {
 
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
         let place = |index: usize| channel.point(display, DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
-        let grid = Grid {
+        let grid = SurfaceGrid {
             size: [GRID + 1; 2],
             points: (0..(GRID + 1) * (GRID + 1)).into_par_iter().map(place).collect(),
             pixels: DVec2::new(f64::from(width), f64::from(height)) / GRID as f64,

@@ -19,7 +19,7 @@ const STEP: u32 = 32;
 
 /// Points of a surface at an even grid of a viewport's places: rows from above, columns from the left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Grid {
+pub struct SurfaceGrid {
     /// Number of columns and rows.
     pub size: [usize; 2],
     /// Points in room axes, metres; `None` where nothing is lit.
@@ -56,7 +56,7 @@ impl Facet {
 /// * `density` — texels for each pixel of the viewport, along each axis, where the pixels are finest.
 /// * `largest` — largest side of a facet, texels. More would be needed only where a surface is seen at a grazing
 ///   angle.
-pub fn facets(grid: &Grid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet> {
+pub fn facets(grid: &SurfaceGrid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet> {
     let directions: Vec<_> =
         grid.points.iter().map(|point| Some((point.as_ref()? - eye).normalize_or_zero())).collect();
     let middle = directions.iter().flatten().sum::<DVec3>();
@@ -73,7 +73,7 @@ pub fn facets(grid: &Grid, eye: DVec3, density: f64, largest: u32) -> Vec<Facet>
 }
 
 /// Facet with its bounds and size set by the directions it shows; `None` if there are none.
-fn sized(facet: Facet, grid: &Grid, directions: &[Option<DVec3>], density: f64, largest: u32) -> Option<Facet> {
+fn sized(facet: Facet, grid: &SurfaceGrid, directions: &[Option<DVec3>], density: f64, largest: u32) -> Option<Facet> {
     let [columns, rows] = grid.size;
     let at = |column: usize, row: usize| facet.place(directions[row * columns + column]?);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     /// Part of a sphere of radius 2 about the origin, seen as a picture of 640 × 480 pixels.
-    fn sphere(width_rad: f64, height_rad: f64) -> Grid {
+    fn sphere(width_rad: f64, height_rad: f64) -> SurfaceGrid {
         let size = [41, 31];
         let mut points = Vec::new();
         for row in 0..size[1] {
@@ -152,7 +152,7 @@ mod tests {
                 points.push(Some(2.0 * (level + DVec3::Y * latitude.sin())));
             }
         }
-        Grid { size, points, pixels: DVec2::new(16.0, 16.0) }
+        SurfaceGrid { size, points, pixels: DVec2::new(16.0, 16.0) }
     }
 
     #[test]

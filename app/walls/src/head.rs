@@ -1,13 +1,13 @@
 //! Head that stands or walks in the vehicle, and its eyes.
 
 use glam::{DMat3, DQuat, DVec3};
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, Observer};
 use room::{EyeSide, Viewer};
 
 /// Head in the room, whose axes are those of the vehicle (x right, y up, −z ahead).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Head {
+pub struct RoomHead {
     /// Point midway between the eyes, room axes, metres from the vehicle's reference point.
     pub place_m: DVec3,
     /// Rotation from the head's axes (x right, y up, −z ahead) to the room's.
@@ -16,7 +16,7 @@ pub struct Head {
     pub celerity: Celerity,
 }
 
-impl Head {
+impl RoomHead {
     /// Head at rest that faces −z.
     pub fn at_rest(place_m: DVec3) -> Self {
         Self { place_m, room_from_head: DMat3::IDENTITY, celerity: Celerity::ZERO }
@@ -27,9 +27,9 @@ impl Head {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occupant {
     /// State of the vehicle in the world.
-    pub vehicle: State,
-    /// Head of the observer in the vehicle.
-    pub head: Head,
+    pub vehicle: WorldlineState,
+    /// Head of the observer in the room.
+    pub head: RoomHead,
 }
 
 /// Eye of an occupant.
@@ -52,9 +52,9 @@ impl Occupant {
     ///
     /// *Equation:* the head's event is simultaneous with the vehicle's reference point in the vehicle's frame; the
     /// eyes' events are simultaneous with the head's in the head's frame (B 5.2, W 6.3). Each is a step along the
-    /// simultaneity of its own frame, [`State::aboard`].
+    /// simultaneity of its own frame, [`WorldlineState::aboard`].
     pub fn eye(&self, viewer: &Viewer, eye: EyeSide) -> OccupantEye {
-        let Head { place_m, room_from_head, celerity } = self.head;
+        let RoomHead { place_m, room_from_head, celerity } = self.head;
         let middle = self.vehicle.aboard(place_m, celerity);
         let seen_from = middle.aboard(room_from_head * viewer.world_offset_m(eye), Celerity::ZERO);
         OccupantEye {

@@ -23,6 +23,6 @@ mod show;
 mod test_grid;
 mod walls;
 
-pub use head::{Head, Occupant, OccupantEye};
+pub use head::{Occupant, OccupantEye, RoomHead};
 pub use quality::Quality;
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

@@ -17,8 +17,8 @@ use view::{Camera, Effects, Field, Shot, Stored, Tangents, sample_offset};
 const COARSER_GAINS: u32 = 4;
 
 /// Light of one channel.
-pub struct Picture {
-    way: Way,
+pub struct ChannelPicture {
+    target: PictureTarget,
     sum: Option<Accumulator>,
     /// Gains that the pixels are multiplied by.
     pub gains: Option<wgpu::TextureView>,
@@ -28,13 +28,16 @@ pub struct Picture {
     pub stored: Stored,
 }
 
-enum Way {
+/// Textures that a channel is drawn into.
+enum PictureTarget {
+    /// Target of a flat screen, drawn at once.
     Flat(Box<Radiance>),
+    /// Targets of a curved screen: flat pictures that are resampled.
     Curved(Box<Curved>),
 }
 
 /// Context in which the channels of one eye are drawn.
-pub struct Sitting<'a> {
+pub struct EyeContext<'a> {
     /// Graphics device.
     pub gpu: &'a Gpu,
     /// Display with the room's screens.
@@ -51,7 +54,7 @@ pub struct Sitting<'a> {
     pub effects: Effects,
 }
 
-impl Sitting<'_> {
+impl EyeContext<'_> {
     /// View of a flat picture in the room.
     fn shot(&self, room_from_eye: DMat3, tangents: Tangents) -> Shot {
         let observer_from_eye = self.eye.observer_from_room * DQuat::from_mat3(&room_from_eye);
@@ -64,22 +67,22 @@ impl Sitting<'_> {
     }
 }
 
-impl Picture {
+impl ChannelPicture {
     /// Creates the targets and tables of a channel.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &Developer) -> Self {
         let size = channel.size();
-        let way = match channel.flat(display) {
-            Some(_) => Way::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
-            None => Way::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
+        let target = match channel.flat(display) {
+            Some(_) => PictureTarget::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
+            None => PictureTarget::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
         };
         let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
-        let mut picture = Self { way, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
-        picture.brighten(gpu, display, channel);
+        let mut picture = Self { target, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
+        picture.update_gains(gpu, display, channel);
         picture
     }
 
-    /// Computes the gains of the channel's pixels.
-    pub fn brighten(&mut self, gpu: &Gpu, display: &Display, channel: &Channel) {
+    /// Computes the gains of the channel's pixels anew.
+    pub fn update_gains(&mut self, gpu: &Gpu, display: &Display, channel: &Channel) {
         // Measured maps have edges and need every pixel. Computed gains are smooth.
         let measured = channel.alpha.is_some() || channel.beta.is_some();
         let finest = if measured { channel.size() } else { channel.size().map(|side| side.div_ceil(COARSER_GAINS)) };
@@ -88,9 +91,9 @@ impl Picture {
 
     /// Light of the newest sample.
     fn sample(&self) -> &wgpu::TextureView {
-        match &self.way {
-            Way::Flat(target) => target.result(),
-            Way::Curved(curved) => &curved.shown,
+        match &self.target {
+            PictureTarget::Flat(target) => target.result(),
+            PictureTarget::Curved(curved) => &curved.shown,
         }
     }
 
@@ -102,12 +105,12 @@ impl Picture {
     /// Views and sizes of the channel's flat pictures. If the eye is behind the screen, the picture is made black.
     ///
     /// # Errors
-    /// [`EyeBehind`].
-    pub fn aim(&mut self, channel: &Channel, sitting: &Sitting<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
-        let mut shots = match self.shots(channel, sitting) {
+    /// [`EyeBehind`] if the eye is behind the screen.
+    pub fn aim(&mut self, channel: &Channel, context: &EyeContext<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
+        let mut shots = match self.shots(channel, context) {
             Ok(shots) => shots,
             Err(behind) => {
-                self.blacken(sitting.gpu);
+                self.blacken(context.gpu);
                 return Err(behind);
             }
         };
@@ -122,9 +125,9 @@ impl Picture {
         &mut self,
         renderer: &mut SceneRenderer,
         shots: &[(Shot, [u32; 2])],
-        sitting: &Sitting<'_>,
+        context: &EyeContext<'_>,
     ) -> Certainty {
-        let &Sitting { gpu, quality, passes, .. } = sitting;
+        let &EyeContext { gpu, quality, passes, .. } = context;
         let Some((first, size)) = shots.first() else {
             self.blacken(gpu);
             return Certainty::default();
@@ -137,9 +140,9 @@ impl Picture {
         let submit = |encoder: wgpu::CommandEncoder| gpu.queue.submit([encoder.finish()]);
         for sample in 0..quality.samples {
             let offset = sample_offset(sample, quality.samples);
-            let (targets, offset): (Vec<_>, _) = match &self.way {
-                Way::Flat(target) => (vec![&**target], offset),
-                Way::Curved(curved) => {
+            let (targets, offset): (Vec<_>, _) = match &self.target {
+                PictureTarget::Flat(target) => (vec![&**target], offset),
+                PictureTarget::Curved(curved) => {
                     (curved.facets.iter().map(|(_, target)| target).collect(), offset * quality.density)
                 }
             };
@@ -152,9 +155,9 @@ impl Picture {
                 renderer.draw(gpu, &mut encoder, target, shot, offset);
                 submit(encoder);
             }
-            if let Way::Curved(curved) = &self.way {
+            if let PictureTarget::Curved(curved) = &self.target {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                curved.resample(gpu, &mut encoder, sitting.resample, sitting.eye.place_m);
+                curved.resample(gpu, &mut encoder, context.resample, context.eye.place_m);
                 submit(encoder);
             }
             if let Some(mut sum) = self.sum.take() {
@@ -168,17 +171,17 @@ impl Picture {
     }
 
     /// Views and sizes of the channel's flat pictures.
-    fn shots(&mut self, channel: &Channel, sitting: &Sitting<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
-        let place_m = sitting.eye.place_m;
-        match &mut self.way {
-            Way::Flat(target) => {
-                let flat = channel.flat(sitting.display).expect("its screen is flat");
+    fn shots(&mut self, channel: &Channel, context: &EyeContext<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
+        let place_m = context.eye.place_m;
+        match &mut self.target {
+            PictureTarget::Flat(target) => {
+                let flat = channel.flat(context.display).expect("its screen is flat");
                 let frustum = frustum(&flat, place_m)?;
-                Ok(vec![(sitting.shot(frustum.room_from_eye, frustum.tangents), target.size)])
+                Ok(vec![(context.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
-            Way::Curved(curved) => {
-                curved.look_from(sitting.gpu, place_m, sitting.quality.density, sitting.quality.format);
-                let shot = |facet: &Facet| (sitting.shot(facet.room_from_facet, facet.tangents), facet.size);
+            PictureTarget::Curved(curved) => {
+                curved.look_from(context.gpu, place_m, context.quality.density, context.quality.format);
+                let shot = |facet: &Facet| (context.shot(facet.room_from_facet, facet.tangents), facet.size);
                 Ok(curved.facets.iter().map(|(facet, _)| shot(facet)).collect())
             }
         }
@@ -187,9 +190,9 @@ impl Picture {
     /// Makes the picture black.
     fn blacken(&self, gpu: &Gpu) {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        match &self.way {
-            Way::Flat(target) => drop(target.begin(&mut encoder)),
-            Way::Curved(curved) => drop(clear(&mut encoder, &curved.shown)),
+        match &self.target {
+            PictureTarget::Flat(target) => drop(target.begin(&mut encoder)),
+            PictureTarget::Curved(curved) => drop(clear(&mut encoder, &curved.shown)),
         }
         if let Some(sum) = &self.sum {
             sum.blacken(&mut encoder);

@@ -31,7 +31,7 @@ const HEAD_LIGHT: f32 = 0.6;
 
 /// Point of view from which the room is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Onlooker {
+pub struct RoomOnlooker {
     /// Place of the onlooker, room axes, metres.
     pub from_m: DVec3,
     /// Point in the picture's middle, room axes, metres.
@@ -40,7 +40,7 @@ pub struct Onlooker {
     pub fov_degrees: f64,
 }
 
-impl Onlooker {
+impl RoomOnlooker {
     /// Onlooker outside the room: behind, to the right of and above the head, far enough away that all screens are in
     /// sight.
     pub fn outside(walls: &Walls) -> Self {
@@ -85,7 +85,7 @@ impl Onlooker {
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Corner {
+struct NetCorner {
     point: Vec3,
     place: Vec2,
     /// 0 in pictures whose edges are drawn, 1 elsewhere.
@@ -162,7 +162,7 @@ impl Preview {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         walls: &mut Walls,
-        (occupant, onlooker): (&Occupant, &Onlooker),
+        (occupant, onlooker): (&Occupant, &RoomOnlooker),
         development: &Development,
         screen: &wgpu::TextureView,
     ) {
@@ -217,10 +217,10 @@ impl Preview {
 }
 
 fn corners(buffer: &wgpu::Buffer) -> u32 {
-    (buffer.size() / size_of::<Corner>() as u64) as u32
+    (buffer.size() / size_of::<NetCorner>() as u64) as u32
 }
 
-fn buffer(gpu: &Gpu, corners: &[Corner]) -> wgpu::Buffer {
+fn buffer(gpu: &Gpu, corners: &[NetCorner]) -> wgpu::Buffer {
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("room"),
         contents: cast_slice(corners),
@@ -252,7 +252,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, lines: bool) -> wgpu::Ren
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
             buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Corner>() as u64,
+                array_stride: size_of::<NetCorner>() as u64,
                 step_mode: wgpu::VertexStepMode::Vertex,
                 attributes: &attributes,
             })],
@@ -291,7 +291,7 @@ fn net(gpu: &Gpu, walls: &Walls, index: usize, channel: &Channel) -> Option<Net>
         let place = DVec2::new(share(column), share(row));
         let inside = place.clamp(DVec2::splat(1e-9), DVec2::splat(1.0 - 1e-9));
         let point = channel.point(&walls.display, inside)?.as_vec3();
-        Some(Corner { point, place: place.as_vec2(), edge: if outlined { 0.0 } else { 1.0 } })
+        Some(NetCorner { point, place: place.as_vec2(), edge: if outlined { 0.0 } else { 1.0 } })
     };
     let mut triangles = Vec::new();
     for row in 0..cells {
@@ -314,12 +314,12 @@ fn net(gpu: &Gpu, walls: &Walls, index: usize, channel: &Channel) -> Option<Net>
 }
 
 /// End of a line, with the line's linear light.
-fn end(point: DVec3, light: f32) -> Corner {
-    Corner { point: point.as_vec3(), place: Vec2::splat(light), edge: 1.0 }
+fn end(point: DVec3, light: f32) -> NetCorner {
+    NetCorner { point: point.as_vec3(), place: Vec2::splat(light), edge: 1.0 }
 }
 
 /// Grid of lines on the ground, the room's plane y = 0.
-fn ground(walls: &Walls) -> Vec<Corner> {
+fn ground(walls: &Walls) -> Vec<NetCorner> {
     let (half, step) = GROUND_M;
     let centre = walls.display.viewer.head_m * DVec3::new(1.0, 0.0, 1.0);
     let count = (half / step) as i32;
@@ -337,7 +337,7 @@ fn ground(walls: &Walls) -> Vec<Corner> {
 }
 
 /// Lines of the head: three circles, and a line from the eye in the direction it faces.
-fn head(walls: &Walls, occupant: &Occupant, eye: EyeSide) -> Vec<Corner> {
+fn head(walls: &Walls, occupant: &Occupant, eye: EyeSide) -> Vec<NetCorner> {
     const STEPS: u32 = 32;
     let head = &occupant.head;
     let seen_from = walls.display.viewer.eye_m(eye, head.place_m, head.room_from_head);

@@ -1,7 +1,7 @@
 //! Output of the channels' light to windows and pictures.
 
 use crate::head::Occupant;
-use crate::preview::{Onlooker, Preview};
+use crate::preview::{Preview, RoomOnlooker};
 use crate::test_grid::DEVELOPMENT;
 use crate::walls::Walls;
 use image::RgbaImage;
@@ -95,7 +95,7 @@ impl Walls {
         gpu: &Gpu,
         size: [u32; 2],
         occupant: &Occupant,
-        onlooker: &Onlooker,
+        onlooker: &RoomOnlooker,
         development: &Development,
     ) -> Result<RgbaImage, GpuError> {
         let sheet = Sheet::new(gpu, size, SCREEN_FORMAT);

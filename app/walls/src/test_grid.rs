@@ -32,7 +32,7 @@ const BETWEEN: f64 = 0.01;
 const LINE: f64 = 0.2;
 
 /// Grids of all channels, and an adaptation that the grids do not change.
-pub struct Grids {
+pub struct TestGrids {
     /// Pictures of the grids, one for each channel.
     pub lights: Vec<wgpu::TextureView>,
     /// Adaptation that shows the grids as they are.
@@ -41,7 +41,7 @@ pub struct Grids {
     pub moved: bool,
 }
 
-impl Grids {
+impl TestGrids {
     /// Creates the grids of all channels of a display.
     pub fn new(gpu: &Gpu, display: &Display, passes: &Developer, calibration: &Calibration) -> Self {
         let light = |channel: usize| light(gpu, &display.channels[channel], marked(calibration, channel));

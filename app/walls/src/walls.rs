@@ -1,11 +1,11 @@
-//! All channels of a display, drawn and shown.
+//! Channels of a display, drawn and shown together.
 
 use crate::calibration::Calibration;
 use crate::combine::Combiner;
 use crate::head::{Occupant, OccupantEye};
-use crate::picture::{Picture, Sitting};
+use crate::picture::{ChannelPicture, EyeContext};
 use crate::quality::Quality;
-use crate::test_grid::Grids;
+use crate::test_grid::TestGrids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
@@ -53,16 +53,17 @@ pub struct Walls {
     /// Display that the channels belong to.
     pub display: Display,
     pub(crate) quality: Quality,
-    pub(crate) pictures: Vec<Picture>,
+    pub(crate) pictures: Vec<ChannelPicture>,
+    /// Passes that develop pictures for the screens.
     pub(crate) passes: Developer,
-    /// Passes as above, for pictures in linear light.
+    /// Passes that develop pictures into linear light.
     pub(crate) linear_passes: Developer,
     /// Combiners of both eyes' pictures, one entry per window.
     pub(crate) combiners: Vec<Option<Combiner>>,
     pub(crate) resample: Pass,
     pub(crate) adaptation: Adaptation,
     /// Test grids that are shown instead of light.
-    pub(crate) grids: Option<Grids>,
+    pub(crate) grids: Option<TestGrids>,
 }
 
 impl Walls {
@@ -70,7 +71,7 @@ impl Walls {
     pub fn new(gpu: &Gpu, display: Display, quality: Quality, screen: wgpu::TextureFormat) -> Self {
         let colour = quality.format.colour;
         let passes = Developer::new(gpu, colour, screen);
-        let picture = |channel: &Channel| Picture::new(gpu, &display, channel, &quality, &passes);
+        let picture = |channel: &Channel| ChannelPicture::new(gpu, &display, channel, &quality, &passes);
         let combiner = |window: &WindowPlace| Combiner::new(gpu, window.combine, window.swap_eyes, screen);
         Self {
             pictures: display.channels.iter().map(picture).collect(),
@@ -127,11 +128,11 @@ impl Walls {
             let transformed = renderer.show(gpu, pending)?;
             drawn.transform += transformed.duration;
             drawn.not_finite += transformed.not_finite;
-            let sitting = Sitting { gpu, display, quality, passes, resample, eye, effects };
-            let of_eye = sitting.display.channels.iter().zip(&mut self.pictures);
+            let context = EyeContext { gpu, display, quality, passes, resample, eye, effects };
+            let of_eye = context.display.channels.iter().zip(&mut self.pictures);
             let mut aimed = Vec::new();
             for (channel, picture) in of_eye.filter(|(channel, _)| channel.eye == side) {
-                match picture.aim(channel, &sitting) {
+                match picture.aim(channel, &context) {
                     Ok(shots) => aimed.push((picture, shots)),
                     Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
                 }
@@ -140,7 +141,7 @@ impl Walls {
             let all: Vec<_> = aimed.iter().flat_map(|(_, shots)| shots.iter().copied()).collect();
             renderer.prepare_eye(gpu, &all);
             for (picture, shots) in aimed {
-                drawn.certainty = drawn.certainty.or_worse(picture.draw(renderer, &shots, &sitting));
+                drawn.certainty = drawn.certainty.or_worse(picture.draw(renderer, &shots, &context));
             }
         }
         Ok(drawn)
@@ -151,7 +152,7 @@ impl Walls {
         if self.grids.is_some() {
             return;
         }
-        let seen = |picture: &Picture| (picture.light().clone(), picture.stored);
+        let seen = |picture: &ChannelPicture| (picture.light().clone(), picture.stored);
         let lights: Vec<_> = self.pictures.iter().map(seen).collect();
         let seen: Vec<_> =
             lights.iter().map(|(radiance, stored)| Seen { radiance, stored: *stored, elapsed_s }).collect();
@@ -162,7 +163,7 @@ impl Walls {
 
     /// Shows test grids from now on, with the chosen corner marked.
     pub fn show_grids(&mut self, gpu: &Gpu, calibration: &Calibration) {
-        self.grids = Some(Grids::new(gpu, &self.display, &self.passes, calibration));
+        self.grids = Some(TestGrids::new(gpu, &self.display, &self.passes, calibration));
     }
 
     /// Moves a channel's corners to their places in `calibration` and redraws the channel's test grid. The channel's
@@ -174,7 +175,7 @@ impl Walls {
         if moves && self.display.channels[channel].warp != warp {
             self.display.channels[channel].warp = warp;
             grids.moved = true;
-            self.pictures[channel].brighten(gpu, &self.display, &self.display.channels[channel]);
+            self.pictures[channel].update_gains(gpu, &self.display, &self.display.channels[channel]);
         }
         grids.update(gpu, &self.display, calibration, channel);
     }
@@ -186,7 +187,7 @@ impl Walls {
             return;
         }
         let Self { display, quality, passes, .. } = &*self;
-        let picture = |channel: &Channel| Picture::new(gpu, display, channel, quality, passes);
+        let picture = |channel: &Channel| ChannelPicture::new(gpu, display, channel, quality, passes);
         self.pictures = display.channels.iter().map(picture).collect();
     }
 }

@@ -8,7 +8,6 @@
 use glam::{DQuat, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rapidity::probe;
 use serde_json::{Value, json};
 
 /// Tolerance for the rounding of a few operations on numbers near 1.

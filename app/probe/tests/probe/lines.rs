@@ -5,7 +5,7 @@
 
 use std::io::{self, BufReader, Read, Write};
 
-use rapidity::probe::{self, LONGEST_LINE};
+use probe::LONGEST_LINE;
 use serde_json::Value;
 
 const GOOD: &str = r#"{"ask": "boost", "celerity": [0.75, 0, 0], "event": [1, 0, 0, 0]}"#;
@@ -98,8 +98,8 @@ fn each_answer_is_flushed_before_the_next_question_is_read() {
             Ok(line.len())
         }
     }
-    struct Screen<'a>(&'a std::cell::Cell<usize>);
-    impl Write for Screen<'_> {
+    struct CountingWriter<'a>(&'a std::cell::Cell<usize>);
+    impl Write for CountingWriter<'_> {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
             Ok(bytes.len())
         }
@@ -110,12 +110,12 @@ fn each_answer_is_flushed_before_the_next_question_is_read() {
     }
     let flushed = std::cell::Cell::new(0);
     let reader = BufReader::new(Conversation { flushed: &flushed, asked: 0 });
-    assert!(probe::run(reader, Screen(&flushed)).unwrap());
+    assert!(probe::run(reader, CountingWriter(&flushed)).unwrap());
     assert_eq!(flushed.get(), 3);
 }
 
 #[test]
-fn it_stops_in_peace_when_nobody_reads_any_more() {
+fn a_closed_reading_end_stops_without_an_error() {
     struct Broken(io::ErrorKind);
     impl Write for Broken {
         fn write(&mut self, _: &[u8]) -> io::Result<usize> {

@@ -1,9 +1,9 @@
 //! Motion along the ground.
 //!
-//! A wheel does not jump up a kerb. The vehicle examines the ground a little way ahead along its motion and turns its
+//! A wheel does not jump up a kerb. The vehicle examines the ground a little ahead along its motion and turns its
 //! motion up or down to meet it, with an acceleration like that of any other turn. Within one look-ahead distance l
-//! it settles on the ground without overshooting: with y the height above the ground and s the way, y″ + (k/l) y′ +
-//! (k/l²) y = 0, critically damped for k = 4.
+//! it settles on the ground without overshooting: with y the height above the ground and s the distance,
+//! y″ + (k/l) y′ + (k/l²) y = 0, critically damped for k = 4.
 
 use glam::{DQuat, DVec3};
 
@@ -30,10 +30,10 @@ pub(super) struct GroundCourse {
 }
 
 impl GroundCourse {
-    /// GroundCourse from the ground ahead. `direction` is the unit vector of the motion, not vertical; `way_m` is the
+    /// Course along the ground ahead. `direction` is the unit vector of the motion, not vertical; `distance_m` is the
     /// distance until the next look, metres. Where there is no ground, the course is level.
-    pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, way_m: f64) -> Self {
-        let look_m = LOOK_M.max(LOOK_PER_STEP * way_m);
+    pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, distance_m: f64) -> Self {
+        let look_m = LOOK_M.max(LOOK_PER_STEP * distance_m);
         // The look goes along the present slope, so that a hill is not taken for a step.
         let ahead = position + direction * (look_m / direction.x.hypot(direction.z));
         let height = surroundings.height_below(ahead).map(|ground| ground.height);
@@ -41,7 +41,7 @@ impl GroundCourse {
         Self { slope_rad: slope_rad.clamp(-STEEPEST_RAD, STEEPEST_RAD), look_m }
     }
 
-    /// GroundCourse for a nose that points backward.
+    /// Course for a nose that points backward.
     pub(super) fn reversed(self) -> Self {
         Self { slope_rad: -self.slope_rad, ..self }
     }

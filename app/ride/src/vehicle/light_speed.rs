@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// LightSpeed, as far as its speed of light is concerned.
+/// Speed of light of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct LightSpeed {
@@ -21,10 +21,11 @@ impl LightSpeed {
     /// Old town of B 5.6.1, with a speed of light of 30 km/h.
     pub const OLD_TOWN: Self = Self { speed_of_light_m_s: 30.0 / 3.6 };
 
-    /// Creates a world whose light has this speed.
+    /// Speed of light of so many metres per second.
     ///
     /// # Errors
-    /// [`LightSpeedError`] if the speed lies outside [`LightSpeed::SLOWEST_M_S`] to [`LightSpeed::FASTEST_M_S`], or is not a number.
+    /// [`LightSpeedError`] if the speed lies outside [`LightSpeed::SLOWEST_M_S`] to [`LightSpeed::FASTEST_M_S`], or is
+    /// not a number.
     pub fn new(speed_of_light_m_s: f64) -> Result<Self, LightSpeedError> {
         if (Self::SLOWEST_M_S..=Self::FASTEST_M_S).contains(&speed_of_light_m_s) {
             Ok(Self { speed_of_light_m_s })
@@ -86,6 +87,8 @@ pub struct LightSpeedError {
 
 #[cfg(test)]
 mod tests {
+    //! Law under test: seconds times c are metres, speeds divided by c are celerities, and c stays within the range
+    //! in which both are finite. A wrong program divides where it should multiply, or passes on an infinity.
     use super::*;
 
     #[test]

@@ -4,7 +4,7 @@ use physics::Celerity;
 
 use super::light_speed::LightSpeed;
 
-/// Sums since the start of the ride.
+/// Distances and times since the start of the ride.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Odometer {
     /// Distance along the road, metres of the world: ∫ |u| c dτ.

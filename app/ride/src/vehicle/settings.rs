@@ -162,6 +162,8 @@ impl IntegratorKind {
 
 #[cfg(test)]
 mod tests {
+    //! Law under test: settings survive a recording's header, and a setting that cannot be used is named. A wrong
+    //! program replays another vehicle, or begins a ride that ends in numbers that are not finite.
     use super::*;
 
     #[test]

@@ -56,18 +56,18 @@ impl Vehicle {
         Ok(Self { light_speed, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
     }
 
-    /// WorldlineState of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
-    /// pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
+    /// State of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the pilot's
+    /// eye. The orientation is that of the pilot's axes: right, up, backward.
     pub fn state(&self) -> &WorldlineState {
         &self.state
     }
 
-    /// Route in which the vehicle is driven.
+    /// Kind of vehicle: bicycle, drive or fly.
     pub fn kind(&self) -> VehicleKind {
         self.kind
     }
 
-    /// LightSpeed with its speed of light.
+    /// Speed of light in the world.
     pub fn light_speed(&self) -> LightSpeed {
         self.light_speed
     }
@@ -103,7 +103,7 @@ impl Vehicle {
         self.light_speed = light_speed;
     }
 
-    /// Changes the way of driving. At take-off the eye stays in place. A bicycle and a car are set upright on the
+    /// Changes the kind of vehicle. At take-off the eye stays in place. A bicycle and a car are set upright on the
     /// ground below, where there is any, and keep the part of their celerity that their constraints allow.
     pub fn set_kind(&mut self, kind: VehicleKind, surroundings: &dyn Surroundings) {
         if kind == self.kind {
@@ -164,21 +164,21 @@ impl Vehicle {
     /// Takes one piece of a step on the ground, in strides shorter than any wall is thick.
     fn ride(&mut self, own_s: f64, controls: &SafeControls, surroundings: &dyn Surroundings) {
         let mut left_s = own_s;
-        let mut wall = walls::nearest(surroundings, self.state.position, self.way_m(own_s));
+        let mut wall = walls::nearest(surroundings, self.state.position, self.distance_m(own_s));
         for stride in 1.. {
             self.keep_clear(wall, left_s);
-            // The stride goes as far as the way is free, or to the end of the step.
-            let free_m = walls::stride_m(wall, self.way_m(left_s));
-            if stride == MOST_STRIDES && self.way_m(left_s) > free_m {
+            // The stride goes as far as the space is free, or to the end of the step.
+            let free_m = walls::stride_m(wall, self.distance_m(left_s));
+            if stride == MOST_STRIDES && self.distance_m(left_s) > free_m {
                 self.state.celerity = walls::slowed(self.state.celerity, free_m, left_s, self.light_speed);
                 self.tell(Notice::HeldByWalls);
             }
-            let way_m = self.way_m(left_s);
-            let span_s = if way_m > free_m { left_s * (free_m / way_m) } else { left_s };
+            let distance_m = self.distance_m(left_s);
+            let span_s = if distance_m > free_m { left_s * (free_m / distance_m) } else { left_s };
 
             let before = self.state.position;
             self.drive_on(span_s, controls, surroundings);
-            match walls::settled(surroundings, wall, self.state.position, self.way_m(left_s)) {
+            match walls::settled(surroundings, wall, self.state.position, self.distance_m(left_s)) {
                 Some((position, wall_there)) => {
                     self.state.position = position;
                     wall = wall_there;
@@ -198,7 +198,7 @@ impl Vehicle {
     /// Takes one stride on the ground, without regard to walls.
     fn drive_on(&mut self, own_s: f64, controls: &SafeControls, surroundings: &dyn Surroundings) {
         let (direction, backward) = self.road_direction();
-        let course = GroundCourse::ahead(surroundings, self.state.position, direction, self.way_m(own_s));
+        let course = GroundCourse::ahead(surroundings, self.state.position, direction, self.distance_m(own_s));
         let settings = self.settings;
         if self.kind == VehicleKind::Drive {
             self.resistance = 0.0;
@@ -283,7 +283,7 @@ impl Vehicle {
     }
 
     /// Distance covered in a time at the present celerity, metres of road.
-    fn way_m(&self, own_s: f64) -> f64 {
+    fn distance_m(&self, own_s: f64) -> f64 {
         self.light_speed.metres(own_s) * self.state.celerity.magnitude()
     }
 

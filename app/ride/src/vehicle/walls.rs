@@ -4,9 +4,9 @@
 //! is never used up. The celerity along the wall is not changed, so a vehicle slides and can always leave. This is a
 //! constraint and not a force: it is applied to the celerity between two steps of the worldline.
 //!
-//! No speed gets a vehicle through a wall. A step is cut into strides that are no longer than the way known to be
-//! free, or are shorter than the body ([`stride_m`]). If rounding or a second wall has still let the vehicle come too
-//! near, it is pushed back to its clearance, or stays where it was.
+//! A vehicle passes through no wall at any speed. A step is cut into strides that are no longer than the space known
+//! to be free, or are shorter than the body ([`stride_m`]). If rounding or a second wall has still let the vehicle
+//! come too near, it is pushed back to its clearance, or stays where it was.
 
 use glam::DVec3;
 use physics::Celerity;
@@ -31,14 +31,16 @@ pub(super) const FASTEST_DEFLECTION_RAD_S: f64 = 3.0;
 /// Accuracy of distances, metres.
 const ROUNDING_M: f64 = 1e-6;
 
-/// Nearest wall that matters for a way of `way_m` metres.
-pub(super) fn nearest(surroundings: &dyn Surroundings, position: DVec3, way_m: f64) -> Option<Wall> {
-    surroundings.nearest_wall(position, REACH_M.max(BODY_RADIUS_M + way_m)).filter(|wall| wall.distance.is_finite())
+/// Nearest wall that matters for a motion of `distance_m` metres.
+pub(super) fn nearest(surroundings: &dyn Surroundings, position: DVec3, distance_m: f64) -> Option<Wall> {
+    surroundings
+        .nearest_wall(position, REACH_M.max(BODY_RADIUS_M + distance_m))
+        .filter(|wall| wall.distance.is_finite())
 }
 
 /// Distance that the vehicle may go in any direction before the next look at the walls, metres.
-pub(super) fn stride_m(wall: Option<Wall>, way_m: f64) -> f64 {
-    let Some(wall) = wall else { return way_m };
+pub(super) fn stride_m(wall: Option<Wall>, distance_m: f64) -> f64 {
+    let Some(wall) = wall else { return distance_m };
     let stride = STRIDE_M.min(0.5 * wall.distance).max(SHORTEST_STRIDE_M);
     stride.max(wall.distance - BODY_RADIUS_M)
 }
@@ -64,13 +66,13 @@ pub(super) fn limited_along(wall: &Wall, direction: DVec3, celerity: f64, light_
     if into <= 0.0 { celerity } else { celerity.min(allowed(wall, light_speed) / into) }
 }
 
-/// End of a way to `to`, moved so that it is not nearer to a wall than the body's radius, or than the start was; and
+/// End of a motion to `to`, moved so that it is not nearer to a wall than the body's radius, or than the start was; and
 /// the wall there. `None` if no such end is found.
 pub(super) fn settled(
     surroundings: &dyn Surroundings,
     before: Option<Wall>,
     to: DVec3,
-    way_m: f64,
+    distance_m: f64,
 ) -> Option<(DVec3, Option<Wall>)> {
     /// Number of corrections. Two walls of a corner are cleared in turns; with this many, the rest in a right angle
     /// is below the rounding.
@@ -78,7 +80,7 @@ pub(super) fn settled(
     let clearance = before.map_or(BODY_RADIUS_M, |wall| wall.distance.min(BODY_RADIUS_M));
     let mut position = to;
     for _ in 0..PUSHES {
-        let wall = nearest(surroundings, position, way_m);
+        let wall = nearest(surroundings, position, distance_m);
         match wall {
             Some(wall) if wall.distance < clearance - ROUNDING_M => {
                 position += wall.normal * (clearance - wall.distance);
@@ -89,7 +91,7 @@ pub(super) fn settled(
     None
 }
 
-/// Celerity with which at most `way_m` metres are covered in `own_s` seconds.
-pub(super) fn slowed(celerity: Celerity, way_m: f64, own_s: f64, light_speed: LightSpeed) -> Celerity {
-    celerity.capped(light_speed.celerity(way_m / own_s).asinh())
+/// Celerity with which at most `distance_m` metres are covered in `own_s` seconds.
+pub(super) fn slowed(celerity: Celerity, distance_m: f64, own_s: f64, light_speed: LightSpeed) -> Celerity {
+    celerity.capped(light_speed.celerity(distance_m / own_s).asinh())
 }

@@ -1,8 +1,10 @@
 //! Tests of the crate `ride`, one module a subject.
 
+mod old_recordings;
 mod simulation;
 mod tour;
 mod town;
 mod vehicle_bicycle;
 mod vehicle_flight;
+mod vehicle_gaze;
 mod vehicle_walls;

@@ -9,16 +9,16 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use input::recording::{Entry, FrameRecord, Recorder, Recording, RecordingError};
-use input::{Action, DeskConfig, Key, Nanos, SECOND, Sample, VehicleKind};
-use rapidity::simulation::{Frame, Replay, ReplayError, Setup, Simulation, Start};
-use rapidity::vehicle::{Notice, OpenPlane, VehicleSettings, World};
+use input::recording::{FrameRecord, Recorder, Recording, RecordingEntry, RecordingError};
+use input::{Action, DeskConfig, KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
+use ride::{LightSpeed, Notice, Replay, ReplayError, RideFrame, RideStart, Setup, Simulation, VehicleSettings};
+use scene::OpenPlane;
 
 fn setup(kind: VehicleKind) -> Setup {
     Setup {
-        world: World::OLD_TOWN,
+        light_speed: LightSpeed::OLD_TOWN,
         kind,
-        start: Start::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.0)),
+        start: RideStart::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.0)),
         vehicle: VehicleSettings::default(),
         desk: DeskConfig::default(),
     }
@@ -32,26 +32,26 @@ fn simulation(kind: VehicleKind) -> Simulation {
 fn busy_ride() -> Vec<Sample> {
     let tenth = |n: u64| n * SECOND / 10;
     vec![
-        Sample::key(tenth(1), Key::W, true),
-        Sample::key(tenth(15), Key::A, true),
-        Sample::key(tenth(23), Key::A, false),
-        Sample::key(tenth(40), Key::Space, true),
-        Sample::key(tenth(45), Key::Space, false),
+        Sample::key(tenth(1), KeyboardKey::W, true),
+        Sample::key(tenth(15), KeyboardKey::A, true),
+        Sample::key(tenth(23), KeyboardKey::A, false),
+        Sample::key(tenth(40), KeyboardKey::Space, true),
+        Sample::key(tenth(45), KeyboardKey::Space, false),
         Sample::action(tenth(50), &Action::Vehicle(VehicleKind::Fly)),
-        Sample::key(tenth(51), Key::R, true),
-        Sample::key(tenth(55), Key::Q, true),
+        Sample::key(tenth(51), KeyboardKey::R, true),
+        Sample::key(tenth(55), KeyboardKey::Q, true),
         Sample::action(tenth(60), &Action::TimeScale(0.3)),
-        Sample::key(tenth(63), Key::P, true),
-        Sample::key(tenth(64), Key::Period, true),
-        Sample::key(tenth(65), Key::P, false),
-        Sample::key(tenth(66), Key::P, true),
+        Sample::key(tenth(63), KeyboardKey::P, true),
+        Sample::key(tenth(64), KeyboardKey::Period, true),
+        Sample::key(tenth(65), KeyboardKey::P, false),
+        Sample::key(tenth(66), KeyboardKey::P, true),
         Sample::action(tenth(70), &Action::SpeedOfLight(3.0)),
         Sample::action(tenth(75), &Action::Vehicle(VehicleKind::Bicycle)),
     ]
 }
 
 /// Frames at these times, each given the samples up to then.
-fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoIterator<Item = Nanos>) -> Vec<Frame> {
+fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoIterator<Item = Nanos>) -> Vec<RideFrame> {
     let mut samples = samples.iter().peekable();
     let mut ride = |at| {
         let mut due = Vec::new();
@@ -68,7 +68,7 @@ fn times(seconds: u64) -> impl Iterator<Item = Nanos> {
     (0..=60 * seconds).map(|n| n * SECOND / 60 + n * 7919 % 2_000_000)
 }
 
-fn records(frames: &[Frame]) -> Vec<FrameRecord> {
+fn records(frames: &[RideFrame]) -> Vec<FrameRecord> {
     frames.iter().map(|frame| frame.record.clone()).collect()
 }
 
@@ -138,9 +138,9 @@ fn own_time_is_real_time_times_the_scale() {
 }
 
 #[test]
-fn what_is_shown_moves_on_between_ticks() {
+fn the_shown_vehicle_moves_on_between_ticks() {
     let mut simulation = simulation(VehicleKind::Bicycle);
-    frames(&mut simulation, &[Sample::key(0, Key::W, true)], times(3));
+    frames(&mut simulation, &[Sample::key(0, KeyboardKey::W, true)], times(3));
     let (at, tick) = (4 * SECOND, SECOND / 240);
     frames(&mut simulation, &[], (3..=4).map(|n| n * SECOND).chain([at]));
     let shown: Vec<f64> = (0..=6).map(|n| simulation.frame(at + n * tick / 3, &[]).record.road).collect();
@@ -155,15 +155,15 @@ fn what_is_shown_moves_on_between_ticks() {
 fn a_pause_stands_and_a_step_steps() {
     let mut simulation = simulation(VehicleKind::Bicycle);
     let samples = [
-        Sample::key(0, Key::W, true),
-        Sample::key(2 * SECOND, Key::P, true),
-        Sample::key(3 * SECOND, Key::Period, true),
-        Sample::key(4 * SECOND, Key::P, false),
-        Sample::key(4 * SECOND, Key::P, true),
+        Sample::key(0, KeyboardKey::W, true),
+        Sample::key(2 * SECOND, KeyboardKey::P, true),
+        Sample::key(3 * SECOND, KeyboardKey::Period, true),
+        Sample::key(4 * SECOND, KeyboardKey::P, false),
+        Sample::key(4 * SECOND, KeyboardKey::P, true),
     ];
     let ride = frames(&mut simulation, &samples, (0..300).map(|n| n * SECOND / 60));
     let proper_time = |second: usize| ride[60 * second - 5].record.proper_time;
-    let tick = World::OLD_TOWN.metres(1.0 / 240.0);
+    let tick = LightSpeed::OLD_TOWN.metres(1.0 / 240.0);
     assert!(ride[150].paused && !ride[100].paused && !ride[290].paused);
     assert_eq!(
         ride[125].record.first_difference(&FrameRecord {
@@ -174,27 +174,27 @@ fn a_pause_stands_and_a_step_steps() {
         None
     );
     assert!((proper_time(4) - ride[150].record.proper_time - tick).abs() < 1e-12, "one step");
-    assert!((proper_time(5) - proper_time(4)) > 0.8 * World::OLD_TOWN.metres(1.0) - 30.0 * tick, "it runs again");
+    assert!((proper_time(5) - proper_time(4)) > 0.8 * LightSpeed::OLD_TOWN.metres(1.0) - 30.0 * tick, "it runs again");
     assert_eq!(ride.iter().map(|frame| frame.controls.actions.len()).sum::<usize>(), 3, "each action is told once");
 }
 
 #[test]
 fn a_restart_is_a_new_ride_in_the_same_world() {
     let mut simulation = simulation(VehicleKind::Fly);
-    let begin = simulation.vehicle().eye();
+    let begin = simulation.vehicle().gaze();
     let samples = [
-        Sample::key(0, Key::R, true),
+        Sample::key(0, KeyboardKey::R, true),
         Sample::action(SECOND, &Action::SpeedOfLight(2.0)),
-        Sample::key(2 * SECOND, Key::R, false),
-        Sample::key(3 * SECOND, Key::Backspace, true),
+        Sample::key(2 * SECOND, KeyboardKey::R, false),
+        Sample::key(3 * SECOND, KeyboardKey::Backspace, true),
     ];
     let ride = frames(&mut simulation, &samples, times(2));
     assert!(ride[100].record.position[1] > 0.1);
     let ride = frames(&mut simulation, &samples[2..], (20..=32).map(|n| n * SECOND / 10));
     let end = &ride[ride.len() - 1];
-    assert_eq!(end.eye.observer.event.position, begin.observer.event.position);
+    assert_eq!(end.gaze.observer.event.position, begin.observer.event.position);
     assert!(end.vehicle.odometer().own_s < 0.6 && end.vehicle.odometer().road_m == 0.0);
-    assert_eq!(end.vehicle.world().speed_of_light_m_s(), 2.0);
+    assert_eq!(end.vehicle.light_speed().speed_of_light_m_s(), 2.0);
 }
 
 #[test]
@@ -207,11 +207,11 @@ fn a_stall_is_not_caught_up_with() {
 }
 
 #[test]
-fn a_speed_of_light_that_makes_no_world_is_refused() {
+fn a_speed_of_light_out_of_range_is_refused() {
     let mut simulation = simulation(VehicleKind::Fly);
     let frame = simulation.frame(SECOND / 10, &[Sample::action(0, &Action::SpeedOfLight(1e-300))]);
     assert_eq!(frame.notices, [Notice::SpeedOfLightRefused]);
-    assert_eq!(frame.vehicle.world(), World::OLD_TOWN);
+    assert_eq!(frame.vehicle.light_speed(), LightSpeed::OLD_TOWN);
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn any_bytes_from_any_device_make_a_finite_ride() {
             let at = n * SECOND / 60;
             let samples: Vec<Sample> = (0..random.random_range(0..8))
                 .map(|_| {
-                    let source = input::Source::ALL[random.random_range(0..input::Source::ALL.len())];
+                    let source = input::SampleSource::ALL[random.random_range(0..input::SampleSource::ALL.len())];
                     let bytes: Vec<u8> = (0..random.random_range(0..40)).map(|_| random.random()).collect();
                     Sample::bytes(random.random_range(0..2 * at + 1), source, bytes)
                 })
@@ -237,20 +237,20 @@ fn any_bytes_from_any_device_make_a_finite_ride() {
 }
 
 /// Recording of the ride in memory.
-fn entries(setup: &Setup, samples: &[Sample]) -> Vec<Entry> {
+fn entries(setup: &Setup, samples: &[Sample]) -> Vec<RecordingEntry> {
     let mut simulation = Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap();
     let mut entries = Vec::new();
     let mut left = samples;
     for at in times(9) {
         let due = left.iter().take_while(|sample| sample.at <= at).count();
-        entries.extend(left[..due].iter().cloned().map(Entry::Sample));
-        entries.push(Entry::Frame(simulation.frame(at, &left[..due]).record));
+        entries.extend(left[..due].iter().cloned().map(RecordingEntry::Sample));
+        entries.push(RecordingEntry::Frame(simulation.frame(at, &left[..due]).record));
         left = &left[due..];
     }
     entries
 }
 
-fn verify(setup: &Setup, entries: Vec<Entry>) -> Result<u64, ReplayError> {
+fn verify(setup: &Setup, entries: Vec<RecordingEntry>) -> Result<u64, ReplayError> {
     let entries = entries.into_iter().map(Ok::<_, RecordingError>);
     Replay::of(entries, setup.clone(), Arc::new(OpenPlane)).unwrap().verify()
 }
@@ -268,7 +268,7 @@ fn the_last_bit_of_any_frame_shows_with_its_number() {
     let changed = entries
         .iter_mut()
         .find_map(|entry| match entry {
-            Entry::Frame(record) if record.frame == 300 => Some(record),
+            RecordingEntry::Frame(record) if record.frame == 300 => Some(record),
             _ => None,
         })
         .unwrap();
@@ -285,7 +285,9 @@ fn another_byte_is_another_ride() {
     let recorded = entries(&setup, &busy_ride());
     let changed = recorded.into_iter().map(|entry| match entry {
         // The changed sample steers to the right instead of to the left.
-        Entry::Sample(sample) if sample.at == 15 * SECOND / 10 => Entry::Sample(Sample::key(sample.at, Key::D, true)),
+        RecordingEntry::Sample(sample) if sample.at == 15 * SECOND / 10 => {
+            RecordingEntry::Sample(Sample::key(sample.at, KeyboardKey::D, true))
+        }
         other => other,
     });
     assert!(matches!(verify(&setup, changed.collect()), Err(ReplayError::Differs { frame: 90..93, .. })));

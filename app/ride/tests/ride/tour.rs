@@ -1,6 +1,6 @@
-//! Law: the built-in tour takes a bicycle round a closed way, by sensor lines through the real decoder.
+//! Law: the built-in tour takes a bicycle round a closed route, by sensor lines through the real decoder.
 //!
-//! A wrong sign of the handlebar or of the yaw leaves the way at the first bend; a tour that does not look ahead is
+//! A wrong sign of the handlebar or of the yaw leaves the route at the first bend; a tour that does not look ahead is
 //! carried out of the bends.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
@@ -9,16 +9,16 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use input::{DeskConfig, SECOND, VehicleKind};
-use rapidity::simulation::{Frame, Setup, Simulation, Start, Tour};
-use rapidity::vehicle::{OpenPlane, VehicleSettings, World};
+use ride::{LightSpeed, RideFrame, RideStart, Setup, Simulation, Tour, VehicleSettings};
+use scene::OpenPlane;
 
-/// Largest distance from the way, metres.
-const ON_THE_WAY_M: f64 = 1.0;
+/// Largest distance from the route, metres.
+const ON_THE_ROUTE_M: f64 = 1.0;
 /// Largest rate of turn in a bend, radians per second of own time; at the cruise the sharpest bend would have 1.16.
 const BEND_RAD_S: f64 = 1.05;
 
-/// Closed way: a rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides; the sharpest radius is 6
-/// m.
+/// Closed route: a rounded rectangle of 60 m × 30 m with an S-bend in one of the long sides. The sharpest radius is
+/// 6 m.
 fn circuit() -> Vec<DVec3> {
     let mut points = Vec::new();
     let mut position = DVec3::ZERO;
@@ -53,21 +53,21 @@ fn circuit() -> Vec<DVec3> {
             go(length, turn);
         }
     }
-    assert!(position.length() < 0.1, "the way is closed: {position}");
+    assert!(position.length() < 0.1, "the route is closed: {position}");
     points
 }
 
 fn setup(circuit: &[DVec3]) -> Setup {
     Setup {
-        world: World::OLD_TOWN,
+        light_speed: LightSpeed::OLD_TOWN,
         kind: VehicleKind::Bicycle,
-        start: Start::at_rest(circuit[0], circuit[1] - circuit[0]),
+        start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0]),
         vehicle: VehicleSettings::default(),
         desk: DeskConfig::default(),
     }
 }
 
-fn ride(seconds: u64) -> Vec<Frame> {
+fn ride(seconds: u64) -> Vec<RideFrame> {
     let circuit = circuit();
     let setup = setup(&circuit);
     let mut tour = Tour::new(&circuit).unwrap();
@@ -102,15 +102,17 @@ fn the_tour_laps_the_circuit_and_keeps_to_it() {
         let position = frame.vehicle.state().position;
         farthest = farthest.max(distance_to(&circuit, position));
     }
-    assert!(farthest < ON_THE_WAY_M, "it strays by {farthest} m");
-    let turned = frames.windows(60).map(|second| second[0].eye.orientation.angle_between(second[59].eye.orientation));
+    assert!(farthest < ON_THE_ROUTE_M, "it strays by {farthest} m");
+    let turned = frames
+        .windows(60)
+        .map(|second| second[0].gaze.observer_from_eye.angle_between(second[59].gaze.observer_from_eye));
     assert!(turned.fold(0.0, f64::max) < BEND_RAD_S, "it is swung round in a bend");
     // The ride is more than two rounds, and passes each point of the circuit.
     let end = &frames[frames.len() - 1];
     assert!(end.record.road > 2.0 * 150.0, "{} m", end.record.road);
     for point in &circuit {
         let nearest = frames.iter().map(|frame| frame.vehicle.state().position.distance(*point));
-        assert!(nearest.fold(f64::INFINITY, f64::min) < 1.0 + ON_THE_WAY_M);
+        assert!(nearest.fold(f64::INFINITY, f64::min) < 1.0 + ON_THE_ROUTE_M);
     }
 }
 
@@ -121,10 +123,10 @@ fn speed_rises_gently_from_rest_to_the_cruise() {
     for frame in &frames {
         let celerity = frame.record.celerity.iter().map(|u| u * u).sum::<f64>().sqrt();
         // The largest gain is 3 m/s² over a sixtieth of a second.
-        assert!(celerity - before < 3.0 / 60.0 / World::OLD_TOWN.speed_of_light_m_s(), "{before} to {celerity}");
+        assert!(celerity - before < 3.0 / 60.0 / LightSpeed::OLD_TOWN.speed_of_light_m_s(), "{before} to {celerity}");
         before = celerity;
     }
-    let at = |second: usize| World::OLD_TOWN.metres_per_own_second(frames[60 * second].record.rapidity.sinh());
+    let at = |second: usize| LightSpeed::OLD_TOWN.metres_per_own_second(frames[60 * second].record.rapidity.sinh());
     assert!(at(1) < 1.5 && at(4) > 1.0, "{} {}", at(1), at(4));
     let fastest = (0..30).map(at).fold(0.0, f64::max);
     assert!((0.9 * Tour::CRUISE_M_S..1.05 * Tour::CRUISE_M_S).contains(&fastest), "{fastest}");
@@ -143,7 +145,7 @@ fn the_sensors_lines_are_all_understood() {
         simulation.frame(n * SECOND / 60, &samples);
     }
     assert_eq!(lines, 1 + 999, "a hundred a second");
-    assert_eq!(simulation.desk().faults(input::Source::Bicycle).number(), 0);
+    assert_eq!(simulation.desk().faults(input::SampleSource::Bicycle).number(), 0);
 }
 
 #[test]
@@ -153,7 +155,7 @@ fn a_tour_repeats_to_the_bit() {
 }
 
 #[test]
-fn what_cannot_be_toured_is_refused() {
+fn a_circuit_without_three_finite_corners_is_refused() {
     assert!(Tour::new(&[]).is_none());
     assert!(Tour::new(&circuit()[..2]).is_none());
     assert!(Tour::new(&[DVec3::X, DVec3::Y, DVec3::INFINITY]).is_none());

@@ -1,4 +1,4 @@
-//! Law: the tour gets round the built-in town, and no vehicle enters a house.
+//! Law: the tour gets round the built-in town, and vehicles never enter a house.
 //!
 //! A modelled town's walls are not perfect: at corners, doorsteps and street furniture a wrong program would let a
 //! vehicle slip through or be thrown about.
@@ -7,15 +7,14 @@
 
 use std::sync::{Arc, LazyLock};
 
+use built_in::town;
 use glam::DVec3;
 use input::{Controls, DeskConfig, SECOND, VehicleKind};
 use physics::Celerity;
-use physics::worldline::State;
-use rapidity::scene::Scene;
-use rapidity::scene::collision::Collision;
-use rapidity::scene::town;
-use rapidity::simulation::{Setup, Simulation, Start, Tour};
-use rapidity::vehicle::{OpenSpace, Surroundings, Vehicle, VehicleSettings, World};
+use physics::worldline::WorldlineState;
+use ride::{LightSpeed, RideStart, Setup, Simulation, Tour, Vehicle, VehicleSettings};
+use scene::collision::Collision;
+use scene::{OpenSpace, Scene, Surroundings};
 
 /// Town built once for all tests, as its pictures take their time.
 static TOWN: LazyLock<(Scene, Arc<Collision>)> = LazyLock::new(|| {
@@ -25,21 +24,21 @@ static TOWN: LazyLock<(Scene, Arc<Collision>)> = LazyLock::new(|| {
 });
 
 /// Largest distance of the tour from the circuit, metres.
-const ON_THE_WAY_M: f64 = 0.3;
+const ON_THE_ROUTE_M: f64 = 0.3;
 /// Least distance of a vehicle from a wall, metres: the reach of its body, save for rounding.
 const BODY_M: f64 = 0.39;
 /// Largest rise between two frames, metres: a kerb's ramp at the greatest speed, for a sixtieth of a second.
 const CLIMB_M: f64 = 0.08;
 
-fn start() -> Start {
-    Start::at_rest(TOWN.0.circuit[0], TOWN.0.circuit[1] - TOWN.0.circuit[0])
+fn start() -> RideStart {
+    RideStart::at_rest(TOWN.0.circuit[0], TOWN.0.circuit[1] - TOWN.0.circuit[0])
 }
 
 #[test]
 fn the_tour_laps_the_streets_and_touches_nothing() {
     let (scene, surroundings) = &*TOWN;
     let setup = Setup {
-        world: World::OLD_TOWN,
+        light_speed: LightSpeed::OLD_TOWN,
         kind: VehicleKind::Bicycle,
         start: start(),
         vehicle: VehicleSettings::default(),
@@ -56,13 +55,13 @@ fn the_tour_laps_the_streets_and_touches_nothing() {
         assert!(frame.notices.is_empty());
         let position = frame.vehicle.state().position;
         let nearest = scene.circuit.iter().map(|point| point.distance(position)).fold(f64::INFINITY, f64::min);
-        assert!(nearest < 2.0 + ON_THE_WAY_M, "{nearest} m from the circuit's points at {position}");
-        assert!(surroundings.nearest_wall(position, 1.2 - ON_THE_WAY_M).is_none(), "brushes a wall at {position}");
+        assert!(nearest < 2.0 + ON_THE_ROUTE_M, "{nearest} m from the circuit's points at {position}");
+        assert!(surroundings.nearest_wall(position, 1.2 - ON_THE_ROUTE_M).is_none(), "brushes a wall at {position}");
         let ground = surroundings.height_below(position).unwrap().height;
         assert!((position.y - ground).abs() < 0.1, "off the ground at {position}");
         assert!((position.y - before.y).abs() < CLIMB_M, "jumps up or down at {position}");
         for (passed, point) in passed.iter_mut().zip(&scene.circuit) {
-            *passed |= point.distance(position) < 1.0 + ON_THE_WAY_M;
+            *passed |= point.distance(position) < 1.0 + ON_THE_ROUTE_M;
         }
         before = position;
     }
@@ -71,14 +70,14 @@ fn the_tour_laps_the_streets_and_touches_nothing() {
 }
 
 #[test]
-fn whoever_rides_anyhow_stays_in_the_streets() {
+fn random_controls_stay_in_the_streets() {
     use rand::{RngExt, SeedableRng};
     let surroundings = &TOWN.1;
     for seed in 0..12 {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
         let kind = if seed % 2 == 0 { VehicleKind::Bicycle } else { VehicleKind::Drive };
         let state = start().state().unwrap();
-        let mut vehicle = Vehicle::new(World::OLD_TOWN, kind, state, VehicleSettings::default()).unwrap();
+        let mut vehicle = Vehicle::new(LightSpeed::OLD_TOWN, kind, state, VehicleSettings::default()).unwrap();
         vehicle.settle(&**surroundings);
         for _ in 0..40 {
             let controls = Controls {
@@ -95,7 +94,7 @@ fn whoever_rides_anyhow_stays_in_the_streets() {
                 assert!((after.y - before.y).abs() < CLIMB_M, "seed {seed}: jumps at {after}");
                 let nearest = |position| surroundings.nearest_wall(position, 1.0).map_or(1.0, |wall| wall.distance);
                 assert!(nearest(after) > BODY_M, "seed {seed}: {} m from a wall at {after}", nearest(after));
-                // The way between had no wall either; a step downwards may turn a doorstep into a wall there.
+                // The path between had no wall either; a step downwards may turn a doorstep into a wall there.
                 let between = (1..4).map(|share| nearest(before.lerp(after, f64::from(share) / 4.0)));
                 assert!(between.fold(1.0, f64::min) > 0.5 * BODY_M, "seed {seed}: through a wall before {after}");
             }
@@ -104,15 +103,16 @@ fn whoever_rides_anyhow_stays_in_the_streets() {
 }
 
 #[test]
-fn no_celerity_leaves_the_streets() {
+fn walls_of_the_streets_hold_at_any_celerity() {
     let surroundings = &TOWN.1;
     for celerity in [20.0, 1e3, 1e6] {
         for (index, &place) in TOWN.0.circuit.iter().enumerate().step_by(40) {
             let angle = index as f64;
             let direction = DVec3::new(angle.sin(), 0.0, angle.cos());
-            let mut state: State = Start::at_rest(place, direction).state().unwrap();
+            let mut state: WorldlineState = RideStart::at_rest(place, direction).state().unwrap();
             state.celerity = Celerity::new(direction * celerity).unwrap();
-            let mut car = Vehicle::new(World::OLD_TOWN, VehicleKind::Drive, state, VehicleSettings::default()).unwrap();
+            let mut car =
+                Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Drive, state, VehicleSettings::default()).unwrap();
             car.settle(&**surroundings);
             for _ in 0..24 {
                 car.step(1.0 / 240.0, &Controls::default(), &**surroundings);
@@ -127,9 +127,10 @@ fn no_celerity_leaves_the_streets() {
 }
 
 #[test]
-fn the_streets_hold_only_one_who_is_on_the_ground() {
+fn a_spaceship_that_becomes_a_car_is_set_on_the_ground() {
     let mut ship =
-        Vehicle::new(World::OLD_TOWN, VehicleKind::Fly, start().state().unwrap(), VehicleSettings::default()).unwrap();
+        Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Fly, start().state().unwrap(), VehicleSettings::default())
+            .unwrap();
     let up = Controls { thrust: [0.0, 1.0, 0.0], ..Controls::default() };
     for _ in 0..240 * 5 {
         ship.step(1.0 / 240.0, &up, &OpenSpace);

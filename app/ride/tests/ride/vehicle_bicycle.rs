@@ -1,4 +1,4 @@
-//! Law: wheel speed on the rider's clock is celerity, the handlebar bends the way in the world, and the brake stops
+//! Law: wheel speed on the rider's clock is celerity, the handlebar bends the path in the world, and the brake stops
 //! the bicycle.
 //!
 //! A program that took the wheel speed for β would stand still at c or run past it. One that turned by the world's
@@ -9,9 +9,10 @@
 
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, Event};
-use rapidity::vehicle::{IntegratorKind, Notice, OpenPlane, OpenSpace, RAPIDITY_CAP, Vehicle, VehicleSettings, World};
+use ride::{IntegratorKind, LightSpeed, Notice, RAPIDITY_CAP, Vehicle, VehicleSettings};
+use scene::{OpenPlane, OpenSpace};
 
 const STEP_S: f64 = 1.0 / 240.0;
 /// Tolerance for RK4 at 240 Hz with a response time of 0.7 s.
@@ -19,8 +20,8 @@ const INTEGRATION: f64 = 1e-8;
 
 fn bicycle_at(celerity: f64) -> Vehicle {
     let celerity = Celerity::new(DVec3::NEG_Z * celerity).unwrap();
-    let state = State::new(Event::default(), celerity, DQuat::IDENTITY);
-    Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, state, VehicleSettings::default()).unwrap()
+    let state = WorldlineState::new(Event::default(), celerity, DQuat::IDENTITY);
+    Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, state, VehicleSettings::default()).unwrap()
 }
 
 fn pedalling(wheel_speed: f64) -> Controls {
@@ -66,7 +67,7 @@ fn any_pedalling_stays_below_the_speed_of_light() {
             assert!(celerity.magnitude() >= before, "it rises steadily");
             before = celerity.magnitude();
         }
-        let wanted = bicycle.world().celerity(wheel_speed.min(100.0));
+        let wanted = bicycle.light_speed().celerity(wheel_speed.min(100.0));
         assert!((before / wanted - 1.0).abs() < INTEGRATION, "{before} instead of {wanted}");
     }
 }
@@ -84,7 +85,7 @@ fn the_answer_to_the_pedals_is_gradual() {
 }
 
 #[test]
-fn a_bicycle_that_nobody_pedals_rolls_to_a_stop() {
+fn an_unpedalled_bicycle_rolls_to_a_stop() {
     let mut bicycle = bicycle_at(1.0);
     ride(&mut bicycle, &Controls::default(), 60.0);
     assert!(bicycle.state().celerity.magnitude() < 1e-6);
@@ -98,7 +99,7 @@ fn the_bend_is_a_circle_of_the_same_radius_at_any_speed() {
     // gyroscopes' turn in a step, γ Ω: 0.08 rad in the last case.
     for (celerity, tolerance) in [(0.01, 1e-7), (0.75, 1e-6), (3.0, 1e-3)] {
         let mut bicycle = bicycle_at(celerity);
-        let speed = bicycle.world().metres_per_own_second(celerity);
+        let speed = bicycle.light_speed().metres_per_own_second(celerity);
         let controls = Controls { steer_rad, ..pedalling(speed) };
         // The centre is left of the start, at rest in the world.
         let centre = DVec3::NEG_X * radius;
@@ -122,7 +123,8 @@ fn the_bend_is_a_circle_of_the_same_radius_at_any_speed() {
 fn the_integrators_agree_on_a_winding_ride() {
     let end = |integrator| {
         let settings = VehicleSettings { integrator, ..VehicleSettings::default() };
-        let mut bicycle = Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, State::default(), settings).unwrap();
+        let mut bicycle =
+            Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, WorldlineState::default(), settings).unwrap();
         for n in 0..10 * 240 {
             let steer_rad = 0.04 * (f64::from(n) / 240.0).sin();
             bicycle.step(STEP_S, &Controls { steer_rad, ..pedalling(12.0) }, &OpenPlane);
@@ -142,7 +144,7 @@ fn the_brake_has_two_stages_and_stops_any_celerity() {
         let mut bicycle = bicycle_at(3.0);
         let before = bicycle.state().celerity.rapidity();
         ride(&mut bicycle, &Controls { brake, ..pedalling(25.0) }, 0.25);
-        bicycle.world().metres_per_own_second(before - bicycle.state().celerity.rapidity()) / 0.25
+        bicycle.light_speed().metres_per_own_second(before - bicycle.state().celerity.rapidity()) / 0.25
     };
     let settings = VehicleSettings::default().bicycle;
     // The pedals withstand the first stage of the brake, not the second.
@@ -152,7 +154,7 @@ fn the_brake_has_two_stages_and_stops_any_celerity() {
 
     for celerity in [1.0, -1.0, 1e3, 1e11] {
         let mut bicycle = bicycle_at(celerity);
-        let stop_s = bicycle.world().metres(bicycle.state().celerity.rapidity()) / settings.stop_m_s2;
+        let stop_s = bicycle.light_speed().metres(bicycle.state().celerity.rapidity()) / settings.stop_m_s2;
         ride(&mut bicycle, &Controls { brake: 1.0, ..Controls::default() }, stop_s + 2.0);
         assert!(bicycle.state().celerity.magnitude() < 1e-9, "from {celerity}");
     }

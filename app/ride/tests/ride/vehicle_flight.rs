@@ -9,21 +9,19 @@
 
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, Event};
-use rapidity::vehicle::{
-    FlightSettings, Ground, IntegratorKind, Nose, Notice, OpenPlane, OpenSpace, RAPIDITY_CAP, Surroundings, Vehicle,
-    VehicleSettings, Wall, World,
-};
+use ride::{FlightSettings, IntegratorKind, LightSpeed, Nose, Notice, RAPIDITY_CAP, Vehicle, VehicleSettings};
+use scene::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};
 
 const STEP_S: f64 = 1.0 / 240.0;
 /// Depth below the ground from which it is still found, metres.
 const KERB_M: f64 = 0.2;
 
 fn vehicle(kind: VehicleKind, celerity: DVec3, flight: FlightSettings) -> Vehicle {
-    let state = State::new(Event::default(), Celerity::new(celerity).unwrap(), DQuat::IDENTITY);
+    let state = WorldlineState::new(Event::default(), Celerity::new(celerity).unwrap(), DQuat::IDENTITY);
     let settings = VehicleSettings { flight, ..VehicleSettings::default() };
-    Vehicle::new(World::OLD_TOWN, kind, state, settings).unwrap()
+    Vehicle::new(LightSpeed::OLD_TOWN, kind, state, settings).unwrap()
 }
 
 fn spaceship(celerity: DVec3) -> Vehicle {
@@ -96,11 +94,11 @@ fn a_thrust_reversed_brings_the_ship_back_to_rest() {
 }
 
 #[test]
-fn lateral_thrust_bends_the_way_and_turns_the_nose_with_it() {
+fn lateral_thrust_bends_the_path_and_turns_the_nose_with_it() {
     let mut ship = spaceship(DVec3::NEG_Z * 1.5);
     for _ in 0..20 * 240 {
         ship.step(STEP_S, &thrust([1.0, 0.0, 0.0]), &OpenSpace);
-        // The way is a circle: the speed stays and the nose keeps to the motion, but for the softening, s²/u² of the
+        // The path is a circle: the speed stays and the nose keeps to the motion, but for the softening, s²/u² of the
         // turn.
         assert!((ship.state().celerity.magnitude() - 1.5).abs() < 1e-2);
         assert!(nose(&ship).angle_between(motion(&ship)) < 2e-3);
@@ -193,13 +191,13 @@ fn the_brake_brings_any_flight_to_rest() {
 }
 
 #[test]
-fn one_who_drives_stays_level_and_at_his_height() {
+fn a_driven_vehicle_stays_level_and_on_the_ground() {
     let mut car = vehicle(VehicleKind::Drive, DVec3::ZERO, FlightSettings::default());
     fly(&mut car, &thrust([0.2, 1.0, -1.0]), 5.0);
     assert!(car.state().celerity.magnitude() > 1.0);
     assert_eq!(car.state().position.y, 0.0);
     assert!((car.state().orientation * DVec3::Y).distance(DVec3::Y) < 1e-12);
-    assert!((car.eye().observer.event.position.y - 1.6).abs() < 1e-12);
+    assert!((car.gaze().observer.event.position.y - 1.6).abs() < 1e-12);
 }
 
 /// Ground that is level, then a slope of one in ten along −z from the origin on.
@@ -270,9 +268,9 @@ fn a_kerb_is_climbed_smoothly() {
 #[test]
 fn changing_the_vehicle_keeps_eye_or_ground() {
     let mut vehicle = vehicle(VehicleKind::Bicycle, DVec3::NEG_Z * 0.75, FlightSettings::default());
-    let eye = vehicle.eye();
+    let gaze = vehicle.gaze();
     vehicle.set_kind(VehicleKind::Fly, &OpenPlane);
-    assert_eq!(vehicle.eye(), eye);
+    assert_eq!(vehicle.gaze(), gaze);
     fly(&mut vehicle, &thrust([0.3, 1.0, -1.0]), 5.0);
     fly(&mut vehicle, &turn([1.0, 0.0, 1.0]), 1.0);
     assert!(vehicle.state().position.y > 1.0);
@@ -291,10 +289,10 @@ fn controls_of_any_kind_leave_every_vehicle_finite() {
     let strange = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e308, -1e308, 5e-324, 0.0, -0.0];
     for kind in [VehicleKind::Bicycle, VehicleKind::Drive, VehicleKind::Fly] {
         for integrator in [IntegratorKind::Rk4, IntegratorKind::Exact, IntegratorKind::DormandPrince] {
-            for speed_of_light in [World::SLOWEST_M_S, 30.0 / 3.6, 3e8] {
+            for speed_of_light in [LightSpeed::SLOWEST_M_S, 30.0 / 3.6, 3e8] {
                 let settings = VehicleSettings { integrator, ..VehicleSettings::default() };
-                let world = World::new(speed_of_light).unwrap();
-                let mut vehicle = Vehicle::new(world, kind, State::default(), settings).unwrap();
+                let light_speed = LightSpeed::new(speed_of_light).unwrap();
+                let mut vehicle = Vehicle::new(light_speed, kind, WorldlineState::default(), settings).unwrap();
                 for _ in 0..300 {
                     let mut any = |range: f64| {
                         if random.random_bool(0.05) {
@@ -324,7 +322,7 @@ fn controls_of_any_kind_leave_every_vehicle_finite() {
                     assert!(!vehicle.notices().contains(&Notice::NotIntegrated), "{kind:?} {integrator:?}");
                     assert!(state.celerity.rapidity() <= RAPIDITY_CAP + 1e-9);
                     assert!((0.0..=1.0).contains(&vehicle.resistance()));
-                    assert!(vehicle.eye().observer.event.position.is_finite());
+                    assert!(vehicle.gaze().observer.event.position.is_finite());
                     let odometer = vehicle.odometer();
                     assert!(
                         odometer.road_m.is_finite()

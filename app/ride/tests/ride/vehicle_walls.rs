@@ -1,15 +1,16 @@
 //! Law: walls hold at any speed, let vehicles slide along them, and let them leave.
 //!
 //! A program that tested only the present position would pass through a house at a celerity of a few. One that took
-//! away all speed near a wall would hold a rider who wants to leave.
+//! away all speed near a wall would hold a vehicle that turns away from it.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use glam::{DQuat, DVec3};
 use input::{Controls, VehicleKind};
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, Event};
-use rapidity::vehicle::{FlightSettings, Ground, Notice, Surroundings, Vehicle, VehicleSettings, Wall, World};
+use ride::{FlightSettings, LightSpeed, Notice, Vehicle, VehicleSettings};
+use scene::{Ground, Surroundings, Wall};
 
 const STEP_S: f64 = 1.0 / 240.0;
 
@@ -40,8 +41,8 @@ impl Surroundings for Courtyard {
 fn vehicle(kind: VehicleKind, celerity: f64, angle: f64) -> Vehicle {
     let orientation = DQuat::from_rotation_y(angle);
     let celerity = Celerity::new(orientation * DVec3::NEG_Z * celerity).unwrap();
-    let state = State::new(Event::default(), celerity, orientation);
-    Vehicle::new(World::OLD_TOWN, kind, state, VehicleSettings::default()).unwrap()
+    let state = WorldlineState::new(Event::default(), celerity, orientation);
+    Vehicle::new(LightSpeed::OLD_TOWN, kind, state, VehicleSettings::default()).unwrap()
 }
 
 fn pedalling(wheel_speed: f64) -> Controls {
@@ -53,7 +54,7 @@ fn inside(vehicle: &Vehicle, half: f64) -> bool {
 }
 
 #[test]
-fn no_celerity_gets_through() {
+fn walls_hold_at_any_celerity() {
     for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
         for half in [1.0, 5.0, 40.0] {
             let place = Courtyard(half);
@@ -90,7 +91,7 @@ impl Surroundings for Lane {
 }
 
 #[test]
-fn too_fast_for_a_lane_is_told_and_costs_way_but_no_time() {
+fn excess_speed_in_a_lane_is_told_and_costs_distance_but_no_time() {
     for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
         let mut vehicle = vehicle(kind, 1e4, 0.0);
         vehicle.step(STEP_S, &Controls::default(), &Lane);
@@ -147,7 +148,7 @@ fn a_glancing_ride_slides_along_the_wall() {
 }
 
 #[test]
-fn one_can_always_ride_out_again() {
+fn a_vehicle_at_a_wall_can_leave() {
     for angle in [0.0, 0.4, std::f64::consts::FRAC_PI_4] {
         let place = Courtyard(6.0);
         let mut bicycle = vehicle(VehicleKind::Bicycle, 2.0, angle);
@@ -185,7 +186,7 @@ fn one_can_always_ride_out_again() {
 }
 
 #[test]
-fn one_who_begins_too_near_a_wall_is_not_thrown_and_gets_away() {
+fn a_start_too_near_a_wall_neither_throws_nor_holds_the_bicycle() {
     let place = Courtyard(0.3);
     let mut bicycle = vehicle(VehicleKind::Bicycle, 0.0, 0.0);
     for _ in 0..240 {
@@ -193,8 +194,10 @@ fn one_who_begins_too_near_a_wall_is_not_thrown_and_gets_away() {
         assert!(inside(&bicycle, 0.3));
     }
     // Start just outside the courtyard, facing away from it.
-    let state = State::new(Event { ct: 0.0, position: DVec3::new(0.0, 0.0, -0.35) }, Celerity::ZERO, DQuat::IDENTITY);
-    let mut bicycle = Vehicle::new(World::OLD_TOWN, VehicleKind::Bicycle, state, VehicleSettings::default()).unwrap();
+    let state =
+        WorldlineState::new(Event { ct: 0.0, position: DVec3::new(0.0, 0.0, -0.35) }, Celerity::ZERO, DQuat::IDENTITY);
+    let mut bicycle =
+        Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, state, VehicleSettings::default()).unwrap();
     for _ in 0..2 * 240 {
         bicycle.step(STEP_S, &pedalling(5.0), &place);
     }
@@ -202,7 +205,7 @@ fn one_who_begins_too_near_a_wall_is_not_thrown_and_gets_away() {
 }
 
 #[test]
-fn a_spaceship_goes_where_it_likes() {
+fn walls_do_not_stop_a_spaceship() {
     let mut ship = vehicle(VehicleKind::Fly, 1.0, 0.0);
     assert_eq!(ship.settings().flight, FlightSettings::default());
     for _ in 0..240 {

@@ -10,7 +10,7 @@ fn wall() -> Display {
 }
 
 /// Calibration of the stereo wall after the given keys; `true` means with Shift.
-fn after(keys: &[(Key, bool)]) -> Calibration {
+fn after(keys: &[(CornerKey, bool)]) -> Calibration {
     let mut calibration = Calibration::new(&wall());
     for (key, shift) in keys {
         calibration.press(*key, *shift).unwrap();
@@ -24,20 +24,25 @@ fn tab_goes_round_all_corners_of_all_channels_and_back() {
     let mut met = Vec::new();
     for _ in 0..8 {
         met.push(calibration.chosen());
-        assert_eq!(calibration.press(Key::Tab, false), Ok(None));
+        assert_eq!(calibration.press(CornerKey::Tab, false), Ok(None));
     }
     assert_eq!(met, [(0, 0), (0, 1), (0, 2), (0, 3), (1, 0), (1, 1), (1, 2), (1, 3)]);
     assert_eq!(calibration.chosen(), (0, 0));
     for expected in met.into_iter().rev() {
-        calibration.press(Key::Tab, true).unwrap();
+        calibration.press(CornerKey::Tab, true).unwrap();
         assert_eq!(calibration.chosen(), expected);
     }
 }
 
 #[test]
 fn arrows_move_the_chosen_corner_by_one_and_ten_pixels() {
-    let calibration =
-        after(&[(Key::Tab, false), (Key::Left, true), (Key::Left, false), (Key::Down, true), (Key::Up, false)]);
+    let calibration = after(&[
+        (CornerKey::Tab, false),
+        (CornerKey::Left, true),
+        (CornerKey::Left, false),
+        (CornerKey::Down, true),
+        (CornerKey::Up, false),
+    ]);
     let expected = [DVec2::ZERO, DVec2::new(1013.0, 9.0), DVec2::new(1024.0, 768.0), DVec2::new(0.0, 768.0)];
     assert_eq!(calibration.changed(), [("left", Some(expected))]);
     let size = DVec2::new(1024.0, 768.0);
@@ -47,15 +52,16 @@ fn arrows_move_the_chosen_corner_by_one_and_ten_pixels() {
 
 #[test]
 fn a_press_says_which_channel_has_moved() {
-    let mut calibration = after(&[(Key::Tab, true)]);
-    assert_eq!(calibration.press(Key::Up, false), Ok(Some(1)));
-    assert_eq!(calibration.press(Key::Back, false), Ok(Some(1)));
-    assert_eq!(calibration.press(Key::Back, false), Ok(None));
+    let mut calibration = after(&[(CornerKey::Tab, true)]);
+    assert_eq!(calibration.press(CornerKey::Up, false), Ok(Some(1)));
+    assert_eq!(calibration.press(CornerKey::Back, false), Ok(Some(1)));
+    assert_eq!(calibration.press(CornerKey::Back, false), Ok(None));
 }
 
 #[test]
 fn there_and_back_is_nothing() {
-    let calibration = after(&[(Key::Right, false), (Key::Left, false), (Key::Up, true), (Key::Down, true)]);
+    let calibration =
+        after(&[(CornerKey::Right, false), (CornerKey::Left, false), (CornerKey::Up, true), (CornerKey::Down, true)]);
     assert_eq!(calibration, after(&[]));
     assert!(calibration.changed().is_empty());
 }
@@ -69,16 +75,16 @@ fn backspace_goes_to_where_the_file_has_it_and_with_shift_to_the_viewport() {
     display.channels[0].warp = Some(Warp::Corners(CornerWarp::new(in_file.map(|place| place / size)).unwrap()));
     let mut calibration = Calibration::new(&display);
     assert_eq!(calibration.warp(0), display.channels[0].warp);
-    calibration.press(Key::Right, true).unwrap();
+    calibration.press(CornerKey::Right, true).unwrap();
     assert_eq!(calibration.changed().len(), 1);
-    calibration.press(Key::Back, false).unwrap();
+    calibration.press(CornerKey::Back, false).unwrap();
     assert_eq!(calibration.warp(0), display.channels[0].warp);
-    calibration.press(Key::Back, true).unwrap();
+    calibration.press(CornerKey::Back, true).unwrap();
     assert_eq!(calibration.warp(0), None);
     assert_eq!(calibration.changed(), [("left", None)]);
     calibration.saved();
     assert!(calibration.changed().is_empty());
-    calibration.press(Key::Back, false).unwrap();
+    calibration.press(CornerKey::Back, false).unwrap();
     assert_eq!(calibration.warp(0), None);
 }
 
@@ -88,18 +94,18 @@ fn a_corner_beyond_the_others_is_refused_and_stays() {
     display.channels[0].viewport = [0, 0, 30, 30];
     let mut calibration = Calibration::new(&display);
     // The upper left corner may go down the diagonal to the line between its neighbours, x + y = 30.
-    for key in [Key::Right, Key::Down] {
+    for key in [CornerKey::Right, CornerKey::Down] {
         calibration.press(key, true).unwrap();
     }
     let before = calibration.clone();
-    calibration.press(Key::Right, false).unwrap();
+    calibration.press(CornerKey::Right, false).unwrap();
     let mut refused = None;
     for _ in 0..20 {
-        refused = calibration.press(Key::Right, false).err().or(refused);
+        refused = calibration.press(CornerKey::Right, false).err().or(refused);
     }
     assert!(matches!(refused, Some(CalibrationError::NotConvex { ref channel, .. }) if channel == "left"));
     assert!(calibration.warp(0).is_some());
-    calibration.press(Key::Back, false).unwrap();
+    calibration.press(CornerKey::Back, false).unwrap();
     assert_ne!(calibration, before);
     assert_eq!(calibration.warp(0), None);
 }
@@ -110,7 +116,7 @@ fn corners_of_a_measured_warp_stay() {
     let places = vec![DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
     display.channels[0].warp = Some(Warp::Grid(room::MeasuredWarp::new(2, 2, places)));
     let mut calibration = Calibration::new(&display);
-    let refused = calibration.press(Key::Down, false);
+    let refused = calibration.press(CornerKey::Down, false);
     assert_eq!(refused, Err(CalibrationError::MeasuredWarp { channel: "left".into() }));
     assert!(calibration.changed().is_empty());
 }
