@@ -13,7 +13,7 @@ pub const LONG_STEP: f64 = 10.0;
 /// and a multiplication by it.
 const PER_PIXEL: f64 = 1e6;
 
-/// Names of the corners, in the order of [`Corners::places`].
+/// Names of the corners, in the order of [`CornerWarp::places`].
 pub const NAMES: [&str; 4] = ["upper left", "upper right", "lower right", "lower left"];
 
 /// Key that chooses or moves corners.

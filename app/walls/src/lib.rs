@@ -3,12 +3,12 @@
 //! # How it works
 //! 1. An [`Occupant`] gives the place of each eye, in the world and in the room (`head`).
 //! 2. The photo-surface of an eye does not depend on the direction of view, so it is computed once for all channels
-//!   of that eye (W 6.4.1).
+//!    of that eye (W 6.4.1).
 //! 3. A channel on a flat screen is drawn through the screen's own off-axis frustum. Any other channel is drawn into
-//!   flat pictures around the eye (`facet`), in which every pixel of the channel then looks up its place
-//!   (`curved`).
+//!    flat pictures around the eye (`facet`), in which every pixel of the channel then looks up its place
+//!    (`curved`).
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
-//!   developed, multiplied by its projector's gains, and put into its window.
+//!    developed, multiplied by its projector's gains, and put into its window.
 
 pub mod calibration;
 mod combine;
