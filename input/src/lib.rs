@@ -16,7 +16,6 @@
 //!
 //! This crate knows nothing of relativity: speeds are those of a wheel, times those of a clock on the wall.
 
-
 pub mod action;
 mod axis_table;
 pub mod bicycle;
@@ -59,7 +58,5 @@ pub use devices::{Devices, DevicesConfig};
 pub use faults::Faults;
 pub use head::{HeadConfig, HeadState, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
 pub use key::KeyboardKey;
-pub use key::KeyboardKey as Key; // until app is moved
 pub use rider_config::RiderConfig;
-pub use sample::SampleSource as Source; // until app is moved
 pub use sample::{Sample, SampleSource, Signal};

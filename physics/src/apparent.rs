@@ -14,8 +14,6 @@ use crate::celerity::Celerity;
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
 use crate::observer::Observer;
 
-pub use self::PointSource as Source; // until app is moved
-
 /// A point source in uniform motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointSource {

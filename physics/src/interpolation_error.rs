@@ -18,8 +18,6 @@ use glam::DVec3;
 use crate::celerity::Celerity;
 use crate::light_cone::LightConeCoordinates;
 
-pub use self::{InterpolationBound as Bound, TriangleInterpolation as Bend}; // until app is moved
-
 /// Radius around the middle of an edge, as a share of the edge's length, that holds every triangle of which the edge
 /// is the longest: √3/2.
 const REACH: f64 = 0.866_025_403_784_438_7;

@@ -19,7 +19,6 @@
 //! Sources are cited as W (Weiskopf, *Visualization of Four-Dimensional Spacetimes*, Tübingen 2001) and B (Borchers,
 //! *Interaktive und stereoskopische Visualisierung in der speziellen Relativitätstheorie*, Tübingen 2005).
 
-
 mod axis;
 mod double_double;
 
@@ -48,10 +47,6 @@ pub use composition::{Composition, compose};
 pub use event::{Event, FourVector};
 pub use light_cone::LightConeCoordinates;
 pub use observer::Observer;
-
-pub use apparent::PointSource as Source; // until app is moved
-pub use interpolation_error as bend; // until app is moved
-pub use stereo_perception as perceived; // until app is moved
 
 /// The vector and quaternion types of the public interface.
 pub use glam;

@@ -12,9 +12,6 @@ use crate::celerity::{Celerity, unit_vector};
 use crate::event::Event;
 use crate::observer::Observer;
 
-// until app is moved
-pub use self::{StereoPerception as Perceived, StereoPerceptionError as PerceivedError, perceived_place as perceived};
-
 /// A place perceived by both eyes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StereoPerception {

@@ -6,7 +6,6 @@
 //!
 //! A module is a list of files from `wgsl/`, concatenated: [`Module::source`].
 
-
 mod constants;
 mod declarations;
 mod layout;
@@ -29,9 +28,3 @@ pub use modules::{
     WARP,
 };
 
-// until app is moved
-pub use layout::{
-    AccumulateUniforms as Accumulate, AdaptationState as Adaptation, AtlasTile as Pane, FacetUniforms as Facet,
-    LightingUniforms as Lighting, MapUniforms as Map, MaterialUniforms as Material, MeteringUniforms as Metering,
-    PlacementUniforms as Placement, RoomViewUniforms as RoomView, ViewUniforms as View,
-};

@@ -27,5 +27,3 @@ pub use feed::{DeviceState, DeviceStatus};
 pub use lanes::{Devices, DevicesError};
 pub use plugged::{PluggedDevice, plugged_in};
 
-pub use feed::{DeviceState as State, DeviceStatus as Status}; // until app is moved
-pub use plugged::PluggedDevice as Plugged; // until app is moved

@@ -40,4 +40,3 @@ pub use tracked_pose::TrackedPose;
 pub use url::{TrackerUrl, TrackerUrlError};
 pub use velocity::TrackVelocity;
 
-pub use tracked_head::TrackedHead as Head; // until app is moved

@@ -30,5 +30,3 @@ pub use reader::Recording;
 pub use record::{ControlsRecord, FrameDifference, FrameRecord, RecordingEntry};
 pub use writer::Recorder;
 
-pub use header::RideHeader as Header; // until app is moved
-pub use record::{FrameDifference as Difference, RecordingEntry as Entry}; // until app is moved

@@ -71,8 +71,6 @@ pub struct VrpnMessage<'a> {
     pub payload: &'a [u8],
 }
 
-pub use VrpnMessage as Message; // until app is moved
-
 impl VrpnMessage<'_> {
     /// Bytes of the message, padding included; the sequence number is zero.
     pub fn to_bytes(&self) -> Vec<u8> {

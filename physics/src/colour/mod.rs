@@ -28,4 +28,3 @@ pub use shift_table::ShiftTable;
 pub use spectrum::{SampledSpectrum, Spectrum, SpectrumError};
 pub use srgb::{luminance, rgb_from_xyz, xyz_from_rgb};
 
-pub use spectrum::SampledSpectrum as Sampled; // until app is moved

@@ -12,8 +12,6 @@ use thiserror::Error;
 use super::planck;
 use super::shares::{shares, white};
 
-pub use self::SampledSpectrum as Sampled; // until app is moved
-
 /// The spectrum of light that is sent out, or of the share of light that a surface returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spectrum {

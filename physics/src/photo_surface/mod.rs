@@ -70,5 +70,3 @@ pub use mesh::PhotoSurfaceMesh;
 pub use stats::Stats;
 pub use vertices::Vertices;
 
-pub use eye::PhotoSurfaceEye as Eye; // until app is moved
-pub use mesh::PhotoSurfaceMesh as Surface; // until app is moved

@@ -53,4 +53,3 @@ pub use thrust::Thrust;
 pub use transport::{FacingMotion, Transport};
 pub use travel::travel;
 
-pub use state::WorldlineState as State; // until app is moved
