@@ -321,6 +321,10 @@ impl<'ast> Visit<'ast> for Imports {
         }
     }
 
+    fn visit_visibility(&mut self, _visibility: &'ast Visibility) {
+        // `pub(in crate::a)` imports nothing.
+    }
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
         if segments.len() > 1 {

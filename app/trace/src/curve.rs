@@ -10,8 +10,10 @@
 
 use glam::{DMat3, DVec3};
 use physics::Observer;
+use physics::newton::{Newton, RootInterval};
 
 use scene::motion::{Animated, Ball};
+use std::convert::Infallible;
 
 /// Largest distance of a chord from the curve, and margin of the boxes, both in radii of the body.
 pub const SLACK: f64 = 1e-2;
@@ -21,6 +23,9 @@ const STRICT: f64 = 0.5;
 
 /// Largest number of steps along one ray.
 const STEPS: usize = 100_000;
+
+/// Search for the place where a ray passes through a plane.
+const CROSSING: Newton = Newton { tolerance: 4.0 * f64::EPSILON, most_steps: 100 };
 
 /// Path of one ray in the frame of a body.
 pub struct Curve<'a> {
@@ -116,32 +121,16 @@ impl Curve<'_> {
         let [first, last] = chord.span;
         let slack = 1e-9 * (last - first);
         let [low, high] = chord.ends.map(height);
-        let mut s = if low == high { first } else { first + (last - first) * (low / (low - high)).clamp(0.0, 1.0) };
-        // Newton's method; bisection if it leaves the piece and the ends lie on opposite sides.
-        let mut bracket = (low * high <= 0.0).then_some([first, last]);
-        for _ in 0..100 {
+        let start = if low == high { first } else { first + (last - first) * (low / (low - high)).clamp(0.0, 1.0) };
+        let interval = if low * high <= 0.0 {
+            RootInterval::Bracket { low: first, high: last, sign_at_low: low }
+        } else {
+            RootInterval::Range { low: first - slack, high: last + slack }
+        };
+        let height_and_rate = |s| {
             let (place, rate) = self.at(s);
-            let (off, slope) = (height(place), normal.dot(rate));
-            if let Some([from, to]) = &mut bracket {
-                if off * low > 0.0 { *from = s } else { *to = s }
-            }
-            let step = off / slope;
-            if off == 0.0 || step.abs() <= 4.0 * f64::EPSILON * s.abs() {
-                return Some(s);
-            }
-            let newton = s - step;
-            s = match bracket {
-                Some([from, to]) if !(from..=to).contains(&newton) => {
-                    let middle = 0.5 * (from + to);
-                    if middle == from || middle == to {
-                        return Some(middle);
-                    }
-                    middle
-                }
-                None if !(first - slack..=last + slack).contains(&newton) => return None,
-                _ => newton,
-            };
-        }
-        Some(s)
+            Ok::<_, Infallible>((height(place), normal.dot(rate)))
+        };
+        CROSSING.root(interval, start, height_and_rate).ok()
     }
 }

@@ -243,10 +243,14 @@ fn surrounding(panorama: &Panorama, direction: DVec3) -> DVec3 {
 /// Radiance of the sky: a gradient from the horizon up, haze below, and the glow around the sun.
 fn sky(light: &Lighting, direction: DVec3) -> DVec3 {
     let (horizon, zenith, ground) = (rgb(light.horizon), rgb(light.zenith), rgb(light.ground));
-    let clear = horizon.lerp(zenith, smoothstep(0.0, 0.9, direction.y.max(0.0).sqrt()));
-    let haze = (ground * 2.0).lerp(clear, smoothstep(-0.25, 0.0, direction.y));
+    let above = |altitude: f64| smoothstep(0.0, f64::from(shaders::SKY_ZENITH_FROM), altitude.max(0.0).sqrt());
+    let clear = horizon.lerp(zenith, above(direction.y));
+    let depth = f64::from(shaders::SKY_HAZE_DEPTH);
+    let haze = (ground * f64::from(shaders::SKY_HAZE)).lerp(clear, smoothstep(-depth, 0.0, direction.y));
     let towards_sun = direction.dot(light.sun_direction.as_dvec3()).max(0.0);
-    let glow = 0.25 * towards_sun.powi(24) + 4.0 * smoothstep(0.99985, 0.99995, towards_sun);
+    let [outer, inner] = shaders::SKY_SUN_EDGE.map(f64::from);
+    let glow = f64::from(shaders::SKY_GLOW) * towards_sun.powi(shaders::SKY_GLOW_POWER as i32)
+        + f64::from(shaders::SKY_SUN) * smoothstep(outer, inner, towards_sun);
     haze + glow * rgb(light.sun)
 }
 
