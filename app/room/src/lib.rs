@@ -43,7 +43,6 @@ mod pixels;
 mod projector;
 mod read;
 mod reflection;
-mod regular_file;
 mod report;
 pub mod surface;
 mod turning;

@@ -1,6 +1,5 @@
 //! Reading of the files that a display names. Error texts are worded to follow the file's name.
 
-use crate::regular_file;
 use std::path::Path;
 
 /// Largest file that is read, bytes.

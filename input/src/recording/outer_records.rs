@@ -4,6 +4,7 @@
 //! over the data. It asks for no byte beyond the record that it is reading, and is given none. So the bytes given so
 //! far say where the next record begins.
 
+use regular_file::FileFault;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Take};
@@ -58,16 +59,13 @@ impl OuterRecords {
     /// If the path is not that of a readable regular file that holds something.
     pub(super) fn open(path: &Path) -> Result<Self, RecordingError> {
         let cannot_open = |cause| RecordingError::io(path, "open", cause);
-        // Ask before opening: a pipe would wait for a writer.
-        let metadata = path.metadata().map_err(cannot_open)?;
         let owned = path.to_owned();
-        if metadata.is_dir() {
-            return Err(RecordingError::Directory { path: owned });
-        }
-        if !metadata.is_file() {
-            return Err(RecordingError::NotMcap { path: owned });
-        }
-        let file = File::open(path).map_err(cannot_open)?;
+        let file = match regular_file::open(path) {
+            Ok(file) => file,
+            Err(FileFault::System(cause)) => return Err(cannot_open(cause)),
+            Err(_) if path.is_dir() => return Err(RecordingError::Directory { path: owned }),
+            Err(_) => return Err(RecordingError::NotMcap { path: owned }),
+        };
         let length = file.metadata().map_err(cannot_open)?.len();
         if length == 0 {
             return Err(RecordingError::Empty { path: owned });

@@ -5,7 +5,7 @@
 //! would never end.
 
 use std::borrow::Cow;
-use std::fs;
+use regular_file::FileFault;
 use std::path::{Component, Path, PathBuf};
 
 use ::gltf::json;
@@ -178,16 +178,14 @@ pub(super) fn range(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, GltfError> {
-    let cannot_read = |error| GltfError::Read { path: path.into(), error };
-    let metadata = fs::metadata(path).map_err(cannot_read)?;
-    if !metadata.is_file() {
-        return Err(GltfError::NotAFile { path: path.into() });
-    }
-    if metadata.len() > MAX_FILE {
-        let fault = format!("{} bytes, above {MAX_FILE}", metadata.len());
-        return Err(GltfError::TooLarge { path: path.into(), place: "the file".into(), fault });
-    }
-    fs::read(path).map_err(cannot_read)
+    regular_file::read(path, MAX_FILE).map_err(|fault| match fault {
+        FileFault::System(error) => GltfError::Read { path: path.into(), error },
+        FileFault::NotAFile => GltfError::NotAFile { path: path.into() },
+        FileFault::TooLarge { most } => {
+            let fault = format!("more than {most} bytes");
+            GltfError::TooLarge { path: path.into(), place: "the file".into(), fault }
+        }
+    })
 }
 
 /// JSON chunk and binary chunk of a `.glb`.

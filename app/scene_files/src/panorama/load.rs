@@ -1,11 +1,14 @@
 //! Pictures as scenes without meshes.
 
-use std::fs;
+use regular_file::FileFault;
 use std::path::Path;
 
 use super::decode::decode;
 use super::error::PanoramaError;
 use scene::{Lighting, Scene};
+
+/// Largest file that is read, bytes.
+const MAX_FILE: u64 = 4 << 30;
 
 /// File name endings of pictures.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
@@ -20,13 +23,13 @@ pub fn is_picture(path: &Path) -> bool {
 /// # Errors
 /// [`PanoramaError`].
 pub fn load(path: &Path) -> Result<Scene, PanoramaError> {
-    let cannot_read = |error| PanoramaError::Read { path: path.into(), error };
-    // Only regular files are read: reading a pipe would never end.
-    if !fs::metadata(path).map_err(cannot_read)?.is_file() {
-        return Err(PanoramaError::Format { path: path.into() });
-    }
+    let bytes = regular_file::read(path, MAX_FILE).map_err(|fault| match fault {
+        FileFault::System(error) => PanoramaError::Read { path: path.into(), error },
+        FileFault::NotAFile => PanoramaError::Format { path: path.into() },
+        FileFault::TooLarge { .. } => PanoramaError::Damaged { path: path.into(), fault: fault.to_string() },
+    })?;
     let mut notices = Vec::new();
-    let panorama = decode(&fs::read(path).map_err(cannot_read)?, path, |notice| notices.push(notice))?;
+    let panorama = decode(&bytes, path, |notice| notices.push(notice))?;
     Ok(Scene {
         name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         panorama: Some(panorama),
