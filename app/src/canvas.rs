@@ -1,7 +1,7 @@
 //! Targets of a ride's frames: one flat picture, the surfaces of a room, or the room itself seen from outside.
 //!
-//! Each takes the same four steps for a frame: photo-surfaces are submitted for its eyes, its light is drawn, its viewer
-//! adapts, and what is developed goes to windows.
+//! Each takes the same four steps for a frame. Photo-surfaces are submitted for its eyes. Its light is drawn. Its
+//! viewer adapts. The developed light goes to windows.
 
 use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance};
@@ -42,7 +42,7 @@ pub struct RoomPreview {
     occupant: Option<Occupant>,
 }
 
-/// Eyes of one frame, whose photo-surfaces are under way.
+/// Eyes of one frame, whose photo-surfaces are being computed.
 #[must_use = "a frame that is not drawn was worked out in vain"]
 pub enum Submitted {
     /// The eye of a flat picture.
@@ -68,7 +68,7 @@ pub struct Watcher {
 }
 
 impl Submitted {
-    /// True if a photo-surface is under way, false if the method needs none.
+    /// True if a photo-surface is being computed, false if the method needs none.
     pub fn is_under_way(&self) -> bool {
         match self {
             Self::Picture { pending, .. } => pending.is_under_way(),
@@ -104,7 +104,7 @@ impl Canvas {
         }
     }
 
-    /// Begins the photo-surfaces of a frame, beside whatever is drawn meanwhile. `fov_deg`: vertical field of view of a
+    /// Begins the photo-surfaces of a frame, in parallel with other drawing. `fov_deg`: vertical field of view of a
     /// flat picture, degrees.
     ///
     /// # Errors

@@ -1,5 +1,4 @@
-//! What can go wrong in the program as a whole. Every part has an error of its own; here they meet, so that `main`
-//! reports once.
+//! Errors of the program as a whole. Every part has an error of its own; here they meet, so that `main` reports once.
 
 use crate::output::files::WriteError;
 use crate::output::film::FilmError;
@@ -21,19 +20,19 @@ use scene_files::export::ExportError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// One sentence: what was wrong, where, and what to do.
+/// Error as one sentence: the fault, its place, and the remedy.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// Nothing to draw with.
+    /// A graphics device that is missing or lost.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// No plot.
+    /// A plot that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// No setting for a goal.
+    /// A goal that no setting reaches.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// No use of the user's preferences.
+    /// Preferences of the user that cannot be read or written.
     #[error(transparent)]
     Preferences(#[from] PreferencesError),
     /// A measurement that cannot be made.
@@ -45,32 +44,32 @@ pub enum Error {
     /// Physics less exact than promised.
     #[error(transparent)]
     Extremes(#[from] ExtremesError),
-    /// No film.
+    /// A film that cannot be written.
     #[error(transparent)]
     Film(#[from] FilmError),
-    /// No display.
+    /// A display that cannot be used.
     #[error(transparent)]
     Display(#[from] DisplayError),
     /// An eye that sees the back of a screen.
     #[error("channel {channel}: {behind}")]
     EyeBehind {
-        /// Its name.
+        /// Name of the channel.
         channel: String,
-        /// Where the eye is.
+        /// Position of the eye behind the screen.
         behind: EyeBehind,
     },
     /// A tracker that cannot be used.
     #[error(transparent)]
     Tracker(#[from] TrackerError),
-    /// A room without a graphical session.
+    /// A room without a graphical session for its windows.
     #[error(
         "--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`"
     )]
     NoWindows,
-    /// Rays for a room.
+    /// The ray tracer, asked to draw for a room.
     #[error("--renderer raytrace does not draw for --display; leave one out, or choose auto, polygon or image")]
     WallsByRays,
-    /// No scene.
+    /// A scene that cannot be loaded.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A scene with a flaw.
@@ -82,10 +81,10 @@ pub enum Error {
     /// A file that could not be exported.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// Too fine.
+    /// Edges so short that the scene would have too many triangles.
     #[error(transparent)]
     Refine(#[from] RefineError),
-    /// An observer or a scene that is nowhere.
+    /// A scene or an observer whose place is not finite.
     #[error(transparent)]
     PhotoSurface(#[from] PhotoSurfaceError),
     /// A recording that cannot be made or read.
@@ -94,10 +93,10 @@ pub enum Error {
     /// A ride that cannot begin.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// A recorded ride that is not the same.
+    /// A recorded ride that cannot be replayed, or differs.
     #[error(transparent)]
     Replay(#[from] ReplayError),
-    /// A speed of light that is none.
+    /// A speed of light out of range.
     #[error(transparent)]
     World(#[from] LightSpeedError),
     /// Devices that cannot be read.
@@ -106,41 +105,41 @@ pub enum Error {
     /// Device settings that cannot be used.
     #[error(transparent)]
     Desk(#[from] input::ConfigError),
-    /// Files that `rapidity check` found fault with.
+    /// Files in which `rapidity check` found a fault.
     #[error("{bad} of {files} files are not good")]
     Checked {
-        /// How many.
+        /// Number of faulty files.
         bad: usize,
-        /// Of how many.
+        /// Number of checked files.
         files: usize,
     },
-    /// A file that nothing here reads.
+    /// A file of a kind that the program does not read.
     #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .hdr, .exr), a display (.toml, .pvx, .mpcdi) nor a recording (.mcap)", path.display())]
     UnknownKind {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
     /// A recording without a single frame.
     #[error("the recording ends before its first frame: there is nothing to show")]
     NothingRidden,
-    /// Ctrl-C before there was anything to keep.
+    /// An interruption by Ctrl-C before there was anything to keep.
     #[error("interrupted before anything was traced, so nothing was written")]
     Interrupted,
-    /// No window.
+    /// A window that cannot be opened.
     #[error("no window could be opened ({0}); to film the ride instead, name a file with --out")]
     Window(String),
-    /// The terminal or the pipe that is written to is gone.
+    /// A terminal or a pipe that is gone.
     #[error("the output cannot be written: {0}")]
     Output(#[from] std::io::Error),
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// More pixels than the device can draw.
+    /// A picture with more pixels than the device can draw.
     #[error("--size {}x{} is too large for this graphics device, which draws up to {limit} pixels a side", size[0], size[1])]
     TooLarge {
-        /// As asked.
+        /// Requested width and height, pixels.
         size: [u32; 2],
-        /// As the device says.
+        /// Largest side that the device draws, pixels.
         limit: u32,
     },
 }

@@ -87,7 +87,8 @@ impl RideInProgress {
         self.frame = Some(frame);
         self.times.stage("ride");
 
-        // Observer to photo-surfaces, on their own thread. Shown is this frame, or with overlap the one before it.
+        // Observer to photo-surfaces, on their own thread. The frame shown is this one, or with overlap the one
+        // before it.
         let newest = canvas.submit(gpu, &mut self.renderer, &watcher, look.effects, look.fov_deg)?;
         let ahead = usize::from(look.latency == Latency::Overlap && newest.is_under_way());
         self.under_way.push_back(newest);

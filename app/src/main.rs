@@ -36,15 +36,16 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The number of threads that transform the scene.
+/// Sets the number of threads that transform the scene.
 fn limit_threads(threads: Option<u32>) {
     if let Some(threads) = threads {
-        // Fails only if the pool is running already, which it is not before the first command.
+        // An error means that the pool is already running, which cannot be before the first command.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
     }
 }
 
-/// Mesa complains on standard error where no session has set this directory, which it does not need.
+/// Sets `XDG_RUNTIME_DIR` if no session has set it. Mesa does not need that directory, but complains on standard
+/// error without it.
 fn quieten_mesa() {
     if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         // SAFETY: no other thread runs yet that could read the environment.

@@ -42,7 +42,8 @@ impl<'gpu> Cameraman<'gpu> {
     /// Chooses how to draw the scene, says so, and uploads it.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the scene too finely.
+    /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the
+    /// scene too finely.
     pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, dial: Dial) -> Result<Self, Error> {
         let limit = largest_side(gpu);
         if options.size.iter().any(|side| *side > limit) {
@@ -71,7 +72,7 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(Self { gpu, maker: Maker::Drawn(Box::new(renderer)), studio, options: options.clone(), dial })
     }
 
-    /// The same with a lens, a shutter and mirrors, if it traces rays. `speed_of_light`: metres per second.
+    /// Adds a lens, a shutter and mirrors, if this cameraman traces rays. `speed_of_light`: metres per second.
     #[must_use]
     pub fn with_rays(mut self, rays: &RayOptions, speed_of_light: f64) -> Self {
         if let Maker::Traced(tracer) = self.maker {
@@ -132,7 +133,7 @@ impl<'gpu> Cameraman<'gpu> {
         let film = Film::create(path, self.options.size, frames_per_second)?;
         let bar = progress::bar(path.display().to_string(), count);
 
-        // The photo-surface of the next frame is worked out while this one is drawn.
+        // The photo-surface of the next frame is computed while this one is drawn.
         let mut before = None;
         let mut next = self.begin(moments.next().transpose()?)?;
         let mut done = 0;
@@ -152,7 +153,7 @@ impl<'gpu> Cameraman<'gpu> {
         }
         bar.finish_and_clear();
         if traces && done == 0 && stop.load(Ordering::Relaxed) {
-            // Of a film without pictures nothing comes but the encoder's complaint.
+            // The encoder of a film without pictures has nothing to tell but a complaint.
             let _ = film.finish();
             let _ = std::fs::remove_file(path);
             return Err(Error::Interrupted);
@@ -170,7 +171,8 @@ impl<'gpu> Cameraman<'gpu> {
         Ok(())
     }
 
-    /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel off.
+    /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel
+    /// off.
     fn tell_of_quality(&self, gaze: &Gaze) {
         let Maker::Drawn(renderer) = &self.maker else { return };
         let shot = gaze.shot(self.options.fov, self.options.effects);
@@ -225,7 +227,7 @@ impl<'gpu> Cameraman<'gpu> {
     }
 }
 
-/// Traces a picture, and says how much of it there is if it was interrupted.
+/// Traces a picture, and says how much of it is finished if it was interrupted.
 fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<Traced, Error> {
     let bar = progress::bar("tracing rays", RayTracer::tile_count(options.size));
     let traced = tracer.trace(shot, options.size, options.samples, &interruption(), || bar.inc(1));

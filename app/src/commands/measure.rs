@@ -25,7 +25,7 @@ use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
 use crate::session::{reel, scenes};
 
-/// Pictures a second at which a recording is looked through.
+/// Pictures per second at which poses are taken from a recording.
 const LOOKED_THROUGH: f64 = 10.0;
 
 /// Size of pictures that are compared, and of a ride's window, pixels.
@@ -40,7 +40,7 @@ const LONGEST_FRAME_S: f64 = 1.0 / 15.0;
 /// Carries out `rapidity measure`.
 ///
 /// # Errors
-/// Whatever keeps it from being measured or written, and errors of the physics beyond what it promises.
+/// Any fault that keeps it from being measured or written, and errors of the physics beyond what it promises.
 pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
     if options.extremes { accuracy() } else { dials(options) }
 }

@@ -1,7 +1,7 @@
 //! `rapidity render`: stills and films, without a window.
 //!
-//! A film without a recording shows what an inertial observer sees: his eye moves on a straight worldline, and the
-//! frames are taken at equal steps of his own time. A recorded ride is seen with the rider's eyes.
+//! A film without a recording shows what an inertial observer sees: the eye moves on a straight worldline, and the
+//! frames are taken at equal steps of its proper time. A recorded ride is seen with the rider's eyes.
 
 use crate::command::{Output, RenderOptions, Viewpoint};
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
@@ -18,15 +18,15 @@ use scene::Start;
 use std::path::Path;
 use view::{Camera, EYE_HEIGHT_M, Gaze, RendererName};
 
-/// Seconds of a film for which `--seconds` says nothing.
+/// Length of a film without `--seconds`, seconds of proper time.
 const FILM_SECONDS: f64 = 10.0;
 
 /// Carries out `rapidity render`.
 ///
 /// # Errors
-/// Whatever keeps the picture from being drawn or written.
+/// Any fault that keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
-    // Only rays are worth interrupting, but for them it counts from the beginning.
+    // Only the ray tracer can be interrupted, and its interruption counts from the beginning.
     if options.dial.renderer == RendererName::Raytrace {
         interrupted();
     }
@@ -59,7 +59,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     }
 }
 
-/// The same with the eyes of a recorded rider.
+/// Draws the picture or film as a recorded rider saw it.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
     let (scene, speed_of_light, moments) = reel::reel(recording, &options.world.scene, rate, options.seconds)?;

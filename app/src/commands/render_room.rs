@@ -21,7 +21,7 @@ use walls::{Occupant, Quality, Walls};
 /// Carries out `rapidity render --display`.
 ///
 /// # Errors
-/// Whatever keeps a picture from being drawn or written.
+/// Any fault that keeps a picture from being drawn or written.
 pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) -> Result<(), Error> {
     if options.dial.renderer == RendererName::Raytrace {
         return Err(Error::WallsByRays);
@@ -45,7 +45,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
         density: if picture.samples == 1 { 3.0 } else { 1.0 },
         smooth: false,
     };
-    // What is drawn finely already needs a map that is no finer.
+    // A surface with several samples for each of its pixels does not need the map as fine as well.
     let bent = display.channels.iter().any(|channel| channel.flat(&display).is_none());
     let usual = dial_of_stills(&options.dial, picture);
     let finer = if bent && options.dial.map_scale.is_none() { quality.density } else { 1.0 };
@@ -90,7 +90,8 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     Ok(())
 }
 
-/// The vehicle that the room rests in: at --position, which is on the ground where nothing is said, and with its −z along --look.
+/// State of the vehicle in which the room rests: at --position, by default the scene's start, with its −z along
+/// --look.
 fn vehicle(options: &RenderOptions, start: Start) -> WorldlineState {
     let view = &options.viewpoint;
     let position = view.position.unwrap_or(start.position);
@@ -99,7 +100,7 @@ fn vehicle(options: &RenderOptions, start: Start) -> WorldlineState {
     WorldlineState::new(Event { ct: 0.0, position }, view.celerity(), orientation)
 }
 
-/// Makes the folder that pictures go into, if it is not there.
+/// Makes the folder for the pictures, unless it exists.
 fn make_folder(folder: &Path) -> Result<(), Error> {
     Ok(std::fs::create_dir_all(folder).map_err(|error| WriteError::new(folder, error))?)
 }

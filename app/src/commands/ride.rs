@@ -1,4 +1,4 @@
-//! `rapidity ride`: puts the ride together, and opens a window on it, or films it where there is no display.
+//! `rapidity ride`: prepares the ride, and opens a window on it, or films it if there is no graphical session.
 
 use crate::command::RideOptions;
 use crate::commands::ride_film;
@@ -15,13 +15,13 @@ use input::HeadConfig;
 use scene::Scene;
 use std::path::{Path, PathBuf};
 
-/// Film of a ride without a display, where no file is named.
+/// File of the film if there is no graphical session and no file is named.
 const FILM: &str = "ride.mp4";
 
 /// Carries out `rapidity ride`.
 ///
 /// # Errors
-/// Whatever keeps the ride from beginning, or ends it.
+/// Any fault that keeps the ride from beginning, or ends it.
 pub fn ride(options: &RideOptions) -> Result<(), Error> {
     if options.verify {
         return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
@@ -52,7 +52,7 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
     Ok(say(&format!("{}: {} frames, identical to the bit", path.display(), frames?))?)
 }
 
-/// The scene, and what begins a ride in it: live, or recorded.
+/// Scene, and the function that begins a live or a recorded ride in it.
 fn begin(options: &RideOptions, head: Option<HeadConfig>) -> Result<(Scene, window::Begin), Error> {
     let seconds = options.seconds;
     if let Some(path) = &options.replay {

@@ -1,7 +1,7 @@
 //! A ride without a window: ridden first, filmed afterwards.
 //!
-//! Drawing may be slower than riding, and devices do not wait; so whoever rides live is followed by the clock, and the
-//! film is drawn when he has arrived. A recorded rider and the built-in tour need no clock.
+//! Drawing may be slower than riding, and devices do not wait. So a live ride is recorded in real time, and the film
+//! is drawn when the ride has ended. A recorded rider and the built-in tour need no clock.
 
 use crate::command::RideOptions;
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
@@ -19,19 +19,19 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// Pictures a second of the film.
+/// Pictures per second of the film.
 const FRAMES_PER_SECOND: u32 = 30;
-/// Seconds of a ride for which `--seconds` says nothing.
+/// Length of a ride without `--seconds`, seconds.
 const SECONDS: f64 = 10.0;
-/// Frames that a live ride is followed with, for each of the film's.
+/// Number of simulated frames of a live ride for each picture of the film.
 const FRAMES_PER_PICTURE: u32 = 2;
 
 /// Films a ride into `path`.
 ///
 /// # Errors
-/// Whatever keeps the ride from being ridden or drawn.
+/// Any fault that keeps the ride from being ridden or drawn.
 pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
-    // Without a graphics device nobody needs to ride.
+    // Without a graphics device the ride is not begun.
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
     let (scene, moments) = match &options.replay {
@@ -60,7 +60,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
 }
 
-/// Follows somebody who rides now, as the clock goes.
+/// Follows a live ride in real time.
 fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: f64) -> Result<Reel, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
     let mut live = present(&options, simulation, log)?;
@@ -82,7 +82,7 @@ fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: 
     Ok(reel)
 }
 
-/// Has the built-in rider ride, who needs no clock.
+/// Simulates a ride of the built-in rider, which needs no clock.
 fn demonstrate(
     options: &RideOptions,
     scene: &Scene,
@@ -109,7 +109,7 @@ fn demonstrate(
     Ok(reel)
 }
 
-/// Who rides where nobody does: a cyclist who knows the way round, or a foot on the pedal.
+/// Scripted rider, used without devices: a cyclist that follows the scene's circuit, or a foot on the pedal.
 enum Demonstrator {
     Cyclist(Box<Tour>),
     Foot { pressed: bool },
@@ -124,7 +124,7 @@ impl Demonstrator {
         }
     }
 
-    /// What he does up to `at`.
+    /// Samples of the scripted rider up to `at`.
     fn samples(&mut self, simulation: &Simulation, at: Nanos) -> Vec<Sample> {
         match self {
             Self::Cyclist(tour) => tour.samples(simulation.vehicle(), at),

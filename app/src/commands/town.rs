@@ -10,7 +10,7 @@ use scene_files::export::write_glb;
 /// Carries out `rapidity town`.
 ///
 /// # Errors
-/// A place that cannot be written to.
+/// A file that cannot be written.
 pub fn town(options: &TownOptions) -> Result<(), Error> {
     writable(&options.out)?;
     let scene = scenes::load(&SceneChoice::Town, LightSpeed::OLD_TOWN.speed_of_light_m_s())?;

@@ -1,4 +1,4 @@
-//! Files that are written: looked at before long work, and named so that nothing is overwritten.
+//! Output files: checks before long work, and names that overwrite nothing.
 
 use image::RgbaImage;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ impl WriteError {
     }
 }
 
-/// Checks before long work that its result can be put there.
+/// Checks before long work that its result can be written to `path`.
 ///
 /// # Errors
 /// [`WriteError`] if a folder of that name is in the way, or if the folder that the file belongs in is missing.

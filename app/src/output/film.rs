@@ -76,7 +76,7 @@ impl Film {
         self.frames.send(frame).is_ok()
     }
 
-    /// Waits until the last frame is written.
+    /// Waits until the last frame is written, and returns the file or folder.
     ///
     /// # Errors
     /// [`FilmError`] of the encoder or the disk.

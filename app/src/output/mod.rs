@@ -1,4 +1,4 @@
-//! What the program writes: pictures, light, films, and bars on long waits.
+//! Output of the program: pictures, light, films, lines, and progress bars.
 
 pub mod exr;
 pub mod files;

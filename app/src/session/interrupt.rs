@@ -1,4 +1,4 @@
-//! Interruption by Ctrl-C, after which work that was done so far is finished.
+//! Interruption by Ctrl-C, after which the work done so far is completed and kept.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -10,13 +10,13 @@ pub fn interrupted() -> Arc<AtomicBool> {
     flag
 }
 
-/// The same flag with its present value, for work that began before.
+/// Flag of [`interrupted`] with its present value, for work that began before.
 pub fn interruption() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     let flag = FLAG.get_or_init(|| {
         let flag = Arc::new(AtomicBool::new(false));
         let set = Arc::clone(&flag);
-        // Fails only if there is a handler already, and there is no other than this one.
+        // An error means that there is a handler already, and no other part of the program sets one.
         let _ = ctrlc::set_handler(move || {
             if set.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);

@@ -1,5 +1,5 @@
-//! What a session needs before and beside its pictures: the scene that is asked for, the ride's beginning, the user's
-//! preferences, the head's tracker, live devices, interruption.
+//! Parts of a session besides its pictures: the requested scene, the ride's beginning, the user's preferences, the
+//! head's tracker, live devices, interruption.
 
 pub mod interrupt;
 pub mod live;

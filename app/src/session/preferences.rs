@@ -1,4 +1,5 @@
-//! What rides are drawn by where the command line does not say: a small file in the user's configuration directory, written by `rapidity measure`.
+//! Preferences: the way of drawing for rides whose command line does not name one. A small file in the user's
+//! configuration directory, written by `rapidity measure`, holds them.
 //!
 //! ```toml
 //! [ride]
@@ -16,48 +17,48 @@ use view::{Dial, RendererName, Transform};
 
 use crate::command::{DialOptions, RideOptions};
 
-/// The file's name.
+/// Name of the file.
 const FILE: &str = "rapidity.toml";
 
-/// All that the file holds.
+/// Contents of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preferences {
-    /// How rides are drawn.
+    /// Way of drawing for rides.
     pub ride: Dial,
 }
 
-/// Why the file is of no use.
+/// Reason why the file cannot be used.
 #[derive(Debug, Error)]
 pub enum PreferencesError {
-    /// The system names no place for it.
+    /// A system that names no configuration directory.
     #[error("there is no place for {FILE}: the system names no configuration directory; set HOME or XDG_CONFIG_HOME")]
     NoPlace,
-    /// It cannot be read.
+    /// A file that cannot be read.
     #[error("{}: it cannot be read: {reason}; mend it, or delete it to have the program choose how to draw", path.display())]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// As the system or the parser says it.
+        /// Reason, as the system or the parser words it.
         reason: String,
     },
-    /// It cannot be written.
+    /// A file that cannot be written.
     #[error("{}: it cannot be written: {reason}", path.display())]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// As the system says it.
+        /// Reason, as the system words it.
         reason: String,
     },
 }
 
 impl Preferences {
-    /// Where the file is, whether or not there is one.
+    /// Path of the file, which need not exist.
     pub fn path() -> Option<PathBuf> {
         ProjectDirs::from("", "", "rapidity").map(|directories| directories.config_dir().join(FILE))
     }
 
-    /// What the file says, and where it is; none if there is none.
+    /// Contents and path of the file; `None` if there is no file.
     ///
     /// # Errors
     /// [`PreferencesError::Unreadable`].
@@ -74,7 +75,7 @@ impl Preferences {
         }
     }
 
-    /// Writes the file, `note` at its head, and says where it is.
+    /// Writes the file with `note` at its head, and returns its path.
     ///
     /// # Errors
     /// [`PreferencesError::NoPlace`], [`PreferencesError::Unwritable`].
@@ -95,7 +96,7 @@ impl Preferences {
         }
     }
 
-    /// Reads and checks: the same limits as on the command line.
+    /// Reads and checks the text, with the same limits as on the command line.
     fn from_toml(text: &str) -> Result<Self, String> {
         let preferences: Self = toml::from_str(text).map_err(|error| {
             let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
@@ -133,7 +134,8 @@ impl Preferences {
     }
 }
 
-/// The options of a ride, with what the file says of its drawing unless the command line says anything of it; tells so.
+/// Options of a ride, with the file's way of drawing unless the command line has an option for it. Prints a line if
+/// the file is used.
 ///
 /// # Errors
 /// A file that cannot be read.
@@ -151,7 +153,8 @@ pub fn applied(options: &RideOptions) -> Result<RideOptions, PreferencesError> {
 
 #[cfg(test)]
 mod tests {
-    //! Law: what is written is read; what is no setting is refused with a sentence that names the line, or the key and its limits.
+    //! Law under test: preferences that are written are read again as the same ones. A text that is no setting is
+    //! refused with a sentence that names the line, or the key and its limits.
 
     use super::*;
 

@@ -19,12 +19,12 @@ pub struct Moment {
     pub own_s: f64,
 }
 
-/// A recorded ride once more: its scene, its speed of light in metres per second, and the observer at each picture's time.
+/// Scene of a recorded ride, its speed of light in metres per second, and the observer at each picture's time.
 ///
-/// A recording that is damaged or differs is followed as far as it goes, and the user told.
+/// A recording that is damaged or differs is followed as far as possible, with a line on standard error.
 ///
 /// # Errors
-/// The recording or its scene cannot be read at all.
+/// A recording or a scene that cannot be read at all.
 pub fn reel(
     recording: &Path,
     choice: &SceneChoice,
@@ -59,7 +59,7 @@ pub fn reel(
     Ok((scene, speed_of_light, reel.moments))
 }
 
-/// What the film will show: the observer at each picture's time.
+/// Observer at the time of each picture of a film.
 pub struct Reel {
     /// Observers of the pictures so far.
     pub moments: Vec<Moment>,
@@ -74,7 +74,7 @@ impl Reel {
         Self { moments: Vec::new(), last: None, frames_per_second, end: (seconds * SECOND as f64) as Nanos }
     }
 
-    /// When the next picture is due.
+    /// Time at which the next picture is due.
     pub fn due(&self) -> Nanos {
         (self.moments.len() as f64 * SECOND as f64 / self.frames_per_second) as Nanos
     }

@@ -1,4 +1,4 @@
-//! The scene that is asked for: built in, or from a file.
+//! Loading of the requested scene: built in, or from a file.
 
 use crate::command::SceneChoice;
 use crate::output::progress;
@@ -26,10 +26,11 @@ pub enum SceneError {
     },
 }
 
-/// Builds or reads a scene, as it was modelled, for a world in which light is so fast (m/s).
+/// Builds or reads a scene as it was modelled. The speed of light, m/s, is needed to refuse animations that are
+/// faster.
 ///
 /// # Errors
-/// What is wrong with the file, and where; or what of it would be faster than light.
+/// A fault of the file with its place, or an animation faster than light.
 pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, SceneError> {
     match choice {
         SceneChoice::Town => {

@@ -17,20 +17,19 @@ use scene::{Scene, Surroundings};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The display that a tracked head sees where none is named.
+/// Name of the display for a tracked head if no display is named.
 pub const WINDOW: &str = "window";
 
-/// Key of a recording's setting that tells its scene from others.
+/// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
 
 fn fingerprint(scene: &Scene) -> String {
     format!("{:016x}", scene.fingerprint())
 }
 
-/// A room that a ride is shown in, and how the head before it is tracked.
+/// Room in which a ride is shown, and the tracking of the head in it.
 pub struct RideRoom {
-    /// Display, if the ride is shown in a room: a tracked head before a single picture sees through it as through a
-    /// window.
+    /// Display, if the ride is shown in a room. A tracked head without a named display gets the built-in window.
     pub display: Option<Display>,
     /// Tracking of the head, if it is tracked.
     pub head: Option<HeadConfig>,
@@ -57,7 +56,7 @@ impl RideRoom {
     }
 }
 
-/// A live ride whose clock starts now.
+/// Live ride whose clock starts now.
 ///
 /// # Errors
 /// Devices that cannot be read.
@@ -71,10 +70,10 @@ pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> R
     Ok(live)
 }
 
-/// A recording's scene, and the ride in it once more.
+/// Scene of a recording, and a replay of the ride in it.
 ///
 /// # Errors
-/// The recording or its scene cannot be read.
+/// A recording or a scene that cannot be read.
 pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Error> {
     let recording = Recording::open(path)?;
     // A scene that is named overrides the recorded one, whose file may have moved.
@@ -94,7 +93,7 @@ pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Er
     Ok((scene, Replay::new(recording, surroundings)?))
 }
 
-/// A simulation at its beginning, and the log of it.
+/// Simulation at its beginning, and an empty log for it.
 ///
 /// # Errors
 /// Settings that cannot be used, or a scene without sound geometry.
@@ -117,7 +116,7 @@ pub fn has_display() -> bool {
             .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
 }
 
-/// What the vehicle stands on and runs into.
+/// Ground and walls of the scene.
 fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
     let spinner = progress::spinner("finding ground and walls");
     let collision = Collision::new(scene)?;
@@ -133,7 +132,7 @@ fn setup(options: &RideOptions, scene: &Scene, head: Option<HeadConfig>) -> Resu
     };
     let mut vehicle = VehicleSettings { integrator: options.vehicle.integrator, ..Default::default() };
     vehicle.flight.nose = options.vehicle.transport;
-    // One who flies begins at his eye, the others on the ground.
+    // A flight begins at the eye, other rides on the ground.
     let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };
     Ok(Setup {
         light_speed: LightSpeed::new(options.world.speed_of_light)?,
@@ -144,13 +143,13 @@ fn setup(options: &RideOptions, scene: &Scene, head: Option<HeadConfig>) -> Resu
     })
 }
 
-/// What the command line asks of the simulation while it runs.
+/// Actions at the start of the ride, from the command line.
 pub fn first_actions(options: &RideOptions) -> Vec<Action> {
     let scale = options.vehicle.time_scale;
     if scale == 1.0 { Vec::new() } else { vec![Action::TimeScale(scale)] }
 }
 
-/// Which devices the command line names.
+/// Devices that the command line names.
 fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
     DevicesConfig {
         bicycle: options.devices.bicycle.clone(),

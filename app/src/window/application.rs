@@ -1,4 +1,4 @@
-//! The windows from their opening to their end.
+//! The life of the windows, from opening to closing.
 
 use super::open::{Open, Party};
 use crate::command::RideOptions;
@@ -11,13 +11,13 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
 
-/// Beginning of the ride. It is called when everything else is ready, since the ride's clock starts with it.
+/// Function that begins the ride. It is called when everything else is ready, since the ride's clock starts with it.
 pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
 
 /// Opens the windows and rides until they are closed.
 ///
 /// # Errors
-/// No graphical session after all, no graphics device, or a fault while riding.
+/// A missing graphical session or graphics device, or a fault while riding.
 pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Wait);

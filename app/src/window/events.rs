@@ -49,7 +49,7 @@ impl Open {
                     if pressed {
                         self.window_key(events, code);
                     }
-                    // A slider that was clicked takes the arrows; a key that is let go is let go for everybody.
+                    // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
                     if !(taken && pressed) {
                         self.ride_key(code, pressed);
                     }
@@ -70,7 +70,7 @@ impl Open {
                     winit::event::MouseButton::Middle => Some(MouseButton::Middle),
                     _ => None,
                 };
-                // A panel takes what is pressed on it; a button that is let go is let go for everybody.
+                // A panel takes the buttons that are pressed on it. The release of a button is passed on to everyone.
                 if let Some(button) = button.filter(|_| !(taken && pressed)) {
                     self.mouse(MouseEvent::Button { button, pressed });
                 }
@@ -107,7 +107,7 @@ impl Open {
         }
     }
 
-    /// Moves the head with the mouse, or turns the room that is looked at.
+    /// Moves the head with the mouse, or turns the room in the preview.
     fn mouse(&mut self, event: MouseEvent) {
         /// Turn of the room, radians for each pixel.
         const TURN_RAD: f64 = 0.005;
@@ -149,7 +149,7 @@ impl Open {
         }
     }
 
-    /// Fills the monitors with the windows, or ends that.
+    /// Switches between full screen and windows.
     pub(super) fn fill_monitors(&self) {
         for WindowSurface { window, .. } in &self.windows {
             window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));

@@ -3,7 +3,7 @@
 use input::KeyboardKey;
 use winit::keyboard::KeyCode;
 
-/// KeyboardKey of the ride at a place of the keyboard, if one is assigned.
+/// Key of the ride at a place of the keyboard, if one is assigned.
 pub fn key(code: KeyCode) -> Option<KeyboardKey> {
     Some(match code {
         KeyCode::KeyA => KeyboardKey::A,
@@ -38,7 +38,8 @@ pub fn key(code: KeyCode) -> Option<KeyboardKey> {
 
 #[cfg(test)]
 mod tests {
-    //! Law under test: every key of the ride has a place on the keyboard; one without could never be pressed.
+    //! Law under test: every key of the ride has a place on the keyboard. A key without a place could never be
+    //! pressed.
 
     use super::*;
 

@@ -1,4 +1,4 @@
-//! Open windows, and all that draws in them.
+//! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
 use super::interface::Interface;
@@ -24,20 +24,20 @@ use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
-/// Samples a pixel in a window drawn by hardware, where they cost little; software draws one.
+/// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 const HARDWARE_SAMPLES: u32 = 4;
 
-/// What a window is opened for.
+/// Ride for which the windows are opened.
 pub struct Party {
     /// Scene of the ride.
     pub scene: Scene,
-    /// Room that it is shown in, if it is.
+    /// Room in which the ride is shown.
     pub room: RideRoom,
     /// Beginning of the ride.
     pub begin: Box<dyn FnOnce() -> Result<Live, Error>>,
 }
 
-/// Open windows, and all that draws in them.
+/// Open windows, and everything that draws in them.
 pub struct Open {
     pub(super) gpu: Gpu,
     /// Windows; the first has the interface.
@@ -52,7 +52,7 @@ pub struct Open {
     pub(super) shift: bool,
     /// Name of the display on the command line.
     pub(super) display_name: Option<String>,
-    /// Corners that are moved, or were.
+    /// Corners of the channels, once they have been moved.
     pub(super) calibrating: Option<Calibrating>,
     /// Place of the mouse, pixels.
     pub(super) cursor: Option<PhysicalPosition<f64>>,
@@ -65,7 +65,7 @@ impl Open {
     /// Opens the windows, uploads the scene, and begins the ride.
     ///
     /// # Errors
-    /// No window, no graphics device, or a ride that cannot begin.
+    /// A missing window or graphics device, or a ride that cannot begin.
     pub fn new(events: &ActiveEventLoop, options: &RideOptions, party: Party) -> Result<Self, Error> {
         let Party { scene, room, begin } = party;
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
@@ -97,7 +97,7 @@ impl Open {
         let gpu = Gpu::with_instance(instance, Some(&first))?;
         let mut surfaces = vec![WindowSurface::new(&gpu, Arc::clone(&windows[0]), first, true)?];
         for window in &windows[1..] {
-            // One wait a frame is enough.
+            // One wait per frame is enough.
             surfaces.push(WindowSurface::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?, false)?);
         }
         let screen_format = surfaces[0].configuration.format;

@@ -1,4 +1,4 @@
-//! A photo of what the window shows, without the display at its edges.
+//! Photo of the window's picture, without the head-up display.
 
 use crate::canvas::{Canvas, FlatPicture};
 use crate::error::Error;
@@ -8,8 +8,8 @@ use render::display::Development;
 use render::picture::Darkroom;
 use walls::Walls;
 
-/// Writes the picture, as an eye sees it that is adapted to it, into `photo-001.png` or the next number; of a room, a
-/// file for each of its windows. Returns a sentence that names the files.
+/// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
+/// room, writes one file for each window. Returns a sentence that names the files.
 ///
 /// # Errors
 /// A lost device, or a folder that cannot be written to.

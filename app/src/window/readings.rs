@@ -1,11 +1,11 @@
-//! What the display at the edges and the panel tell of a ride.
+//! Readings of a ride for the head-up display and the panel.
 
 use super::hud::Readings;
 use super::panel::PanelRide;
 use crate::frame::RideInProgress;
 use render::Gpu;
 
-/// Readings of the display at the edges.
+/// Readings for the head-up display.
 pub fn readings(ride: &RideInProgress) -> Readings {
     let Some(frame) = &ride.frame else { return Readings::default() };
     let celerity = frame.gaze.observer.celerity;

@@ -1,4 +1,4 @@
-//! A frame in the windows: drawn, developed, with the interface over it.
+//! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
 use super::window_surface::Acquired;
@@ -31,7 +31,7 @@ impl Open {
             }
         }
         if screens.is_empty() {
-            // The ride goes on unseen.
+            // The ride goes on while no window can be drawn in.
             std::thread::sleep(UNSEEN_PAUSE);
             return Ok(self.ride.live.frame()?.is_some());
         }
