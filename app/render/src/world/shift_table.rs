@@ -1,11 +1,11 @@
-//! The shift table on the device: what becomes of three weights on each carrier at every Doppler factor.
+//! The shift table on the device: three weights on each carrier, shifted by every Doppler factor.
 
 use crate::gpu::Gpu;
 use crate::textures::view_from_rows;
 use physics::colour::ShiftTable;
 use scene::carriers::Spectra;
 
-/// The shift table of all carriers, for the shaders: of weights relative to white.
+/// Uploads the shift table of all carriers, with weights relative to white, for the shaders.
 pub fn upload(gpu: &Gpu, spectra: &Spectra) -> wgpu::TextureView {
     let table = ShiftTable::new(&spectra.carriers, shaders::SHIFT_NODES as usize);
     let rows_of_a_carrier = 3 * shaders::SHIFT_NODES as usize;

@@ -30,7 +30,7 @@ pub(super) struct FlightControl<'a> {
     light_speed: LightSpeed,
     controls: &'a SafeControls,
     transport: Transport,
-    /// GroundCourse of the ground ahead; `None` in flight.
+    /// Course of the ground ahead; `None` in flight.
     course: Option<GroundCourse>,
 }
 
