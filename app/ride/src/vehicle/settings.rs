@@ -118,7 +118,7 @@ impl Default for FlightSettings {
     }
 }
 
-/// Direction of the nose of a driven or flown vehicle.
+/// Turning of the nose of a driven or flown vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Nose {
