@@ -6,7 +6,7 @@ use view::Gaze;
 
 use crate::vehicle::{Notice, Vehicle};
 
-/// One frame: the observer that it shows, and the numbers that are recorded.
+/// One frame: what it shows, and what is recorded of it.
 #[derive(Clone, Debug)]
 pub struct RideFrame {
     /// Numbers that a replay has to reproduce to the bit.

@@ -86,7 +86,7 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
     }
 }
 
-/// Frame that was simulated again.
+/// RideFrame that was simulated again.
 #[derive(Clone, Debug)]
 pub struct Replayed {
     /// Simulated frame.

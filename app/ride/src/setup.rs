@@ -17,7 +17,7 @@ use crate::vehicle::{LightSpeed, LightSpeedError, SettingsError, VehicleSettings
 /// Initial data of a [`Simulation`](crate::Simulation), except for the scene itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// Speed of light of the world.
+    /// LightSpeed with its speed of light.
     pub light_speed: LightSpeed,
     /// Kind of vehicle: bicycle, drive or fly.
     pub kind: VehicleKind,
@@ -29,7 +29,7 @@ pub struct Setup {
     pub desk: DeskConfig,
 }
 
-/// Start of a ride, at world time 0.
+/// RideStart of a ride, at world time 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RideStart {
@@ -42,7 +42,7 @@ pub struct RideStart {
 }
 
 impl RideStart {
-    /// Start at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
+    /// RideStart at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
     /// allows.
     pub fn at_rest(position: DVec3, look: DVec3) -> Self {
         let nose = look.normalize_or(DVec3::NEG_Z);
@@ -52,7 +52,7 @@ impl RideStart {
         Self { position: position.to_array(), celerity: [0.0; 3], orientation: orientation.to_array() }
     }
 
-    /// State of the vehicle at the start.
+    /// WorldlineState of the vehicle at the start.
     ///
     /// # Errors
     /// [`SetupError`] if a number is not finite, the celerity is too large, or the orientation is not a rotation.
@@ -73,13 +73,13 @@ impl RideStart {
     }
 }
 
-/// Key of the header's setting that holds [`VehicleSettings`] as JSON.
+/// KeyboardKey of the header's setting that holds [`VehicleSettings`] as JSON.
 const VEHICLE: &str = "vehicle";
-/// Key of the header's setting that holds [`RideStart`] as JSON.
+/// KeyboardKey of the header's setting that holds [`RideStart`] as JSON.
 const START: &str = "start";
 
 impl Setup {
-    /// Header of a recording of this ride. The caller has to add the settings by which the scene is found again.
+    /// RideHeader of a recording of this ride. The caller has to add what is needed to find the scene again.
     pub fn header(&self, build: &str, scene: &str) -> RideHeader {
         let json = |value: serde_json::Result<String>| value.expect("plain numbers and names are always JSON");
         RideHeader {
@@ -153,13 +153,13 @@ pub enum SetupError {
     /// A setting that is missing in the header.
     #[error("the recording's header has no setting \"{key}\": it was not made by a ride of this program")]
     Missing {
-        /// Key of the setting.
+        /// KeyboardKey of the setting.
         key: &'static str,
     },
     /// A setting of the header that cannot be read.
     #[error("the recording's setting \"{key}\" cannot be read: {cause}")]
     Unreadable {
-        /// Key of the setting.
+        /// KeyboardKey of the setting.
         key: &'static str,
         /// Reason, as the reader words it.
         cause: String,

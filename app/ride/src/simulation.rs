@@ -8,10 +8,10 @@
 //! vehicle by a step of own time, which is real time × time scale (B 5.6.1: proper time is the user's time). A frame
 //! shows a copy of the vehicle, moved on by the rest of a tick, so a film is as smooth as its frame times.
 //!
-//! The simulation reads no clock, starts no thread and draws no random number. The same [`Setup`], samples and frame
-//! times give the same bits, and a [`Replay`] proves it. The ticks do not depend on the frame times either, as long
-//! as every sample is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a
-//! longer frame the world waits ([`RideFrame::dropped_ticks`]).
+//! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
+//! same bits, and a [`Replay`] proves it. The ticks do not depend on the frame times either, as long as every sample
+//! is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a longer frame
+//! the world waits ([`RideFrame::dropped_ticks`]).
 
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -1,11 +1,11 @@
 //! Built-in tour: a simulated rider who follows a closed way round a scene, for films and demonstrations without a
 //! person on the bicycle.
 //!
-//! The simulated rider sits on an instrumented bicycle and produces the lines that its sensors would send, in the
-//! `B1` protocol ([`input::bicycle`]). These pass through the real decoder, and may be recorded. The rider steers
-//! towards a point of the way a little ahead (pure pursuit: δ = atan(2 L sin α / l), α the bearing of that point at
-//! the distance l), slows down before bends, and pulls the brake where coasting is not enough. The lines depend on
-//! the vehicle and the time alone, so a tour repeats to the bit.
+//! The rider takes no short cut through the program. The rider sits on an instrumented bicycle and produces what its
+//! sensors would send, as lines of the `B1` protocol ([`input::bicycle`]); these pass through the real decoder and
+//! may be recorded. The rider steers towards a point of the way a little ahead (pure pursuit: δ = atan(2 L sin α /
+//! l), α the bearing of that point at the distance l), slows down before bends, and pulls the brake where coasting is
+//! not enough. The answers depend on the vehicle and the time alone, so a tour repeats to the bit.
 
 use glam::{DQuat, DVec3};
 use input::line::sealed;
@@ -32,7 +32,7 @@ const AIM_M: f64 = 1.8;
 /// Pull of the brake lever per m/s of excess speed, and its largest pull, which stays within the first stage.
 const LEVER_PER_M_S: f64 = 0.3;
 const FARTHEST_LEVER: f64 = 0.45;
-/// Road per turn of the crank, metres.
+/// Route per turn of the crank, metres.
 const DEVELOPMENT_M: f64 = 5.5;
 /// Largest angle of the handlebar, radians.
 const FARTHEST_STEER_RAD: f64 = 0.8;
@@ -154,9 +154,9 @@ fn in_plane(orientation: DQuat, displacement: DVec3) -> (f64, f64) {
 /// Magnet on a wheel, and the sensor that counts its passes.
 #[derive(Clone, Debug)]
 struct Magnet {
-    /// Way between two pulses, metres.
+    /// Route between two pulses, metres.
     spacing_m: f64,
-    /// Way since the last pulse, metres.
+    /// Route since the last pulse, metres.
     since_m: f64,
     pulses: u32,
     last_us: u32,

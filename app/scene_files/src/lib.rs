@@ -1,4 +1,4 @@
-//! Scenes from files and into files: glTF 2.0 both ways, panoramas, and a report on a file's contents.
+//! Scenes from files and into files: glTF 2.0 both ways, pictures of everything around, and a report on what a file holds.
 
 pub mod check;
 pub mod export;

@@ -5,7 +5,7 @@ use crate::textures::view_from_rows;
 use physics::colour::ShiftTable;
 use scene::carriers::Spectra;
 
-/// Uploads the shift table of all carriers, with weights relative to white, for the shaders.
+/// The shift table of all carriers, for the shaders: of weights relative to white.
 pub fn upload(gpu: &Gpu, spectra: &Spectra) -> wgpu::TextureView {
     let table = ShiftTable::new(&spectra.carriers, shaders::SHIFT_NODES as usize);
     let rows_of_a_carrier = 3 * shaders::SHIFT_NODES as usize;

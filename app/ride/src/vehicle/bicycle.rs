@@ -26,7 +26,7 @@ use super::settings::BicycleSettings;
 /// Speed below which a held brake decelerates in proportion to it, as a tyre deforms before it slips, m/s. The
 /// bicycle then comes to rest smoothly.
 const STICTION_M_S: f64 = 0.15;
-/// Deceleration that finally stops a bicycle that is not pedalled, m/s².
+/// Deceleration that finally stops a bicycle that nobody pedals, m/s².
 const ROLLING_M_S2: f64 = 0.05;
 /// Fastest turn of the bicycle, radians per second. Beyond it the front wheel would slip.
 const FASTEST_YAW_RAD_S: f64 = 20.0;
@@ -38,7 +38,7 @@ pub(super) struct BicycleControl<'a> {
     settings: &'a BicycleSettings,
     light_speed: LightSpeed,
     controls: &'a SafeControls,
-    /// Course of the ground ahead.
+    /// GroundCourse of the ground ahead.
     course: GroundCourse,
     /// True if a wall blocks the way ahead.
     blocked: bool,

@@ -30,7 +30,7 @@ pub(super) struct FlightControl<'a> {
     light_speed: LightSpeed,
     controls: &'a SafeControls,
     transport: Transport,
-    /// Course of the ground ahead; `None` in flight.
+    /// GroundCourse of the ground ahead; `None` in flight.
     course: Option<GroundCourse>,
 }
 

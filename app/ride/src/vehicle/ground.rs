@@ -30,7 +30,7 @@ pub(super) struct GroundCourse {
 }
 
 impl GroundCourse {
-    /// Course from the ground ahead. `direction` is the unit vector of the motion, not vertical; `way_m` is the
+    /// GroundCourse from the ground ahead. `direction` is the unit vector of the motion, not vertical; `way_m` is the
     /// distance until the next look, metres. Where there is no ground, the course is level.
     pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, way_m: f64) -> Self {
         let look_m = LOOK_M.max(LOOK_PER_STEP * way_m);
@@ -41,7 +41,7 @@ impl GroundCourse {
         Self { slope_rad: slope_rad.clamp(-STEEPEST_RAD, STEEPEST_RAD), look_m }
     }
 
-    /// Course for a nose that points backward.
+    /// GroundCourse for a nose that points backward.
     pub(super) fn reversed(self) -> Self {
         Self { slope_rad: -self.slope_rad, ..self }
     }

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Speed of light of a world.
+/// LightSpeed, as far as its speed of light is concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct LightSpeed {
@@ -18,14 +18,13 @@ impl LightSpeed {
     pub const SLOWEST_M_S: f64 = 1e-6;
     /// Fastest light, m/s. Beyond it no relativistic effect can be seen.
     pub const FASTEST_M_S: f64 = 1e12;
-    /// Speed of light in the old town of B 5.6.1: 30 km/h.
+    /// Old town of B 5.6.1, with a speed of light of 30 km/h.
     pub const OLD_TOWN: Self = Self { speed_of_light_m_s: 30.0 / 3.6 };
 
-    /// Creates a speed of light from its value in m/s.
+    /// Creates a world whose light has this speed.
     ///
     /// # Errors
-    /// [`LightSpeedError`] if the speed lies outside [`LightSpeed::SLOWEST_M_S`] to [`LightSpeed::FASTEST_M_S`], or
-    /// is not a number.
+    /// [`LightSpeedError`] if the speed lies outside [`LightSpeed::SLOWEST_M_S`] to [`LightSpeed::FASTEST_M_S`], or is not a number.
     pub fn new(speed_of_light_m_s: f64) -> Result<Self, LightSpeedError> {
         if (Self::SLOWEST_M_S..=Self::FASTEST_M_S).contains(&speed_of_light_m_s) {
             Ok(Self { speed_of_light_m_s })

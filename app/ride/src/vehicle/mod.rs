@@ -2,9 +2,9 @@
 //!
 //! # How it works
 //!
-//! There is one controller with three ways to drive ([`input::VehicleKind`]). Each turns the rider's
-//! [`input::Controls`] into a thrust and a turn rate in the pilot's own axes. An integrator of [`physics::worldline`]
-//! makes a worldline of them, in proper time, which is the user's own time (B 2.7, 5.6.1):
+//! There is one controller with three ways to drive ([`input::VehicleKind`]). Each turns the rider's [`input::Controls`] into a
+//! thrust and a turn rate in the pilot's own axes. An integrator of [`physics::worldline`] makes a worldline of them,
+//! in proper time, which is the user's own time (B 2.7, 5.6.1):
 //!
 //! | kind | controls | keeps to |
 //! |---|---|---|
@@ -13,8 +13,8 @@
 //! | fly | three thrusts, roll, rudder, brake (`flight`) | nothing |
 //!
 //! The celerity is never set directly, except by named constraints: wheels do not slip (`bicycle::roll`), walls hold
-//! (`walls`), the rapidity is capped at [`vehicle::RAPIDITY_CAP`](crate::RAPIDITY_CAP). Motion therefore never jumps,
-//! at rest, in reverse or at extreme speed; only a change of kind and a restart may make it jump.
+//! (`walls`), the rapidity is capped at [`vehicle::RAPIDITY_CAP`](crate::RAPIDITY_CAP). Motion therefore never jumps, at rest, in reverse or at
+//! extreme speed; only a change of kind and a restart may make it jump.
 //!
 //! A step depends only on the vehicle, the controls and the [`scene::Surroundings`]; the same calls give the same bits.
 //!

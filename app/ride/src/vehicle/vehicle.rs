@@ -56,18 +56,18 @@ impl Vehicle {
         Ok(Self { light_speed, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
     }
 
-    /// State of the reference point in spacetime. For a bicycle and a car that point is on the ground; in flight it
-    /// is the pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
+    /// WorldlineState of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the
+    /// pilot's eye. The orientation is that of the pilot's axes: right, up, backward.
     pub fn state(&self) -> &WorldlineState {
         &self.state
     }
 
-    /// Kind of vehicle: bicycle, drive or fly.
+    /// Route in which the vehicle is driven.
     pub fn kind(&self) -> VehicleKind {
         self.kind
     }
 
-    /// Speed of light of the world.
+    /// LightSpeed with its speed of light.
     pub fn light_speed(&self) -> LightSpeed {
         self.light_speed
     }
