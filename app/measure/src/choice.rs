@@ -33,39 +33,40 @@ impl Display for Goal {
 /// A goal that no setting reaches here.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ChoiceError {
-    /// All are too slow.
+    /// A budget for which every setting is too slow.
     #[error(
         "nothing was written, for no setting keeps to {budget_ms} ms a frame in 95 of 100 on this device; {flags} comes closest, with {ms:.1} ms; \
          a smaller --size is faster"
     )]
     TooSlow {
-        /// As asked.
+        /// Requested frame time, milliseconds.
         budget_ms: f64,
-        /// The fastest.
+        /// Options of the fastest setting.
         flags: String,
-        /// Its 95th percentile.
+        /// 95th percentile of its frame times, milliseconds.
         ms: f64,
     },
-    /// All are too far off.
+    /// A tolerance for which every setting is too far off.
     #[error(
         "nothing was written, for no setting keeps 99 of 100 pixels within {tolerance_px} pixels; {flags} comes closest, with {px:.2} pixels"
     )]
     TooFarOff {
-        /// As asked.
+        /// Requested error, pixels.
         tolerance_px: f64,
-        /// The closest.
+        /// Options of the closest setting.
         flags: String,
-        /// Its 99th percentile.
+        /// 99th percentile of its errors, pixels.
         px: f64,
     },
-    /// Nothing was measured.
+    /// A scene of which no surface was seen.
     #[error("nothing was written, for no surface of this scene could be looked at; choose another --scene or --replay")]
     Nothing,
 }
 
-/// For a budget, the closest of those that keep to it in 95 of 100 frames; for a tolerance, the fastest of those that keep to it in 99 of 100 pixels.
+/// Row of the best dial. For a budget: the closest of those that keep to it in 95 of 100 frames. For a tolerance: the
+/// fastest of those that keep to it in 99 of 100 pixels.
 pub fn best(rows: &[Row], goal: Goal, pixel_arcmin: f64) -> Result<&Row, ChoiceError> {
-    // Where nothing was seen, nothing was wrong.
+    // A row without pixels has no errors, and does not count.
     let seen = || rows.iter().filter(|row| row.pixels > 0);
     let by = |key: fn(&Row) -> [f64; 2]| {
         move |a: &&Row, b: &&Row| {
@@ -104,7 +105,7 @@ mod tests {
     use super::*;
     use view::Dial;
 
-    /// Metres of edge, 95th percentile of time, arcminutes.
+    /// Rows from metres of edge, 95th percentiles of time, and arcminutes.
     fn rows(of: &[(f64, f64, f64)]) -> Vec<Row> {
         let row = |&(edge, ms, arcmin): &(f64, f64, f64)| Row {
             dial: Dial::edge(edge),
@@ -124,7 +125,7 @@ mod tests {
     fn the_best_that_reaches_the_goal_is_taken() {
         let rows = rows(&[(1.0, 5.0, 40.0), (2.0, 16.0, 12.0), (3.0, 17.0, 1.0), (4.0, 10.0, 12.0), (5.0, 90.0, 0.5)]);
         let edge = |goal| best(&rows, goal, 10.0).map(|row| row.dial.turned().unwrap().1);
-        // 2 and 4 are equally close: the faster.
+        // Rows 2 and 4 are equally close, so the faster one is best.
         assert_eq!(edge(Goal::Budget { ms: 16.7 }), Ok(4.0));
         assert_eq!(edge(Goal::Budget { ms: 17.0 }), Ok(3.0));
         assert_eq!(edge(Goal::Budget { ms: 9.99 }), Ok(1.0));

@@ -61,7 +61,7 @@ pub fn frame(
     picture(gpu, renderer, radiance, (shown, now), 1, watch)
 }
 
-/// Takes the oldest photo-surface under way, and draws.
+/// Takes the oldest photo-surface that is being computed, waits for it, and draws.
 fn picture(
     gpu: &Gpu,
     renderer: &mut SceneRenderer,

@@ -26,9 +26,9 @@ use crate::error::MeasureError;
 use ride::{LightSpeed, RideStart, Setup, SetupError, Simulation, Tour, VehicleSettings};
 use scene::OpenPlane;
 
-/// Rates of the steps, steps a second.
+/// Rates of the steps, steps per second.
 const RATES: [u32; 4] = [240, 60, 30, 15];
-/// Length of the ride, seconds; then the number of knots a second.
+/// Length of the ride, seconds; then the number of knots per second.
 const SECONDS: u32 = 20;
 const KNOTS_PER_SECOND: u32 = 5;
 /// Time until the rider is under way, and time of the comparison after that, seconds. Slopes at the end need a knot

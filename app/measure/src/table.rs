@@ -64,7 +64,7 @@ impl From<&Row> for Line {
     }
 }
 
-/// Table of the renderers' dials as Markdown, which is readable on a terminal as well.
+/// Table of the renderers' dials as Markdown, which is also readable on a terminal.
 pub fn of_pictures(rows: &[Row]) -> String {
     let coloured = rows.iter().any(|row| row.colour.is_some());
     let mut columns =
@@ -134,7 +134,7 @@ impl Markdown {
 /// Writes all lines into one file.
 ///
 /// # Errors
-/// The file cannot be written.
+/// A file that cannot be written.
 pub fn write_csv(lines: &[Line], path: &Path) -> std::io::Result<()> {
     std::fs::write(path, csv(lines))
 }

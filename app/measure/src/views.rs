@@ -56,8 +56,8 @@ pub fn along_circuit(scene: &Scene, count: u32) -> Vec<Shot> {
     (0..count).map(pose).collect()
 }
 
-/// The same picture, with the observer further on its straight worldline by `own_m` metres of light travel of its own
-/// time.
+/// Picture of `shot` after its observer has gone on, on its straight worldline, by `own_m` metres of light travel of
+/// proper time.
 pub fn further(shot: &Shot, own_m: f64) -> Shot {
     let Observer { event, celerity } = shot.observer;
     let event = Event { ct: event.ct + celerity.gamma() * own_m, position: event.position + celerity.vector() * own_m };

@@ -1,9 +1,9 @@
 //! Certainty of a picture: an estimate of how far from their exact places things are drawn, from a few hundred edges
 //! of the scene.
 //!
-//! Two errors are estimated. First, straight edges should bend ([`physics::interpolation_error`]), and a map has texels of finite
-//! size. Second, f32 has 24 bits, and in the map the boost enlarges the rounding errors of the world astern. The
-//! largest error of each kind found in the picture is reported.
+//! Two errors are estimated. First, straight edges should bend ([`physics::interpolation_error`]), and a map has
+//! texels of finite size. Second, f32 has 24 bits, and in the map the boost enlarges the rounding errors of the world
+//! astern. The largest error of each kind found in the picture is reported.
 
 use glam::{DVec2, DVec3};
 use physics::Aberration;
@@ -86,7 +86,7 @@ impl Edges {
         Self::sampled(meshes, |mesh, corner: u32| scene.meshes[mesh].positions[corner as usize].as_dvec3())
     }
 
-    /// Sample of the edges of what rests in a scene.
+    /// Sample of the edges of the resting part of a scene.
     pub fn of_resting(scene: &Scene) -> Self {
         let resting: Vec<_> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
         let meshes = resting.iter().map(|mesh| (mesh.indices.as_slice(), None));

@@ -21,7 +21,7 @@ pub struct Choice {
     pub scene: Scene,
     /// Method and its setting, both named.
     pub dial: Dial,
-    /// Method, and the reason for it, in one line.
+    /// Method and the reason for it, in one line.
     pub because: String,
 }
 
@@ -48,13 +48,13 @@ fn renderer(scene: &Scene, wanted: Dial, occasion: Occasion) -> (RendererName, C
     let edge_m = wanted.edge.unwrap_or(USUAL_EDGE_M);
     match wanted.renderer {
         RendererName::Image => (RendererName::Image, "as asked".into()),
-        // The ray tracer takes scenes as they are. What draws in its place is the method that comes closest.
+        // The ray tracer takes scenes as they are. The method that draws in its place is the one that comes closest.
         RendererName::Polygon | RendererName::Raytrace => (RendererName::Polygon, "as asked".into()),
         RendererName::Auto if triangles == 0 => {
             (RendererName::Polygon, "there is only sky, which needs no map".into())
         }
-        // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too. In a
-        // window cuts share the time with drawing, and the map of a coarse scene is faster.
+        // A still by cuts takes no longer than one by a map, however fast the observer is, and is exact astern too.
+        // In a window cuts share the time with drawing, and the map of a coarse scene is faster.
         RendererName::Auto if wanted.edge.is_none() && occasion == Occasion::Still => {
             (RendererName::Polygon, "its triangles are cut for every picture".into())
         }
@@ -75,7 +75,7 @@ fn renderer(scene: &Scene, wanted: Dial, occasion: Occasion) -> (RendererName, C
 
 #[cfg(test)]
 mod tests {
-    //! A method that is asked for is taken; otherwise the one that was measured to be best.
+    //! Law under test: a method that is asked for is taken; otherwise the one that was measured to be best.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;

@@ -28,7 +28,7 @@ pub trait Method {
     /// Axes of the apparent positions of moving objects.
     fn axes(&self) -> Axes;
 
-    /// Begins the photo-surface for an observer, beside whatever is drawn meanwhile. `observers` are the observer in the
+    /// Begins the photo-surface for an observer, in parallel with other drawing. `observers` are the observer in the
     /// world, then in the frame of each motion.
     ///
     /// # Errors
@@ -37,16 +37,16 @@ pub trait Method {
         Ok(Pending::default())
     }
 
-    /// Has the next pictures drawn from a photo-surface.
+    /// Sets the photo-surface from which the next pictures are drawn.
     fn show(&mut self, _gpu: &Gpu, _transformed: Transformed) {}
 
-    /// Works out what all pictures of one eye at one moment share. Each has its size in pixels.
+    /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     fn prepare_eye(&mut self, _gpu: &Gpu, _world: &mut World, _shots: &[(Shot, [u32; 2])]) {}
 
-    /// Works out what all samples of one picture of `size` pixels share.
+    /// Computes everything that all samples of one picture of `size` pixels share.
     fn prepare_picture(&mut self, _gpu: &Gpu, _world: &mut World, _shot: &Shot, _size: [u32; 2], _subject: Subject) {}
 
-    /// True if there is something to draw from. Before that the plain world is drawn.
+    /// True if the method can draw now. Until then the plain world is drawn.
     fn is_ready(&self) -> bool {
         true
     }

@@ -25,8 +25,8 @@ pub fn observers(motions: &[Motion], observer: &Observer) -> Vec<Observer> {
     std::iter::once(*observer).chain(motions.iter().map(|motion| in_frame_of(motion, observer))).collect()
 }
 
-/// The observer in the frame of a body with this motion. Its time stays the world's: what rests in that frame is seen
-/// alike at all times.
+/// The observer in the frame of a body with this motion. Its time stays the world's: a body at rest in that frame is
+/// seen alike at all times.
 fn in_frame_of(motion: &Motion, observer: &Observer) -> Observer {
     let seen = seen_by(motion, observer);
     Observer { event: Event { position: seen.position, ..observer.event }, celerity: seen.celerity }

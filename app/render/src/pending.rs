@@ -1,4 +1,4 @@
-//! Photo-surfaces under way, and the memory that they are written to.
+//! Photo-surfaces that are being computed, and the memory that they are written to.
 
 use crate::gpu::GpuError;
 use crossbeam_channel::{Receiver, Sender};
@@ -20,8 +20,9 @@ pub struct Transformed {
     pub duration: Duration,
 }
 
-/// Photo-surface under way, for one picture. [`SceneRenderer::show`](crate::SceneRenderer::show) takes it, waits for it
-/// and has the next pictures drawn from it. If it is dropped instead, it is forgotten, and its memory is used again.
+/// Photo-surface that is being computed for one picture. [`SceneRenderer::show`](crate::SceneRenderer::show) takes
+/// it, waits for it and has the next pictures drawn from it. If it is dropped instead, it is forgotten, and its
+/// memory is used again.
 ///
 /// A method that needs no photo-surface gives an empty one.
 #[must_use = "a photo-surface that is not shown was worked out in vain"]
@@ -34,12 +35,12 @@ impl Staging {
         Self { buffer: Some(buffer), home }
     }
 
-    /// The mapped buffer.
+    /// Mapped buffer of this staging.
     pub(crate) fn buffer(&self) -> &wgpu::Buffer {
         self.buffer.as_ref().expect("only `into_parts` takes the buffer away")
     }
 
-    /// The buffer and its way home, for a copy that ends later.
+    /// Buffer and the channel that it returns by, for a copy that ends later.
     pub(crate) fn into_parts(mut self) -> (wgpu::Buffer, Sender<wgpu::Buffer>) {
         let buffer = self.buffer.take().expect("only `into_parts` takes the buffer away");
         (buffer, self.home.clone())
@@ -60,7 +61,7 @@ impl Pending {
         Self(Some(finished))
     }
 
-    /// True if a photo-surface is under way, false if the method needs none.
+    /// True if a photo-surface is being computed, false if the method needs none.
     pub fn is_under_way(&self) -> bool {
         self.0.is_some()
     }

@@ -22,7 +22,7 @@ const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 pub struct Shown {
     /// Place in metres relative to the scene's origin; for a moving body, in its own frame.
     pub position: DVec3,
-    /// Index into the scene's motions; `None` for what rests.
+    /// Index into the scene's motions; `None` for a resting surface.
     pub motion: Option<usize>,
     /// Exact apparent position of that place, relative to the observer in the observer's axes, metres. The place
     /// where it was drawn may differ.

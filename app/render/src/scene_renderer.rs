@@ -21,14 +21,15 @@ use scene::motion::Motion;
 use std::time::Duration;
 use view::{Dial, Effects, Occasion, RendererName, Shot, Stored, Transform};
 
-/// Texels of the map for each pixel where the dial does not say.
+/// Texels of the map per pixel, along each axis, if the dial does not say.
 const USUAL_MAP_SCALE: f64 = 1.0;
 
 /// A scene, ready to be drawn by one method into targets of one format.
 ///
-/// A picture takes three steps. [`SceneRenderer::submit`] begins the photo-surface beside whatever is drawn meanwhile,
+/// A picture takes three steps. [`SceneRenderer::submit`] begins the photo-surface, in parallel with other drawing,
 /// and [`SceneRenderer::show`] waits for it; a method without a photo-surface is ready at once.
-/// [`SceneRenderer::prepare`] draws what all samples of the picture share. [`SceneRenderer::draw`] draws a sample.
+/// [`SceneRenderer::prepare`] draws everything that all samples of the picture share. [`SceneRenderer::draw`] draws a
+/// sample.
 pub struct SceneRenderer {
     world: World,
     method: Box<dyn Method>,
@@ -67,7 +68,7 @@ impl SceneRenderer {
     ) -> Result<Self, PhotoSurfaceError> {
         let image = dial.renderer == RendererName::Image;
         let method = method(gpu, scene, format, dial, occasion)?;
-        // The map shows what rests; what moves has edges of its own there.
+        // The map shows the resting scene; moving bodies have edges of their own there.
         let edges = if image { Edges::of_resting(scene) } else { Edges::of(scene) };
         let (world, motions) = (World::new(gpu, scene, background), scene.motions.clone());
         Ok(Self { world, method, edges, motions, format, subject: Subject::Light })
@@ -120,8 +121,8 @@ impl SceneRenderer {
         std::iter::once(None).chain((0..self.motions.len()).map(Some)).map(sight).collect()
     }
 
-    /// Begins the photo-surface for an observer, beside whatever is drawn meanwhile. Empty if pictures with these
-    /// effects need none.
+    /// Begins the photo-surface for an observer, in parallel with other drawing. Empty if pictures with these effects
+    /// need none.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -155,13 +156,14 @@ impl SceneRenderer {
         self.method.draw_in(gpu, format, occasion, map_scale);
     }
 
-    /// Works out what all samples of a picture of `size` pixels share: the map or the cut, if the method has one.
+    /// Computes everything that all samples of a picture of `size` pixels share: the map or the cut, if the method
+    /// has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
         self.prepare_eye(gpu, &[(*shot, size)]);
         self.prepare_picture(gpu, shot, size);
     }
 
-    /// Works out what all pictures of one eye at one moment share. Each has its size in pixels.
+    /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     pub fn prepare_eye(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
         self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
@@ -170,7 +172,7 @@ impl SceneRenderer {
         }
     }
 
-    /// Works out what all samples of one picture share, after [`SceneRenderer::prepare_eye`].
+    /// Computes everything that all samples of one picture share, after [`SceneRenderer::prepare_eye`].
     pub fn prepare_picture(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
         if shot.effects.geometry {
             self.method.prepare_picture(gpu, &mut self.world, shot, size, self.subject);
@@ -191,7 +193,7 @@ impl SceneRenderer {
         let resting =
             shader_view(&shot.camera, target.size, offset, observer.celerity, shot.effects.geometry, shot.scale());
 
-        // A view for what rests, then one for each motion; places say which it is.
+        // There is a view for the resting scene, then one for each motion; places say which it is.
         let mut views = vec![resting];
         for (number, motion) in self.motions.iter().enumerate() {
             let view = if bent {
@@ -218,7 +220,7 @@ impl SceneRenderer {
     }
 }
 
-/// The method that a dial names. A new method has its line here.
+/// Method that a dial names. A new method has its line here.
 fn method(
     gpu: &Gpu,
     scene: &Scene,

@@ -1,11 +1,12 @@
-//! Textures that hold tables worked out on the CPU.
+//! Textures that hold tables computed on the CPU.
 
 use crate::gpu::Gpu;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-/// A texture without mip levels that shaders read, filled row by row.
+/// Texture without mip levels that shaders read, filled row by row.
 ///
-/// *Shape:* `size` is width, height and layers in texels; `texels` holds all of them in that order, as `format` stores them.
+/// *Shape:* `size` is width, height and layers in texels; `texels` holds all of them in that order, as `format`
+/// stores them.
 pub fn from_rows(
     gpu: &Gpu,
     label: &str,
@@ -26,7 +27,7 @@ pub fn from_rows(
     gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, texels)
 }
 
-/// The same as a view of the whole.
+/// View of a whole texture that [`from_rows`] fills.
 pub fn view_from_rows(
     gpu: &Gpu,
     label: &str,

@@ -1,4 +1,4 @@
-//! A camera as the shaders take it: projection, the directions of pixels, motion.
+//! Conversion of a camera for the shaders: projection, the directions of pixels, motion.
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use physics::Celerity;
@@ -7,14 +7,14 @@ use view::Camera;
 /// Distance in front of the eye, at rest, within which nothing is drawn, metres.
 pub const NEAR_M: f64 = 0.02;
 
-/// What the shaders need to draw one picture.
+/// View uniforms of one picture, for the shaders.
 ///
 /// # Arguments
 /// * `size` — pixels.
-/// * `offset` — of the sampled point from each pixel's centre, in pixels, x right and y down.
+/// * `offset` — place of the sampled point from each pixel's centre, pixels, x right and y down.
 /// * `motion` — the eye's celerity.
-/// * `geometry` — whether its aberration is to be drawn.
-/// * `scale` — what radiance is multiplied by, so that the target can hold it.
+/// * `geometry` — true if the eye's aberration is drawn.
+/// * `scale` — factor of radiance, so that the target can hold it.
 pub fn shader_view(
     camera: &Camera,
     size: [u32; 2],

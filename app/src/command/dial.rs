@@ -12,18 +12,18 @@ pub struct DialOptions {
     /// Method of drawing: auto, polygon, image or, not in a window, raytrace.
     #[arg(long, value_name = "RENDERER", default_value = "auto")]
     pub renderer: RendererName,
-    /// Largest error of position in the polygon renderer, pixels: edges are cut for every picture until they bend as
+    /// Largest error of position in the polygon renderer, pixels. Edges are cut for every picture until they bend as
     /// accurately as this [default: 0.5, in a window 1.5].
     #[arg(long, value_name = "PIXELS", value_parser = values::within(0.01, 100.0))]
     pub tolerance: Option<f64>,
-    /// Longest edge of a triangle in the polygon renderer, metres, cut once [default: cut for every picture, see
-    /// --tolerance].
+    /// Longest edge of a triangle in the polygon renderer, metres. Triangles are cut once, to this length [default:
+    /// cut for every picture, see --tolerance].
     ///
     /// In a scene that names a circuit, edges farther than 4 m from it may be longer in proportion.
     #[arg(long, value_name = "METRES", value_parser = values::positive, conflicts_with = "tolerance")]
     pub edge: Option<f64>,
-    /// Processor that bends vertices cut once: cpu, in parallel with drawing, or gpu, in its vertex stage except for
-    /// those astern; needs --edge.
+    /// Processor that bends the vertices after --edge: cpu, in parallel with drawing, or gpu, in its vertex stage,
+    /// except for vertices astern. gpu needs --edge.
     #[arg(long, value_name = "cpu|gpu", default_value = "cpu", requires_if("gpu", "edge"))]
     pub transform: Transform,
     /// Texels of the image renderer's map for each pixel, along each axis [default: 8 for a picture of one sample a
@@ -33,7 +33,7 @@ pub struct DialOptions {
 }
 
 impl DialOptions {
-    /// Options that ask for a dial.
+    /// Options on the command line for a dial.
     pub fn of(dial: Dial) -> Self {
         let Dial { renderer, edge, transform, tolerance, map_scale } = dial;
         Self { renderer, tolerance, edge, transform: transform.unwrap_or_default(), map_scale }

@@ -14,7 +14,7 @@ use super::render::RenderOptions;
 use super::ride::RideOptions;
 use super::values;
 
-/// Move through a world in which light is slow, and see it as that observer would.
+/// Move through a world in which light is slow, and see it as it would really look.
 #[derive(Debug, Parser)]
 #[command(name = "rapidity", bin_name = "rapidity", version, arg_required_else_help = true, max_term_width = 100)]
 pub(super) struct Cli {
@@ -34,11 +34,11 @@ pub enum Command {
     Ride(Box<RideOptions>),
     /// Draw a still or a film, without a window.
     Render(Box<RenderOptions>),
-    /// Measure the error that each speed-up costs, on a scene and on this machine.
+    /// Measure how much accuracy each speed-up costs, on a scene and on this machine.
     ///
-    /// Draws stills from places along a way, by each renderer at several settings of its dial (--edge, --transform,
-    /// --tolerance, --map-scale). For each, it prints the time, in all and by stage; the memory on the graphics
-    /// device; the errors of position in minutes of arc (the median, the value that 99 of 100 pixels keep to, and the
+    /// Draws stills from places along a way, by each renderer at several settings (--edge, --transform, --tolerance,
+    /// --map-scale). For each setting, it prints the time, in all and by stage; the memory on the graphics device;
+    /// the errors of position in minutes of arc (the median, the value that 99 of 100 pixels keep to, and the
     /// largest); and the difference of colours from traced rays. More tables follow: samples, the shift table,
     /// integrators and precision. The old town takes about three minutes on two cores. Ctrl-C ends the measurement
     /// and keeps the results so far.
@@ -59,7 +59,7 @@ pub enum Command {
     Probe,
     /// List the input devices that are plugged in, with live values.
     Devices(DevicesOptions),
-    /// Check scenes, displays and recordings, and say what is wrong with them.
+    /// Check scenes, displays and recordings, and report their faults.
     Check(CheckOptions),
 }
 

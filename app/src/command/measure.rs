@@ -1,4 +1,4 @@
-//! `rapidity measure`: the error that each speed-up costs.
+//! `rapidity measure`: the accuracy that each speed-up costs.
 
 use std::path::PathBuf;
 
@@ -12,15 +12,15 @@ use measure::choice::Goal;
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct MeasureOptions {
-    /// Print instead the errors of the physics at extreme speeds, distances and steps, compared with 180 digits, as
+    /// Print the errors of the physics instead: at extreme speeds, distances and steps, compared with 180 digits, as
     /// in ACCURACY.md. This takes minutes.
     #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "speed_of_light", "replay", "budget", "tolerance"])]
     pub extremes: bool,
-    /// Measure frames of a ride, and draw later rides with the least error that fits this frame time in 95 of 100
-    /// frames, as in 16.7ms.
+    /// Measure frames of a ride. Later rides are drawn with the smallest error for which 95 of 100 frames keep to
+    /// this time, as in 16.7ms.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = values::milliseconds, conflicts_with = "tolerance")]
     pub budget: Option<f64>,
-    /// Measure frames of a ride, and draw later rides as fast as possible with at most this error in 99 of 100
+    /// Measure frames of a ride. Later rides are drawn as fast as possible with at most this error in 99 of 100
     /// pixels, as in 1px.
     #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::pixels)]
     pub tolerance: Option<f64>,

@@ -23,7 +23,8 @@ pub struct PictureOptions {
     /// commas.
     #[arg(long, value_name = "EFFECTS", default_value = "all")]
     pub effects: Effects,
-    /// Brightness of the picture: auto, white, or a number of stops brighter than white, as in -1.5.
+    /// Brightness of the picture: auto, white, or a number of stops brighter than white, as in -1.5 (a stop is a
+    /// factor of two).
     ///
     /// auto: on average as bright as the same surfaces are at rest. white: a surface that is white at rest is shown
     /// as white.

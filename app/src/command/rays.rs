@@ -7,7 +7,7 @@ use clap::Args;
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Rays (--renderer raytrace)")]
 pub struct RayOptions {
-    /// Diameter of the lens's opening, metres; things nearer or farther than --focus are blurred [default: 0,
+    /// Diameter of the lens's opening, metres. Things nearer or farther than --focus are blurred [default: 0,
     /// everything is sharp].
     #[arg(long, value_name = "METRES", value_parser = values::not_negative, requires = "focus")]
     pub aperture: Option<f64>,
@@ -18,8 +18,8 @@ pub struct RayOptions {
     /// blur].
     #[arg(long, value_name = "SECONDS", value_parser = values::share_of_time)]
     pub shutter: Option<f64>,
-    /// Largest number of times that mirrors and clear glass turn a ray, up to 16 [default: 0, they look as dull as in
-    /// the other renderers].
+    /// Largest number of times that mirrors and clear glass turn a ray, up to 16 [default: 0; they then look as dull
+    /// as in the other renderers].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=16))]
     pub bounces: Option<u32>,
 }

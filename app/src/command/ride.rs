@@ -24,7 +24,7 @@ pub enum VehicleName {
     Fly,
 }
 
-/// Division of a frame's time between transforming and drawing.
+/// Order of transforming and drawing within a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Latency {
     /// Transform and draw one after the other, for the freshest picture.
@@ -62,7 +62,7 @@ pub struct RideOptions {
     #[arg(conflicts_with_all = ["bicycle", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
     /// Compare only: compute the recorded ride again, show nothing, and fail at the first frame that is not equal to
-    /// the bit.
+    /// the last bit.
     #[arg(long, conflicts_with_all = ["out", "realtime", "seconds"], help_heading = "Recording")]
     pub verify: bool,
     /// Time after which the ride ends, seconds [default: when the window is closed, or the recording ends].
@@ -71,10 +71,10 @@ pub struct RideOptions {
     /// Film the ride into this file instead of opening a window.
     #[arg(long, value_name = "FILE.mp4", value_parser = values::film(), help_heading = "Session")]
     pub out: Option<PathBuf>,
-    /// Keep to the clock when there is no window, as live devices need it, instead of running as fast as possible.
+    /// Follow the clock when there is no window, as live devices need it, instead of running as fast as possible.
     #[arg(long, help_heading = "Session")]
     pub realtime: bool,
-    /// Division of a frame's time between transforming and drawing.
+    /// Order of transforming and drawing within a frame.
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
     /// Room in whose windows the ride is shown: window, stereo-wall, cave4, cave6, curved, dome6, or a display file
@@ -129,7 +129,7 @@ pub struct VehicleOptions {
     /// Method of integrating the worldline.
     #[arg(long, value_enum, default_value = "rk4")]
     pub integrator: IntegratorKind,
-    /// Transport of the axes of a driven or flown vehicle.
+    /// Turning of the nose of a driven or flown vehicle.
     #[arg(long, value_enum, default_value = "facing")]
     pub transport: Nose,
     /// Seconds of the rider's own time per second of real time.

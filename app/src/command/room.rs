@@ -15,8 +15,9 @@ pub struct RoomOptions {
     /// Room for whose surfaces the pictures are drawn: window, stereo-wall, cave4, cave6, curved, dome6, or a display
     /// file (.toml, .mpcdi, .pvx).
     ///
-    /// The room rests in the vehicle, its reference point at --position, its −z along --look. Each channel's picture
-    /// becomes a file in the folder that --out names. --size and --fov do not apply to these pictures.
+    /// The room rests in the vehicle: its reference point is at --position, and its −z points along --look. Each
+    /// channel's picture becomes a file in the folder that --out names. --size and --fov do not apply to these
+    /// pictures.
     #[arg(long, value_name = "DISPLAY")]
     pub display: Option<String>,
     /// Write also a picture of the room itself, room.png of --size: its screens with their pictures, and the head.

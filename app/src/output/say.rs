@@ -5,7 +5,7 @@ use std::io::{self, Write};
 /// Writes a line to standard output. A closed output is an error, not a panic.
 ///
 /// # Errors
-/// A terminal or a pipe that is closed.
+/// An output, terminal or pipe, that is closed.
 pub fn say(line: &str) -> io::Result<()> {
     writeln!(io::stdout(), "{line}")
 }

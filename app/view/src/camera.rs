@@ -1,7 +1,7 @@
 //! Cameras: from the observer's directions to a flat picture.
 //!
-//! The camera looks along directions of the observer's own frame, whose axes are a pure boost of the world's. The
-//! paths of light are not its concern: to the camera, the photo-surface is an ordinary three-dimensional object.
+//! The camera looks along directions of the observer's own frame, whose axes are a pure boost of the world's. To the
+//! camera, the photo-surface is an ordinary three-dimensional object; the paths of light are computed elsewhere.
 
 use glam::{DQuat, DVec2, DVec3};
 use physics::{Aberration, Celerity};

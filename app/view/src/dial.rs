@@ -1,5 +1,5 @@
-//! The one way in which a request for a method of drawing is written: on the command line, in the preferences, in the
-//! tables of `measure`, and for the renderers.
+//! The dial: a method of drawing with its setting, in the one form that the command line, the preferences, the tables
+//! of `measure` and the renderers share.
 
 use serde::{Deserialize, Serialize};
 use std::fmt::{self, Display, Formatter};
@@ -10,14 +10,14 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RendererName {
-    /// A choice by what the scene needs.
+    /// The method that suits the scene.
     #[default]
     Auto,
     /// The photo-surface of every vertex (W 5.1).
     Polygon,
     /// A map of the world around the eye, bent pixel by pixel (B chapter 5).
     Image,
-    /// Every ray of light followed back by itself, on the CPU (W 5.2): the reference. Not in windows.
+    /// Every ray of light followed back by itself, on the CPU (W 5.2): the reference. It is not available in windows.
     Raytrace,
 }
 
@@ -25,7 +25,7 @@ pub enum RendererName {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transform {
-    /// All cores, beside the drawing.
+    /// Every core of the CPU, in parallel with the drawing.
     #[default]
     Cpu,
     /// The GPU's vertex stage; vertices astern are left to the CPU.
@@ -41,8 +41,8 @@ pub enum Occasion {
     Ride,
 }
 
-/// Method of drawing and its setting, under the names of the command line's options. What is `None` is left to the
-/// program.
+/// Method of drawing and its setting, under the names of the command line's options. A setting that is `None` is left
+/// to the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Dial {
@@ -63,7 +63,7 @@ pub struct Dial {
 }
 
 impl RendererName {
-    /// All names, in the order in which help lists them.
+    /// Every name, in the order in which help lists them.
     pub const ALL: [Self; 4] = [Self::Auto, Self::Polygon, Self::Image, Self::Raytrace];
 
     /// Name on the command line.
@@ -88,7 +88,7 @@ impl Transform {
 }
 
 impl Occasion {
-    /// Tolerance in pixels where none is asked for.
+    /// Tolerance that is used if none is asked for, pixels.
     pub fn usual_tolerance(self) -> f64 {
         match self {
             Self::Still => 0.5,
@@ -121,7 +121,7 @@ impl Dial {
         Self { renderer: RendererName::Image, map_scale: Some(texels_per_pixel), ..Self::POLYGON }
     }
 
-    /// Name of the option that is turned, and its value; `None` where all is left to the program.
+    /// Name of the option that is set, and its value; `None` if the whole dial is left to the program.
     pub fn turned(&self) -> Option<(&'static str, f64)> {
         let name = if self.transform == Some(Transform::Gpu) { "transform" } else { "edge" };
         let options = [(name, self.edge), ("tolerance", self.tolerance), ("map-scale", self.map_scale)];
@@ -130,7 +130,7 @@ impl Dial {
 }
 
 impl Display for Dial {
-    /// The options of the command line.
+    /// Writes the options of the command line.
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         write!(formatter, "--renderer {}", self.renderer.name())?;
         for (name, value) in [("edge", self.edge), ("tolerance", self.tolerance), ("map-scale", self.map_scale)] {
@@ -211,7 +211,8 @@ impl FromStr for Dial {
 
 #[cfg(test)]
 mod tests {
-    //! Law: a dial that is written is read again as the same dial. A form that loses a setting would draw another way.
+    //! Law: a dial that is written is read again as the same dial. A written form that loses a setting would draw in
+    //! another way.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;

@@ -4,29 +4,29 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 use thiserror::Error;
 
-/// What relativity does to the picture: any of its three parts.
+/// Effects of relativity on the picture: any of its three parts.
 ///
-/// The wavelength shift alone, L'(λ') = D L(Dλ'), keeps the radiance of all wavelengths together; the searchlight effect alone multiplies it
-/// by D⁴; both are D⁵ L(Dλ') (W eq. 4.13, B eq. 2.10).
+/// The wavelength shift alone, L'(λ') = D L(Dλ'), keeps the radiance of all wavelengths together; the searchlight
+/// effect alone multiplies it by D⁴; both are D⁵ L(Dλ') (W eq. 4.13, B eq. 2.10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Effects {
-    /// Aberration and light-travel time: where things are seen.
+    /// Aberration and light-travel time, which decide the apparent positions.
     pub geometry: bool,
-    /// Shift of the wavelengths: in which colour.
+    /// Shift of the wavelengths, which decides the colours.
     pub doppler: bool,
-    /// The searchlight effect: how bright.
+    /// Searchlight effect, which decides the brightness.
     pub searchlight: bool,
 }
 
 impl Effects {
-    /// Everything, as it would be seen.
+    /// Full relativistic picture: geometry, Doppler shift and searchlight effect.
     pub const ALL: Self = Self { geometry: true, doppler: true, searchlight: true };
     /// The plain picture, as if light were infinitely fast.
     pub const NONE: Self = Self { geometry: false, doppler: false, searchlight: false };
-    /// Where things are seen, in the colours and brightness that they have at rest.
+    /// Apparent positions alone, in the colours and brightness that things have at rest.
     pub const GEOMETRY: Self = Self { geometry: true, ..Self::NONE };
 
-    /// Whether colour or brightness change.
+    /// True if colour or brightness change.
     pub fn shift_light(self) -> bool {
         self.doppler || self.searchlight
     }
@@ -46,7 +46,7 @@ impl Display for Effects {
     }
 }
 
-/// A text that names no effects.
+/// Error for a text that names no effects.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected all, none, or any of geometry, doppler and searchlight with commas between them")]
 pub struct EffectsError;

@@ -1,6 +1,6 @@
-//! Who looks, when, and through what: the observer's eye, its camera, the effects of relativity on its picture.
+//! The observer's eye, its camera, and the effects of relativity on its picture.
 //!
-//! No scene and no device is known here; whoever draws or traces a picture is asked for it in these words.
+//! These types name a picture for every renderer and ray tracer. They know no scene and no device.
 
 mod camera;
 mod dial;

@@ -27,8 +27,8 @@ pub struct Shot {
     pub observer: Observer,
     /// Effects of relativity on the picture.
     pub effects: Effects,
-    /// Factor of the stored radiance instead of the one that [`Shot::scale`] would choose: for pictures that are put
-    /// together to one.
+    /// Factor of the stored radiance instead of the one that [`Shot::scale`] would choose, for pictures that are
+    /// joined into one.
     pub stored_scale: Option<f64>,
 }
 
@@ -42,8 +42,8 @@ impl Gaze {
 }
 
 impl Shot {
-    /// Factor of the stored radiance, with which short floats can hold it: it undoes the searchlight effect as it is in
-    /// the mean of a picture of usual shape.
+    /// Factor of the stored radiance, with which short floats can hold it. It undoes the mean searchlight effect of a
+    /// picture of usual shape.
     pub fn scale(&self) -> f64 {
         if let Some(scale) = self.stored_scale {
             return scale;
@@ -63,7 +63,7 @@ impl Shot {
 /// Scale in which a texture holds radiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
-    /// Luminance of what is white at rest, cd/m².
+    /// Luminance of a surface that is white at rest, cd/m².
     pub white: f64,
     /// Factor of the texture's values: its red, green and blue are linear sRGB, relative to that white, times this.
     pub scale: f64,
@@ -73,6 +73,6 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Light as it was emitted: relative to white, not scaled, not shifted.
+    /// Scale of unshifted light: relative to white, factor 1.
     pub const UNSHIFTED: Self = Self { white: 1.0, scale: 1.0, shifted: false };
 }

@@ -1,4 +1,4 @@
-//! ExtremesRow of the table: a group of cases, and its largest error.
+//! Row of the table of extremes: a group of cases, and its largest error.
 
 /// Largest allowed error, in radians, units of rapidity, or as a share of the measured quantity.
 pub const LIMIT: f64 = 1e-10;

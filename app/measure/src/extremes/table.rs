@@ -1,4 +1,4 @@
-//! All rows of the table, and the table as a document.
+//! Rows of the table of extremes, and the table as a document.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ use super::light;
 use super::row::{ExtremesRow, LIMIT};
 use super::worldline::{self, Lengths, Refused};
 
-/// Amount of measurement.
+/// Extent of the measurement: numbers of cases and steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Number of cases of each row about light.
@@ -45,7 +45,7 @@ pub enum ExtremesError {
     Exceeded {
         /// Number of such errors.
         count: usize,
-        /// ExtremesRow of the largest error.
+        /// Row of the largest error.
         worst: Box<ExtremesRow>,
     },
 }

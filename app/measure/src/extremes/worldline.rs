@@ -18,11 +18,11 @@ use thiserror::Error;
 use super::motion::Motion;
 use super::row::{ExtremesRow, Worst};
 
-/// Speed of light, metres a second.
+/// Speed of light, metres per second.
 const LIGHT_M_PER_S: f64 = 10.0;
 /// Ordinary thrust, m/s².
 const THRUST_M_PER_S2: f64 = 9.81;
-/// Rate of the simulation, steps a second.
+/// Rate of the simulation, steps per second.
 const STEPS_PER_S: f64 = 240.0;
 
 const RAPIDITY: &str = "rapidity";
@@ -98,7 +98,7 @@ fn errors(start: &WorldlineState, end: &WorldlineState, exact: &Motion) -> [(&'s
     ]
 }
 
-/// WorldlineState after `count` equal steps.
+/// State after `count` equal steps.
 fn steps(
     integrator: &dyn Integrator,
     start: &WorldlineState,

@@ -1,4 +1,4 @@
-//! PictureMap of a picture: the directions of the world that it sees, and their size in it.
+//! Picture map: the directions of the world that a picture sees, and their size in it.
 //!
 //! Directions are those of a cube around the eye, turned so that +z is along the motion. A boost then changes z
 //! alone, and x and y keep every digit near dead astern. A part of a face is judged by a cap around it. Aberration
@@ -12,7 +12,7 @@ use view::Camera;
 /// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;
 
-/// PictureMap of a flat picture by an observer in motion.
+/// Picture map of a flat picture by an observer in motion.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureMap {
     /// Rotation from the axes of world and observer to those of the cube.
@@ -71,7 +71,7 @@ struct Cap {
 }
 
 impl PictureMap {
-    /// PictureMap of `camera` with `size` pixels, moving with `celerity`.
+    /// Picture map of `camera` with `size` pixels, moving with `celerity`.
     pub fn new(camera: &Camera, size: [u32; 2], celerity: Celerity) -> Self {
         let axis = |eye: DVec3| camera.observer_from_eye * eye;
         let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));

@@ -1,5 +1,5 @@
-//! The transform beside the render thread: worldwide vertices in, apparent positions out, written directly into
-//! memory from which the GPU copies.
+//! The transform, in parallel with the render thread: world positions of vertices in, apparent positions out, written
+//! directly into memory from which the GPU copies.
 //!
 //! Three staging buffers circulate (W 6.4.1's flux buffers): one is filled by the `photo-surface` thread and its
 //! rayon workers, one is copied from and drawn, one is on its way back. A buffer's way is

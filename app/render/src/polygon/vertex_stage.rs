@@ -29,7 +29,7 @@ pub struct VertexStage {
 
 /// Neighbouring vertices with the same motion.
 struct Chunk {
-    /// Index into the eyes: 0 for what rests, then one for each motion.
+    /// Index into the eyes: 0 for the resting scene, then one for each motion.
     observer: usize,
     /// Index of the first vertex among all vertices of the scene.
     first: usize,
@@ -65,8 +65,8 @@ impl VertexStage {
         Ok(Self { chunks, origin: scene.origin, streams, stride, motions: scene.motions.clone() })
     }
 
-    /// Bends on the CPU the chunks that the vertex stage cannot bend. `observers` are the observer in the world, then in
-    /// the frame of each of the scene's motions.
+    /// Bends on the CPU the chunks that the vertex stage cannot bend. `observers` are the observer in the world, then
+    /// in the frame of each of the scene's motions.
     fn bend(&mut self, gpu: &Gpu, observers: &[Observer]) {
         let write = |first: usize, streams: [&[f32]; 3]| {
             for (axis, stream) in (0..).zip(streams) {

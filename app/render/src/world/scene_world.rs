@@ -30,7 +30,7 @@ pub struct World {
     pub spectra: SceneCarriers,
     /// World position of the scene's origin, metres. Plain positions are relative to it.
     pub origin: DVec3,
-    /// Light that falls on what rests, then on each motion. The groups of views have the same order.
+    /// Light that falls on the resting scene, then on each motion. The groups of views have the same order.
     lightings: Vec<wgpu::Buffer>,
     /// Light of the scene that every picture needs: it falls on animated bodies differently each time.
     light: Lighting,

@@ -24,9 +24,9 @@ const MAP_SIZE: u32 = 4096;
 
 /// Light of a scene, for the shaders.
 pub struct Light {
-    /// Light that falls on what rests.
+    /// Light that falls on the resting scene.
     pub at_rest: shaders::LightingUniforms,
-    /// Uniforms [`shaders::LightingUniforms`]: one for what rests, then one for each of the scene's motions.
+    /// Uniforms [`shaders::LightingUniforms`]: one for the resting scene, then one for each of its motions.
     pub uniforms: Vec<wgpu::Buffer>,
     /// Reversed depth, seen from the sun.
     pub map: wgpu::TextureView,

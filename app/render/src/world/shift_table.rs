@@ -1,4 +1,4 @@
-//! The shift table on the device: what becomes of three weights on each carrier at every Doppler factor.
+//! The shift table on the device: three weights on each carrier, shifted by every Doppler factor.
 
 use crate::gpu::Gpu;
 use crate::textures::view_from_rows;

@@ -118,7 +118,7 @@ impl Default for FlightSettings {
     }
 }
 
-/// Direction of the nose of a driven or flown vehicle.
+/// Turning of the nose of a driven or flown vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Nose {
@@ -137,7 +137,7 @@ pub enum IntegratorKind {
     /// Classical Runge–Kutta method of fourth order.
     #[default]
     Rk4,
-    /// Exact for constant controls, midpoint rule for others.
+    /// The exact method for constant controls, the midpoint rule for others.
     Exact,
     /// Adaptive Dormand–Prince method (DOPRI5).
     #[value(name = "dopri5")]
