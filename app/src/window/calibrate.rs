@@ -15,7 +15,9 @@ impl Open {
     /// Starts or resumes moving the corners of a room's channels.
     pub fn calibrate(&mut self) {
         let Canvas::Room(walls) = &mut self.canvas else {
-            self.ride.live.tell("corners are moved in the windows of a room: ride --display, without --preview");
+            self.ride
+                .live
+                .tell("corners can be moved only in the windows of a room: start with --display, without --preview");
             return;
         };
         let begun = || Calibrating::new(self.display_name.clone(), &walls.display);

@@ -49,7 +49,7 @@ impl Calibrating {
         // A display without a name is the built-in window.
         let name = self.name.as_deref().unwrap_or(WINDOW);
         self.said = if changed.is_empty() {
-            "nothing has moved since the file was read".to_owned()
+            "nothing to save: no corner has been moved".to_owned()
         } else {
             match file::save(name, &changed) {
                 Ok(path) => {
@@ -77,9 +77,9 @@ fn key(code: KeyCode) -> Option<CornerKey> {
 
 /// Keys and their meanings while corners are being moved.
 const KEYS: [(&str, &str); 5] = [
-    ("Tab", "next corner, next channel; with Shift back"),
-    ("← → ↑ ↓", "move it by a pixel, with Shift by ten"),
-    ("Backspace", "back to where the file has it; with Shift to the viewport's corner"),
+    ("Tab", "next corner, then the next channel's; with Shift the one before"),
+    ("← → ↑ ↓", "move the corner by 1 pixel; with Shift by 10"),
+    ("Backspace", "put the corner back to its place in the file; with Shift to the viewport's corner"),
     ("S", "save"),
     ("F4", "leave"),
 ];

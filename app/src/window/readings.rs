@@ -12,12 +12,12 @@ pub fn readings(ride: &RideInProgress) -> Readings {
     let odometer = frame.vehicle.odometer();
     let mut notices = ride.live.told();
     if ride.not_finite > 0 {
-        notices.push(format!("{} vertices are nowhere and not drawn", ride.not_finite));
+        notices.push(format!("{} points of the scene have no visible place and are not drawn", ride.not_finite));
     }
     notices.extend(ride.behind.clone());
     notices.extend(ride.certainty.notice());
     if frame.time_scale != 1.0 {
-        notices.push(format!("own time × {:.2}", frame.time_scale));
+        notices.push(format!("your clock runs × {:.2}", frame.time_scale));
     }
     Readings {
         beta: celerity.beta().vector().length(),
