@@ -11,5 +11,4 @@ pub mod display;
 pub mod exact;
 pub mod lorentz;
 pub mod photographer;
-pub mod random;
 pub mod view;

@@ -8,15 +8,15 @@
 //! near plane makes holes. Coordinates in f32 about the world's origin tear boxes apart a million metres away.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::DVec3;
 use image::RgbaImage;
 use physics::{Beta, Celerity};
-use rapidity::scene::Scene;
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::refine::refine;
+use scene::Scene;
+use scene::refine::refine;
 use std::collections::HashSet;
 use std::sync::LazyLock;
-use system_tests::exact::{Boxes, Sight, differing};
+use system_tests::exact::{Boxes, BoxesSeen, differing};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
 use system_tests::view::View;
 
@@ -80,7 +80,7 @@ fn at(beta: f64) -> Celerity {
 
 /// Asserts that few pixels differ from the exact picture, and that each of those shows a colour that is exact at most
 /// half a pixel away.
-fn assert_exact(drawn: &RgbaImage, sight: &Sight<'_>, at_most: f64, what: &str) {
+fn assert_exact(drawn: &RgbaImage, sight: &BoxesSeen<'_>, at_most: f64, what: &str) {
     let exact = sight.picture();
     let mut colours: Vec<_> = exact.pixels().collect();
     colours.sort_by_key(|pixel| pixel.0);
