@@ -15,6 +15,7 @@ use measure::quantiles::Sorted;
 use physics::{Celerity, Event, Observer};
 use scene::Scene;
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::turns::turn;
 use system_tests::view::{View, middle};
 use view::Dial;
 
@@ -88,6 +89,7 @@ fn boxes_are_where_they_are_seen() {
 
 #[test]
 fn the_town_is_where_it_is_seen() {
+    let _turn = turn();
     let scene = town::build(1);
     let eye = scene.start.position + DVec3::Y * 1.6;
     let ahead = scene.start.look;

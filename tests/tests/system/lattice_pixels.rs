@@ -18,6 +18,7 @@ use std::collections::HashSet;
 use std::sync::LazyLock;
 use system_tests::exact::{Boxes, BoxesSeen, differing};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::turns::turn;
 use system_tests::view::View;
 
 /// Size of every picture here, pixels.
@@ -127,6 +128,7 @@ fn at_0_99_c_boxes_are_where_exact_rays_meet_them() {
 /// Asserts that the map's picture is exact at a speed, with triangles as they are and the same number of texels as at
 /// any speed.
 fn assert_map_exact_at(beta: f64, views: &[View]) {
+    let _turn = turn();
     let boxes = boxes();
     let mut photographer = Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), DEFAULT_MAP);
     for view in views {

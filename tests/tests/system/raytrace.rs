@@ -18,6 +18,7 @@ use scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use system_tests::bodies::{Cone, celerity, exact, observer, outline, sphere};
 use system_tests::photographer::{DEFAULT_MAP, Photographer, gpu};
+use system_tests::turns::turn;
 use system_tests::view::{View, middle};
 use trace::{RayTracer, Traced};
 use view::{Dial, Effects, Shot};
@@ -170,6 +171,7 @@ fn renderers_draw_the_lattice_as_rays_see_it() {
 
 #[test]
 fn renderers_draw_the_town_as_rays_see_it() {
+    let _turn = turn();
     // Each texture is replaced by its mean: if a texture is finer than pixels, a ray sees one texel, and the other
     // renderers the mean of many.
     let mut scene = town::build(1);

@@ -12,6 +12,7 @@ use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
 use system_tests::bodies::celerity;
 use system_tests::photographer::{Photographer, RAYS};
+use system_tests::turns::turn;
 use system_tests::view::View;
 use view::{Dial, Effects};
 
@@ -59,6 +60,7 @@ fn differences(drawn: &Rgb32FImage, traced: &Rgb32FImage, side: u32) -> Vec<f64>
 
 #[test]
 fn the_town_in_its_own_textures_is_what_many_rays_see() {
+    let _turn = turn();
     let mut scene = town::build(1);
     // The renderers' shadows are a map with soft edges, which `raytrace.rs` tests.
     scene.light.shadows = false;

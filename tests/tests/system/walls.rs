@@ -26,6 +26,7 @@ use std::sync::LazyLock;
 use system_tests::exact::Boxes;
 use system_tests::lorentz::{boost, four, parts, rotation, space};
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, gpu};
+use system_tests::turns::turn;
 use view::{Dial, Effects, Occasion};
 use walls::{Head, Occupant, Quality, Walls};
 
@@ -73,6 +74,7 @@ fn head(viewer: &Viewer, celerity: DVec3) -> Head {
 
 /// Pictures of all channels, for each occupant.
 fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant]) -> Vec<Vec<RgbaImage>> {
+    let _turn = turn();
     let format = Studio::format(gpu());
     let quality = Quality { format, samples: 1, density: 3.0, smooth: false };
     let mut renderer = SceneRenderer::new(gpu(), scene, format, Some(BACKGROUND), method, Occasion::Still).unwrap();
