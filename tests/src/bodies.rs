@@ -5,11 +5,11 @@
 //! a sphere comes from the boost of a circle of directions.
 
 use glam::{DMat3, DQuat, DVec3, Vec2, Vec3};
-use physics::apparent::{Apparent, moving};
-use physics::{Beta, Boost, Celerity, Event, FourVector, Observer, Source};
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Material, Mesh, Scene};
+use physics::apparent::{Apparent, PointSource, moving};
+use physics::{Beta, Boost, Celerity, Event, FourVector, Observer};
+use scene::motion::{Motion, Uniform};
+use scene::refine::refine;
+use scene::{Material, Mesh, Scene};
 
 use crate::view::{View, middle};
 
@@ -93,7 +93,7 @@ pub fn exact(observer: &Observer, motion: &Uniform, place: DVec3) -> Apparent {
     let q = place - motion.anchor.position;
     let now = motion.anchor.position + q - along * (q.dot(along) * (1.0 - 1.0 / gamma));
     let position = now - beta * motion.anchor.ct;
-    moving(observer, &Source { position, celerity: motion.celerity })
+    moving(observer, &PointSource { position, celerity: motion.celerity })
 }
 
 /// Directions between neighbouring pixels of which one shows a body and the other does not.

@@ -1,8 +1,9 @@
 //! The way of radiance to the screen, in f64 and from the formulas alone; and helpers that let the program do the
 //! same.
 
-use rapidity::renderers::display::{Adaptation, Development, Display, Gamut, Seen, Stored, Tone};
-use rapidity::renderers::picture::light;
+use render::display::{Adaptation, Developer, Development, Gamut, Seen, Tone};
+use render::picture::light;
+use view::Stored;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 use crate::colour::linear_of;
@@ -29,16 +30,16 @@ pub fn texture(width: u32, texels: &[[f32; 4]]) -> wgpu::TextureView {
 }
 
 /// An eye, and the passes that show what it sees, on a screen of 32-bit floats.
-pub struct Onlooker {
-    display: Display,
+pub struct AdaptingEye {
+    developer: Developer,
     adaptation: Adaptation,
 }
 
-impl Onlooker {
-    /// Onlooker that has seen nothing yet.
+impl AdaptingEye {
+    /// Eye that has seen nothing yet.
     #[expect(clippy::new_without_default, reason = "compiling shaders is not what a default is expected to do")]
     pub fn new() -> Self {
-        Self { display: Display::new(gpu(), FORMAT, FORMAT), adaptation: Adaptation::new(gpu()) }
+        Self { developer: Developer::new(gpu(), FORMAT, FORMAT), adaptation: Adaptation::new(gpu()) }
     }
 
     /// Screen values, encoded as sRGB, for texels in rows of `width`.
@@ -54,8 +55,8 @@ impl Onlooker {
         let screen = texture(width, &vec![[0.0; 4]; texels.len()]);
         let seen = Seen { radiance: &radiance, stored, elapsed_s };
         let mut encoder = gpu().device.create_command_encoder(&Default::default());
-        self.display.adapt(gpu(), &mut encoder, &mut self.adaptation, &seen, &development);
-        self.display.show(gpu(), &mut encoder, &radiance, &self.adaptation, &development, &screen);
+        self.developer.adapt(gpu(), &mut encoder, &mut self.adaptation, &seen, &development);
+        self.developer.show(gpu(), &mut encoder, &radiance, &self.adaptation, &development, &screen);
         gpu().queue.submit([encoder.finish()]);
         let picture = light(gpu(), &screen, &Stored::UNSHIFTED).expect("the device is there");
         picture.pixels().map(|pixel| pixel.0).collect()

@@ -4,10 +4,10 @@
 //! the world, is followed straight back from the eye. The pixel shows the first box on the way, in the colour of its
 //! face.
 
+use built_in::lattice::Lattice;
 use glam::DVec3;
 use image::{Rgba, RgbaImage};
 use physics::{Aberration, Celerity};
-use rapidity::scene::lattice::Lattice;
 use rayon::prelude::*;
 
 use crate::colour::srgb_pixel;
@@ -26,8 +26,8 @@ struct AxisAligned {
     high: DVec3,
 }
 
-/// Exact sight of some boxes by one eye.
-pub struct Sight<'a> {
+/// Boxes as one eye sees them, exactly.
+pub struct BoxesSeen<'a> {
     boxes: &'a Boxes,
     view: View,
     eye: DVec3,
@@ -54,9 +54,9 @@ impl Boxes {
         }
     }
 
-    /// Sight of an eye at `eye` that moves with `celerity`.
-    pub fn seen_by(&self, view: &View, eye: DVec3, celerity: Celerity) -> Sight<'_> {
-        Sight { boxes: self, view: *view, eye, aberration: Aberration::new(celerity) }
+    /// View of an eye at `eye` that moves with `celerity`.
+    pub fn seen_by(&self, view: &View, eye: DVec3, celerity: Celerity) -> BoxesSeen<'_> {
+        BoxesSeen { boxes: self, view: *view, eye, aberration: Aberration::new(celerity) }
     }
 
     /// Encoded colour that a ray from `eye` along `direction` (world axes) meets first.
@@ -84,7 +84,7 @@ impl AxisAligned {
     }
 }
 
-impl Sight<'_> {
+impl BoxesSeen<'_> {
     /// Exact colour at a place in the picture, pixels from the upper left corner.
     pub fn colour(&self, place: [f64; 2]) -> [u8; 4] {
         let (direction, _) = self.aberration.world_from_observer(self.view.direction(place));

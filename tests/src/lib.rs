@@ -3,7 +3,8 @@
 //! Nothing here is taken from the renderers. [`view`] computes the direction of a pixel by itself; [`exact`] follows
 //! that direction back into the world with `physics` in f64 and meets boxes analytically; [`colour`] encodes by the
 //! standard's own formula. So a wrong sign, offset or curve in the program is not repeated here. [`bodies`] are
-//! spheres and boxes in motion, with their worldlines. [`photographer`] asks the program for the same picture.
+//! spheres and boxes in motion, with their worldlines. [`photographer`] asks the program for the same picture. [`turns`] keep tests
+//! that need much memory from running at once.
 
 pub mod bodies;
 pub mod colour;
@@ -11,5 +12,5 @@ pub mod display;
 pub mod exact;
 pub mod lorentz;
 pub mod photographer;
-pub mod random;
+pub mod turns;
 pub mod view;

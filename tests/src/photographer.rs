@@ -3,19 +3,29 @@
 use glam::DVec3;
 use image::{Rgb32FImage, RgbaImage};
 use physics::Celerity;
-use physics::photo_surface::Eye;
-use rapidity::gpu::{Gpu, GpuError};
-use rapidity::renderers::display::{Development, Gamut};
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::picture::{Shown, Studio};
-use rapidity::renderers::raytrace::{Place, RayTracer};
-use rapidity::renderers::target::Format;
-use rapidity::renderers::{Effects, Method, SceneRenderer, Shot};
-use rapidity::scene::Scene;
+use render::display::{Development, Gamut};
+use render::picture::{Shown, Studio};
+use render::target::Format;
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use scene::Scene;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
+use trace::{Place, RayTracer, Traced};
+use view::{Dial, Effects, Occasion, RendererName, Shot};
 
+use crate::bodies::observer;
 use crate::view::View;
+
+/// `polygon` with the scene drawn as it is given. A test that wants short edges cuts them itself, so the length does
+/// not matter.
+pub const AS_GIVEN: Dial = Dial::edge(1.0);
+
+/// Map of the image renderer in its quality for pictures with one sample a pixel.
+pub const DEFAULT_MAP: Dial = Dial::map(8.0);
+
+/// Ray tracer.
+pub const RAYS: Dial =
+    Dial { renderer: RendererName::Raytrace, edge: None, transform: None, tolerance: None, map_scale: None };
 
 /// Device on which all tests of a process draw.
 ///
@@ -29,23 +39,15 @@ pub fn gpu() -> &'static Gpu {
     GPU.as_ref().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Way in which pictures are made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum By {
-    /// Drawn by a renderer.
-    Method(Method),
-    /// Traced ray by ray.
-    Rays,
-}
-
-enum Way {
+/// Renderer or tracer of a photographer's scene.
+enum Source {
     Drawn(Box<SceneRenderer>),
     Traced(Box<RayTracer>),
 }
 
 /// Photographer of one scene, with one method.
 pub struct Photographer {
-    way: Way,
+    source: Source,
     studio: Studio,
     size: [u32; 2],
     samples: u32,
@@ -55,25 +57,30 @@ impl Photographer {
     /// Prepares pictures by the `polygon` renderer, of `size` pixels with `samples` each. `background` is a linear
     /// radiance that replaces the scene's sky.
     pub fn new(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>) -> Self {
-        Self::with(scene, size, samples, background, Method::Polygon)
-    }
-
-    /// Prepares pictures by any renderer.
-    pub fn with(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, method: Method) -> Self {
-        let renderer = SceneRenderer::new(gpu(), scene, Studio::format(gpu()), background, method)
-            .expect("scenes of tests have a finite origin");
-        Self { way: Way::Drawn(Box::new(renderer)), studio: Studio::new(gpu(), size, samples), size, samples }
+        Self::with(scene, size, samples, background, AS_GIVEN)
     }
 
     /// Prepares pictures by any renderer or by rays.
-    pub fn by(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, by: By) -> Self {
-        match by {
-            By::Method(method) => Self::with(scene, size, samples, background, method),
-            By::Rays => {
-                let tracer = RayTracer::new(scene.clone(), background, false).expect("scenes of tests are whole");
-                Self { way: Way::Traced(Box::new(tracer)), studio: Studio::new(gpu(), size, samples), size, samples }
-            }
-        }
+    pub fn with(scene: &Scene, size: [u32; 2], samples: u32, background: Option<[f32; 3]>, dial: Dial) -> Self {
+        let source = if dial.renderer == RendererName::Raytrace {
+            let tracer = RayTracer::new(scene.clone(), background, false).expect("scenes of tests are whole");
+            Source::Traced(Box::new(tracer))
+        } else {
+            let format = Studio::format(gpu());
+            let renderer = SceneRenderer::new(gpu(), scene, format, background, dial, Occasion::Still)
+                .expect("scenes of tests have a finite origin");
+            Source::Drawn(Box::new(renderer))
+        };
+        Self { source, studio: Studio::new(gpu(), size, samples), size, samples }
+    }
+
+    /// Prepares pictures by any renderer, with the half floats of a window.
+    pub fn of_window(scene: &Scene, size: [u32; 2], dial: Dial) -> Self {
+        let format = Format::fast(1);
+        let renderer = SceneRenderer::new(gpu(), scene, format, None, dial, Occasion::Ride)
+            .expect("scenes of tests have a finite origin");
+        let studio = Studio::with_format(gpu(), size, 1, format);
+        Self { source: Source::Drawn(Box::new(renderer)), studio, size, samples: 1 }
     }
 
     /// Picture of an eye that moves, with the effect of geometry alone.
@@ -86,24 +93,18 @@ impl Photographer {
         self.seen(view, eye, Celerity::ZERO, Effects::NONE)
     }
 
-    /// Photographer with the half floats of a window.
-    pub fn of_window(scene: &Scene, size: [u32; 2], method: Method) -> Self {
-        let format = Format::fast(1);
-        let renderer =
-            SceneRenderer::new(gpu(), scene, format, None, method).expect("scenes of tests have a finite origin");
-        let studio = Studio::with_format(gpu(), size, 1, format);
-        Self { way: Way::Drawn(Box::new(renderer)), studio, size, samples: 1 }
-    }
-
     /// Picture of an eye that moves, with these effects.
     pub fn seen(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> RgbaImage {
         let shot = self.aim(view, eye, celerity, effects);
         // Channels are clipped one by one, like in `colour`.
         let development = Development { gamut: Gamut::Clamp, ..Default::default() };
-        let taken = match &mut self.way {
-            Way::Drawn(renderer) => self.studio.photograph(gpu(), renderer, &shot, &development, None),
-            Way::Traced(tracer) => {
-                let traced = tracer.trace(&shot, self.size, self.samples, &AtomicBool::new(false), || {});
+        let taken = match &mut self.source {
+            Source::Drawn(renderer) => {
+                let pending = submit(renderer, &shot);
+                self.studio.photograph(gpu(), renderer, &shot, pending, &development, None)
+            }
+            Source::Traced(tracer) => {
+                let traced = trace(tracer, &shot, self.size, self.samples);
                 self.studio.develop(gpu(), &traced.texels(), traced.stored, &development, None)
             }
         };
@@ -113,18 +114,24 @@ impl Photographer {
     /// Light that a moving eye sees: linear sRGB in cd/m².
     pub fn light(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Rgb32FImage {
         let shot = self.aim(view, eye, celerity, effects);
-        match &mut self.way {
-            Way::Drawn(renderer) => self.studio.expose(gpu(), renderer, &shot).expect("the device is there"),
-            Way::Traced(tracer) => tracer.trace(&shot, self.size, self.samples, &AtomicBool::new(false), || {}).image(),
+        match &mut self.source {
+            Source::Drawn(renderer) => {
+                let pending = submit(renderer, &shot);
+                self.studio.expose(gpu(), renderer, &shot, pending).expect("the device is there")
+            }
+            Source::Traced(tracer) => trace(tracer, &shot, self.size, self.samples).image(),
         }
     }
 
     /// Place in the scene that each pixel's centre shows to a moving eye, row by row.
     pub fn places(&mut self, view: &View, eye: DVec3, celerity: Celerity) -> Vec<Option<Shown>> {
         let shot = self.aim(view, eye, celerity, Effects::GEOMETRY);
-        match &mut self.way {
-            Way::Drawn(renderer) => self.studio.places(gpu(), renderer, &shot).expect("the device is there"),
-            Way::Traced(tracer) => {
+        match &mut self.source {
+            Source::Drawn(renderer) => {
+                let pending = submit(renderer, &shot);
+                self.studio.places(gpu(), renderer, &shot, pending).expect("the device is there")
+            }
+            Source::Traced(tracer) => {
                 let shown = |place: Option<Place>| {
                     let Place { position, motion, apparent, .. } = place?;
                     Some(Shown { position, motion, apparent })
@@ -134,17 +141,19 @@ impl Photographer {
         }
     }
 
-    fn aim(&mut self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
+    /// Shot of this photographer's size, at world time 0.
+    fn aim(&self, view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
         assert_eq!(view.size, self.size, "a studio takes pictures of one size");
-        let eye = Eye::new(eye, celerity.vector()).expect("eyes of tests are somewhere");
-        if let Way::Drawn(renderer) = &mut self.way
-            && renderer.transforms(effects)
-        {
-            renderer.submit(gpu(), eye, 0.0).expect("the device is there");
-        }
-        Shot { camera: view.camera(), eye, ct: 0.0, effects, stored_scale: None }
+        view.shot(&observer(eye, celerity), effects)
     }
 }
 
-/// Map of the image renderer in its quality for pictures with one sample a pixel.
-pub const DEFAULT_MAP: Method = Method::Image(MapQuality { texels_per_pixel: 8.0, smooth: false });
+/// Photo-surface for a shot, under way.
+fn submit(renderer: &mut SceneRenderer, shot: &Shot) -> Pending {
+    renderer.submit(gpu(), &shot.observer, shot.effects).expect("the device is there")
+}
+
+/// Light of a shot by rays.
+fn trace(tracer: &RayTracer, shot: &Shot, size: [u32; 2], samples: u32) -> Traced {
+    tracer.trace(shot, size, samples, &AtomicBool::new(false), || {})
+}

@@ -1,7 +1,8 @@
 //! Direction of a pixel, from first principles.
 
 use glam::DVec3;
-use rapidity::views::Camera;
+use physics::Observer;
+use view::{Camera, Effects, Shot};
 
 /// Flat picture: its direction and its size.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +38,11 @@ impl View {
     /// Camera of the program for the same picture.
     pub fn camera(&self) -> Camera {
         Camera::looking(self.look, self.up, self.fov_degrees.to_radians())
+    }
+
+    /// Shot of the program for the same picture, as this observer sees it.
+    pub fn shot(&self, observer: &Observer, effects: Effects) -> Shot {
+        Shot { camera: self.camera(), observer: *observer, effects, stored_scale: None }
     }
 }
 

@@ -2,17 +2,18 @@
 //!
 //! A wrong program has a condition in a shader that is equal for all pixels: for its every value lavapipe compiles
 //! and keeps a shader (256 KiB a draw, it was). Or it holds on to buffers of old cuts.
+//!
+//! The test is a binary of its own: it measures the memory of its process, in which no other test may draw.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::town;
 use glam::DVec3;
 use physics::Beta;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::motion::Motion;
-use rapidity::scene::town;
+use scene::motion::Motion;
 use system_tests::bodies::{passing, sphere};
-use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer};
 use system_tests::view::View;
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [64, 36];
 
@@ -42,8 +43,8 @@ fn a_film_needs_no_more_memory_the_longer_it_is() {
     scene.meshes.push(ball);
     scene.motions = vec![Motion::Uniform(passing(DVec3::Y * 0.5, place, start))];
     let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
-    let cut = Method::Adaptive(Tolerance { pixels: 2.0, pace: Pace::Still });
-    for (method, background) in [(cut, None), (Method::Polygon, Some([0.1, 0.2, 0.3])), (DEFAULT_MAP, None)] {
+    let cut = Dial::tolerance(2.0);
+    for (method, background) in [(cut, None), (AS_GIVEN, Some([0.1, 0.2, 0.3])), (DEFAULT_MAP, None)] {
         let mut photographer = Photographer::with(&scene, SIZE, 1, background, method);
         let mut film = |pictures: std::ops::Range<usize>| {
             for picture in pictures {
@@ -55,7 +56,7 @@ fn a_film_needs_no_more_memory_the_longer_it_is() {
         };
         let before = film(0..FIRST);
         let after = film(FIRST..FIRST + MORE);
-        println!("{method:?}: {before:.0} MiB after {FIRST} pictures, {after:.0} MiB after {MORE} more");
-        assert!(after - before < SPREAD_MIB, "{method:?}: from {before:.0} to {after:.0} MiB");
+        println!("{method}: {before:.0} MiB after {FIRST} pictures, {after:.0} MiB after {MORE} more");
+        assert!(after - before < SPREAD_MIB, "{method}: from {before:.0} to {after:.0} MiB");
     }
 }

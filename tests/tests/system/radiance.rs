@@ -8,18 +8,17 @@
 //! corners makes facets.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
 use physics::colour::{Spectrum, rgb_from_xyz, xyz_from_rgb};
 use physics::{Aberration, Beta, Celerity};
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Material, Scene};
+use scene::refine::refine;
+use scene::{Material, Scene};
 use system_tests::colour::srgb_byte;
-use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer};
 use system_tests::view::{View, middle};
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [96, 72];
 
@@ -50,7 +49,7 @@ fn glowing(kelvin: f64) -> Scene {
 fn photographers(scene: &Scene) -> [(Photographer, &'static str); 2] {
     let fine = refine(scene, 0.5).unwrap();
     [
-        (Photographer::with(&fine, SIZE, 1, None, Method::Polygon), "polygon"),
+        (Photographer::with(&fine, SIZE, 1, None, AS_GIVEN), "polygon"),
         (Photographer::with(scene, SIZE, 1, None, DEFAULT_MAP), "image"),
     ]
 }
@@ -165,9 +164,9 @@ fn light_far_brighter_than_the_screen_keeps_its_colour_on_file() {
 
 /// Photographers with the renderers of windows, for coarse and fine.
 fn windows(scene: &Scene) -> [(Photographer, &'static str); 2] {
-    let map = Method::Image(MapQuality { texels_per_pixel: 1.5, smooth: true });
+    let map = Dial::map(1.5);
     [
-        (Photographer::of_window(&refine(scene, 0.5).unwrap(), SIZE, Method::Polygon), "polygon"),
+        (Photographer::of_window(&refine(scene, 0.5).unwrap(), SIZE, AS_GIVEN), "polygon"),
         (Photographer::of_window(scene, SIZE, map), "image"),
     ]
 }
@@ -234,10 +233,10 @@ fn a_scene_in_candela_is_the_same_at_rest_with_any_effects() {
 #[test]
 fn a_background_is_as_bright_as_it_is_said_to_be_whatever_is_white() {
     let scene = Scene { white: Some(1e7), ..Scene::default() };
-    for method in [Method::Polygon, DEFAULT_MAP] {
+    for method in [AS_GIVEN, DEFAULT_MAP] {
         let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.25, 0.5, 1.0]), method);
         let picture = photographer.seen(&view(DVec3::X), DVec3::ZERO, Celerity::ZERO, Effects::ALL);
         let expected = [0.25, 0.5, 1.0].map(srgb_byte);
-        assert!(picture.pixels().all(|pixel| pixel.0[..3] == expected), "{method:?}");
+        assert!(picture.pixels().all(|pixel| pixel.0[..3] == expected), "{method}");
     }
 }

@@ -5,13 +5,13 @@
 //! encoded values puts everything a little off after several samples. Light of the sun dims the colours.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use exact_reference::random::seeded;
 use glam::{DVec3, Vec2, Vec3};
 use image::RgbaImage;
 use rand::RngExt;
-use rapidity::scene::{Material, Mesh, Scene, Texture, Wrap};
+use scene::{Material, Mesh, Scene, Texture, Wrap};
 use system_tests::colour::{encoded, linear, srgb_byte};
 use system_tests::photographer::Photographer;
-use system_tests::random::seeded;
 use system_tests::view::View;
 
 /// Number of tiles along each side of a chart.
@@ -26,7 +26,7 @@ const TIE: f64 = 4e-3;
 
 /// Place where a tile's colour is written.
 #[derive(Clone, Copy, Debug)]
-enum Carrier {
+enum ColourPlace {
     Factor,
     FactorWithWhiteTexture,
     Vertices,
@@ -34,20 +34,20 @@ enum Carrier {
     FactorAndVertices,
 }
 
-const CARRIERS: [Carrier; 4] =
-    [Carrier::Factor, Carrier::FactorWithWhiteTexture, Carrier::Vertices, Carrier::FactorAndVertices];
+const CARRIERS: [ColourPlace; 4] =
+    [ColourPlace::Factor, ColourPlace::FactorWithWhiteTexture, ColourPlace::Vertices, ColourPlace::FactorAndVertices];
 
 /// Wall of square tiles one metre ahead that fills a picture of 90°.
-fn chart(colours: &[[f32; 3]], carrier: Carrier) -> Scene {
+fn chart(colours: &[[f32; 3]], carrier: ColourPlace) -> Scene {
     let opaque = |[red, green, blue]: [f32; 3]| [red, green, blue, 1.0];
     let mut scene = Scene { name: "chart".into(), textures: vec![white()], ..Default::default() };
     for (tile, &colour) in (0..SIDE * SIDE).zip(colours) {
         let (factor, vertex) = match carrier {
-            Carrier::Factor | Carrier::FactorWithWhiteTexture => (opaque(colour), [1.0; 4]),
-            Carrier::Vertices => ([1.0; 4], opaque(colour)),
-            Carrier::FactorAndVertices => (opaque([0.25; 3]), opaque(colour.map(|value| 4.0 * value))),
+            ColourPlace::Factor | ColourPlace::FactorWithWhiteTexture => (opaque(colour), [1.0; 4]),
+            ColourPlace::Vertices => ([1.0; 4], opaque(colour)),
+            ColourPlace::FactorAndVertices => (opaque([0.25; 3]), opaque(colour.map(|value| 4.0 * value))),
         };
-        let base_colour_texture = matches!(carrier, Carrier::FactorWithWhiteTexture).then_some(0);
+        let base_colour_texture = matches!(carrier, ColourPlace::FactorWithWhiteTexture).then_some(0);
         if scene.materials.last().is_none_or(|material| material.base_colour != factor) {
             scene.materials.push(Material {
                 base_colour: factor,
@@ -89,7 +89,7 @@ fn file_of(scene: &Scene, samples: u32) -> RgbaImage {
 }
 
 /// Checks the middle pixels of each tile: `accepts` must be true for the linear value and the byte.
-fn assert_chart(colours: &[[f32; 3]], carrier: Carrier, samples: u32, accepts: impl Fn(f64, u8) -> bool) {
+fn assert_chart(colours: &[[f32; 3]], carrier: ColourPlace, samples: u32, accepts: impl Fn(f64, u8) -> bool) {
     let file = file_of(&chart(colours, carrier), samples);
     for (tile, colour) in (0..SIDE * SIDE).zip(colours) {
         let (column, row) = (tile % SIDE * TILE, (SIDE - 1 - tile / SIDE) * TILE);
@@ -135,6 +135,6 @@ fn random_factors_come_out_as_their_nearest_byte() {
 fn what_is_brighter_than_white_is_white() {
     let colours = vec![[1.0, 1.5, 40.0]; 256];
     for samples in [1, 2] {
-        assert_chart(&colours, Carrier::Factor, samples, |_, byte| byte == 255);
+        assert_chart(&colours, ColourPlace::Factor, samples, |_, byte| byte == 255);
     }
 }

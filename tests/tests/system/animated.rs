@@ -7,26 +7,24 @@
 //! forms of the worldlines, bisection on the light cone, and a textbook Lorentz transformation.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use exact_reference::random::{direction, seeded};
 use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3};
-use physics::photo_surface::Eye;
 use physics::{Beta, Celerity, Event, Observer};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::raytrace::RayTracer;
-use rapidity::renderers::{Effects, Method, Shot};
-use rapidity::scene::cut::{Cut, Fineness, Viewpoint};
-use rapidity::scene::motion::{Animated, Course, Keyed, Keys, Link, Motion, Track, Uniform};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Lighting, Material, Mesh, Scene};
+use scene::cut::{Cut, Fineness, Viewpoint};
+use scene::motion::{Animated, Course, Keyed, Keys, Link, Motion, Track, Uniform};
+use scene::refine::refine;
+use scene::{Lighting, Material, Mesh, Scene};
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use system_tests::bodies::sphere;
-use system_tests::photographer::{DEFAULT_MAP, Photographer};
-use system_tests::random::{direction, seeded};
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer};
 use system_tests::view::{View, middle};
+use trace::RayTracer;
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [320, 240];
 
@@ -42,10 +40,10 @@ const LIGHT_TOLERANCE: f64 = 0.004;
 /// Speed of light in the worlds here, m/s.
 const SPEED_OF_LIGHT: f64 = 10.0;
 
-const ADAPTIVE: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
+const ADAPTIVE: Dial = Dial::tolerance(0.05);
 
 /// Body whose worldlines are known in closed form: place and v/c of a point of it at world time `ct`.
-struct Known {
+struct KnownBody {
     motion: Motion,
     at: fn(DVec3, f64) -> (DVec3, DVec3),
 }
@@ -55,7 +53,7 @@ const CENTRE: DVec3 = DVec3::new(2.0, 1.0, -12.0);
 const PERIOD_S: f64 = 4.0;
 
 /// Body on a node that turns once about the vertical, evenly, in four seconds.
-fn circling() -> Known {
+fn circling() -> KnownBody {
     let turn = |quarter: u32| DQuat::from_rotation_y(FRAC_PI_2 * f64::from(quarter));
     let times = (0..=4).map(|quarter| 0.25 * PERIOD_S * f64::from(quarter)).collect();
     let keys = Keys::slerp(times, (0..=4).map(turn).collect()).unwrap();
@@ -69,7 +67,7 @@ fn circling() -> Known {
         let turned = DVec3::new(cosine * place.x + sine * place.z, place.y, cosine * place.z - sine * place.x);
         (CENTRE + turned, rate * DVec3::new(turned.z, 0.0, -turned.x))
     };
-    Known { motion, at }
+    KnownBody { motion, at }
 }
 
 /// Length c²/a of the hyperbola, then the place of its turning point.
@@ -77,7 +75,7 @@ const LENGTH_M: f64 = 10.0;
 const TURN: DVec3 = DVec3::new(-3.0, 0.5, -8.0);
 
 /// Body that moves along x with constant proper acceleration, with a key every centimetre of light travel.
-fn accelerated() -> Known {
+fn accelerated() -> KnownBody {
     let cts: Vec<f64> = (-6000..=2000).map(|step| f64::from(step) * 0.01).collect();
     let root = |ct: f64| ct.hypot(LENGTH_M);
     let times = cts.iter().map(|ct| ct / SPEED_OF_LIGHT).collect();
@@ -90,7 +88,7 @@ fn accelerated() -> Known {
         let root = ct.hypot(LENGTH_M);
         (TURN + DVec3::X * (root - LENGTH_M) + place, DVec3::X * (ct / root))
     };
-    Known { motion, at }
+    KnownBody { motion, at }
 }
 
 fn at(beta: DVec3) -> Celerity {
@@ -109,7 +107,7 @@ fn light_left(observer: &Observer, position: impl Fn(f64) -> DVec3) -> f64 {
 }
 
 /// Exact apparent position and D of a point of a body.
-fn expected(observer: &Observer, known: &Known, place: DVec3) -> (DVec3, f64) {
+fn expected(observer: &Observer, known: &KnownBody, place: DVec3) -> (DVec3, f64) {
     let ct = light_left(observer, |ct| (known.at)(place, ct).0);
     let (position, velocity) = (known.at)(place, ct);
     let towards = position - observer.event.position;
@@ -153,11 +151,6 @@ fn animated(scene: &Scene) -> &Arc<Animated> {
     scene.motions[0].animated().unwrap()
 }
 
-fn shot(view: &View, observer: &Observer, effects: Effects) -> Shot {
-    let eye = Eye::new(observer.event.position, observer.celerity.vector()).unwrap();
-    Shot { camera: view.camera(), eye, ct: observer.event.ct, effects, stored_scale: None }
-}
-
 #[test]
 fn each_vertex_is_seen_at_its_own_retarded_event() {
     let mut random = seeded(31);
@@ -192,7 +185,7 @@ fn a_ray_meets_the_event_where_the_body_was() {
             let (look, _) = expected(&who, &known, middle_of_body);
             let fov_degrees = (4.0 / look.length()).to_degrees().clamp(4.0, 100.0);
             let view = View { look, up: DVec3::new(0.1, 1.0, 0.2), fov_degrees, size: [40, 30] };
-            let places = tracer.places(&shot(&view, &who, Effects::ALL), view.size);
+            let places = tracer.places(&view.shot(&who, Effects::ALL), view.size);
             for place in places.into_iter().flatten() {
                 let (apparent, doppler) = expected(&who, &known, place.position);
                 worst[0] = worst[0].max(place.apparent.distance(apparent));
@@ -303,12 +296,12 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
         assert!(exact.distance(present) > 50.0, "the test tells nothing: {exact} {present}");
         let bright = |rgb: [f32; 3]| f64::from(rgb[1]);
         let mut found = Vec::new();
-        for method in [ADAPTIVE, Method::Polygon, DEFAULT_MAP] {
+        for method in [ADAPTIVE, AS_GIVEN, DEFAULT_MAP] {
             let mut photographer = Photographer::with(&scene, SIZE, 16, Some([0.0; 3]), method);
             let light = photographer.light(&view, who.event.position, who.celerity, Effects::GEOMETRY);
             found.push(centre_of_gravity(light.pixels().map(|pixel| bright(pixel.0))));
         }
-        let traced = tracer.trace(&shot(&view, &who, Effects::GEOMETRY), SIZE, 16, &AtomicBool::new(false), || {});
+        let traced = tracer.trace(&view.shot(&who, Effects::GEOMETRY), SIZE, 16, &AtomicBool::new(false), || {});
         found.push(centre_of_gravity(traced.light.iter().map(|light| light.y)));
         println!("{beta}: exact {exact}, found {found:?}");
         assert!(found.iter().all(|found| found.distance(exact) < GRAVITY_PX), "{exact}: {found:?}");
@@ -317,7 +310,7 @@ fn a_small_body_that_circles_is_drawn_where_it_was() {
         let towards = (known.at)(place, 0.0).0 - who.event.position;
         let view = View { look: towards + DVec3::X, ..view };
         let plain = photographer.light(&view, who.event.position, who.celerity, Effects::NONE);
-        let traced = tracer.trace(&shot(&view, &who, Effects::NONE), SIZE, 16, &AtomicBool::new(false), || {});
+        let traced = tracer.trace(&view.shot(&who, Effects::NONE), SIZE, 16, &AtomicBool::new(false), || {});
         for found in [
             centre_of_gravity(plain.pixels().map(|pixel| bright(pixel.0))),
             centre_of_gravity(traced.light.iter().map(|light| light.y)),
@@ -370,14 +363,14 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
         let view = View { look, up: DVec3::Y, fov_degrees: 35.0, size: SIZE };
         let mut pictures: Vec<Vec<DVec3>> = Vec::new();
         for scene in [&shorter, &own] {
-            for method in [ADAPTIVE, Method::Polygon, DEFAULT_MAP] {
-                let fine = if method == Method::Polygon { refine(scene, 0.05).unwrap() } else { scene.clone() };
+            for method in [ADAPTIVE, AS_GIVEN, DEFAULT_MAP] {
+                let fine = if method == AS_GIVEN { refine(scene, 0.05).unwrap() } else { scene.clone() };
                 let mut photographer = Photographer::with(&fine, SIZE, 1, Some([0.0; 3]), method);
                 let light = photographer.light(&view, who.event.position, who.celerity, Effects::ALL);
                 pictures.push(light.pixels().map(|pixel| Vec3::from_array(pixel.0).as_dvec3()).collect());
             }
             let tracer = RayTracer::new(scene.clone(), Some([0.0; 3]), false).unwrap();
-            let shot = shot(&view, &who, Effects::ALL);
+            let shot = view.shot(&who, Effects::ALL);
             pictures.push(tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {}).light);
         }
         let reference = pictures.pop().unwrap();

@@ -8,16 +8,17 @@
 //! near plane makes holes. Coordinates in f32 about the world's origin tear boxes apart a million metres away.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::DVec3;
 use image::RgbaImage;
 use physics::{Beta, Celerity};
-use rapidity::scene::Scene;
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::refine::refine;
+use scene::Scene;
+use scene::refine::refine;
 use std::collections::HashSet;
 use std::sync::LazyLock;
-use system_tests::exact::{Boxes, Sight, differing};
+use system_tests::exact::{Boxes, BoxesSeen, differing};
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::turns::turn;
 use system_tests::view::View;
 
 /// Size of every picture here, pixels.
@@ -80,7 +81,7 @@ fn at(beta: f64) -> Celerity {
 
 /// Asserts that few pixels differ from the exact picture, and that each of those shows a colour that is exact at most
 /// half a pixel away.
-fn assert_exact(drawn: &RgbaImage, sight: &Sight<'_>, at_most: f64, what: &str) {
+fn assert_exact(drawn: &RgbaImage, sight: &BoxesSeen<'_>, at_most: f64, what: &str) {
     let exact = sight.picture();
     let mut colours: Vec<_> = exact.pixels().collect();
     colours.sort_by_key(|pixel| pixel.0);
@@ -127,6 +128,7 @@ fn at_0_99_c_boxes_are_where_exact_rays_meet_them() {
 /// Asserts that the map's picture is exact at a speed, with triangles as they are and the same number of texels as at
 /// any speed.
 fn assert_map_exact_at(beta: f64, views: &[View]) {
+    let _turn = turn();
     let boxes = boxes();
     let mut photographer = Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), DEFAULT_MAP);
     for view in views {

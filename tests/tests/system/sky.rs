@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 use physics::{Aberration, Beta, Celerity};
-use rapidity::scene::{Lighting, Scene};
+use scene::{Lighting, Scene};
 use system_tests::colour::encoded;
 use system_tests::photographer::Photographer;
 use system_tests::view::{View, middle};

@@ -7,17 +7,17 @@
 //! map that is too coarse gives the size of its texels.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
+use built_in::town;
 use glam::DVec3;
+use measure::direction::{self, ARCMIN_PER_RAD};
+use measure::quantiles::Sorted;
 use physics::{Celerity, Event, Observer};
-use rapidity::measure::direction::{self, ARCMIN_PER_RAD};
-use rapidity::measure::quantiles::Sorted;
-use rapidity::renderers::Method;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::scene::Scene;
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::town;
+use scene::Scene;
 use system_tests::photographer::{DEFAULT_MAP, Photographer};
+use system_tests::turns::turn;
 use system_tests::view::{View, middle};
+use view::Dial;
 
 const SIZE: [u32; 2] = [320, 240];
 const FOV_DEGREES: f64 = 60.0;
@@ -37,7 +37,7 @@ const MAP_ARCMIN: f64 = 0.5 * std::f64::consts::SQRT_2 * PIXEL_ARCMIN / 8.0;
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
 
 /// Errors of a picture; pixels that show no surface do not count.
-fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec3) -> Sorted {
+fn errors(scene: &Scene, method: Dial, eye: DVec3, celerity: DVec3, look: DVec3) -> Sorted {
     let view = View { look, up: DVec3::Y, fov_degrees: FOV_DEGREES, size: SIZE };
     let celerity = Celerity::new(celerity).unwrap();
     let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
@@ -50,8 +50,8 @@ fn errors(scene: &Scene, method: Method, eye: DVec3, celerity: DVec3, look: DVec
     direction::errors(&observer, shown)
 }
 
-fn polygon() -> Method {
-    Method::Adaptive(Tolerance { pixels: TOLERANCE_PX, pace: Pace::Still })
+fn polygon() -> Dial {
+    Dial::tolerance(TOLERANCE_PX)
 }
 
 /// Checks a picture's errors against the bounds of each method, for all pixels and for 99 of 100. `rounding` is the
@@ -63,7 +63,7 @@ fn hold(scene: &Scene, eye: DVec3, celerity: DVec3, look: DVec3, rounding: f64) 
     ] {
         let errors = errors(scene, method, eye, celerity, look);
         let (all, of_99) = (errors.quantile(1.0), errors.quantile(0.99));
-        let picture = format!("{method:?} at {celerity} towards {look}: {all:.4}′, 99 % {of_99:.4}′");
+        let picture = format!("{method} at {celerity} towards {look}: {all:.4}′, 99 % {of_99:.4}′");
         println!("{picture}, median {:.4}′, {} pixels", errors.quantile(0.5), errors.count());
         assert!(errors.count() > 5000, "{picture}: {} pixels show a surface", errors.count());
         assert!(all <= most + rounding && of_99 <= usual + rounding, "{picture}");
@@ -89,6 +89,7 @@ fn boxes_are_where_they_are_seen() {
 
 #[test]
 fn the_town_is_where_it_is_seen() {
+    let _turn = turn();
     let scene = town::build(1);
     let eye = scene.start.position + DVec3::Y * 1.6;
     let ahead = scene.start.look;

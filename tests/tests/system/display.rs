@@ -1,27 +1,25 @@
 //! Colours inside the gamut must pass unchanged. Exposure must take back on average the brightness that motion has
 //! added, in proper time. Tone curves must be the published ones and keep hue. Gamut mapping must keep luminance and
-//! hue. A file of light must hold the light to the bit.
+//! hue.
 //!
 //! A wrong program shows a picture at rest that does not have the scene's own colours; a frame that flickers or stays
 //! dark after a jump; hues that turn where a channel is clipped; black or garish pixels where radiance is beyond all
 //! bounds.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use exr::prelude::{FlatImage, FlatSamples, read_all_flat_layers_from_file};
+use built_in::lattice::Lattice;
+use exact_reference::random::seeded;
 use glam::DVec3;
-use image::Rgb32FImage;
 use physics::{Beta, Celerity};
 use rand::RngExt;
-use rapidity::error::Error;
-use rapidity::renderers::Effects;
-use rapidity::renderers::display::adaptation::TIME_CONSTANT_S;
-use rapidity::renderers::display::{Development, Exposure, Gamut, Stored, Tone};
-use rapidity::scene::lattice::Lattice;
+use render::display::adaptation::TIME_CONSTANT_S;
+use render::display::{Development, Exposure, Gamut, Tone};
+use render::picture::light;
 use system_tests::colour::encoded;
-use system_tests::display::{Onlooker, adapted, in_gamut, luminance, toned};
-use system_tests::photographer::Photographer;
-use system_tests::random::seeded;
+use system_tests::display::{AdaptingEye, adapted, in_gamut, luminance, texture, toned};
+use system_tests::photographer::{Photographer, gpu};
 use system_tests::view::{View, middle};
+use view::{Effects, Stored};
 
 /// Relative error of a shader's result: powers and exponentials of graphics devices, there and back through the
 /// screen's curve.
@@ -66,7 +64,7 @@ fn colours(seed: u64) -> Vec<[f32; 4]> {
 #[test]
 fn at_rest_the_screen_shows_the_colours_themselves() {
     let colours = colours(1);
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut show = |development| eye.encoded(32, &colours, Stored::UNSHIFTED, development, None);
     let first = show(fixed(0.0, Tone::Linear));
     for (colour, shown) in colours.iter().zip(&first) {
@@ -88,7 +86,7 @@ fn at_rest_the_screen_shows_the_colours_themselves() {
 #[test]
 fn a_stop_is_a_factor_of_two_whatever_the_scale() {
     let dim = |factor: f32| colours(2).iter().map(|c| c.map(|value| value * factor)).collect::<Vec<_>>();
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut show =
         |texels: &[[f32; 4]], stored, stops| eye.encoded(32, texels, stored, fixed(stops, Tone::Linear), None);
     let as_they_are = show(&dim(1.0), Stored::UNSHIFTED, 0.0);
@@ -103,7 +101,7 @@ fn a_stop_is_a_factor_of_two_whatever_the_scale() {
 
 #[test]
 fn automatic_exposure_takes_a_common_gain_back() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut random = seeded(3);
     let at_rest: Vec<f64> = (0..900).map(|_| random.random_range(0.01..1.0)).collect();
     for gain in [1e-10, 0.03, 1.0, 7.0, 1e10] {
@@ -123,7 +121,7 @@ fn automatic_exposure_takes_a_common_gain_back() {
 
 #[test]
 fn automatic_exposure_is_the_trimmed_mean_of_gains_over_the_picture() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut random = seeded(4);
     for spread in [0.5, 5.0, 30.0] {
         let gains: Vec<f64> = (0..4000).map(|_| (spread * random.random_range(-1.0..1.0_f64).powi(3)).exp2()).collect();
@@ -140,7 +138,7 @@ fn automatic_exposure_is_the_trimmed_mean_of_gains_over_the_picture() {
 
 #[test]
 fn pixels_that_are_dark_by_themselves_have_no_say() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut texels = greys((0..100).map(|_| (0.5, 8.0)));
     texels.extend(greys((0..400).map(|_| (0.0, 1.0))));
     texels.extend(greys((0..400).map(|_| (0.5, 0.0))));
@@ -153,7 +151,7 @@ fn pixels_that_are_dark_by_themselves_have_no_say() {
 
 /// Exposure, in stops, after these frames. Each frame has a gain, and the time before it.
 fn exposure_after(frames: &[(f64, Option<f64>)]) -> f64 {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut shown = f64::NAN;
     for (gain, elapsed_s) in frames {
         let texels = greys([(0.001, *gain); 64]);
@@ -180,9 +178,9 @@ fn the_eye_adapts_by_1_less_e_to_the_minus_t_over_tau() {
 
 #[test]
 fn light_that_is_not_shifted_is_exposed_by_1_at_once_and_shifted_light_after_it_adapted_to_at_once() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let colours = colours(5);
-    let at_rest = Onlooker::new().encoded(32, &colours, Stored::UNSHIFTED, Development::default(), None);
+    let at_rest = AdaptingEye::new().encoded(32, &colours, Stored::UNSHIFTED, Development::default(), None);
     for _ in 0..2 {
         let shown = eye.shown(8, &greys([(0.25, 1e6); 64]), SHIFTED, Development::default(), Some(0.01));
         assert!(relative(shown[0][0], 0.25) < SHADER);
@@ -196,7 +194,7 @@ fn reinhards_white_is_the_brightest_gain_but_for_one_in_a_hundred() {
     let gains: Vec<f64> = (0..5000).map(|_| random.random_range(-8.0..8.0_f64).exp2()).collect();
     let (_, bright) = adapted(&gains);
     let texels = greys(gains.iter().map(|gain| (1.0, *gain)));
-    let shown = Onlooker::new().shown(50, &texels, SHIFTED, fixed(0.0, Tone::Reinhard), None);
+    let shown = AdaptingEye::new().shown(50, &texels, SHIFTED, fixed(0.0, Tone::Reinhard), None);
     for (gain, shown) in gains.iter().zip(&shown) {
         // Gains clearly above the limit are white, gains clearly below it are not.
         let white = shown[0] > 1.0 - SHADER;
@@ -207,7 +205,7 @@ fn reinhards_white_is_the_brightest_gain_but_for_one_in_a_hundred() {
 
 #[test]
 fn tone_curves_are_the_published_ones_and_keep_hue() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut random = seeded(7);
     for tone in TONES {
         // At a fixed exposure of unshifted light, every gain is 2^stops, and so is white.
@@ -233,7 +231,7 @@ fn tone_curves_are_the_published_ones_and_keep_hue() {
 
 #[test]
 fn tone_curves_rise_from_black_to_white_over_twenty_decades() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let ramp: Vec<f64> = (0..1024).map(|step| 10.0_f64.powf(-10.0 + 20.0 * f64::from(step) / 1023.0)).collect();
     let texels = greys(ramp.iter().map(|gain| (1.0, *gain)));
     for exposure in [Exposure::AUTO, Exposure::WHITE, Exposure::Stops(60.0), Exposure::Stops(-60.0)] {
@@ -255,7 +253,7 @@ fn tone_curves_rise_from_black_to_white_over_twenty_decades() {
 
 #[test]
 fn what_is_infinite_is_white_and_what_is_no_number_black() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let infinity = f32::INFINITY;
     let texels = [
         [infinity, infinity, infinity, 1.0],
@@ -297,7 +295,7 @@ fn what_is_infinite_is_white_and_what_is_no_number_black() {
 
 #[test]
 fn gamut_mapping_is_the_published_one() {
-    let mut eye = Onlooker::new();
+    let mut eye = AdaptingEye::new();
     let mut random = seeded(8);
     let texels: Vec<[f32; 4]> = (0..4096).map(|_| [(); 4].map(|()| random.random_range(-1.0..2.5))).collect();
     for gamut in GAMUTS {
@@ -316,7 +314,7 @@ fn gamut_mapping_is_the_published_one() {
 fn desaturation_keeps_luminance_and_hue_and_loses_no_more_colour_than_it_must() {
     let mut random = seeded(9);
     let texels: Vec<[f32; 4]> = (0..4096).map(|_| [(); 4].map(|()| random.random_range(-0.5..1.5))).collect();
-    let shown = Onlooker::new().shown(64, &texels, Stored::UNSHIFTED, Development::default(), None);
+    let shown = AdaptingEye::new().shown(64, &texels, Stored::UNSHIFTED, Development::default(), None);
     for ([r, g, b, _], shown) in texels.iter().zip(shown) {
         let colour = [r, g, b].map(|value| f64::from(*value));
         let (before, after) = (luminance(colour), luminance(shown));
@@ -338,7 +336,7 @@ fn desaturation_keeps_luminance_and_hue_and_loses_no_more_colour_than_it_must() 
 /// Base-2 logarithms of scene and screen for greys, by the histogram's curve.
 fn equalised(scene: &[f64]) -> Vec<(f64, f64)> {
     let texels = greys(scene.iter().map(|value| (value.exp2(), 1.0)));
-    let shown = Onlooker::new().shown(64, &texels, Stored::UNSHIFTED, fixed(0.0, Tone::Histogram), None);
+    let shown = AdaptingEye::new().shown(64, &texels, Stored::UNSHIFTED, fixed(0.0, Tone::Histogram), None);
     let mut curve: Vec<_> = scene.iter().zip(shown).map(|(scene, shown)| (*scene, shown[0].log2())).collect();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     curve
@@ -387,7 +385,7 @@ fn the_same_frames_give_the_same_bits() {
     let frames = [frame(&mut random), frame(&mut random)];
     for tone in [Tone::Reinhard, Tone::Histogram] {
         let show = || {
-            let mut eye = Onlooker::new();
+            let mut eye = AdaptingEye::new();
             frames.each_ref().map(|frame| eye.encoded(512, frame, SHIFTED, automatic(tone), Some(0.1)))
         };
         assert!(show() == show(), "{tone:?}");
@@ -395,52 +393,16 @@ fn the_same_frames_give_the_same_bits() {
 }
 
 #[test]
-fn a_file_of_light_holds_it_to_the_bit() {
-    let mut random = seeded(12);
-    let mut light = Rgb32FImage::new(37, 19);
-    for pixel in light.pixels_mut() {
-        pixel.0 =
-            [(); 3].map(|()| random.random_range(-30.0..30.0_f32).exp2() * if random.random() { 1.0 } else { -1.0 });
-    }
-    light.get_pixel_mut(3, 2).0 = [1e9, f32::MAX, f32::MIN_POSITIVE];
-    light.get_pixel_mut(36, 18).0 = [0.0, -1e9, 1.0];
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("light.exr");
-    rapidity::exr::save(&light, &path).unwrap();
-
-    let file: FlatImage = read_all_flat_layers_from_file(&path).unwrap();
-    let layer = &file.layer_data[0];
-    assert_eq!((layer.size.x(), layer.size.y()), (37, 19));
-    assert_eq!(layer.attributes.white_luminance, Some(1.0));
-    let channels = &layer.channel_data.list;
-    assert_eq!(channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>(), ["B", "G", "R"]);
-    for (channel, colour) in channels.iter().zip([2, 1, 0]) {
-        let FlatSamples::F32(samples) = &channel.sample_data else { panic!("not 32-bit floats") };
-        let written: Vec<u32> = light.pixels().map(|pixel| pixel.0[colour].to_bits()).collect();
-        assert_eq!(samples.iter().map(|sample| sample.to_bits()).collect::<Vec<_>>(), written);
-    }
-}
-
-#[test]
 fn light_is_fetched_in_candela_and_never_infinite() {
     let texels = [[0.5, 1.0, -0.25, 1.0], [1e30, 60000.0, 0.0, 1.0]];
-    let radiance = system_tests::display::texture(2, &texels);
+    let radiance = texture(2, &texels);
     let fetch = |stored| {
-        let picture =
-            rapidity::renderers::picture::light(system_tests::photographer::gpu(), &radiance, &stored).unwrap();
+        let picture = light(gpu(), &radiance, &stored).unwrap();
         picture.pixels().map(|pixel| pixel.0).collect::<Vec<_>>()
     };
     assert_eq!(fetch(Stored::UNSHIFTED), [[0.5, 1.0, -0.25], [1e30, 60000.0, 0.0]]);
     let bright = Stored { white: 1e9, scale: 0.125, shifted: true };
     assert_eq!(fetch(bright), [[4e9, 8e9, -2e9], [f32::MAX, 4.8e14, 0.0]]);
-}
-
-#[test]
-fn a_place_that_cannot_be_written_is_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("nowhere/light.exr");
-    let error = rapidity::exr::save(&Rgb32FImage::new(2, 2), &path).unwrap_err();
-    assert!(matches!(&error, Error::Write { path: named, .. } if *named == path), "{error}");
 }
 
 #[test]

@@ -8,14 +8,13 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use physics::colour::Carrier;
-use physics::photo_surface::Eye;
-use physics::{Beta, Event};
-use rapidity::renderers::raytrace::RayTracer;
-use rapidity::renderers::{Effects, Shot};
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Lamp, Lighting, Material, Mesh, Scene};
+use physics::{Beta, Event, Observer};
+use scene::motion::{Motion, Uniform};
+use scene::{Lamp, Lighting, Material, Mesh, Scene};
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
+use trace::RayTracer;
+use view::Effects;
 
 const SIZE: [u32; 2] = [64, 48];
 
@@ -55,8 +54,7 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
 fn hold(scene: Scene, expected: impl Fn(DVec3) -> Option<DVec3>) -> [usize; 2] {
     let view = View { look: DVec3::new(0.0, -0.3, -1.0), up: DVec3::Y, fov_degrees: 40.0, size: SIZE };
     let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap();
-    let eye = Eye::new(DVec3::ZERO, DVec3::ZERO).unwrap();
-    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: Effects::GEOMETRY, stored_scale: None };
+    let shot = view.shot(&Observer::default(), Effects::GEOMETRY);
     let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {});
     let mut compared = [0; 2];
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));

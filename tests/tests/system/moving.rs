@@ -9,13 +9,12 @@
 
 use glam::DVec3;
 use physics::{Celerity, Event};
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::refine::refine;
+use scene::motion::{Motion, Uniform};
+use scene::refine::refine;
 use system_tests::bodies::{Cone, GREY, celerity, cuboid, exact, observer, outline, sphere, unlit};
-use system_tests::photographer::{By, DEFAULT_MAP, Photographer};
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer, RAYS};
 use system_tests::view::{View, middle};
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [320, 240];
 
@@ -32,9 +31,9 @@ const PLACE_TOLERANCE: f64 = 0.1;
 /// Relative tolerance of light: the table's own error, and f32.
 const LIGHT_TOLERANCE: f64 = 0.002;
 
-fn methods() -> [By; 4] {
-    let adaptive = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
-    [By::Method(Method::Polygon), By::Method(adaptive), By::Method(DEFAULT_MAP), By::Rays]
+fn methods() -> [Dial; 4] {
+    let adaptive = Dial::tolerance(0.05);
+    [AS_GIVEN, adaptive, DEFAULT_MAP, RAYS]
 }
 
 #[test]
@@ -55,10 +54,10 @@ fn a_sphere_that_passes_keeps_a_circular_outline() {
             let fov_degrees = (3.0 * widest(look)).to_degrees().min(120.0);
             let view = View { look, up: DVec3::new(0.3, 0.9, 0.2), fov_degrees, size: SIZE };
             for method in methods() {
-                let mut photographer = Photographer::by(&scene, SIZE, 1, Some([0.0; 3]), method);
+                let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.0; 3]), method);
                 let picture = photographer.moving(&view, DVec3::ZERO, who.celerity);
                 let outline = outline(&view, |column, row| picture.get_pixel(column, row)[0] > 127);
-                let what = format!("{method:?}, {along} m along, observer at {speed} c");
+                let what = format!("{method}, {along} m along, observer at {speed} c");
                 assert!(outline.len() > 300, "{what}: {} pixels of outline", outline.len());
 
                 let circle = Cone::through(&outline);
@@ -81,14 +80,14 @@ fn a_cube_that_passes_shows_its_back() {
             let motion = Uniform { celerity: celerity(DVec3::X * speed), anchor };
             let scene = unlit(vec![cuboid(anchor.position, 1.0, 0)], &[motion]);
             let scene = refine(&scene, 0.2).unwrap();
-            let mut photographer = Photographer::by(&scene, SIZE, 1, Some([0.0; 3]), method);
+            let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.0; 3]), method);
             let picture = photographer.moving(&view, DVec3::ZERO, Celerity::ZERO);
             let count = |is: fn(&[u8; 4]) -> bool| picture.pixels().filter(|pixel| is(&pixel.0)).count();
             let (red, green) =
                 (count(|rgba| rgba[0] > 200 && rgba[1] < 50), count(|rgba| rgba[1] > 200 && rgba[0] < 50));
             // The cube appears turned by arcsin β, so it shows 0.9 of its back's width: more than of its side.
-            assert_eq!(red > 2000, back, "{method:?} at {speed} c: {red} pixels of its back");
-            assert_eq!(green, 0, "{method:?} at {speed} c: pixels of its front");
+            assert_eq!(red > 2000, back, "{method} at {speed} c: {red} pixels of its back");
+            assert_eq!(green, 0, "{method} at {speed} c: pixels of its front");
         }
     }
 }
@@ -111,7 +110,7 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
             + exact(&who, &away, away.anchor.position).position.normalize();
         let view = View { look, up: DVec3::new(0.1, 0.9, 0.3), fov_degrees: 60.0, size: SIZE };
         for method in methods() {
-            let mut photographer = Photographer::by(&scene, SIZE, 1, Some([0.0; 3]), method);
+            let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.0; 3]), method);
             let places = photographer.places(&view, who.event.position, who.celerity);
             let light = photographer.light(&view, who.event.position, who.celerity, searchlight);
             let mut seen = [0; 2];
@@ -119,7 +118,7 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
             for (pixel, shown) in pixels.zip(places).filter_map(|(pixel, shown)| Some((pixel, shown?))) {
                 let body = shown.motion.unwrap();
                 let expected = exact(&who, &[away, hither][body], shown.position + scene.origin);
-                let what = format!("{method:?}, body {body}, observer at {speed} c, pixel {pixel:?}");
+                let what = format!("{method}, body {body}, observer at {speed} c, pixel {pixel:?}");
 
                 let direction = view.direction(middle(pixel));
                 let off = expected.position.angle_between(direction) * view.focal_length();
@@ -139,7 +138,7 @@ fn each_body_has_the_doppler_factor_of_its_own_relative_motion() {
                 seen[body] += 1;
             }
             // At D = 3 a box appears three times as far away.
-            assert!(seen.iter().all(|&count| count > 30), "{method:?} at {speed} c: {seen:?} pixels");
+            assert!(seen.iter().all(|&count| count > 30), "{method} at {speed} c: {seen:?} pixels");
         }
     }
 }
@@ -152,7 +151,7 @@ fn the_plain_picture_shows_a_body_shorter_at_its_place_now() {
     let scene = unlit(vec![cuboid(anchor.position, 1.0, 0)], &[motion]);
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 30.0, size: SIZE };
     for method in methods() {
-        let mut photographer = Photographer::by(&scene, SIZE, 1, Some([0.0; 3]), method);
+        let mut photographer = Photographer::with(&scene, SIZE, 1, Some([0.0; 3]), method);
         let picture = photographer.plain(&view, DVec3::ZERO);
         let lit: Vec<[u32; 2]> =
             picture.enumerate_pixels().filter(|(.., pixel)| pixel[0] > 50).map(|(x, y, _)| [x, y]).collect();
@@ -167,7 +166,7 @@ fn the_plain_picture_shows_a_body_shorter_at_its_place_now() {
             let centre = 0.5 * f64::from(SIZE[axis]);
             let off =
                 (f64::from(low) - (centre - half * scale)).abs().max((f64::from(high) - centre - half * scale).abs());
-            assert!(off < 1.0, "{method:?}: from {low} to {high} along axis {axis}");
+            assert!(off < 1.0, "{method}: from {low} to {high} along axis {axis}");
         }
     }
 }

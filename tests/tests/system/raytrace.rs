@@ -5,23 +5,23 @@
 //! renderer that bends or lights differently differs in more than outlines.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
+use built_in::town;
 use glam::{DVec3, Vec2, Vec3};
 use image::{Rgb32FImage, RgbaImage};
-use physics::photo_surface::Eye;
 use physics::{Aberration, Celerity, Event};
-use rapidity::renderers::display::{Development, Gamut};
-use rapidity::renderers::picture::Studio;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::raytrace::{RayTracer, Traced};
-use rapidity::renderers::{Effects, Method, Shot};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::mipmap::mipmap;
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene, town};
+use render::display::{Development, Gamut};
+use render::picture::Studio;
+use scene::mipmap::mipmap;
+use scene::motion::{Motion, Uniform};
+use scene::{Alpha, Lighting, Material, Mesh, Panorama, Scene};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use system_tests::bodies::{Cone, celerity, exact, observer, outline, sphere};
 use system_tests::photographer::{DEFAULT_MAP, Photographer, gpu};
+use system_tests::turns::turn;
 use system_tests::view::{View, middle};
+use trace::{RayTracer, Traced};
+use view::{Dial, Effects, Shot};
 
 const SIZE: [u32; 2] = [96, 64];
 
@@ -37,10 +37,10 @@ const PLACE_TOLERANCE: f64 = 1e-9;
 const OUTLINE_TOLERANCE: f64 = 0.6;
 
 /// Polygons cut for a twentieth of a pixel, which is less than shows.
-const POLYGON: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
+const POLYGON: Dial = Dial::tolerance(0.05);
 
 fn shot(view: &View, eye: DVec3, celerity: Celerity, effects: Effects) -> Shot {
-    Shot { camera: view.camera(), eye: Eye::new(eye, celerity.vector()).unwrap(), ct: 0.0, effects, stored_scale: None }
+    view.shot(&observer(eye, celerity), effects)
 }
 
 fn trace(tracer: &RayTracer, shot: &Shot) -> Traced {
@@ -155,8 +155,8 @@ fn hold(scene: &Scene, eye: DVec3, look: DVec3, part: f64, shares: [f64; 2]) {
             let light = photographer.light(&view, eye, motion, Effects::ALL);
             let traced = trace(&tracer, &shot(&view, eye, motion, Effects::ALL));
             let of = |part| alike(&light, &traced, part);
-            println!("{method:?} at {beta} c: {:.4} to 1 %, {:.4} to 5 %, {:.4} to 20 %", of(0.01), of(0.05), of(0.2));
-            assert!(of(part) >= share, "{method:?} at {beta} c: only {} of the pixels are alike to {part}", of(part));
+            println!("{method} at {beta} c: {:.4} to 1 %, {:.4} to 5 %, {:.4} to 20 %", of(0.01), of(0.05), of(0.2));
+            assert!(of(part) >= share, "{method} at {beta} c: only {} of the pixels are alike to {part}", of(part));
         }
     }
 }
@@ -171,6 +171,7 @@ fn renderers_draw_the_lattice_as_rays_see_it() {
 
 #[test]
 fn renderers_draw_the_town_as_rays_see_it() {
+    let _turn = turn();
     // Each texture is replaced by its mean: if a texture is finer than pixels, a ray sees one texel, and the other
     // renderers the mean of many.
     let mut scene = town::build(1);

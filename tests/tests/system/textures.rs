@@ -7,15 +7,14 @@
 //! blocks are.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::town;
 use glam::{DVec3, Vec3};
 use image::Rgb32FImage;
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::town;
 use system_tests::bodies::celerity;
-use system_tests::photographer::{By, Photographer};
+use system_tests::photographer::{Photographer, RAYS};
+use system_tests::turns::turn;
 use system_tests::view::View;
+use view::{Dial, Effects};
 
 /// Size in pixels: four times as wide and high as the pictures of the other tests, with a ray a pixel. A block thus
 /// has 256 rays, and is as large as four pixels of those pictures along each side.
@@ -61,18 +60,19 @@ fn differences(drawn: &Rgb32FImage, traced: &Rgb32FImage, side: u32) -> Vec<f64>
 
 #[test]
 fn the_town_in_its_own_textures_is_what_many_rays_see() {
+    let _turn = turn();
     let mut scene = town::build(1);
     // The renderers' shadows are a map with soft edges, which `raytrace.rs` tests.
     scene.light.shadows = false;
     let eye = scene.start.position + DVec3::Y * 1.6;
     let look = scene.start.look;
     let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
-    let mut tracer = Photographer::by(&scene, SIZE, 1, None, By::Rays);
+    let mut tracer = Photographer::with(&scene, SIZE, 1, None, RAYS);
     let motions = [0.0, 0.9].map(|beta| celerity(look.normalize() * beta));
     let traced = motions.map(|motion| tracer.light(&view, eye, motion, Effects::ALL));
 
-    let adaptive = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
-    let map = Method::Image(MapQuality { texels_per_pixel: 3.0, smooth: false });
+    let adaptive = Dial::tolerance(0.05);
+    let map = Dial::map(3.0);
     for (method, [half, most]) in [(adaptive, POLYGON), (map, IMAGE)] {
         let mut photographer = Photographer::with(&scene, SIZE, 1, None, method);
         for (motion, traced) in motions.iter().zip(&traced) {
@@ -83,7 +83,7 @@ fn the_town_in_its_own_textures_is_what_many_rays_see() {
             let sum = |light| blocks(light, BLOCK).iter().sum::<DVec3>();
             let whole = (sum(&drawn) / sum(traced) - 1.0).abs().max_element();
             let what = format!(
-                "{method:?} at γ = {:.2}: half of the blocks within {usual:.4}, 99 % within {of_99:.4}, of larger ones {of_large:.4}; \
+                "{method} at γ = {:.2}: half of the blocks within {usual:.4}, 99 % within {of_99:.4}, of larger ones {of_large:.4}; \
                  all together {whole:.4}",
                 motion.gamma()
             );

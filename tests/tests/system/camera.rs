@@ -7,14 +7,13 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DVec3, Vec2, Vec3};
-use physics::photo_surface::Eye;
 use physics::{Aberration, Beta, Celerity, Event, FourVector, Observer, apparent};
-use rapidity::renderers::raytrace::{Lens, Optics, RayTracer, Traced};
-use rapidity::renderers::{Effects, Shot};
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Material, Mesh, Scene};
+use scene::motion::{Motion, Uniform};
+use scene::{Material, Mesh, Scene};
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
+use trace::{Lens, Optics, RayTracer, Traced};
+use view::{Effects, Shot};
 
 const BLACK: Option<[f32; 3]> = Some([0.0; 3]);
 
@@ -50,13 +49,7 @@ fn disc(centre: DVec3, radius: f32) -> Scene {
 }
 
 fn shot(view: &View, celerity: Celerity) -> Shot {
-    Shot {
-        camera: view.camera(),
-        eye: Eye::new(DVec3::ZERO, celerity.vector()).unwrap(),
-        ct: 0.0,
-        effects: Effects::GEOMETRY,
-        stored_scale: None,
-    }
+    view.shot(&Observer { event: Event::default(), celerity }, Effects::GEOMETRY)
 }
 
 fn trace(scene: &Scene, optics: Optics, shot: &Shot, size: [u32; 2], samples: u32) -> Traced {

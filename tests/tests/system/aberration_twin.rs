@@ -5,12 +5,12 @@
 //! rest only. D in place of 1/D gives a Doppler factor that is right nowhere but abeam at rest.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use exact_reference::random::{direction, seeded};
 use glam::{DVec3, Vec3, Vec4};
 use physics::{Aberration, Celerity};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use system_tests::photographer::gpu;
-use system_tests::random::{direction, seeded};
 use wgpu::util::DeviceExt;
 
 /// Tolerance in steps of f32 for a well-conditioned result: about eight operations of half a step contribute, and

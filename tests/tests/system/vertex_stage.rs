@@ -6,15 +6,15 @@
 //! the world's eye.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::{DVec3, Vec2};
 use physics::{Celerity, Event};
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::refine::refine;
-use rapidity::scene::{Material, Mesh, Scene};
+use scene::motion::{Motion, Uniform};
+use scene::refine::refine;
+use scene::{Material, Mesh, Scene};
 use system_tests::photographer::Photographer;
 use system_tests::view::View;
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [200, 150];
 
@@ -25,6 +25,9 @@ const OUTLINE_SHARE: f64 = 0.003;
 const PLACE_TOLERANCE: f64 = 0.02;
 
 const EDGE_M: f64 = 0.25;
+
+/// Scenes drawn as they are given, with vertices bent by the kernel, and by the vertex stage.
+const BOTH: [Dial; 2] = [Dial::edge(EDGE_M), Dial::vertex_stage(EDGE_M)];
 
 fn lattice() -> Scene {
     let mut scene = Lattice { count: [5, 5, 5], spacing: 3.0, side: 0.8 }.build();
@@ -41,8 +44,7 @@ fn lattice() -> Scene {
 #[test]
 fn the_vertex_stage_draws_what_the_kernel_draws() {
     let scene = lattice();
-    let mut pictures =
-        [Method::Polygon, Method::VertexStage].map(|method| Photographer::with(&scene, SIZE, 1, None, method));
+    let mut pictures = BOTH.map(|method| Photographer::with(&scene, SIZE, 1, None, method));
     let mut total = 0;
     let speeds = [0.0, 0.75, 5.0, 100.0].map(|u: f64| DVec3::new(0.1, 0.2, -1.0).normalize() * u);
     for (celerity, look) in speeds.into_iter().flat_map(|u| [(u, DVec3::NEG_Z), (u, DVec3::new(1.0, 0.1, -0.6))]) {
@@ -99,8 +101,7 @@ fn what_lies_astern_keeps_its_digits() {
     let ahead = DVec3::new(0.3, -0.2, -1.0).normalize();
     let half = 2.0 * distance / (2.0 * gamma);
     let scene = square(ahead, half);
-    let mut pictures =
-        [Method::Polygon, Method::VertexStage].map(|method| Photographer::with(&scene, SIZE, 1, None, method));
+    let mut pictures = BOTH.map(|method| Photographer::with(&scene, SIZE, 1, None, method));
     let view = View { look: -ahead, up: DVec3::Y, fov_degrees: 70.0, size: SIZE };
     let celerity = Celerity::new(ahead * gamma).unwrap();
     // Look from there, from a place with nothing astern, and from there again: the streams must not keep old values.

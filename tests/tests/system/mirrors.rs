@@ -8,15 +8,14 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
-use physics::photo_surface::Eye;
-use physics::{Beta, Event};
-use rapidity::renderers::raytrace::{RayTracer, Traced};
-use rapidity::renderers::{Effects, Shot};
-use rapidity::scene::motion::{Animated, Keyed, Keys, Link, Motion, Track, Uniform};
-use rapidity::scene::{Material, Mesh, Scene};
+use physics::{Beta, Event, Observer};
+use scene::motion::{Animated, Keyed, Keys, Link, Motion, Track, Uniform};
+use scene::{Material, Mesh, Scene};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
+use trace::{RayTracer, Traced};
+use view::Effects;
 
 const SIZE: [u32; 2] = [64, 64];
 
@@ -58,8 +57,7 @@ fn wall(z: f32, edge: f32, back: bool) -> [Mesh; 2] {
 
 fn trace(scene: Scene, view: &View, bounces: u32) -> Traced {
     let tracer = RayTracer::new(scene, Some([0.0; 3]), true).unwrap().with_bounces(bounces);
-    let eye = Eye::new(DVec3::ZERO, DVec3::ZERO).unwrap();
-    let shot = Shot { camera: view.camera(), eye, ct: 0.0, effects: SEARCHLIGHT, stored_scale: None };
+    let shot = view.shot(&Observer::default(), SEARCHLIGHT);
     tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {})
 }
 

@@ -10,24 +10,25 @@
 //! counts as at rest while it walks, or is added to the vehicle without the rotation that two boosts make.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use image::RgbaImage;
-use physics::worldline::State;
+use physics::worldline::WorldlineState;
 use physics::{Celerity, Event};
-use rapidity::renderers::display::{Development, Gamut};
-use rapidity::renderers::image::MapQuality;
-use rapidity::renderers::picture::{SCREEN_FORMAT, Studio};
-use rapidity::renderers::{Effects, Method, SceneRenderer};
-use rapidity::room::{Channel, Display, Viewer, room_from_turned};
-use rapidity::scene::Scene;
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::refine::refine;
-use rapidity::walls::{Head, Occupant, Quality, Walls};
 use rayon::prelude::*;
+use render::SceneRenderer;
+use render::display::{Development, Gamut};
+use render::picture::{SCREEN_FORMAT, Studio};
+use room::{Channel, Display, Viewer, room_from_turned};
+use scene::Scene;
+use scene::refine::refine;
 use std::sync::LazyLock;
 use system_tests::exact::Boxes;
 use system_tests::lorentz::{boost, four, parts, rotation, space};
-use system_tests::photographer::gpu;
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, gpu};
+use system_tests::turns::turn;
+use view::{Dial, Effects, Occasion};
+use walls::{Head, Occupant, Quality, Walls};
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
@@ -57,10 +58,10 @@ fn display(name: &str, coarser: u32) -> Display {
 }
 
 /// Vehicle between the boxes, turned arbitrarily, with this celerity.
-fn vehicle(celerity: DVec3) -> State {
+fn vehicle(celerity: DVec3) -> WorldlineState {
     let orientation = DQuat::from_rotation_y(0.4) * DQuat::from_rotation_x(-0.3);
     let event = Event { ct: 0.7, position: DVec3::new(0.375, -1.81875, 0.53125) };
-    State::new(event, Celerity::new(celerity).unwrap(), orientation)
+    WorldlineState::new(event, Celerity::new(celerity).unwrap(), orientation)
 }
 
 fn head(viewer: &Viewer, celerity: DVec3) -> Head {
@@ -72,10 +73,11 @@ fn head(viewer: &Viewer, celerity: DVec3) -> Head {
 }
 
 /// Pictures of all channels, for each occupant.
-fn drawn(display: &Display, method: Method, scene: &Scene, occupants: &[Occupant]) -> Vec<Vec<RgbaImage>> {
+fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant]) -> Vec<Vec<RgbaImage>> {
+    let _turn = turn();
     let format = Studio::format(gpu());
     let quality = Quality { format, samples: 1, density: 3.0, smooth: false };
-    let mut renderer = SceneRenderer::new(gpu(), scene, format, Some(BACKGROUND), method).unwrap();
+    let mut renderer = SceneRenderer::new(gpu(), scene, format, Some(BACKGROUND), method, Occasion::Still).unwrap();
     let mut walls = Walls::new(gpu(), display.clone(), quality, SCREEN_FORMAT);
     let development = Development { gamut: Gamut::Clamp, ..Default::default() };
     let mut pictures = Vec::new();
@@ -89,7 +91,7 @@ fn drawn(display: &Display, method: Method, scene: &Scene, occupants: &[Occupant
 }
 
 /// Exact picture of a channel, by textbook formulas.
-struct Exact<'a> {
+struct ExactChannel<'a> {
     boxes: &'a Boxes,
     display: &'a Display,
     channel: &'a Channel,
@@ -99,7 +101,7 @@ struct Exact<'a> {
     eye_in_world: DVec3,
 }
 
-impl<'a> Exact<'a> {
+impl<'a> ExactChannel<'a> {
     fn new(boxes: &'a Boxes, display: &'a Display, channel: &'a Channel, occupant: &Occupant) -> Self {
         let Occupant { vehicle, head } = occupant;
         let world_from_room = boost(-vehicle.celerity.vector()) * rotation(vehicle.orientation);
@@ -130,7 +132,7 @@ impl<'a> Exact<'a> {
 }
 
 /// Share of pixels of a channel that differ, and share of those that show a colour found nowhere near.
-fn compare(picture: &RgbaImage, exact: &Exact<'_>) -> (f64, f64) {
+fn compare(picture: &RgbaImage, exact: &ExactChannel<'_>) -> (f64, f64) {
     let pixels: Vec<_> = picture.enumerate_pixels().collect();
     let middle = |column: u32, row: u32| DVec2::new(f64::from(column), f64::from(row)) + 0.5;
     let wrong: Vec<_> = pixels.par_iter().filter(|(x, y, pixel)| exact.colour(middle(*x, *y)) != pixel.0).collect();
@@ -139,7 +141,7 @@ fn compare(picture: &RgbaImage, exact: &Exact<'_>) -> (f64, f64) {
     (share(wrong.len()), share(stray))
 }
 
-fn assert_walls(name: &str, coarser: u32, method: Method, scene: &Scene) {
+fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene) {
     let boxes = Boxes::of(&LATTICE, BACKGROUND);
     let display = display(name, coarser);
     let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
@@ -152,9 +154,9 @@ fn assert_walls(name: &str, coarser: u32, method: Method, scene: &Scene) {
     for (occupant, pictures) in occupants.iter().zip(&pictures) {
         let mut colours = std::collections::HashSet::new();
         for (channel, picture) in display.channels.iter().zip(pictures) {
-            let exact = Exact::new(&boxes, &display, channel, occupant);
+            let exact = ExactChannel::new(&boxes, &display, channel, occupant);
             let (share, stray) = compare(picture, &exact);
-            let what = format!("{name} {} by {method:?}, head {}", channel.name, occupant.head.celerity.vector());
+            let what = format!("{name} {} by {method}, head {}", channel.name, occupant.head.celerity.vector());
             println!("{what}: {share:.5} differ, {stray:.6} stray");
             assert!(share < SHARE_AT_MOST, "{what}: {share} of the pixels differ");
             assert!(stray < 1e-4, "{what}: {stray} of the pixels show what is nowhere near");
@@ -164,32 +166,30 @@ fn assert_walls(name: &str, coarser: u32, method: Method, scene: &Scene) {
     }
 }
 
-const MAP: Method = Method::Image(MapQuality { texels_per_pixel: 8.0, smooth: false });
-
 #[test]
 fn every_wall_of_a_cave_shows_what_each_eye_sees() {
-    assert_walls("cave4", 8, Method::Polygon, &REFINED);
+    assert_walls("cave4", 8, AS_GIVEN, &REFINED);
 }
 
 #[test]
 fn every_wall_of_a_cave_shows_what_each_eye_sees_by_maps() {
-    assert_walls("cave4", 8, MAP, &LATTICE.build());
+    assert_walls("cave4", 8, DEFAULT_MAP, &LATTICE.build());
 }
 
 #[test]
 fn a_curved_screen_shows_what_the_eye_sees() {
-    assert_walls("curved", 6, Method::Polygon, &REFINED);
+    assert_walls("curved", 6, AS_GIVEN, &REFINED);
 }
 
 #[test]
 fn a_curved_screen_shows_what_the_eye_sees_by_maps() {
-    assert_walls("curved", 6, MAP, &LATTICE.build());
+    assert_walls("curved", 6, DEFAULT_MAP, &LATTICE.build());
 }
 
 #[test]
 fn every_projector_of_a_dome_shows_what_the_eye_sees() {
     // Six pictures must agree where they overlap, if each is in its place.
-    assert_walls("dome6", 4, Method::Polygon, &REFINED);
+    assert_walls("dome6", 4, AS_GIVEN, &REFINED);
 }
 
 #[test]
@@ -208,9 +208,12 @@ fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let reference = event - boost(-celerity) * rotation(orientation) * four(0.0, head.place_m);
     let reference = Event { ct: reference.x, position: space(reference) };
     let at_rest = Head { celerity: Celerity::ZERO, ..head };
-    let one = Occupant { vehicle: State::new(reference, Celerity::new(celerity).unwrap(), orientation), head: at_rest };
+    let one = Occupant {
+        vehicle: WorldlineState::new(reference, Celerity::new(celerity).unwrap(), orientation),
+        head: at_rest,
+    };
 
-    let pictures = drawn(&display, Method::Polygon, &REFINED, &[walking, one]);
+    let pictures = drawn(&display, AS_GIVEN, &REFINED, &[walking, one]);
     for (channel, (walking, one)) in display.channels.iter().zip(pictures[0].iter().zip(&pictures[1])) {
         let differing = walking.pixels().zip(one.pixels()).filter(|(a, b)| a != b).count();
         let share = differing as f64 / f64::from(walking.width() * walking.height());

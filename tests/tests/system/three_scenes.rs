@@ -7,25 +7,24 @@
 //! `raytrace.rs`, `directions.rs`.)
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
 use glam::DVec3;
 use image::Rgb32FImage;
+use measure::direction;
 use physics::apparent::at_rest;
 use physics::{Celerity, Observer};
-use rapidity::measure::direction;
-use rapidity::renderers::picture::Shown;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::renderers::{Effects, Method};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::motion::{Motion, Uniform};
-use rapidity::scene::{Material, Mesh, Scene};
+use render::picture::Shown;
+use scene::motion::{Motion, Uniform};
+use scene::{Material, Mesh, Scene};
 use system_tests::bodies::{cuboid, exact, observer, passing, sphere, unlit};
-use system_tests::photographer::{By, DEFAULT_MAP, Photographer};
+use system_tests::photographer::{DEFAULT_MAP, Photographer, RAYS};
 use system_tests::view::{View, middle};
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [320, 240];
 
 /// Polygons cut for a twentieth of a pixel, which is less than shows.
-const POLYGON: Method = Method::Adaptive(Tolerance { pixels: 0.05, pace: Pace::Still });
+const POLYGON: Dial = Dial::tolerance(0.05);
 
 /// Relative tolerance of light: a larger difference means another surface, or its outline.
 const ALIKE: f64 = 0.01;
@@ -45,12 +44,12 @@ const TENTH_OF_OTHERS_ARCMIN: f64 = 1.2;
 const HIDDEN: usize = 40;
 
 /// A scene, with the motions from which it was made.
-struct World {
+struct MixedScene {
     scene: Scene,
     motions: Vec<Uniform>,
 }
 
-impl World {
+impl MixedScene {
     /// Puts moving meshes, each relative to its motion's anchor, among the resting ones.
     fn new(mut scene: Scene, moving: Vec<(Mesh, Uniform)>) -> Self {
         let motions: Vec<Uniform> = moving.iter().map(|(_, motion)| *motion).collect();
@@ -84,12 +83,12 @@ impl World {
     fn hold(&self, who: &Observer, look: DVec3) {
         let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
         let (eye, celerity) = (who.event.position, who.celerity);
-        let take = |scene: &Scene, by| Photographer::by(scene, SIZE, 1, None, by);
-        let traced = take(&self.scene, By::Rays).light(&view, eye, celerity, Effects::ALL);
+        let take = |scene: &Scene, by| Photographer::with(scene, SIZE, 1, None, by);
+        let traced = take(&self.scene, RAYS).light(&view, eye, celerity, Effects::ALL);
         let met = self.met(&view, who);
 
         for (method, share) in [POLYGON, DEFAULT_MAP].into_iter().zip(SHARES) {
-            let mut photographer = take(&self.scene, By::Method(method));
+            let mut photographer = take(&self.scene, method);
             let drawn = photographer.light(&view, eye, celerity, Effects::ALL);
             let places = photographer.places(&view, eye, celerity);
             let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
@@ -102,7 +101,7 @@ impl World {
             let moving = met.iter().filter(|shown| moves(shown).is_some()).count();
             let wrong = met.iter().zip(&places).filter(|(met, shown)| moves(met) != moves(shown)).count();
             let what = format!(
-                "{method:?}, observer at {celerity:?} towards {look}: {alike:.4} alike; {moving} of {} pixels move, {wrong} wrongly; \
+                "{method}, observer at {celerity:?} towards {look}: {alike:.4} alike; {moving} of {} pixels move, {wrong} wrongly; \
                  99 % within {:.3}′, all {:.3}′",
                 errors.count(),
                 errors.quantile(0.99),
@@ -119,7 +118,7 @@ impl World {
     /// hide resting ones.
     fn met(&self, view: &View, who: &Observer) -> Vec<Option<Shown>> {
         let places = |scene: &Scene| {
-            let mut photographer = Photographer::by(scene, SIZE, 1, None, By::Rays);
+            let mut photographer = Photographer::with(scene, SIZE, 1, None, RAYS);
             photographer.places(view, who.event.position, who.celerity)
         };
         let [all, resting, moving] =
@@ -158,7 +157,7 @@ fn along(gamma: f64) -> Celerity {
 }
 
 /// Lattice around the eye, with boxes and balls that fly through its alleys, in front of its boxes and behind them.
-fn lattice(eye: DVec3) -> World {
+fn lattice(eye: DVec3) -> MixedScene {
     let mut scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
     // One of the balls is lit by shifted daylight.
     scene.materials.push(Material { base_colour: [0.7, 0.5, 0.3, 1.0], ..Material::default() });
@@ -179,7 +178,7 @@ fn lattice(eye: DVec3) -> World {
         fly(cuboid(DVec3::ZERO, 0.7, 0), DVec3::Y * 0.9, DVec3::new(0.9, 0.5, 8.0)),
         fly(ball(1.0), DVec3::X * -0.9, DVec3::new(3.8, 3.5, 12.5)),
     ];
-    World::new(scene, moving)
+    MixedScene::new(scene, moving)
 }
 
 #[test]
@@ -213,7 +212,7 @@ fn the_same_holds_astern_at_gamma_701() {
         fly(ball(0.02), DVec3::X * -0.9, 0.02, -0.012, 1.0),
         fly(cuboid(DVec3::ZERO, 0.012, 0), DVec3::new(0.0, 0.4, 0.3), -0.04, 0.03, 0.8),
     ];
-    World::new(scene, moving).hold(&observer(eye, along(701.0)), DVec3::NEG_Z);
+    MixedScene::new(scene, moving).hold(&observer(eye, along(701.0)), DVec3::NEG_Z);
 }
 
 #[test]
@@ -226,7 +225,7 @@ fn a_finger_before_a_wall_is_seen_and_a_finger_behind_it_is_not() {
         let mut wall = cuboid(DVec3::NEG_Z * 108.0, 100.0, 0);
         wall.motion = None;
         let motion = passing(DVec3::X * 0.6, DVec3::new(1.0, 0.3, -9.0 + offset), eye);
-        let world = World::new(unlit(vec![wall], &[]), vec![(cuboid(DVec3::ZERO, 1.0, 0), motion)]);
+        let world = MixedScene::new(unlit(vec![wall], &[]), vec![(cuboid(DVec3::ZERO, 1.0, 0), motion)]);
         for method in [POLYGON, DEFAULT_MAP] {
             let mut photographer = Photographer::with(&world.scene, SIZE, 1, None, method);
             for gamma in [1.0, 1.25, 2.3] {
@@ -235,11 +234,11 @@ fn a_finger_before_a_wall_is_seen_and_a_finger_behind_it_is_not() {
                 let in_front = |shown: &&Shown| shown.motion.is_some() && shown.position.z > face;
                 let count = |places: Vec<Option<Shown>>| places.iter().flatten().filter(in_front).count();
                 let found = count(photographer.places(&view, eye, along(gamma)));
-                let mut alone = Photographer::by(&world.part(true), SIZE, 1, None, By::Rays);
+                let mut alone = Photographer::with(&world.part(true), SIZE, 1, None, RAYS);
                 let whole = count(alone.places(&view, eye, along(gamma)));
                 assert!(whole > 50, "γ = {gamma}: {whole} pixels of it");
                 let (least, most) = if seen { (0.98 * whole as f64, 1.02 * whole as f64) } else { (0.0, 0.0) };
-                let what = format!("{method:?}, γ = {gamma}, {offset} m before: {found} of {whole} pixels");
+                let what = format!("{method}, γ = {gamma}, {offset} m before: {found} of {whole} pixels");
                 println!("{what}");
                 assert!((least..=most).contains(&(found as f64)), "{what}");
             }

@@ -7,21 +7,20 @@
 //! astern at γ = 10⁶.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use built_in::lattice::Lattice;
+use exact_reference::random::{direction, seeded};
 use glam::{DVec2, DVec3, Vec3};
 use physics::{Celerity, Event, Observer, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rapidity::renderers::Method;
-use rapidity::renderers::polygon::{Pace, Tolerance};
-use rapidity::scene::cut::{Cut, Fineness, Viewpoint};
-use rapidity::scene::lattice::Lattice;
-use rapidity::scene::{Mesh, Scene};
-use rapidity::views::Camera;
+use scene::cut::{Cut, Fineness, Viewpoint};
+use scene::{Mesh, Scene};
 use std::collections::HashMap;
 use system_tests::exact::{Boxes, differing};
 use system_tests::photographer::Photographer;
-use system_tests::random::{direction, seeded};
 use system_tests::view::View;
+use view::Camera;
+use view::Dial;
 
 const SIZE: [u32; 2] = [640, 480];
 const TOLERANCE_PX: f64 = 0.5;
@@ -237,9 +236,8 @@ const SHARE_AT_MOST: f64 = 0.005;
 #[test]
 fn at_gamma_701_boxes_are_where_exact_rays_meet_them() {
     let boxes = Boxes::of(&LATTICE, BACKGROUND);
-    let tolerance = Tolerance { pixels: TOLERANCE_PX, pace: Pace::Still };
-    let method = Method::Adaptive(tolerance);
-    let mut photographer = Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), method);
+    let mut photographer =
+        Photographer::with(&LATTICE.build(), SIZE, 1, Some(BACKGROUND), Dial::tolerance(TOLERANCE_PX));
     // The motion is aimed a little beside the corner, since that offset is enlarged 1400 times.
     let motion = EYE - CORNER.as_dvec3() + DVec3::new(4e-4, -2e-4, 7e-4);
     let celerity = Celerity::new(motion.normalize() * (701.0_f64 * 701.0 - 1.0).sqrt()).unwrap();
