@@ -23,7 +23,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
 use view::{Camera, Dial, Effects, Occasion};
-use walls::{RoomHead, Occupant, Quality, Walls};
+use walls::{Occupant, Quality, RoomHead, Walls};
 
 /// Side of a wall, pixels.
 const SIDE: u32 = 320;

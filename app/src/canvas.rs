@@ -7,7 +7,7 @@ use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use view::{Effects, Gaze, Shot, Stored};
-use walls::preview::{RoomOnlooker, Preview};
+use walls::preview::{Preview, RoomOnlooker};
 use walls::{DrawnChannels, Occupant, SubmittedRoom, Walls};
 
 /// Target of a ride's frames.

@@ -10,7 +10,6 @@
 //! cargo bench -p physics --bench photo_surface
 //! ```
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
-
 #![expect(clippy::unwrap_used, reason = "a benchmark that cannot run stops")]
 
 use std::hint::black_box;

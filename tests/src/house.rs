@@ -298,7 +298,9 @@ fn is_test(attributes: &[Attribute]) -> bool {
 fn defines_something(item: &Item) -> bool {
     match item {
         Item::Use(_) | Item::ExternCrate(_) | Item::Macro(_) => false,
-        Item::Mod(ItemMod { content, .. }) => content.is_some() && !matches!(item, Item::Mod(module) if is_test(&module.attrs)),
+        Item::Mod(ItemMod { content, .. }) => {
+            content.is_some() && !matches!(item, Item::Mod(module) if is_test(&module.attrs))
+        }
         _ => true,
     }
 }

@@ -10,7 +10,7 @@ use render::{Gpu, GpuError, Pending, SceneRenderer};
 use scene::Scene;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
-use trace::{Place, RayTracer, Traced};
+use trace::{RayTracer, Traced, TracedPlace};
 use view::{Dial, Effects, Occasion, RendererName, Shot};
 
 use crate::bodies::observer;
@@ -132,8 +132,8 @@ impl Photographer {
                 self.studio.places(gpu(), renderer, &shot, pending).expect("the device is there")
             }
             Source::Traced(tracer) => {
-                let shown = |place: Option<Place>| {
-                    let Place { position, motion, apparent, .. } = place?;
+                let shown = |place: Option<TracedPlace>| {
+                    let TracedPlace { position, motion, apparent, .. } = place?;
                     Some(Shown { position, motion, apparent })
                 };
                 tracer.places(&shot, self.size).into_iter().map(shown).collect()

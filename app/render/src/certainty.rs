@@ -7,11 +7,11 @@
 
 use glam::{DVec2, DVec3};
 use physics::Aberration;
-use physics::photo_surface::accuracy::direction_error_rad;
 use physics::interpolation_error::TriangleInterpolation;
+use physics::photo_surface::accuracy::direction_error_rad;
 
 use scene::Scene;
-use scene::cut::{EdgeChord, Cut, SeenFrom};
+use scene::cut::{Cut, EdgeChord, SeenFrom};
 use view::Shot;
 
 /// Number of edges sampled.

@@ -60,7 +60,7 @@ impl Darkroom {
     }
 }
 
-/// A texture whose contents can be fetched from the device.
+/// Texture whose contents can be fetched from the device.
 pub struct Sheet {
     texture: wgpu::Texture,
     readback: wgpu::Buffer,
@@ -69,6 +69,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// Empty sheet of `size` pixels.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
@@ -91,11 +92,15 @@ impl Sheet {
         Self { texture, readback, row_bytes, padded_row_bytes }
     }
 
+    /// Target that draws onto the sheet.
     pub fn view(&self) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
-    /// Submits the commands that draw on the sheet, and fetches its bytes, row by row.
+    /// Bytes of the sheet, row by row, after the commands of `encoder` have drawn on it.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the device went away or the bytes cannot be read.
     pub fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };

@@ -28,3 +28,6 @@ pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), WriteError> {
     file.layer_data.attributes.white_luminance = Some(1.0);
     file.write().to_file(path).map_err(|error| WriteError::new(path, error))
 }
+
+#[cfg(test)]
+mod tests;

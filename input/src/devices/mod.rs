@@ -26,4 +26,3 @@ pub use config::DevicesConfig;
 pub use feed::{DeviceState, DeviceStatus};
 pub use lanes::{Devices, DevicesError};
 pub use plugged::{PluggedDevice, plugged_in};
-

@@ -39,4 +39,3 @@ pub use tracked_head::TrackedHead;
 pub use tracked_pose::TrackedPose;
 pub use url::{TrackerUrl, TrackerUrlError};
 pub use velocity::TrackVelocity;
-

@@ -29,4 +29,3 @@ pub use header::RideHeader;
 pub use reader::Recording;
 pub use record::{ControlsRecord, FrameDifference, FrameRecord, RecordingEntry};
 pub use writer::Recorder;
-

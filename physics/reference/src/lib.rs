@@ -4,7 +4,6 @@
 //! computes with 600 bits, [`light`] has the textbook's formulas in that arithmetic, where cancellation has bits to
 //! spare, and [`random`] draws the inputs.
 
-
 pub mod light;
 pub mod random;
 pub mod real;

@@ -27,4 +27,3 @@ pub use shares::{shares, white};
 pub use shift_table::ShiftTable;
 pub use spectrum::{SampledSpectrum, Spectrum, SpectrumError};
 pub use srgb::{luminance, rgb_from_xyz, xyz_from_rgb};
-

@@ -69,4 +69,3 @@ pub use line::CHUNK;
 pub use mesh::PhotoSurfaceMesh;
 pub use stats::Stats;
 pub use vertices::Vertices;
-

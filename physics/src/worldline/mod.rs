@@ -52,4 +52,3 @@ pub use state::WorldlineState;
 pub use thrust::Thrust;
 pub use transport::{FacingMotion, Transport};
 pub use travel::travel;
-

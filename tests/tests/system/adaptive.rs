@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3, Vec3};
 use physics::{Celerity, Event, Observer, apparent};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use scene::cut::{Cut, Fineness, Viewpoint};
+use scene::cut::{Cut, CutFineness, CutViewpoint};
 use scene::{Mesh, Scene};
 use std::collections::HashMap;
 use system_tests::exact::{Boxes, differing};
@@ -24,7 +24,7 @@ use view::Dial;
 
 const SIZE: [u32; 2] = [640, 480];
 const TOLERANCE_PX: f64 = 0.5;
-const FINENESS: Fineness = Fineness { tolerance_px: TOLERANCE_PX, turn_rad: 0.0, triangles: 4_000_000 };
+const FINENESS: CutFineness = CutFineness { tolerance_px: TOLERANCE_PX, turn_rad: 0.0, triangles: 4_000_000 };
 const LATTICE: Lattice = Lattice { count: [4, 4, 4], spacing: 4.0, side: 1.0 };
 
 /// Tolerance for the rounding of f64 in a place astern at γ = 10⁶, pixels.
@@ -49,13 +49,13 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
     Scene { materials: LATTICE.build().materials, meshes, ..Scene::default() }
 }
 
-fn viewpoint(eye: DVec3, celerity: Celerity, look: DVec3, fov_degrees: f64) -> Viewpoint {
+fn viewpoint(eye: DVec3, celerity: Celerity, look: DVec3, fov_degrees: f64) -> CutViewpoint {
     let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
-    Viewpoint::new(observer, Camera::looking(look, DVec3::Y, fov_degrees.to_radians()), SIZE)
+    CutViewpoint::new(observer, Camera::looking(look, DVec3::Y, fov_degrees.to_radians()), SIZE)
 }
 
 /// Random observer among the boxes, with a random direction of view.
-fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
+fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> CutViewpoint {
     let eye = DVec3::from_array([0, 1, 2].map(|_| random.random_range(-7.0..7.0)));
     let celerity = Celerity::new(direction(random) * random.random_range(0.0..fastest).sinh()).unwrap();
     let astern = random.random_range(0..3) == 0;
@@ -64,7 +64,7 @@ fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> Viewpoint {
 }
 
 /// Place in the picture of a place in the observer's space, pixels from the middle.
-fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
+fn pixel(viewpoint: &CutViewpoint, seen: DVec3) -> Option<DVec2> {
     let eye = viewpoint.pictures[0].0.observer_from_eye.conjugate() * seen.normalize();
     let focal_length = viewpoint.pictures[0].0.tangents(SIZE).focal_length(SIZE).y;
     let at = eye.truncate() / -eye.z * focal_length;
@@ -72,7 +72,7 @@ fn pixel(viewpoint: &Viewpoint, seen: DVec3) -> Option<DVec2> {
 }
 
 /// Errors in pixels at random places of the cut whose exact or drawn position is in the picture.
-fn errors(cut: &Cut, viewpoint: &Viewpoint, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn errors(cut: &Cut, viewpoint: &CutViewpoint, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut errors = Vec::new();
     for mesh in &cut.meshes {
         let image = |at| apparent::at_rest(&viewpoint.observer, at).position;
@@ -206,7 +206,7 @@ fn any_number_of_threads_cuts_alike() {
 #[test]
 fn too_many_triangles_make_the_cut_coarser_and_it_says_so() {
     let viewpoint = viewpoint(DVec3::new(0.3, 0.2, 0.5), Celerity::new(DVec3::Z * -5.0).unwrap(), DVec3::NEG_Z, 90.0);
-    let few = Fineness { tolerance_px: 0.02, triangles: 5000, ..FINENESS };
+    let few = CutFineness { tolerance_px: 0.02, triangles: 5000, ..FINENESS };
     let cut = Cut::new(&LATTICE.build(), &viewpoint, few, None);
     assert!(
         cut.triangle_count() <= 5000 && cut.tolerance_px > 0.02,

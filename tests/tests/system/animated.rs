@@ -12,8 +12,8 @@ use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3};
 use physics::{Beta, Celerity, Event, Observer};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use scene::cut::{Cut, Fineness, Viewpoint};
-use scene::motion::{Animated, Course, Keyed, Keys, Link, Motion, Track, Uniform};
+use scene::cut::{Cut, CutFineness, CutViewpoint};
+use scene::motion::{Animated, ChainLink, Keyed, Motion, ObservedBody, Track, TrackKeys, Uniform};
 use scene::refine::refine;
 use scene::{Lighting, Material, Mesh, Scene};
 use std::collections::HashMap;
@@ -56,10 +56,10 @@ const PERIOD_S: f64 = 4.0;
 fn circling() -> KnownBody {
     let turn = |quarter: u32| DQuat::from_rotation_y(FRAC_PI_2 * f64::from(quarter));
     let times = (0..=4).map(|quarter| 0.25 * PERIOD_S * f64::from(quarter)).collect();
-    let keys = Keys::slerp(times, (0..=4).map(turn).collect()).unwrap();
+    let keys = TrackKeys::slerp(times, (0..=4).map(turn).collect()).unwrap();
     let keys = keys.repeating([0.0, PERIOD_S], -DQuat::IDENTITY);
     let node = Keyed { translation: Track::Fixed(DVec3::ZERO), rotation: Track::Keyed(keys), scale: DVec3::ONE };
-    let links = vec![Link::Fixed(DAffine3::from_translation(CENTRE)), Link::Keyed(node)];
+    let links = vec![ChainLink::Fixed(DAffine3::from_translation(CENTRE)), ChainLink::Keyed(node)];
     let motion = Motion::Animated(Arc::new(Animated::new("carousel", links)));
     let at = |place: DVec3, ct: f64| {
         let rate = TAU / (PERIOD_S * SPEED_OF_LIGHT);
@@ -81,9 +81,9 @@ fn accelerated() -> KnownBody {
     let times = cts.iter().map(|ct| ct / SPEED_OF_LIGHT).collect();
     let values = cts.iter().map(|&ct| TURN + DVec3::X * (root(ct) - LENGTH_M)).collect();
     let velocity = |ct: &f64| DVec3::X * (ct / root(*ct) * SPEED_OF_LIGHT);
-    let keys = Keys::<DVec3>::cubic(times, values, cts.iter().map(|ct| [velocity(ct); 2]).collect()).unwrap();
+    let keys = TrackKeys::<DVec3>::cubic(times, values, cts.iter().map(|ct| [velocity(ct); 2]).collect()).unwrap();
     let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
-    let motion = Motion::Animated(Arc::new(Animated::new("rocket", vec![Link::Keyed(node)])));
+    let motion = Motion::Animated(Arc::new(Animated::new("rocket", vec![ChainLink::Keyed(node)])));
     let at = |place: DVec3, ct: f64| {
         let root = ct.hypot(LENGTH_M);
         (TURN + DVec3::X * (root - LENGTH_M) + place, DVec3::X * (ct / root))
@@ -159,7 +159,7 @@ fn each_vertex_is_seen_at_its_own_retarded_event() {
         let scene = scene(&known.motion, ball(middle, 0.5, 0.9));
         for _ in 0..200 {
             let who = somebody(&mut random);
-            let course = Course::new(animated(&scene), &who);
+            let course = ObservedBody::new(animated(&scene), &who);
             for place in scene.meshes[0].positions.iter().map(|place| place.as_dvec3()) {
                 let (apparent, doppler) = expected(&who, &known, place);
                 let seen = course.seen(place).unwrap();
@@ -222,8 +222,8 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
         let who = Observer { event: Event { ct: 1.0, position: DVec3::new(0.0, 5.0, 0.0) }, celerity: at(beta) };
         let (look, _) = expected(&who, &known, DVec3::ZERO);
         let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
-        let viewpoint = Viewpoint::new(who, view.camera(), SIZE);
-        let fineness = Fineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 1_000_000 };
+        let viewpoint = CutViewpoint::new(who, view.camera(), SIZE);
+        let fineness = CutFineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 1_000_000 };
         let cut = Cut::new(&scene, &viewpoint, fineness, None);
         assert!(cut.tolerance_px == 0.5 && cut.triangle_count() > 100, "{} triangles", cut.triangle_count());
         let mut edges = HashMap::<[[u64; 3]; 2], u32>::new();
@@ -346,9 +346,10 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
     let anchor = Event { ct: -11.0, position: DVec3::new(-2.0, 0.5, -9.0) };
     let (from, to) = (-200.0, 200.0);
     let place = |ct: f64| anchor.position + celerity.beta().vector() * (ct - anchor.ct);
-    let keys = Keys::linear(vec![from / SPEED_OF_LIGHT, to / SPEED_OF_LIGHT], vec![place(from), place(to)]).unwrap();
+    let keys =
+        TrackKeys::linear(vec![from / SPEED_OF_LIGHT, to / SPEED_OF_LIGHT], vec![place(from), place(to)]).unwrap();
     let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
-    let by_keys = Motion::Animated(Arc::new(Animated::new("train", vec![Link::Keyed(node)])));
+    let by_keys = Motion::Animated(Arc::new(Animated::new("train", vec![ChainLink::Keyed(node)])));
     let has_celerity = Motion::Uniform(Uniform { celerity, anchor });
     // Keys give the places of all points in the world, where the box is contracted.
     let half = DVec3::new(1.0, 0.8, 1.2);
@@ -359,7 +360,7 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
         let shorter = Scene { materials: vec![material.clone()], ..shorter };
         let own = Scene { materials: vec![material], origin: anchor.position, ..scene(&has_celerity, cuboid(half)) };
         let who = Observer { event: Event { ct: 0.0, position: DVec3::ZERO }, celerity: at(beta) };
-        let look = Course::new(animated(&shorter), &who).seen(DVec3::ZERO).unwrap().apparent;
+        let look = ObservedBody::new(animated(&shorter), &who).seen(DVec3::ZERO).unwrap().apparent;
         let view = View { look, up: DVec3::Y, fov_degrees: 35.0, size: SIZE };
         let mut pictures: Vec<Vec<DVec3>> = Vec::new();
         for scene in [&shorter, &own] {

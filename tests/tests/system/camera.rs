@@ -12,7 +12,7 @@ use scene::motion::{Motion, Uniform};
 use scene::{Material, Mesh, Scene};
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
-use trace::{Lens, Optics, RayTracer, Traced};
+use trace::{CameraLens, Optics, RayTracer, Traced};
 use view::{Effects, Shot};
 
 const BLACK: Option<[f32; 3]> = Some([0.0; 3]);
@@ -92,7 +92,7 @@ fn what_is_not_in_focus_is_a_circle_of_the_lenss_size() {
         let scene = disc(centre, (2.0 * distance / view.focal_length()) as f32);
         let shot = shot(&view, celerity);
         let sharp = spread(&trace(&scene, Optics::default(), &shot, SIZE, 64));
-        let optics = Optics { lens: Some(Lens { aperture_m, focus_m }), exposure_m: 0.0 };
+        let optics = Optics { lens: Some(CameraLens { aperture_m, focus_m }), exposure_m: 0.0 };
         let blurred = spread(&trace(&scene, optics, &shot, SIZE, 384));
         // An even circle has a mean square of half its radius squared, and spreads add up.
         let diameter = (8.0 * (blurred - sharp)).sqrt();
@@ -109,7 +109,7 @@ fn what_is_in_focus_stays_sharp() {
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 6.0, size: SIZE };
     let (_, doppler) = Aberration::new(celerity).observer_from_world(DVec3::NEG_Z);
     let scene = disc(centre, 0.1);
-    let lens = Lens { aperture_m: 0.5, focus_m: 4.0 * doppler };
+    let lens = CameraLens { aperture_m: 0.5, focus_m: 4.0 * doppler };
     let shot = shot(&view, celerity);
     let sharp = spread(&trace(&scene, Optics::default(), &shot, SIZE, 64));
     let seen = spread(&trace(&scene, Optics { lens: Some(lens), exposure_m: 0.0 }, &shot, SIZE, 64));
@@ -183,10 +183,10 @@ fn a_pinhole_and_a_moment_change_nothing_and_threads_neither() {
     let shot = shot(&view, at(DVec3::X * 0.4));
     let plain = trace(&scene, Optics::default(), &shot, SIZE, 4);
     assert!(plain.light.iter().any(|light| light.y > 0.0), "it is dark");
-    let closed = Optics { lens: Some(Lens { aperture_m: 0.0, focus_m: 2.0 }), exposure_m: 0.0 };
+    let closed = Optics { lens: Some(CameraLens { aperture_m: 0.0, focus_m: 2.0 }), exposure_m: 0.0 };
     assert!(plain == trace(&scene, closed, &shot, SIZE, 4), "a closed lens changes something");
 
-    let open = Optics { lens: Some(Lens { aperture_m: 0.2, focus_m: 2.0 }), exposure_m: 0.3 };
+    let open = Optics { lens: Some(CameraLens { aperture_m: 0.2, focus_m: 2.0 }), exposure_m: 0.3 };
     let traced = [1, 3, 8].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| trace(&scene, open, &shot, SIZE, 4))

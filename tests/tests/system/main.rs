@@ -5,7 +5,9 @@ mod adaptive;
 mod animated;
 mod camera;
 mod colour;
+mod directions;
 mod display;
+mod house;
 mod lamps;
 mod lattice_pixels;
 mod mirrors;
@@ -16,7 +18,6 @@ mod sky;
 mod sphere;
 mod stereo;
 mod textures;
+mod three_scenes;
 mod vertex_stage;
 mod walls;
-
-// TODO: add `mod directions; mod three_scenes;` when `measure` compiles, and `mod exr_files;` when `rapidity` does.

@@ -9,7 +9,7 @@
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use physics::{Beta, Event, Observer};
-use scene::motion::{Animated, Keyed, Keys, Link, Motion, Track, Uniform};
+use scene::motion::{Animated, ChainLink, Keyed, Motion, Track, TrackKeys, Uniform};
 use scene::{Material, Mesh, Scene};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -194,9 +194,9 @@ fn by_keys(beta: DVec3) -> Motion {
     const SPEED_OF_LIGHT: f64 = 10.0;
     let end_s = 40.0;
     let end = beta * (end_s * SPEED_OF_LIGHT);
-    let keys = Keys::linear(vec![-end_s, end_s], vec![-end, end]).unwrap();
+    let keys = TrackKeys::linear(vec![-end_s, end_s], vec![-end, end]).unwrap();
     let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
-    Motion::Animated(Arc::new(Animated::new("slide", vec![Link::Keyed(node)])))
+    Motion::Animated(Arc::new(Animated::new("slide", vec![ChainLink::Keyed(node)])))
 }
 
 /// Scene with a mirror 5 m ahead and a moving wall 3 m behind the eye.

@@ -17,7 +17,7 @@ use system_tests::colour::linear_of;
 use system_tests::display::texture;
 use system_tests::photographer::{AS_GIVEN, gpu};
 use view::{Effects, Occasion, Stored};
-use walls::{Head, Occupant, Quality, Walls};
+use walls::{Occupant, Quality, RoomHead, Walls};
 
 const SIZE: u32 = 4;
 /// Tolerance of f32 after the screen's curve and back.
@@ -45,14 +45,15 @@ impl StereoWindow {
         }
         display.viewer.eye_scale = 2.0 * ASIDE_M / display.viewer.eye_separation_m;
 
-        let head = Head::at_rest(display.viewer.head_m);
+        let head = RoomHead::at_rest(display.viewer.head_m);
         let vehicle = WorldlineState::new(Event::default(), Celerity::ZERO, DQuat::IDENTITY);
         let format = Studio::format(gpu());
         let quality = Quality { format, samples: 1, density: 1.0, smooth: false };
         let scene = rooms(head.place_m, colours);
         let mut renderer = SceneRenderer::new(gpu(), &scene, format, None, AS_GIVEN, Occasion::Still).unwrap();
         let mut walls = Walls::new(gpu(), display, quality, wgpu::TextureFormat::Rgba32Float);
-        walls.draw(gpu(), &mut renderer, &Occupant { vehicle, head }, Effects::NONE).unwrap();
+        let submitted = walls.submit(gpu(), &mut renderer, &Occupant { vehicle, head }, Effects::NONE).unwrap();
+        walls.draw(gpu(), &mut renderer, submitted).unwrap();
         walls.adapt(gpu(), &Default::default(), None);
         Self(walls)
     }

@@ -28,7 +28,7 @@ use system_tests::lorentz::{boost, four, parts, rotation, space};
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, gpu};
 use system_tests::turns::turn;
 use view::{Dial, Effects, Occasion};
-use walls::{Head, Occupant, Quality, Walls};
+use walls::{Occupant, Quality, RoomHead, Walls};
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
@@ -64,8 +64,8 @@ fn vehicle(celerity: DVec3) -> WorldlineState {
     WorldlineState::new(event, Celerity::new(celerity).unwrap(), orientation)
 }
 
-fn head(viewer: &Viewer, celerity: DVec3) -> Head {
-    Head {
+fn head(viewer: &Viewer, celerity: DVec3) -> RoomHead {
+    RoomHead {
         place_m: viewer.head_m + DVec3::new(0.2, 0.1, -0.15),
         room_from_head: room_from_turned(20.0, -10.0, 5.0),
         celerity: Celerity::new(celerity).unwrap(),
@@ -82,7 +82,8 @@ fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant])
     let development = Development { gamut: Gamut::Clamp, ..Default::default() };
     let mut pictures = Vec::new();
     for occupant in occupants {
-        walls.draw(gpu(), &mut renderer, occupant, Effects::GEOMETRY).unwrap();
+        let submitted = walls.submit(gpu(), &mut renderer, occupant, Effects::GEOMETRY).unwrap();
+        walls.draw(gpu(), &mut renderer, submitted).unwrap();
         walls.adapt(gpu(), &development, None);
         let channels = 0..display.channels.len();
         pictures.push(channels.map(|channel| walls.develop(gpu(), channel, &development).unwrap()).collect());
@@ -207,7 +208,7 @@ fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let event = four(vehicle.ct, vehicle.position) + room_from_world.inverse() * four(0.0, head.place_m);
     let reference = event - boost(-celerity) * rotation(orientation) * four(0.0, head.place_m);
     let reference = Event { ct: reference.x, position: space(reference) };
-    let at_rest = Head { celerity: Celerity::ZERO, ..head };
+    let at_rest = RoomHead { celerity: Celerity::ZERO, ..head };
     let one = Occupant {
         vehicle: WorldlineState::new(reference, Celerity::new(celerity).unwrap(), orientation),
         head: at_rest,

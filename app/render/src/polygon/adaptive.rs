@@ -15,7 +15,7 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use rayon::prelude::*;
 
 use scene::Scene;
-use scene::cut::{Cut, CutFineness, SeenFrom, CutViewpoint};
+use scene::cut::{Cut, CutFineness, CutViewpoint, SeenFrom};
 use view::{Occasion, Shot};
 
 use crate::certainty::{Certainty, Edges, EdgesDrawn};
@@ -176,9 +176,11 @@ fn make(scene: &Scene, viewpoint: &CutViewpoint, tolerance: Tolerance, before: O
     let started = Instant::now();
     let fineness = match tolerance.occasion {
         Occasion::Still => CutFineness { tolerance_px: tolerance.pixels, turn_rad: 0.0, triangles: STILL_TRIANGLES },
-        Occasion::Ride => {
-            CutFineness { tolerance_px: RIDE_SHARE * tolerance.pixels, turn_rad: RIDE_TURN_RAD, triangles: RIDE_TRIANGLES }
-        }
+        Occasion::Ride => CutFineness {
+            tolerance_px: RIDE_SHARE * tolerance.pixels,
+            turn_rad: RIDE_TURN_RAD,
+            triangles: RIDE_TRIANGLES,
+        },
     };
     let cut = Cut::new(scene, viewpoint, fineness, before);
     let prepared = Prepared::of_cut(scene, &cut);

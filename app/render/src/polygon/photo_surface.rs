@@ -200,7 +200,8 @@ fn transform(runs: &[Run], stride: u64, staging: Staging, observers: &[Observer]
             Run::Still { observer, vertices } => (&observers[*observer], vertices),
             Run::Animated { animated, places } => {
                 stats.vertices += count;
-                stats.not_finite_results += solve(&ObservedBody::new(animated, &observers[0]), places, streams, log2_doppler);
+                stats.not_finite_results +=
+                    solve(&ObservedBody::new(animated, &observers[0]), places, streams, log2_doppler);
                 continue;
             }
         };

@@ -95,11 +95,6 @@ impl VertexStage {
         }
     }
 
-    /// Number of chunks that the CPU bends for the newest eye, and number of all chunks.
-    pub fn chunks_astern(&self) -> (usize, usize) {
-        (self.chunks.iter().filter(|chunk| chunk.bent).count(), self.chunks.len())
-    }
-
     /// View for the vertex stage: `view` with the place of this observer.
     fn view(&self, view: shaders::ViewUniforms, observer: &Observer) -> shaders::ViewUniforms {
         let offset = observer.event.position - self.origin;

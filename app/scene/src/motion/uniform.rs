@@ -54,7 +54,7 @@ mod tests {
     //! moving point seen from the world. A boost the wrong way, or a missing Wigner rotation, shows at once.
 
     use super::*;
-    use physics::{Source, apparent};
+    use physics::{PointSource, apparent};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -84,7 +84,7 @@ mod tests {
             let event = world_from_object.apply(FourVector { t: 0.0, r: place - anchor.position });
             let beta = motion.celerity.beta().vector();
             let at_zero = anchor.position + event.r - beta * (anchor.ct + event.t);
-            let direct = apparent::moving(&observer, &Source { position: at_zero, celerity: motion.celerity });
+            let direct = apparent::moving(&observer, &PointSource { position: at_zero, celerity: motion.celerity });
 
             let scale = 1e-12 * (direct.position.length() + 200.0);
             assert!(position.distance(direct.position) < scale, "{position} {}", direct.position);

@@ -4,8 +4,8 @@
 //! buffers beside it or within it as base64. Only regular files are opened, as reading a pipe that a scene names
 //! would never end.
 
-use std::borrow::Cow;
 use regular_file::FileFault;
+use std::borrow::Cow;
 use std::path::{Component, Path, PathBuf};
 
 use ::gltf::json;
