@@ -46,8 +46,8 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             if let Some(path) = &options.record {
                 log.record(path)?;
             }
-            let somebody = options.devices.bicycle.is_some() || options.devices.spacemouse;
-            let reel = if somebody || options.realtime {
+            let has_devices = options.devices.bicycle.is_some() || options.devices.spacemouse;
+            let reel = if has_devices || options.realtime {
                 follow(options, simulation, log, seconds)?
             } else {
                 demonstrate(options, &scene, simulation, log, seconds)?

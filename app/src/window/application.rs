@@ -1,6 +1,6 @@
 //! The life of the windows, from opening to closing.
 
-use super::open::{Open, Party};
+use super::open::{Open, WaitingRide};
 use crate::command::RideOptions;
 use crate::error::Error;
 use crate::session::live::Live;
@@ -21,7 +21,7 @@ pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
 pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Wait);
-    let waiting = Some(Party { scene, room, begin });
+    let waiting = Some(WaitingRide { scene, room, begin });
     let mut application = Application { options: options.clone(), waiting, open: None, failed: None };
     events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
     let finished = application.open.map_or(Ok(()), |mut open| Ok(open.ride.live.finish()?));
@@ -31,15 +31,15 @@ pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) ->
 /// State that winit calls.
 struct Application {
     options: RideOptions,
-    waiting: Option<Party>,
+    waiting: Option<WaitingRide>,
     open: Option<Open>,
     failed: Option<Error>,
 }
 
 impl ApplicationHandler for Application {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        if let Some(party) = self.waiting.take() {
-            match Open::new(events, &self.options, party) {
+        if let Some(waiting) = self.waiting.take() {
+            match Open::new(events, &self.options, waiting) {
                 Ok(open) => {
                     open.windows[0].window.request_redraw();
                     self.open = Some(open);

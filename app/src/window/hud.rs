@@ -15,9 +15,9 @@ pub struct Readings {
     pub speed_of_light: f64,
     /// Time on the rider's own clock, seconds.
     pub own_clock_s: f64,
-    /// Time on the town's clock, seconds.
+    /// Time on the world's clock, seconds.
     pub world_clock_s: f64,
-    /// Length of road passed, as the town measures it, metres.
+    /// Length of road passed, as the world measures it, metres.
     pub road_m: f64,
     /// Distance on the rider's own odometer, for which the road is contracted, metres.
     pub own_m: f64,
@@ -86,12 +86,12 @@ pub fn show(ui: &Ui, readings: &Readings) {
     painter.rect_filled(filled, CornerRadius::same(3), ACCENT);
     painter.rect_stroke(track, CornerRadius::same(3), Stroke::new(1.0, FAINT), StrokeKind::Inside);
 
-    pair(field(1), [("your clock", clock(readings.own_clock_s)), ("town's clock", clock(readings.world_clock_s))]);
-    pair(field(2), [("road passed", metres(readings.road_m)), ("your odometer", metres(readings.own_m))]);
+    pair(field(1), [("your clock", clock(readings.own_clock_s)), ("the world's clock", clock(readings.world_clock_s))]);
+    pair(field(2), [("road travelled", metres(readings.road_m)), ("your odometer", metres(readings.own_m))]);
     pair(
         field(3),
         [
-            ("β", format!("{} c", beta(readings.beta, readings.gamma))),
+            ("β", beta(readings.beta, readings.gamma)),
             ("γ · rapidity", format!("{} · {:.2}", number(readings.gamma), readings.rapidity)),
         ],
     );

@@ -28,7 +28,7 @@ use winit::window::Window;
 const HARDWARE_SAMPLES: u32 = 4;
 
 /// Ride for which the windows are opened.
-pub struct Party {
+pub struct WaitingRide {
     /// Scene of the ride.
     pub scene: Scene,
     /// Room in which the ride is shown.
@@ -66,8 +66,8 @@ impl Open {
     ///
     /// # Errors
     /// A missing window or graphics device, or a ride that cannot begin.
-    pub fn new(events: &ActiveEventLoop, options: &RideOptions, party: Party) -> Result<Self, Error> {
-        let Party { scene, room, begin } = party;
+    pub fn new(events: &ActiveEventLoop, options: &RideOptions, waiting: WaitingRide) -> Result<Self, Error> {
+        let WaitingRide { scene, room, begin } = waiting;
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
         let display = room.display;
         let title = format!("Rapidity: {}", scene.name);

@@ -66,7 +66,7 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
                 }
                 ui.end_row();
 
-                ui.label("Time scale");
+                ui.label("Speed of your clock");
                 let mut scale = ride.time_scale;
                 if ui.add(Slider::new(&mut scale, 0.05..=4.0).logarithmic(true)).changed() {
                     actions.push(Action::TimeScale(scale));
@@ -91,8 +91,8 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
 
                 ui.label("Frames");
                 ui.horizontal(|ui| {
-                    ui.selectable_value(&mut settings.look.latency, Latency::Overlap, "many");
-                    ui.selectable_value(&mut settings.look.latency, Latency::Low, "fresh");
+                    ui.selectable_value(&mut settings.look.latency, Latency::Overlap, "smooth");
+                    ui.selectable_value(&mut settings.look.latency, Latency::Low, "quick to answer");
                 });
                 ui.end_row();
             });
@@ -156,9 +156,9 @@ fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
 }
 
 /// Keys and their meanings; the same list as in the README.
-const KEYS: [(&str, &str); 21] = [
-    ("W S  ↑ ↓", "pedal, push back; thrust; nose down, up when flying"),
-    ("A D  ← →", "steer; thrust sideways"),
+const KEYS: [(&str, &str); 22] = [
+    ("W S  ↑ ↓", "pedal, push back; thrust forward, back; the arrows lower and raise the nose when flying"),
+    ("A D  ← →", "steer; thrust sideways; the arrows turn the nose"),
     ("R F", "thrust up, down when flying"),
     ("Q E", "roll"),
     ("Shift", "sprint"),
@@ -166,14 +166,15 @@ const KEYS: [(&str, &str); 21] = [
     ("1 2 3", "bicycle, drive, fly"),
     ("P", "pause"),
     (".", "one step while paused"),
-    ("− =", "own time slower, faster"),
+    ("− =", "your clock slower, faster"),
     ("G B N", "geometry, Doppler shift, searchlight effect: on, off"),
     ("T", "next tone curve"),
     ("[ ]", "darker, brighter"),
     ("C", "photo"),
-    ("V", "record, from the ride's beginning"),
+    ("V", "record the whole ride, from its beginning"),
     ("Backspace", "back to the start"),
-    ("F2", "hide the display"),
+    ("F1 H", "this help"),
+    ("F2", "show or hide the readings"),
     ("F3", "settings"),
     ("F4", "move the corners of a room's pictures"),
     ("F11", "full screen"),

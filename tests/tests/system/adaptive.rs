@@ -55,7 +55,7 @@ fn viewpoint(eye: DVec3, celerity: Celerity, look: DVec3, fov_degrees: f64) -> C
 }
 
 /// Random observer among the boxes, with a random direction of view.
-fn somebody(random: &mut ChaCha8Rng, fastest: f64) -> CutViewpoint {
+fn random_viewpoint(random: &mut ChaCha8Rng, fastest: f64) -> CutViewpoint {
     let eye = DVec3::from_array([0, 1, 2].map(|_| random.random_range(-7.0..7.0)));
     let celerity = Celerity::new(direction(random) * random.random_range(0.0..fastest).sinh()).unwrap();
     let astern = random.random_range(0..3) == 0;
@@ -114,7 +114,7 @@ fn no_place_of_the_picture_is_further_off_than_the_tolerance() {
     let boxes = LATTICE.build();
     for round in 0..60 {
         // γ is up to 10⁶; half of the time a wall of 100 m is right behind, or the ground below.
-        let viewpoint = somebody(&mut random, 14.5);
+        let viewpoint = random_viewpoint(&mut random, 14.5);
         let motion = viewpoint.observer.celerity.vector().normalize();
         let (away, distance) = (if round % 4 == 0 { -motion } else { DVec3::NEG_Y }, 10.0_f64.powi(round % 3 - 1));
         let near = scene(vec![square(viewpoint.observer.event.position + distance * away, -away)]);
@@ -147,7 +147,7 @@ fn a_closed_surface_stays_closed_across_meshes_too() {
     let torn = scene((0..3).map(apart).collect());
     let mut random = seeded(42);
     for _ in 0..12 {
-        let viewpoint = somebody(&mut random, 8.0);
+        let viewpoint = random_viewpoint(&mut random, 8.0);
         // A cut for a slightly earlier place of the observer leaves many edges close to the limit.
         let mut earlier = viewpoint.clone();
         earlier.observer.event.position += 0.1 * direction(&mut random);
@@ -194,7 +194,7 @@ fn a_small_step_changes_few_edges() {
 #[test]
 fn any_number_of_threads_cuts_alike() {
     let scene = Lattice::default().build();
-    let viewpoint = somebody(&mut seeded(43), 4.0);
+    let viewpoint = random_viewpoint(&mut seeded(43), 4.0);
     let cut_by = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| Cut::new(&scene, &viewpoint, FINENESS, None))
