@@ -63,7 +63,7 @@ impl Room {
             let mut module: Vec<String> =
                 inside.with_extension("").iter().map(|part| part.to_string_lossy().into_owned()).collect();
             module.pop_if(|last| ["lib", "main", "mod"].contains(&last.as_str()));
-            let items = syn::parse_file(&text).unwrap_or_else(|fault| panic!("{}: {fault}", path.display()));
+            let items = syn::parse_file(&text).expect("the sources compile");
             let path = path.strip_prefix(root).expect("the folder lies in the house").to_owned();
             SourceFile { path, module, text, items }
         };

@@ -10,7 +10,7 @@ use measure::pictures::{self, Kind, Measured, Measurement};
 use measure::plot::plot;
 use measure::table::{self, Line};
 use measure::views::{self, FOV_DEGREES, Views};
-use measure::{MeasureError, OF_RIDES, OF_STILLS, Row, precision, samples, shift_table, steps};
+use measure::{OF_RIDES, OF_STILLS, Row, precision, samples, shift_table, steps};
 use render::Gpu;
 use render::picture::largest_side;
 use ride::LightSpeed;
@@ -110,12 +110,14 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
         if !stop.load(Ordering::Relaxed) {
             add(samples::measure(&measurement, tracer, &stop)?);
         }
-        let others: [fn(&Views) -> Result<(String, Vec<Line>), MeasureError>; 3] =
-            [|views| Ok(shift_table::measure(views)), steps::measure, precision::measure];
-        for measure in others {
-            if !stop.load(Ordering::Relaxed) {
-                add(measure(&views)?);
-            }
+        if !stop.load(Ordering::Relaxed) {
+            add(shift_table::measure(&views));
+        }
+        if !stop.load(Ordering::Relaxed) {
+            add(steps::measure(&views)?);
+        }
+        if !stop.load(Ordering::Relaxed) {
+            add(precision::measure(&views)?);
         }
     }
     if stop.load(Ordering::Relaxed) {

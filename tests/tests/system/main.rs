@@ -1,4 +1,5 @@
 //! Laws that hold for the whole system, from a scene to a pixel: a module each, in one binary.
+#![allow(clippy::print_stdout, reason = "a test prints what it measured")]
 
 mod aberration_twin;
 mod adaptive;

@@ -77,7 +77,7 @@ impl Developer {
         );
     }
 
-    /// Adapts an eye to a picture. [`Display::show`] then shows radiance as that eye sees it.
+    /// Adapts an eye to a picture. [`Developer::show`] then shows radiance as that eye sees it.
     pub fn adapt(
         &self,
         gpu: &Gpu,

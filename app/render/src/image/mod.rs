@@ -8,7 +8,7 @@
 //! texels does not grow with the speed; the number of panes does, slowly.
 //!
 //! Moving bodies are not in the map, since light left them at other times than the light from behind them along the
-//! same line. They are drawn over the bent map as polygons ([`Movers`]); the map's depth, bent as well, decides what
+//! same line. They are drawn over the bent map as polygons ([`MovingParts`]); the map's depth, bent as well, decides what
 //! hides what. Glass at rest has no depth: bodies that move behind it are drawn over it.
 
 mod atlas;

@@ -48,7 +48,7 @@ impl ObservedBody {
     ///
     /// *Equation:* D = D_observer / D_source, each γ + u·n with n in the world towards the source.
     ///
-    /// *Accuracy:* 1e-9, and far better (tests/tests/animated.rs).
+    /// *Accuracy:* 1e-9, and far better (tests/tests/system/animated.rs).
     pub fn seen(&self, place: DVec3) -> Option<SeenPoint> {
         let found = retarded(self.observer.event, &self.animated.point(place)).ok()?;
         let towards = found.position - self.observer.event.position;
