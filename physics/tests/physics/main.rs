@@ -1,4 +1,5 @@
 //! The tests of the crate's public interface: a module a subject.
+#![allow(clippy::print_stdout, reason = "a test prints what it measured")]
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 mod apparent;
