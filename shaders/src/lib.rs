@@ -1,7 +1,7 @@
 //! WGSL and its Rust mirror: the structs that both sides share, the constants, and the sources. No GPU here.
 //!
 //! Rust owns every constant and writes the WGSL for it, so no number is typed twice. A struct shared with a shader has
-//! the same name, fields and order in both; `tests/shaders/mirror.rs` compares each offset and size by naga's
+//! the same name, fields and order in both; `shaders/tests/shaders/mirror.rs` compares each offset and size by naga's
 //! reflection and validates every module.
 //!
 //! A module is a list of files from `wgsl/`, concatenated: [`Module::source`].

@@ -35,8 +35,8 @@ pub struct Scene {
     pub light: Lighting,
     /// Lamps at rest in the world; only the ray tracer draws them.
     pub lamps: Vec<Lamp>,
-    /// Spectrum of [`Scene::light`]: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum of
-    /// the colours themselves.
+    /// Spectrum of [`Scene::light`]: the radiance of a white surface on which light of colour 1 falls. `None`: spectrum
+    /// of the colours themselves.
     pub illuminant: Option<Spectrum>,
     /// Luminance that is shown as white at rest, cd/m². `None`: luminance of the brightest spectrum at rest; 1 if
     /// there is no spectrum.

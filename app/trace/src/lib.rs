@@ -5,8 +5,8 @@
 //! meshes that moves uniformly. In that frame nothing moves. Light therefore travels along a straight line from a body
 //! that does not change its place, and a hierarchy of boxes finds the first triangle on the way (`bodies`,
 //! `triangles`). Hits in several frames are compared by their distance in the observer's frame, which along one sight
-//! line also orders the times at which the light left. The surface there emits what its material, sun and sky make it emit in its own frame (`surface`);
-//! the observer sees it shifted and brightened (`light`).
+//! line also orders the times at which the light left. The surface there emits what its material, sun and sky make it
+//! emit in its own frame (`surface`); the observer sees it shifted and brightened (`light`).
 //!
 //! Mirrors and glass turn a ray in the frame in which they rest (`path`, `finish`). A lens and a shutter spread a
 //! pixel's rays over places and moments (`lens`).

@@ -8,8 +8,8 @@
 //! texels does not grow with the speed; the number of panes does, slowly.
 //!
 //! Moving bodies are not in the map, since light left them at other times than the light from behind them along the
-//! same line. They are drawn over the bent map as polygons ([`MovingParts`]); the map's depth, bent as well, decides what
-//! hides what. Glass at rest has no depth: bodies that move behind it are drawn over it.
+//! same line. They are drawn over the bent map as polygons ([`MovingParts`]); the map's depth, bent as well, decides
+//! what hides what. Glass at rest has no depth: bodies that move behind it are drawn over it.
 
 mod atlas;
 mod atlas_tiles;

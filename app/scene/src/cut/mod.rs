@@ -1,10 +1,10 @@
 //! A scene cut for one observer: as finely as the observer's pictures need, and no finer.
 //!
-//! [`crate::refine`] cuts every edge to one length. Here an edge is cut where straight lines would leave the curve
-//! that light draws by more than a part of a pixel (W 7.2 left this as future work). The decision depends on the edge
-//! and its observer alone: [`physics::interpolation_error::TriangleInterpolation::bound`] of an edge bounds the error of every triangle of which it is
-//! the longest edge, inside too. Two triangles that share an edge therefore cut it alike, whatever mesh they belong
-//! to, and a triangle with no edge left to cut is accurate everywhere.
+//! [`crate::refine`] cuts every edge to one length. Here an edge is cut where straight lines would leave the curve that
+//! light draws by more than a part of a pixel (W 7.2 left this as future work). The decision depends on the edge and
+//! its observer alone: [`physics::interpolation_error::TriangleInterpolation::bound`] of an edge bounds the error of
+//! every triangle of which it is the longest edge, inside too. Two triangles that share an edge therefore cut it alike,
+//! whatever mesh they belong to, and a triangle with no edge left to cut is accurate everywhere.
 //!
 //! Beside the picture more error is allowed: as much as the distance from the picture, so that nothing drawn wrongly
 //! strays into it.
