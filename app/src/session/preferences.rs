@@ -106,7 +106,7 @@ impl Preferences {
         let Dial { renderer, edge, transform, tolerance, map_scale } = preferences.ride;
         if renderer == RendererName::Raytrace {
             return Err(
-                "renderer is \"raytrace\", which a ride cannot wait for: expected auto, polygon or image".to_owned()
+                "renderer is \"raytrace\", which is too slow for a ride: expected auto, polygon or image".to_owned()
             );
         }
         let limits = [

@@ -4,7 +4,8 @@
 //! nodes have all digits of the file. One pass over the text gives everything.
 
 use ::gltf::json::{self, Extras, Index};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// JSON of a glTF file. Indices in it are not yet checked.
 #[derive(Default, Deserialize, Serialize)]
@@ -63,19 +64,32 @@ pub(crate) struct NodeJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) weights: Option<Vec<f32>>,
     /// Matrix of the transform to the parent's frame, column by column.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
     pub(crate) matrix: Option<[f64; 16]>,
     /// Translation, metres.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
     pub(crate) translation: Option<[f64; 3]>,
     /// Rotation, a quaternion x, y, z, w.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
     pub(crate) rotation: Option<[f64; 4]>,
     /// Scale factors.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
     pub(crate) scale: Option<[f64; 3]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) extensions: Option<json::extensions::scene::Node>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) extras: Extras,
+}
+
+/// Numbers of a transform, with all their digits, in the range of single precision: glTF knows no larger numbers, and
+/// a larger one would take a mesh where nothing can be seen.
+fn single_range<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<Option<[f64; N]>, D::Error>
+where
+    [f64; N]: Deserialize<'de>,
+{
+    let numbers = Option::<[f64; N]>::deserialize(deserializer)?;
+    match numbers.iter().flatten().find(|&&number| !(number as f32).is_finite()) {
+        Some(number) => Err(D::Error::custom(format!("number {number:e} is out of range"))),
+        None => Ok(numbers),
+    }
 }
