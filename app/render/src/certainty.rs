@@ -220,7 +220,7 @@ impl Certainty {
         format!("±{}", arcminutes(self.error_rad()))
     }
 
-    /// Notice for a picture whose error is above [`NOTICED_PX`].
+    /// Notice for a picture whose error is above `NOTICED_PX`.
     pub fn notice(&self) -> Option<String> {
         (self.error_px() > NOTICED_PX).then(|| self.sentence())
     }

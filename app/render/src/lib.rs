@@ -1,6 +1,6 @@
 //! From a scene and an observer to radiance, and from radiance to a picture.
 //!
-//! [`polygon`] draws the photo-surface with ordinary rasterisation, [`image`] bends a map of the world pixel by
+//! `polygon` draws the photo-surface with ordinary rasterisation, `image` bends a map of the world pixel by
 //! pixel; both draw the same [`world`], and [`SceneRenderer`] draws a scene by either of them. All draw into a
 //! [`target::Radiance`] target of linear values, which [`display`] turns into pixels. The crate `trace` follows
 //! single rays on the CPU, for reference.

@@ -52,7 +52,7 @@ struct Bindings {
 
 /// Settings of a draw.
 pub struct Draws<'a> {
-    /// Positions to draw: x, y and z streams, and one of log2 D if anything is animated, [`stream_stride`] bytes
+    /// Positions to draw: x, y and z streams, and one of log2 D if anything is animated, `stream_stride` bytes
     /// apart. `None` stands for the world's own positions, relative to its origin.
     pub streams: Option<&'a wgpu::Buffer>,
     /// True if the vertex stage bends the vertices that the streams do not hold.
