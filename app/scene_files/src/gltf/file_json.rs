@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 /// JSON of a glTF file. Indices in it are not yet checked.
 #[derive(Default, Deserialize, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", expecting = "an object")]
 pub(crate) struct GltfJson {
     pub(crate) asset: json::Asset,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -50,6 +50,7 @@ pub(crate) struct GltfJson {
 
 /// Node with all digits of its transform.
 #[derive(Default, Deserialize, Serialize)]
+#[serde(expecting = "an object")]
 pub(crate) struct NodeJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) name: Option<String>,

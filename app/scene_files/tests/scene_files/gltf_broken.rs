@@ -48,6 +48,7 @@ fn contradictions_are_named_with_their_place() {
         assert!(words.iter().all(|word| error.contains(word)), "{words:?} are not in: {error}");
     };
     refused(|file| file.json["nodes"][0]["mesh"] = json!(5), &["nodes[0].mesh", "no number 5 among 1"]);
+    refused(|file| file.json["nodes"][0] = json!([]), &["expected an object"]);
     refused(|file| file.json["nodes"][0]["translation"] = json!([0, 1e39, 0]), &["1e39 is out of range"]);
     refused(|file| file.json["nodes"][0]["rotation"] = json!([0, 0, 0, -1e300]), &["-1e300 is out of range"]);
     refused(|file| file.json["scene"] = json!(3), &["at scene", "no number 3"]);
