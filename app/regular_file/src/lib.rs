@@ -1,6 +1,10 @@
 //! Regular files only, up to a bound. A path that a user or a file names may lead to a pipe, a device or a folder, and
 //! reading one of these would never end.
 
+mod budget;
+
+pub use budget::{Budget, OverBudget};
+
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
