@@ -14,15 +14,16 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 17] = [
+const PLAN: [(&str, &[&str]); 18] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
     ("regular_file", &[]),
+    ("decoders", &["regular_file"]),
     ("input", &["regular_file"]),
     ("view", &["physics"]),
     ("scene", &["physics", "view"]),
-    ("scene_files", &["physics", "regular_file", "scene"]),
+    ("scene_files", &["decoders", "physics", "regular_file", "scene"]),
     ("built_in", &["physics", "scene"]),
     ("room", &["regular_file", "view"]),
     ("trace", &["physics", "scene", "shaders", "view"]),
