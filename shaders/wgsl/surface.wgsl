@@ -44,7 +44,8 @@ struct Vertex {
     @location(2) z: f32,
     @location(3) world: vec3<f32>,
     @location(4) normal: vec3<f32>,
-    @location(5) uv: vec2<f32>,
+    // Texture coordinates of the base colour, then of the emission.
+    @location(5) uv: vec4<f32>,
     @location(6) colour: vec4<f32>,
 }
 
@@ -52,7 +53,7 @@ struct Fragment {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(2) uv: vec2<f32>,
+    @location(2) uv: vec4<f32>,
     @location(3) colour: vec4<f32>,
 }
 
@@ -71,7 +72,7 @@ struct AnimatedFragment {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(2) uv: vec2<f32>,
+    @location(2) uv: vec4<f32>,
     @location(3) colour: vec4<f32>,
     @location(4) log2_doppler: f32,
 }
@@ -128,10 +129,10 @@ fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -
 
 // Radiance, weights or position that a fragment shows.
 fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
-    let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv);
+    let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv.xy);
     var emitted = vec3(0.0);
     if (EMISSIVE) {
-        emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv).rgb;
+        emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv.zw).rgb;
     }
     // A shader that may discard is run for hidden fragments as well: only masked materials do.
     if (MASKED && base.a < material.emissive.w) {

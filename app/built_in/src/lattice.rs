@@ -65,7 +65,7 @@ impl Lattice {
                 sun: [0.0; 3],
                 ..Default::default()
             },
-            start: Start { position: DVec3::new(0.0, 0.0, f64::from(self.spacing) / 2.0), look: DVec3::NEG_Z },
+            start: Start { position: DVec3::new(0.0, 0.0, f64::from(self.spacing) / 2.0), ..Start::default() },
             ..Default::default()
         }
     }

@@ -95,7 +95,7 @@ impl Ride {
         let setup = Setup {
             light_speed,
             kind: VehicleKind::Bicycle,
-            start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0]),
+            start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0], DVec3::Y),
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         };

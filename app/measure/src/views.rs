@@ -39,7 +39,7 @@ fn evenly<T>(all: &[T], count: usize) -> impl Iterator<Item = &T> {
 pub fn along_circuit(scene: &Scene, count: u32) -> Vec<Shot> {
     let pose = |number: u32| {
         let (place, ahead) = match scene.circuit.len() {
-            0 => (scene.start.position, scene.start.look),
+            0 => (scene.start.eye() - DVec3::Y * EYE_HEIGHT_M, scene.start.look),
             corners => {
                 let at = number as usize * corners / count as usize;
                 let (here, next) = (scene.circuit[at], scene.circuit[(at + 1) % corners]);

@@ -4,8 +4,9 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use physics::Celerity;
 use view::Camera;
 
-/// Distance in front of the eye, at rest, within which nothing is drawn, metres.
-pub const NEAR_M: f64 = 0.02;
+/// Distance in front of the eye, at rest, within which nothing is drawn, metres. Reversed depth has the same relative
+/// precision whatever it is, so it is small enough for jewels.
+pub const NEAR_M: f64 = 1e-5;
 
 /// View uniforms of one picture, for the shaders.
 ///

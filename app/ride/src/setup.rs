@@ -42,11 +42,12 @@ pub struct RideStart {
 }
 
 impl RideStart {
-    /// Start at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far up as that
-    /// allows.
-    pub fn at_rest(position: DVec3, look: DVec3) -> Self {
+    /// Start at rest at `position`, with the nose along `look` (any length, not zero) and the roof as far towards `up`
+    /// as that allows.
+    pub fn at_rest(position: DVec3, look: DVec3, up: DVec3) -> Self {
         let nose = look.normalize_or(DVec3::NEG_Z);
-        let sideways = if nose.y.abs() > 0.999 { DVec3::NEG_Z } else { DVec3::Y };
+        let up = up.normalize_or(DVec3::Y);
+        let sideways = if nose.dot(up).abs() > 0.999 { nose.any_orthonormal_vector() } else { up };
         let right = nose.cross(sideways).normalize();
         let orientation = DQuat::from_mat3(&glam::DMat3::from_cols(right, right.cross(nose), -nose)).normalize();
         Self { position: position.to_array(), celerity: [0.0; 3], orientation: orientation.to_array() }
@@ -186,7 +187,7 @@ mod tests {
         Setup {
             light_speed: LightSpeed::OLD_TOWN,
             kind: VehicleKind::Drive,
-            start: RideStart::at_rest(DVec3::new(0.1, 1.0 / 3.0, -7e6), DVec3::new(1.0, 0.2, 0.3)),
+            start: RideStart::at_rest(DVec3::new(0.1, 1.0 / 3.0, -7e6), DVec3::new(1.0, 0.2, 0.3), DVec3::Y),
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         }
@@ -213,7 +214,7 @@ mod tests {
     #[test]
     fn the_nose_points_along_the_look() {
         for look in [DVec3::X, DVec3::NEG_Z, DVec3::Y, DVec3::NEG_Y, DVec3::new(3.0, -4.0, 0.5)] {
-            let state = RideStart::at_rest(DVec3::ZERO, look).state().unwrap();
+            let state = RideStart::at_rest(DVec3::ZERO, look, DVec3::Y).state().unwrap();
             assert!((state.orientation * DVec3::NEG_Z - look.normalize()).length() < 1e-15, "{look}");
         }
     }

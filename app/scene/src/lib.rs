@@ -27,7 +27,7 @@ pub use lamp::{Lamp, Lamplight, Spot};
 pub use lighting::{Lighting, Panorama};
 pub use material::{Alpha, Material, Texture, Wrap};
 pub use mesh::Mesh;
-pub use scene::{MAX_SPECTRA, MAX_TRIANGLES, Scene, Start};
+pub use scene::{MAX_SPECTRA, MAX_TRIANGLES, Scene, Start, ViewCamera};
 pub use speed_limit::{Fastest, TooFast};
 pub use surroundings::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};
 pub use validate::SceneFault;

@@ -1,6 +1,7 @@
 //! Surfaces and the pictures on them.
 
 use physics::colour::Spectrum;
+use std::sync::Arc;
 
 /// Surface and how it sends out light in the world frame (glTF's metallic–roughness model, diffuse part).
 #[derive(Clone, Debug, PartialEq)]
@@ -86,8 +87,8 @@ pub struct Texture {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Pixels: `width * height` times four bytes, R, G, B, A.
-    pub rgba: Vec<u8>,
+    /// Pixels: `width * height` times four bytes, R, G, B, A. Textures with the same picture share them.
+    pub rgba: Arc<Vec<u8>>,
     /// Continuation beyond 0…1 along u and along v.
     pub wrap: [Wrap; 2],
     /// True if the texture is sampled without filtering when magnified.

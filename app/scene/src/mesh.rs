@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 /// Mesh of triangles that have one material.
 ///
-/// All vertex arrays have the same length; `indices` has a multiple of three entries, each below that length.
+/// All vertex arrays have the same length, or none (`emissive_uvs`); `indices` has a multiple of three entries, each below that length.
 /// Front faces are counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -20,6 +20,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, origin at the picture's upper left (glTF).
     pub uvs: Vec<Vec2>,
+    /// Texture coordinates of the emissive texture; empty if they are `uvs`.
+    pub emissive_uvs: Vec<Vec2>,
     /// Linear colours and opacities of the vertices, multiplied into the base colour.
     pub colours: Vec<[f32; 4]>,
     /// Indices of vertices, three per triangle.
@@ -28,4 +30,11 @@ pub struct Mesh {
     pub solid: bool,
     /// Index into [`Scene::motions`](crate::Scene::motions); `None` if the mesh rests in the world.
     pub motion: Option<usize>,
+}
+
+impl Mesh {
+    /// Texture coordinates of a vertex for the emissive texture.
+    pub fn emissive_uv(&self, vertex: usize) -> Vec2 {
+        self.emissive_uvs.get(vertex).copied().unwrap_or_else(|| self.uvs[vertex])
+    }
 }

@@ -34,7 +34,7 @@ pub fn mipmap(texture: &Texture) -> Vec<Level> {
     if texture.width == 0 || texture.height == 0 {
         return Vec::new();
     }
-    let mut levels = vec![Level { width: texture.width, height: texture.height, rgba: texture.rgba.clone() }];
+    let mut levels = vec![Level { width: texture.width, height: texture.height, rgba: texture.rgba.to_vec() }];
     let mut picture = Linear::from_srgb(texture);
     while picture.width > 1 || picture.height > 1 {
         picture = picture.half();
@@ -137,7 +137,8 @@ mod tests {
 
     fn texture(width: u32, height: u32, rgba: Vec<u8>) -> Texture {
         assert_eq!(rgba.len(), (width * height * 4) as usize);
-        Texture { name: String::new(), width, height, rgba, wrap: Default::default(), nearest: false }
+        let wrap = Default::default();
+        Texture { name: String::new(), width, height, rgba: rgba.into(), wrap, nearest: false }
     }
 
     #[test]

@@ -45,6 +45,11 @@ pub struct Scene {
     pub panorama: Option<Panorama>,
     /// Starting place and view of an observer.
     pub start: Start,
+    /// Places from which the scene's own cameras see it; the first that is perspective decides [`Scene::start`], unless
+    /// the scene itself does.
+    pub cameras: Vec<ViewCamera>,
+    /// Speed of light that suits the scene's size, m/s, if the scene is of no particular one.
+    pub speed_of_light_m_s: Option<f64>,
     /// Closed route round the scene (world metres, on the ground) that the built-in tour follows; empty if there is
     /// none.
     pub circuit: Vec<DVec3>,
@@ -55,16 +60,50 @@ pub struct Scene {
 /// Starting place of an observer and first direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// Point on the ground, world metres.
+    /// Point on the ground, or the eye itself if `eye_height_m` is 0; world metres.
     pub position: DVec3,
     /// Direction of view, unit vector, world axes.
     pub look: DVec3,
+    /// Direction that is up in the picture, unit vector, world axes; not along `look`.
+    pub up: DVec3,
+    /// Height of the eye above `position`, metres; 0 for an eye in mid-air.
+    pub eye_height_m: f64,
+    /// Vertical field of view, radians; `None` for the program's own.
+    pub field_of_view_rad: Option<f64>,
 }
 
 impl Default for Start {
+    /// Standing visitor at the origin who looks along −z.
     fn default() -> Self {
-        Self { position: DVec3::ZERO, look: DVec3::NEG_Z }
+        Self {
+            position: DVec3::ZERO,
+            look: DVec3::NEG_Z,
+            up: DVec3::Y,
+            eye_height_m: view::EYE_HEIGHT_M,
+            field_of_view_rad: None,
+        }
     }
+}
+
+impl Start {
+    /// Place of the eye, world metres.
+    pub fn eye(&self) -> DVec3 {
+        self.position + DVec3::Y * self.eye_height_m
+    }
+
+    /// True if the observer stands on the ground, false for an eye in mid-air.
+    pub fn is_on_ground(&self) -> bool {
+        self.eye_height_m > 0.0
+    }
+}
+
+/// Place from which a camera of the scene sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewCamera {
+    /// Name from the file.
+    pub name: String,
+    /// Place and view of its eye.
+    pub start: Start,
 }
 
 impl Scene {

@@ -127,7 +127,8 @@ impl Animated {
         let tracks = keyed().flat_map(|keyed| {
             let of_translation = keyed.translation.keys().map(|keys| (keys.times_s(), keys.period_s()));
             let of_rotation = keyed.rotation.keys().map(|keys| (keys.times_s(), keys.period_s()));
-            [of_translation, of_rotation].into_iter().flatten()
+            let of_scale = keyed.scale.keys().map(|keys| (keys.times_s(), keys.period_s()));
+            [of_translation, of_rotation, of_scale].into_iter().flatten()
         });
         let tracks: Vec<(&[f64], Option<f64>)> = tracks.collect();
         let ends = tracks.iter().flat_map(|(times, _)| [times[0], times[times.len() - 1]]);

@@ -87,6 +87,9 @@ impl Scene {
             if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
                 return Some(format!("mesh \"{name}\" has vertex arrays of different lengths"));
             }
+            if ![0, count].contains(&mesh.emissive_uvs.len()) {
+                return Some(format!("mesh \"{name}\" has {} emissive texture coordinates", mesh.emissive_uvs.len()));
+            }
             if !mesh.indices.len().is_multiple_of(3) {
                 return Some(format!("mesh \"{name}\" has {} indices, not three per triangle", mesh.indices.len()));
             }

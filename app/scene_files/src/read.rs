@@ -1,6 +1,6 @@
 //! Scene from a file of any kind.
 
-use crate::gltf::{self, GltfError};
+use crate::gltf::{self, GltfError, ReadRules};
 use crate::panorama::{self, PanoramaError};
 use scene::Scene;
 use std::path::Path;
@@ -20,6 +20,10 @@ pub enum SceneReadError {
 ///
 /// # Errors
 /// [`SceneReadError`], with the fault and its place.
-pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, SceneReadError> {
-    if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
+pub fn read(
+    path: &Path,
+    rules: ReadRules<'_>,
+    progress: impl Fn(gltf::Progress) + Sync,
+) -> Result<Scene, SceneReadError> {
+    if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, rules, progress)?) }
 }

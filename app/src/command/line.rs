@@ -13,6 +13,7 @@ use super::measure::MeasureOptions;
 use super::render::RenderOptions;
 use super::ride::RideOptions;
 use super::values;
+use super::world::ReadingOptions;
 
 /// Move through a world in which light is slow, and see it as it would really look.
 #[derive(Debug, Parser)]
@@ -93,6 +94,12 @@ pub struct CheckOptions {
     /// recordings (.mcap).
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
+    /// Print one JSON object per file instead of text.
+    #[arg(long)]
+    pub json: bool,
+    /// Options of reading the files.
+    #[command(flatten)]
+    pub reading: ReadingOptions,
 }
 
 /// Reason why there is no command to run.

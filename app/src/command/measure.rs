@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::world::SceneChoice;
-use super::{values, world};
+use super::values;
+use super::world::WorldOptions;
 use measure::choice::Goal;
 
 /// Options of `rapidity measure`.
@@ -14,7 +14,7 @@ use measure::choice::Goal;
 pub struct MeasureOptions {
     /// Print the errors of the physics instead: at extreme speeds, distances and steps, compared with 180 digits, as
     /// in ACCURACY.md. This takes minutes.
-    #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "speed_of_light", "replay", "budget", "tolerance"])]
+    #[arg(long, conflicts_with_all = ["size", "poses", "rounds", "out", "plot", "scene", "camera", "speed_of_light", "replay", "budget", "tolerance"])]
     pub extremes: bool,
     /// Measure frames of a ride. Later rides are drawn with the smallest error for which 95 of 100 frames keep to
     /// this time, as in 16.7ms.
@@ -39,12 +39,9 @@ pub struct MeasureOptions {
     /// File for a plot of the renderers' table: .svg or .png.
     #[arg(long, value_name = "FILE", value_parser = values::plot())]
     pub plot: Option<PathBuf>,
-    /// Scene: `town`, `spectra` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
-    #[arg(long, value_name = "SCENE", default_value = "town", value_parser = world::scene())]
-    pub scene: SceneChoice,
-    /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
-    #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
-    pub speed_of_light: f64,
+    /// Options of the world.
+    #[command(flatten)]
+    pub world: WorldOptions,
     /// Take the poses from a recorded ride, evenly along it, in its scene and with its speed of light [default: along
     /// the scene's circuit, at 0.5 to 0.99 c].
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), conflicts_with = "speed_of_light")]

@@ -32,7 +32,7 @@ pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
 pub use room::RoomOptions;
 pub use values::{Output, ValueError};
-pub use world::{SceneChoice, WorldOptions};
+pub use world::{ReadingOptions, SceneChoice, WorldOptions};
 
 #[cfg(test)]
 mod tests;

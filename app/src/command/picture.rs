@@ -2,6 +2,7 @@
 
 use clap::Args;
 use render::display::{Development, Exposure, Gamut, Tone};
+use scene::Start;
 use view::Effects;
 
 use super::values;
@@ -13,9 +14,9 @@ pub struct PictureOptions {
     /// Width and height of the picture or of the window, pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
-    /// Vertical field of view, degrees, 1 to 170.
-    #[arg(long, value_name = "DEGREES", default_value = "60", value_parser = values::within(1.0, 170.0))]
-    pub fov: f64,
+    /// Vertical field of view, degrees, 1 to 170 [default: that of the scene's camera, else 60].
+    #[arg(long, value_name = "DEGREES", value_parser = values::within(1.0, 170.0))]
+    pub fov: Option<f64>,
     /// Samples per pixel for antialiasing, 1 to 64; with 1, a pixel has the colour along its centre ray.
     #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,
@@ -47,7 +48,15 @@ pub struct PictureOptions {
     pub threads: Option<u32>,
 }
 
+/// Vertical field of view of a picture of which nothing else is said, degrees.
+const FOV_DEGREES: f64 = 60.0;
+
 impl PictureOptions {
+    /// Vertical field of view in degrees: the given one, else that of the start.
+    pub fn fov_deg(&self, start: &Start) -> f64 {
+        self.fov.unwrap_or(start.field_of_view_rad.map_or(FOV_DEGREES, f64::to_degrees))
+    }
+
     /// Development of radiance into the picture.
     pub fn development(&self) -> Development {
         Development { exposure: self.exposure, tone: self.tone, gamut: self.gamut }

@@ -12,6 +12,7 @@ use super::rays::RayOptions;
 use super::room::RoomOptions;
 use super::values::{self, Output};
 use super::world::WorldOptions;
+use scene::Start;
 use view::RendererName;
 
 /// Pictures per second of a film without `--fps`.
@@ -73,10 +74,9 @@ pub struct Viewpoint {
     /// Direction of view in the observer's frame, normalised [default: the scene's start].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::direction)]
     pub look: Option<DVec3>,
-    /// Direction that is up in the picture, normalised.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0,1,0")]
-    #[arg(value_parser = values::direction)]
-    pub up: DVec3,
+    /// Direction that is up in the picture, normalised [default: the scene's start, else 0,1,0].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::direction)]
+    pub up: Option<DVec3>,
     /// Velocity of the observer as celerity, gamma times v/c, world axes [default: at rest].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::celerity)]
     celerity: Option<Celerity>,
@@ -87,6 +87,11 @@ pub struct Viewpoint {
 }
 
 impl Viewpoint {
+    /// Direction that is up in the picture. That of the start belongs to the start's direction of view.
+    pub fn up(&self, start: &Start) -> DVec3 {
+        self.up.unwrap_or(if self.look.is_none() { start.up } else { DVec3::Y })
+    }
+
     /// Velocity of the observer, world axes.
     pub fn celerity(&self) -> Celerity {
         self.celerity.or(self.beta).unwrap_or_default()
@@ -123,7 +128,7 @@ impl RenderOptions {
             }
         }
         let Viewpoint { look, up, .. } = self.viewpoint;
-        if look.is_some_and(|look| look.cross(up).length() < PARALLEL) {
+        if look.is_some_and(|look| look.cross(up.unwrap_or(DVec3::Y)).length() < PARALLEL) {
             return Err("--up must not be parallel to --look; give another --up (its default is 0,1,0)".to_owned());
         }
         if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {

@@ -123,9 +123,9 @@ impl RideOptions {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "Vehicle")]
 pub struct VehicleOptions {
-    /// Vehicle that carries the observer.
-    #[arg(long, value_enum, default_value = "bicycle")]
-    pub vehicle: VehicleName,
+    /// Vehicle that carries the observer [default: bicycle; fly in a scene without a floor to ride on].
+    #[arg(long, value_enum)]
+    pub vehicle: Option<VehicleName>,
     /// Method of integrating the worldline.
     #[arg(long, value_enum, default_value = "rk4")]
     pub integrator: IntegratorKind,

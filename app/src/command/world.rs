@@ -7,6 +7,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::values;
+use regular_file::Budget;
 
 /// Scene that is shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -52,9 +53,35 @@ pub struct WorldOptions {
     /// .hdr, .exr).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
     pub scene: SceneChoice,
-    /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
-    #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
-    pub speed_of_light: f64,
+    /// Camera of the scene's file from which it is seen at the start, by its name, or by its number from 1
+    /// [default: the first perspective one]. `rapidity check` lists them.
+    #[arg(long, value_name = "NAME|N")]
+    pub camera: Option<String>,
+    /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s)
+    /// [default: 30 km/h; for a file, a speed that crosses the scene in about five seconds].
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, value_parser = values::speed)]
+    pub speed_of_light: Option<f64>,
+    /// Options of reading the scene's file.
+    #[command(flatten)]
+    pub reading: ReadingOptions,
+}
+
+/// Options of reading files.
+#[derive(Args, Clone, Copy, Debug, PartialEq)]
+pub struct ReadingOptions {
+    /// Memory that a file may take when it is read, GB.
+    #[arg(long, value_name = "GB", default_value = "3", value_parser = values::positive)]
+    pub limit: f64,
+    /// Allow a scene's file to refer to files outside its folder.
+    #[arg(long)]
+    pub trust: bool,
+}
+
+impl ReadingOptions {
+    /// Budget of memory.
+    pub fn budget(&self) -> Budget {
+        Budget::new((self.limit * 1e9) as u64)
+    }
 }
 
 pub(super) fn scene() -> impl TypedValueParser<Value = SceneChoice> {

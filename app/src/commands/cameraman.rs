@@ -35,6 +35,8 @@ pub struct Cameraman<'gpu> {
     maker: Maker,
     studio: Studio,
     options: PictureOptions,
+    /// Vertical field of view, degrees.
+    fov_deg: f64,
     dial: Dial,
 }
 
@@ -45,6 +47,7 @@ impl<'gpu> Cameraman<'gpu> {
     /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the
     /// scene too finely.
     pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, dial: Dial) -> Result<Self, Error> {
+        let fov_deg = options.fov_deg(&scene.start);
         let limit = largest_side(gpu);
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
@@ -58,7 +61,8 @@ impl<'gpu> Cameraman<'gpu> {
             let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
             spinner.finish_and_clear();
             let studio = Studio::new(gpu, options.size, 1);
-            return Ok(Self { gpu, maker: Maker::Traced(Box::new(tracer)), studio, options: options.clone(), dial });
+            let maker = Maker::Traced(Box::new(tracer));
+            return Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial });
         }
         let spinner = progress::cutting(dial);
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
@@ -69,7 +73,8 @@ impl<'gpu> Cameraman<'gpu> {
         let studio = Studio::new(gpu, options.size, options.samples);
         gpu.wait()?;
         spinner.finish_and_clear();
-        Ok(Self { gpu, maker: Maker::Drawn(Box::new(renderer)), studio, options: options.clone(), dial })
+        let maker = Maker::Drawn(Box::new(renderer));
+        Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial })
     }
 
     /// Adds a lens, a shutter and mirrors, if this cameraman traces rays. `speed_of_light`: metres per second.
@@ -103,7 +108,7 @@ impl<'gpu> Cameraman<'gpu> {
     /// A lost device, or a place that cannot be written.
     pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         let pending = self.submit(&gaze)?;
-        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let shot = gaze.shot(self.fov_deg, self.options.effects);
         let light = match &mut self.maker {
             Maker::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot, pending)?,
             Maker::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
@@ -175,7 +180,7 @@ impl<'gpu> Cameraman<'gpu> {
     /// off.
     fn tell_of_quality(&self, gaze: &Gaze) {
         let Maker::Drawn(renderer) = &self.maker else { return };
-        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let shot = gaze.shot(self.fov_deg, self.options.effects);
         let certainty = renderer.certainty(&shot, self.options.size);
         if certainty.error_px() > 1.0 {
             eprintln!("{}", certainty.sentence());
@@ -213,7 +218,7 @@ impl<'gpu> Cameraman<'gpu> {
     }
 
     fn take(&mut self, gaze: &Gaze, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
-        let shot = gaze.shot(self.options.fov, self.options.effects);
+        let shot = gaze.shot(self.fov_deg, self.options.effects);
         let development = self.options.development();
         Ok(match &mut self.maker {
             Maker::Drawn(renderer) => {

@@ -1,10 +1,11 @@
 //! `rapidity check`: checks scenes, displays and recordings, and reports what is wrong with them.
 
-use crate::command::CheckOptions;
+use crate::command::{CheckOptions, ReadingOptions};
 use crate::error::Error;
 use crate::output::say::say;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
+use scene_files::gltf::ReadRules;
 use scene_files::panorama;
 use std::path::Path;
 
@@ -15,7 +16,7 @@ use std::path::Path;
 pub fn check(options: &CheckOptions) -> Result<(), Error> {
     let mut bad = 0;
     for path in &options.files {
-        match report(path) {
+        match report(path, &options.reading) {
             Ok(text) => say(&format!("{}: good\n{text}", path.display()))?,
             Err(error) => {
                 bad += 1;
@@ -26,12 +27,14 @@ pub fn check(options: &CheckOptions) -> Result<(), Error> {
     if bad == 0 { Ok(()) } else { Err(Error::Checked { bad, files: options.files.len() }) }
 }
 
-fn report(path: &Path) -> Result<String, Error> {
+fn report(path: &Path, reading: &ReadingOptions) -> Result<String, Error> {
+    let budget = reading.budget();
+    let rules = ReadRules { budget: &budget, trust: reading.trust };
     match path.extension().and_then(|extension| extension.to_str()) {
-        Some("gltf" | "glb") => Ok(scene_files::check::check(path)?.to_string()),
+        Some("gltf" | "glb") => Ok(scene_files::check::check(path, rules)?.to_string()),
         Some("mcap") => Ok(recording(path)?),
         _ if room::is_display(path) => Ok(Display::load(path)?.to_string()),
-        _ if panorama::is_picture(path) => Ok(scene_files::check::check(path)?.to_string()),
+        _ if panorama::is_picture(path) => Ok(scene_files::check::check(path, rules)?.to_string()),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
 }

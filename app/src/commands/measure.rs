@@ -23,7 +23,8 @@ use crate::output::files::{WriteError, writable};
 use crate::output::progress;
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
-use crate::session::{reel, scenes};
+use crate::session::reel;
+use crate::session::scenes::{self, World};
 
 /// Pictures per second at which poses are taken from a recording.
 const LOOKED_THROUGH: f64 = 10.0;
@@ -162,12 +163,12 @@ fn accuracy() -> Result<(), Error> {
 /// Scene that is measured, and the pictures taken in it.
 fn looked_at(options: &MeasureOptions) -> Result<Views, Error> {
     let Some(recording) = &options.replay else {
-        let light_speed = LightSpeed::new(options.speed_of_light)?;
-        let scene = scenes::load(&options.scene, options.speed_of_light)?;
+        let World { scene, speed_of_light_m_s } = scenes::load(&options.world)?;
+        let light_speed = LightSpeed::new(speed_of_light_m_s)?;
         let shots = views::along_circuit(&scene, options.poses);
         return Ok(Views { scene, light_speed, shots });
     };
-    let (scene, speed_of_light_m_s, moments) = reel::reel(recording, &options.scene, LOOKED_THROUGH, None)?;
+    let (scene, speed_of_light_m_s, moments) = reel::reel(recording, &options.world, LOOKED_THROUGH, None)?;
     let light_speed = LightSpeed::new(speed_of_light_m_s)?;
     let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
     if gazes.is_empty() {

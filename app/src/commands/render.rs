@@ -10,13 +10,12 @@ use crate::error::Error;
 use crate::output::files::writable;
 use crate::session::interrupt::interrupted;
 use crate::session::reel::{self, Moment};
-use crate::session::scenes;
-use glam::DVec3;
+use crate::session::scenes::{self, World};
 use physics::{Event, Observer};
 use render::Gpu;
 use scene::Start;
 use std::path::Path;
-use view::{Camera, EYE_HEIGHT_M, Gaze, RendererName};
+use view::{Camera, Gaze, RendererName};
 
 /// Length of a film without `--seconds`, seconds of proper time.
 const FILM_SECONDS: f64 = 10.0;
@@ -38,9 +37,8 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
-    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
+    let World { scene, speed_of_light_m_s: speed_of_light } = scenes::load(&options.world)?;
     let start = scene.start;
-    let speed_of_light = options.world.speed_of_light;
     let camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
     let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
@@ -62,7 +60,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// Draws the picture or film as a recorded rider saw it.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let (scene, speed_of_light, moments) = reel::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let (scene, speed_of_light, moments) = reel::reel(recording, &options.world, rate, options.seconds)?;
     let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
     let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
@@ -78,10 +76,10 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result
 
 /// View of an observer in uniform motion, `proper_time` metres of light travel after the start.
 fn inertial(viewpoint: &Viewpoint, start: Start, proper_time: f64) -> Gaze {
-    let position = viewpoint.position.unwrap_or(start.position + DVec3::Y * EYE_HEIGHT_M);
+    let position = viewpoint.position.unwrap_or(start.eye());
     let celerity = viewpoint.celerity();
     let event = Event { ct: celerity.gamma() * proper_time, position: position + celerity.vector() * proper_time };
     let look = viewpoint.look.unwrap_or(start.look);
-    let observer_from_eye = Camera::looking(look, viewpoint.up, 1.0).observer_from_eye;
+    let observer_from_eye = Camera::looking(look, viewpoint.up(&start), 1.0).observer_from_eye;
     Gaze { observer: Observer { event, celerity }, observer_from_eye }
 }

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::output::files::{WriteError, save};
 use crate::output::progress;
 use crate::session::scenes;
+use glam::DVec3;
 use physics::Event;
 use physics::worldline::WorldlineState;
 use render::choice::Choice;
@@ -14,7 +15,7 @@ use render::{Gpu, SceneRenderer};
 use room::Display;
 use scene::Start;
 use std::path::Path;
-use view::{Camera, Dial, Occasion, RendererName};
+use view::{Camera, Dial, EYE_HEIGHT_M, Occasion, RendererName};
 use walls::preview::RoomOnlooker;
 use walls::{Occupant, Quality, Walls};
 
@@ -36,7 +37,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     }
     make_folder(folder)?;
 
-    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
+    let scene = scenes::load(&options.world)?.scene;
     let vehicle = vehicle(options, scene.start);
     let picture = &options.picture;
     let quality = Quality {
@@ -94,9 +95,9 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
 /// --look.
 fn vehicle(options: &RenderOptions, start: Start) -> WorldlineState {
     let view = &options.viewpoint;
-    let position = view.position.unwrap_or(start.position);
+    let position = view.position.unwrap_or(start.eye() - DVec3::Y * EYE_HEIGHT_M);
     let look = view.look.unwrap_or(start.look);
-    let orientation = Camera::looking(look, view.up, 1.0).observer_from_eye;
+    let orientation = Camera::looking(look, view.up(&start), 1.0).observer_from_eye;
     WorldlineState::new(Event { ct: 0.0, position }, view.celerity(), orientation)
 }
 

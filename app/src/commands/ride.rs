@@ -45,7 +45,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
 
 /// Computes a recorded ride again, and compares it bit for bit.
 fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
-    let (_, replay) = recorded(path, &options.world.scene)?;
+    let (_, replay) = recorded(path, &options.world)?;
     let spinner = progress::spinner("riding again");
     let frames = replay.verify();
     spinner.finish_and_clear();
@@ -56,11 +56,12 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
 fn begin(options: &RideOptions, head: Option<HeadConfig>) -> Result<(Scene, window::Begin), Error> {
     let seconds = options.seconds;
     if let Some(path) = &options.replay {
-        let (scene, replay) = recorded(path, &options.world.scene)?;
+        let (scene, replay) = recorded(path, &options.world)?;
         return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
     }
-    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
-    let (simulation, mut log) = prepared(options, &scene, head)?;
+    let world = scenes::load(&options.world)?;
+    let (simulation, mut log) = prepared(options, &world, head)?;
+    let scene = world.scene;
     if let Some(path) = &options.record {
         log.record(path)?;
     }

@@ -37,12 +37,13 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let (scene, moments) = match &options.replay {
         Some(recording) => {
             let rate = f64::from(FRAMES_PER_SECOND);
-            let (scene, _, moments) = reel(recording, &options.world.scene, rate, options.seconds)?;
+            let (scene, _, moments) = reel(recording, &options.world, rate, options.seconds)?;
             (scene, moments)
         }
         None => {
-            let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
-            let (simulation, mut log) = prepared(options, &scene, RideRoom::of(options)?.head)?;
+            let world = scenes::load(&options.world)?;
+            let (simulation, mut log) = prepared(options, &world, RideRoom::of(options)?.head)?;
+            let scene = world.scene;
             if let Some(path) = &options.record {
                 log.record(path)?;
             }

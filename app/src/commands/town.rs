@@ -1,10 +1,9 @@
 //! `rapidity town`: the built-in old town as a glTF file.
 
-use crate::command::{SceneChoice, TownOptions};
+use crate::command::TownOptions;
 use crate::error::Error;
 use crate::output::files::writable;
-use crate::session::scenes;
-use ride::LightSpeed;
+use built_in::town;
 use scene_files::export::write_glb;
 
 /// Carries out `rapidity town`.
@@ -13,7 +12,7 @@ use scene_files::export::write_glb;
 /// A file that cannot be written.
 pub fn town(options: &TownOptions) -> Result<(), Error> {
     writable(&options.out)?;
-    let scene = scenes::load(&SceneChoice::Town, LightSpeed::OLD_TOWN.speed_of_light_m_s())?;
+    let scene = town::build(town::TOWN_SEED);
     write_glb(&scene, &options.out)?;
     eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
     Ok(())

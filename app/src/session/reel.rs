@@ -1,6 +1,6 @@
 //! The observers of a ride at the times of a film's pictures.
 
-use crate::command::SceneChoice;
+use crate::command::WorldOptions;
 use crate::error::Error;
 use crate::output::progress;
 use crate::session::start::recorded;
@@ -27,11 +27,11 @@ pub struct Moment {
 /// A recording or a scene that cannot be read at all.
 pub fn reel(
     recording: &Path,
-    choice: &SceneChoice,
+    options: &WorldOptions,
     frames_per_second: f64,
     seconds: Option<f64>,
 ) -> Result<(Scene, f64, Vec<Moment>), Error> {
-    let (scene, mut replay) = recorded(recording, choice)?;
+    let (scene, mut replay) = recorded(recording, options)?;
     let speed_of_light = replay.simulation().setup().light_speed.speed_of_light_m_s();
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
     let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));

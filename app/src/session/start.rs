@@ -1,12 +1,11 @@
 //! The beginning of a ride: its scene, its setup, its devices, its log; or a recorded ride.
 
-use crate::command::{RideOptions, SceneChoice, VehicleName};
+use crate::command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use crate::error::Error;
 use crate::output::progress;
 use crate::session::live::Live;
-use crate::session::scenes;
+use crate::session::scenes::{self, World};
 use crate::session::tracker;
-use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
@@ -74,14 +73,14 @@ pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> R
 ///
 /// # Errors
 /// A recording or a scene that cannot be read.
-pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Error> {
+pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), Error> {
     let recording = Recording::open(path)?;
     // A scene that is named overrides the recorded one, whose file may have moved.
-    let choice = match choice {
+    let choice = match &options.scene {
         SceneChoice::Town => SceneChoice::from_name(&recording.header().scene),
         named => named.clone(),
     };
-    let scene = scenes::load(&choice, recording.header().speed_of_light_m_s)?;
+    let scene = scenes::load_recorded(&choice, &options.reading, recording.header().speed_of_light_m_s)?;
     if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
         eprintln!(
             "{}: {} is not the scene that was ridden through; expect another ride",
@@ -99,10 +98,11 @@ pub fn recorded(path: &Path, choice: &SceneChoice) -> Result<(Scene, Replay), Er
 /// Settings that cannot be used, or a scene without sound geometry.
 pub fn prepared(
     options: &RideOptions,
-    scene: &Scene,
+    world: &World,
     head: Option<HeadConfig>,
 ) -> Result<(Simulation, RideLog), Error> {
-    let setup = setup(options, scene, head)?;
+    let scene = &world.scene;
+    let setup = setup(options, world, head)?;
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     Ok((Simulation::new(setup, surroundings(scene)?)?, RideLog::new(header)))
@@ -124,20 +124,25 @@ fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
     Ok(Arc::new(collision))
 }
 
-fn setup(options: &RideOptions, scene: &Scene, head: Option<HeadConfig>) -> Result<Setup, Error> {
-    let kind = match options.vehicle.vehicle {
+fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Result<Setup, Error> {
+    let start = &world.scene.start;
+    let usual = if start.is_on_ground() { VehicleName::Bicycle } else { VehicleName::Fly };
+    let kind = match options.vehicle.vehicle.unwrap_or(usual) {
         VehicleName::Bicycle => VehicleKind::Bicycle,
         VehicleName::Drive => VehicleKind::Drive,
         VehicleName::Fly => VehicleKind::Fly,
     };
     let mut vehicle = VehicleSettings { integrator: options.vehicle.integrator, ..Default::default() };
     vehicle.flight.nose = options.vehicle.transport;
+    if start.is_on_ground() {
+        vehicle.eye_m = [0.0, start.eye_height_m, 0.0];
+    }
     // A flight begins at the eye, other rides on the ground.
-    let eye = if kind == VehicleKind::Fly { DVec3::from_array(vehicle.eye_m) } else { DVec3::ZERO };
+    let place = if kind == VehicleKind::Fly { start.eye() } else { start.position };
     Ok(Setup {
-        light_speed: LightSpeed::new(options.world.speed_of_light)?,
+        light_speed: LightSpeed::new(world.speed_of_light_m_s)?,
         kind,
-        start: RideStart::at_rest(scene.start.position + eye, scene.start.look),
+        start: RideStart::at_rest(place, start.look, start.up),
         vehicle,
         desk: DeskConfig { head, ..Default::default() },
     })

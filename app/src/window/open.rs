@@ -106,6 +106,7 @@ impl Open {
         let format = Format::fast(samples);
         let dial = options.dial(gpu.is_software());
         let spinner = progress::cutting(dial);
+        let start = scene.start;
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
         spinner.finish_and_clear();
         eprintln!("{because}, on {}", gpu.description());
@@ -135,7 +136,7 @@ impl Open {
                 look: Look {
                     effects: options.picture.effects,
                     latency: options.latency,
-                    fov_deg: options.picture.fov,
+                    fov_deg: options.picture.fov_deg(&start),
                     development: options.picture.development(),
                 },
             },

@@ -8,14 +8,14 @@ use super::bodies::Bodies;
 use super::finish::Finish;
 use super::hit::{Emission, RayHit};
 use super::light::{LightShifts, SentLight};
-use glam::{DVec3, DVec4, Vec3, Vec4};
+use glam::{DVec3, DVec4, Vec2, Vec3, Vec4};
 use physics::Observer;
 use physics::colour::luminance;
 use scene::carriers::{SceneCarriers, WHITE};
 use scene::irradiance::Irradiance;
 use scene::mipmap::linear_from_srgb;
 use scene::motion::Motion;
-use scene::{Alpha, Lamp, Lamplight, Lighting, Panorama, Scene, Texture, Wrap};
+use scene::{Alpha, Lamp, Lamplight, Lighting, Mesh, Panorama, Scene, Texture, Wrap};
 use std::f64::consts::TAU;
 
 /// Light that a scene's surfaces and its sky emit.
@@ -92,7 +92,7 @@ impl LitSurfaces {
         }
         let mut emitted = if source { DVec3::ZERO } else { rgb(material.emissive) };
         if emitted != DVec3::ZERO {
-            emitted *= self.look_up(material.emissive_texture, hit).truncate();
+            emitted *= self.look_up(material.emissive_texture, hit, Mesh::emissive_uv).truncate();
         }
         let opacity = if material.alpha == Alpha::Blend { base.w.clamp(0.0, 1.0) } else { 1.0 };
         let returned = (weights, self.carriers.materials[mesh.material]);
@@ -135,7 +135,9 @@ impl LitSurfaces {
         let material = &self.scene.materials[mesh.material];
         let [a, b, c] = hit.corners.map(|corner| Vec4::from_array(mesh.colours[corner]).as_dvec4());
         let colour = a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2];
-        Vec4::from_array(material.base_colour).as_dvec4() * colour * self.look_up(material.base_colour_texture, hit)
+        Vec4::from_array(material.base_colour).as_dvec4()
+            * colour
+            * self.look_up(material.base_colour_texture, hit, |mesh, vertex| mesh.uvs[vertex])
     }
 
     /// Irradiance of a point, by its interpolated normal on the visible side.
@@ -176,13 +178,14 @@ impl LitSurfaces {
         scene.lamps.iter().enumerate().filter_map(of).collect()
     }
 
-    fn look_up(&self, texture: Option<usize>, hit: &RayHit) -> DVec4 {
+    /// Value of a texture where a ray hits, at the texture coordinates that `uv` gives for a vertex.
+    fn look_up(&self, texture: Option<usize>, hit: &RayHit, uv: impl Fn(&Mesh, usize) -> Vec2) -> DVec4 {
         let Some(texture) = texture.map(|index| &self.scene.textures[index]).filter(|texture| !texture.rgba.is_empty())
         else {
             return DVec4::ONE;
         };
         let mesh = &self.scene.meshes[hit.mesh];
-        let [a, b, c] = hit.corners.map(|corner| mesh.uvs[corner].as_dvec2());
+        let [a, b, c] = hit.corners.map(|corner| uv(mesh, corner).as_dvec2());
         let uv = a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2];
         let (x, y) = (uv.x * f64::from(texture.width), uv.y * f64::from(texture.height));
         if texture.nearest {

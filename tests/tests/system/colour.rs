@@ -74,7 +74,7 @@ fn chart(colours: &[[f32; 3]], carrier: ColourPlace) -> Scene {
 
 fn white() -> Texture {
     let (width, height) = (4, 4);
-    Texture { name: "white".into(), width, height, rgba: vec![255; 64], wrap: [Wrap::Repeat; 2], nearest: false }
+    Texture { name: "white".into(), width, height, rgba: vec![255; 64].into(), wrap: [Wrap::Repeat; 2], nearest: false }
 }
 
 /// Chart as read back from a picture file.

@@ -177,7 +177,7 @@ fn renderers_draw_the_town_as_rays_see_it() {
     let mut scene = town::build(1);
     for texture in &mut scene.textures {
         let mean = mipmap(texture).pop().unwrap();
-        (texture.width, texture.height, texture.rgba) = (mean.width, mean.height, mean.rgba);
+        (texture.width, texture.height, texture.rgba) = (mean.width, mean.height, mean.rgba.into());
     }
     let eye = scene.start.position + DVec3::Y * 1.6;
     // The renderers' sun shadows are a map with soft edges, those of rays are exact; a fifth covers pixels that are

@@ -82,7 +82,7 @@ pub fn build() -> Scene {
         light: light(daylight),
         illuminant: Some(Spectrum::Planck { kelvin: DAYLIGHT_KELVIN }),
         white: Some(white),
-        start: Start { position: circuit[0], look: DVec3::NEG_Z },
+        start: Start { position: circuit[0], ..Start::default() },
         circuit,
         ..Scene::default()
     }

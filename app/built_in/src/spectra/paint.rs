@@ -6,6 +6,7 @@
 //! wood hardly begins to.
 
 use physics::colour::Spectrum;
+use std::sync::Arc;
 
 use scene::{Texture, Wrap};
 
@@ -86,7 +87,14 @@ pub(super) fn tiles(name: &str, count: u32, tile_codes: [u8; 2], joint_code: u8)
         if joint { joint_code } else { tile_codes[((x / tile + y / tile) % 2) as usize] }
     };
     let rgba = (0..SIDE * SIDE).flat_map(|index| [code(index), code(index), code(index), 255]).collect();
-    Texture { name: name.into(), width: SIDE, height: SIDE, rgba, wrap: [Wrap::Repeat; 2], nearest: false }
+    Texture {
+        name: name.into(),
+        width: SIDE,
+        height: SIDE,
+        rgba: Arc::new(rgba),
+        wrap: [Wrap::Repeat; 2],
+        nearest: false,
+    }
 }
 
 #[cfg(test)]

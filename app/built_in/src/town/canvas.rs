@@ -7,6 +7,7 @@
 
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2, vec2};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 use scene::{Texture, Wrap};
 
@@ -150,7 +151,8 @@ impl PaintCanvas {
                 bytes.copy_from_slice(&pixel.to_array().map(byte));
             }
         });
-        Texture { name: name.into(), width: self.width as u32, height: self.height as u32, rgba, wrap, nearest: false }
+        let (width, height) = (self.width as u32, self.height as u32);
+        Texture { name: name.into(), width, height, rgba: Arc::new(rgba), wrap, nearest: false }
     }
 }
 

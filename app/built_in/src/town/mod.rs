@@ -105,7 +105,7 @@ pub fn build(seed: u64) -> Scene {
         materials,
         meshes: builder.finish(surface::TownSurface::number),
         light: daylight(),
-        start: Start { position: circuit[0], look },
+        start: Start { position: circuit[0], look, ..Start::default() },
         circuit,
         ..Scene::default()
     }

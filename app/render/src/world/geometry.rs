@@ -22,6 +22,8 @@ pub struct Attributes {
     pub normal: [f32; 3],
     /// Texture coordinates.
     pub uv: [f32; 2],
+    /// Texture coordinates of the emissive texture.
+    pub emissive_uv: [f32; 2],
     /// Linear colour and opacity of the vertex.
     pub colour: [f32; 4],
 }
@@ -97,6 +99,7 @@ impl Prepared {
                 world: mesh.positions[i].to_array(),
                 normal: mesh.normals[i].to_array(),
                 uv: mesh.uvs[i].to_array(),
+                emissive_uv: mesh.emissive_uv(i).to_array(),
                 colour: mesh.colours[i],
             }));
         }
@@ -114,6 +117,7 @@ impl Prepared {
                 world: vertex.place.as_vec3().to_array(),
                 normal: vertex.normal.to_array(),
                 uv: vertex.uv.to_array(),
+                emissive_uv: vertex.emissive_uv.to_array(),
                 colour: vertex.colour,
             }));
         }

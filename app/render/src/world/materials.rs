@@ -31,7 +31,7 @@ impl Materials {
             name: "white".to_owned(),
             width: 1,
             height: 1,
-            rgba: vec![255; 4],
+            rgba: vec![255; 4].into(),
             wrap: [Wrap::Repeat; 2],
             nearest: false,
         };

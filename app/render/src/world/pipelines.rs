@@ -356,7 +356,8 @@ const LOG2_DOPPLER: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => F
 const ATTRIBUTES: [wgpu::VertexAttribute; 4] = [
     attribute(3, offset_of!(Attributes, world), wgpu::VertexFormat::Float32x3),
     attribute(4, offset_of!(Attributes, normal), wgpu::VertexFormat::Float32x3),
-    attribute(5, offset_of!(Attributes, uv), wgpu::VertexFormat::Float32x2),
+    // Both pairs of texture coordinates, which lie side by side.
+    attribute(5, offset_of!(Attributes, uv), wgpu::VertexFormat::Float32x4),
     attribute(6, offset_of!(Attributes, colour), wgpu::VertexFormat::Float32x4),
 ];
 

@@ -18,7 +18,7 @@ fn setup(kind: VehicleKind) -> Setup {
     Setup {
         light_speed: LightSpeed::OLD_TOWN,
         kind,
-        start: RideStart::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.0)),
+        start: RideStart::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.0), DVec3::Y),
         vehicle: VehicleSettings::default(),
         desk: DeskConfig::default(),
     }

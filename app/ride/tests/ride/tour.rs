@@ -61,7 +61,7 @@ fn setup(circuit: &[DVec3]) -> Setup {
     Setup {
         light_speed: LightSpeed::OLD_TOWN,
         kind: VehicleKind::Bicycle,
-        start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0]),
+        start: RideStart::at_rest(circuit[0], circuit[1] - circuit[0], DVec3::Y),
         vehicle: VehicleSettings::default(),
         desk: DeskConfig::default(),
     }

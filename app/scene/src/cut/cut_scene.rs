@@ -14,6 +14,8 @@ pub struct CutVertex {
     pub normal: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
+    /// Texture coordinates of the emissive texture.
+    pub emissive_uv: Vec2,
     /// Linear colour and opacity of the vertex.
     pub colour: [f32; 4],
 }

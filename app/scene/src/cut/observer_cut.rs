@@ -214,6 +214,7 @@ fn vertex(mesh: &Mesh, index: usize) -> CutVertex {
         place: mesh.positions[index].as_dvec3(),
         normal: mesh.normals[index],
         uv: mesh.uvs[index],
+        emissive_uv: mesh.emissive_uv(index),
         colour: mesh.colours[index],
     }
 }
@@ -224,6 +225,7 @@ fn between(a: &CutVertex, b: &CutVertex, place: DVec3) -> CutVertex {
         place,
         normal: (a.normal + b.normal).normalize_or(a.normal),
         uv: a.uv.midpoint(b.uv),
+        emissive_uv: a.emissive_uv.midpoint(b.emissive_uv),
         colour: std::array::from_fn(|channel| 0.5 * (a.colour[channel] + b.colour[channel])),
     }
 }

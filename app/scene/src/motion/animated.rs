@@ -40,8 +40,8 @@ pub struct Keyed {
     pub translation: Track<DVec3>,
     /// Rotation from the node's axes to its parent's.
     pub rotation: Track<DQuat>,
-    /// Scale factors, constant in time.
-    pub scale: DVec3,
+    /// Scale factors.
+    pub scale: Track<DVec3>,
 }
 
 /// Ball given by centre and radius.
@@ -85,17 +85,24 @@ impl Pose {
 }
 
 impl Keyed {
+    /// Largest magnitude of each scale factor.
+    fn largest_scale(&self) -> DVec3 {
+        let [least, most] = self.scale.bounds();
+        least.abs().max(most.abs())
+    }
+
     /// Transform at `time_s`, and its change per second.
     fn at(&self, time_s: f64) -> (DAffine3, DAffine3) {
         let (translation, velocity) = self.translation.at(time_s);
         let (rotation, turn) = self.rotation.at(time_s);
         let rotation = DMat3::from_quat(rotation);
-        let scale = DMat3::from_diagonal(self.scale);
+        let (scale, growth) = self.scale.at(time_s);
+        let [scale, growth] = [scale, growth].map(DMat3::from_diagonal);
         // Matrix [ω]×, column by column.
         let spin = DMat3::from_cols(turn.cross(DVec3::X), turn.cross(DVec3::Y), turn.cross(DVec3::Z));
         (
             DAffine3 { matrix3: rotation * scale, translation },
-            DAffine3 { matrix3: rotation * spin * scale, translation: velocity },
+            DAffine3 { matrix3: rotation * (spin * scale + growth), translation: velocity },
         )
     }
 }
@@ -159,7 +166,7 @@ impl Animated {
     pub fn stretch(&self) -> f64 {
         let of_link = |link: &ChainLink| match link {
             ChainLink::Fixed(fixed) => stretch(fixed.matrix3),
-            ChainLink::Keyed(keyed) => keyed.scale.abs().max_element(),
+            ChainLink::Keyed(keyed) => keyed.largest_scale().max_element(),
         };
         self.links.iter().map(of_link).product()
     }
@@ -172,7 +179,8 @@ impl Animated {
             }
             ChainLink::Keyed(keyed) => {
                 let [least, most] = keyed.translation.bounds();
-                let out = (keyed.scale * ball.centre).length() + keyed.scale.abs().max_element() * ball.radius;
+                let scale = keyed.largest_scale();
+                let out = (scale * ball.centre.abs()).length() + scale.max_element() * ball.radius;
                 Ball { centre: 0.5 * (least + most), radius: 0.5 * least.distance(most) + out }
             }
         })
@@ -228,15 +236,16 @@ mod tests {
             DQuat::from_rotation_y(0.4),
             DVec3::new(3.0, 0.0, 1.0),
         );
-        let keyed =
-            |translation, rotation| ChainLink::Keyed(Keyed { translation, rotation, scale: DVec3::new(1.5, 1.0, 2.0) });
+        let sizes = vec![DVec3::new(1.5, 1.0, 2.0), DVec3::new(0.5, -1.2, 2.5)];
+        let growth = TrackKeys::linear(vec![0.0, 1.0], sizes).unwrap();
+        let keyed = |translation, rotation, scale| ChainLink::Keyed(Keyed { translation, rotation, scale });
         let mut body = Animated::new(
             "body",
             vec![
                 ChainLink::Fixed(fixed),
-                keyed(Track::Keyed(way), Track::Keyed(turn)),
+                keyed(Track::Keyed(way), Track::Keyed(turn), Track::Keyed(growth)),
                 ChainLink::Fixed(fixed),
-                keyed(Track::Fixed(DVec3::Y), Track::Keyed(spin)),
+                keyed(Track::Fixed(DVec3::Y), Track::Keyed(spin), Track::Fixed(DVec3::new(1.5, 1.0, 2.0))),
             ],
         );
         body.speed_of_light_m_s = 4.0;

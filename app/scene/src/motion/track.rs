@@ -1,8 +1,12 @@
-//! Track: one quantity, a position or a rotation, as a function of time in seconds.
+//! Track: one quantity, a position, a rotation or scale factors, as a function of time in seconds.
+//!
+//! Keys are shared by all bodies that hang on them: a file may use the same ones for thousands.
 //!
 //! The interpolations are glTF's LINEAR and CUBICSPLINE (2.0, appendix C), with their derivatives. Between two linear
 //! keys a rotation turns evenly about one axis, the shorter way round (slerp), so attached points move on an exact
 //! circle. Before the first key and after the last the quantity is constant, unless the keys repeat.
+
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use thiserror::Error;
@@ -19,10 +23,10 @@ pub enum Track<V> {
 /// Values at given times, and their interpolation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackKeys<V> {
-    times_s: Vec<f64>,
-    values: Vec<V>,
+    times_s: Arc<[f64]>,
+    values: Arc<[V]>,
     /// Slopes into and out of each key, per second; `None` for linear interpolation.
-    tangents: Option<Vec<[V; 2]>>,
+    tangents: Option<Arc<[[V; 2]]>>,
     /// Start and end of the period, seconds, if the keys repeat for ever.
     repeats: Option<[f64; 2]>,
 }
@@ -84,7 +88,8 @@ impl<V: Copy> TrackKeys<V> {
                 return Err(KeyFault::Order { key });
             }
         }
-        Ok(Self { times_s, values, tangents, repeats: None })
+        let (times_s, values) = (times_s.into(), values.into());
+        Ok(Self { times_s, values, tangents: tangents.map(Into::into), repeats: None })
     }
 
     /// Times of the first key and of the last, seconds.
@@ -110,8 +115,11 @@ impl<V: Copy> TrackKeys<V> {
     /// Repeats the keys for ever with the period from `from` to `to`. The last value becomes `end`, so that both ends
     /// agree to the last bit.
     pub fn repeating(mut self, [from, to]: [f64; 2], end: V) -> Self {
-        let last = self.values.len() - 1;
-        self.values[last] = end;
+        let mut values = self.values.to_vec();
+        if let Some(last) = values.last_mut() {
+            *last = end;
+        }
+        self.values = values.into();
         self.repeats = Some([from, to]);
         self
     }
@@ -181,12 +189,10 @@ impl TrackKeys<DQuat> {
     /// [`KeyFault`].
     pub fn slerp(times_s: Vec<f64>, values: Vec<DQuat>) -> Result<Self, KeyFault> {
         let mut keys = Self::checked(times_s, values, None, |value| value.is_finite())?;
-        for (key, value) in keys.values.iter_mut().enumerate() {
-            if !value.length().is_normal() {
-                return Err(KeyFault::NoRotation { key });
-            }
-            *value = value.normalize();
+        if let Some(key) = keys.values.iter().position(|value| !value.length().is_normal()) {
+            return Err(KeyFault::NoRotation { key });
         }
+        keys.values = keys.values.iter().map(|value| value.normalize()).collect();
         Ok(keys)
     }
 
@@ -254,7 +260,7 @@ impl Track<DVec3> {
         let mut add = |value: DVec3| bounds = [bounds[0].min(value), bounds[1].max(value)];
         keys.values.iter().for_each(|value| add(*value));
         // A cubic lies within its four control points.
-        for (key, tangents) in keys.tangents.iter().flatten().enumerate() {
+        for (key, tangents) in keys.tangents.iter().flat_map(|tangents| tangents.iter()).enumerate() {
             if key + 1 < keys.values.len() {
                 add(keys.values[key] + tangents[1] * ((keys.times_s[key + 1] - keys.times_s[key]) / 3.0));
             }

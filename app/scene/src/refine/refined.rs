@@ -66,6 +66,8 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         light: scene.light,
         lamps: scene.lamps.clone(),
         start: scene.start,
+        cameras: scene.cameras.clone(),
+        speed_of_light_m_s: scene.speed_of_light_m_s,
         circuit: scene.circuit.clone(),
         notices: scene.notices.clone(),
         illuminant: scene.illuminant.clone(),
@@ -112,6 +114,9 @@ fn add_midpoint(mesh: &mut Mesh, a: u32, b: u32) -> u32 {
     mesh.positions.push(midpoint(mesh.positions[a], mesh.positions[b]));
     mesh.normals.push((mesh.normals[a] + mesh.normals[b]).normalize_or(mesh.normals[a]));
     mesh.uvs.push(mesh.uvs[a].midpoint(mesh.uvs[b]));
+    if !mesh.emissive_uvs.is_empty() {
+        mesh.emissive_uvs.push(mesh.emissive_uvs[a].midpoint(mesh.emissive_uvs[b]));
+    }
     mesh.colours.push(std::array::from_fn(|channel| 0.5 * (mesh.colours[a][channel] + mesh.colours[b][channel])));
     middle
 }

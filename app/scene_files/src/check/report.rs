@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::descriptions::{moving, spectra};
 use super::survey::Survey;
 use super::warnings::warnings;
+use crate::gltf::ReadRules;
 use crate::read::{SceneReadError, read};
 use scene::collision::Collision;
 use scene::{Scene, SceneFault};
@@ -62,8 +63,8 @@ pub struct Report {
 ///
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
-pub fn check(path: &Path) -> Result<Report, CheckError> {
-    Ok(Report::new(&read(path, |_| {})?)?)
+pub fn check(path: &Path, rules: ReadRules<'_>) -> Result<Report, CheckError> {
+    Ok(Report::new(&read(path, rules, |_| {})?)?)
 }
 
 impl Report {

@@ -23,7 +23,7 @@ fn ground() -> Scene {
         name: "grass".into(),
         width: 4,
         height: 2,
-        rgba: vec![0; 32],
+        rgba: vec![0; 32].into(),
         wrap: Default::default(),
         nearest: false,
     };

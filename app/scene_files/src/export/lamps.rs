@@ -18,7 +18,7 @@ pub fn lamp_node(light: usize, lamp: &Lamp) -> NodeJson {
         name: Some(lamp.name.clone()),
         translation: Some(lamp.position.to_array()),
         rotation: lamp.spot.map(|spot| turn(spot).to_array()),
-        extensions: Some(NodeExtensions { khr_lights_punctual }),
+        extensions: Some(NodeExtensions { khr_lights_punctual, ..Default::default() }),
         ..NodeJson::default()
     }
 }

@@ -75,6 +75,7 @@ fn extensions(material: &Material) -> Option<json::extensions::material::Materia
         transmission: (material.transmission > 0.0).then_some(transmission),
         ior: (material.index_of_refraction != DEFAULT_INDEX).then_some(ior),
         volume: material.solid_glass.then_some(volume),
+        ..Default::default()
     };
     (!extensions_of(&extensions).is_empty()).then_some(extensions)
 }

@@ -45,8 +45,10 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
     }
     if !scene.lamps.is_empty() {
         let lights = scene.lamps.iter().map(lamps::light).collect();
-        lists.json.extensions =
-            Some(json::extensions::Root { khr_lights_punctual: Some(KhrLightsPunctual { lights }) });
+        lists.json.extensions = Some(json::extensions::Root {
+            khr_lights_punctual: Some(KhrLightsPunctual { lights }),
+            ..Default::default()
+        });
     }
 
     // Add the scene itself, with its data beyond glTF.
@@ -56,6 +58,7 @@ pub fn write_glb(scene: &Scene, path: &Path) -> Result<(), ExportError> {
         white: scene.white,
         panorama: scene.panorama.as_ref().map(|panorama| lists.panorama(panorama, &scene.name)).transpose()?,
         start: Some(scene.start),
+        speed_of_light: scene.speed_of_light_m_s,
         circuit: scene.circuit.iter().map(|point| point.to_array()).collect(),
     };
     let (mut root, blob) = lists.finish();

@@ -7,7 +7,8 @@ use ::gltf::json;
 use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::validation::Checked;
 
-use super::container::{Document, range};
+use super::container::range;
+use super::document::Document;
 use super::error::GltfError;
 use scene::MAX_TRIANGLES;
 
@@ -28,9 +29,21 @@ pub(super) enum Purpose {
     Colours,
     /// Indices: unsigned integers.
     Indices,
+    /// Joints of a skin: four unsigned integers.
+    Joints,
 }
 
 impl Purpose {
+    /// Number of components of an element; `None` if it may have several.
+    pub(super) fn width(self) -> Option<usize> {
+        match self {
+            Self::Vectors(vector) => Some(vector.multiplicity()),
+            Self::Colours => None,
+            Self::Indices => Some(1),
+            Self::Joints => Some(4),
+        }
+    }
+
     fn allows(self, element: Type, component: ComponentType) -> bool {
         match self {
             Self::Vectors(vector) => element == vector && component != ComponentType::U32,
@@ -39,16 +52,17 @@ impl Purpose {
                 use ComponentType::{U8, U16, U32};
                 element == Type::Scalar && matches!(component, U8 | U16 | U32)
             }
+            Self::Joints => {
+                use ComponentType::{U8, U16, U32};
+                element == Type::Vec4 && matches!(component, U8 | U16 | U32)
+            }
         }
     }
 }
 
-/// Number of elements that an accessor claims to have: at least one, and at most as many as any scene may have.
-pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<usize, GltfError> {
+/// Number of elements that an accessor claims to have, at most as many as any scene may have.
+pub(super) fn count(document: &Document<'_>, index: usize, place: &str) -> Result<usize, GltfError> {
     let count = document.item(&document.json.accessors, index, place)?.count.0;
-    if count == 0 {
-        return Err(document.damaged(&format!("accessors[{index}]"), "it has no elements"));
-    }
     let limit = 3 * MAX_TRIANGLES;
     usize::try_from(count)
         .ok()
@@ -58,7 +72,7 @@ pub(super) fn count(document: &Document, index: usize, place: &str) -> Result<us
 
 /// Reads the components of an accessor's elements.
 pub(super) fn read<T: Copy>(
-    document: &Document,
+    document: &Document<'_>,
     index: usize,
     place: &str,
     purpose: Purpose,
@@ -79,7 +93,7 @@ pub(super) fn read<T: Copy>(
     let normalized = match purpose {
         Purpose::Vectors(_) => accessor.normalized,
         Purpose::Colours => true,
-        Purpose::Indices => false,
+        Purpose::Indices | Purpose::Joints => false,
     };
     let decode = |bytes: &[u8]| convert(decode(bytes, component, normalized));
 
@@ -88,10 +102,16 @@ pub(super) fn read<T: Copy>(
         Some(view) => {
             let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
             let layout = Layout { offset, count, size: width * component.size() };
-            let elements = layout.elements(document, view.value(), &place)?;
-            elements.flat_map(|element| element.chunks_exact(component.size()).map(&decode)).collect()
+            let mut values = Vec::with_capacity(count * width);
+            for element in layout.elements(document, view.value(), &place)? {
+                values.extend(element.chunks_exact(component.size()).map(&decode));
+            }
+            values
         }
-        None => vec![convert(0.0); count * width],
+        None => {
+            document.take((count * width * size_of::<T>()) as u64, &place)?;
+            vec![convert(0.0); count * width]
+        }
     };
 
     // Apply the sparse replacements.
@@ -133,7 +153,7 @@ impl Layout {
     /// Bytes of each element; all of them exist.
     fn elements<'a>(
         &self,
-        document: &'a Document,
+        document: &'a Document<'_>,
         view: usize,
         place: &str,
     ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, GltfError> {

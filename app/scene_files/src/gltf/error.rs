@@ -1,11 +1,13 @@
 //! Reasons why a file gives no scene.
 
 use crate::panorama::PanoramaError;
+use regular_file::OverBudget;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Reason why a file gives no scene. Every message says what is wrong, where, and what to do.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum GltfError {
     /// A file that the operating system cannot read.
     #[error("cannot read {path}: {error}; check the name and the permissions")]
@@ -13,7 +15,7 @@ pub enum GltfError {
         /// Path of the scene or of a file it refers to.
         path: PathBuf,
         /// Error of the operating system.
-        error: std::io::Error,
+        error: Arc<std::io::Error>,
     },
     /// A directory or a device.
     #[error("{path} is not a file; name a .gltf or .glb file")]
@@ -35,14 +37,6 @@ pub enum GltfError {
         /// Description of what is wrong.
         fault: String,
     },
-    /// A required extension that this program lacks.
-    #[error("{path} requires the extension {name}, which this program does not know; export the scene without it")]
-    Extension {
-        /// Path of the scene.
-        path: PathBuf,
-        /// Name of the extension, as in `extensionsRequired`.
-        name: String,
-    },
     /// A file that contradicts itself or the format.
     #[error("{path} is damaged at {place}: {fault}; export the scene again")]
     Damaged {
@@ -63,13 +57,26 @@ pub enum GltfError {
         /// Description of what is too large, and the limit.
         fault: String,
     },
+    /// A scene that needs more memory than it may take.
+    #[error("{path} is too large at {place}: {fault}")]
+    OverBudget {
+        /// Path of the scene or of a file it refers to.
+        path: PathBuf,
+        /// Place of the excess in its JSON.
+        place: String,
+        /// Memory that was asked for, and the limit.
+        fault: OverBudget,
+    },
     /// A scene without triangles.
-    #[error("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}")]
+    #[error("{path} has nothing to draw: no triangles in its scene{}; export meshes, not only {found}",
+            fault.as_ref().map(|fault| format!(" but faulty ones, {fault}")).unwrap_or_default())]
     Nothing {
         /// Path of the scene.
         path: PathBuf,
         /// Objects found instead of triangles.
         found: &'static str,
+        /// First part that is left out, with its place.
+        fault: Option<String>,
     },
     /// Spectra that are not valid, with a sentence for each.
     #[error("{}", sentences(path, faults))]
@@ -81,7 +88,28 @@ pub enum GltfError {
     },
     /// A panorama that cannot be used.
     #[error(transparent)]
-    Panorama(#[from] PanoramaError),
+    Panorama(Arc<PanoramaError>),
+}
+
+impl From<PanoramaError> for GltfError {
+    fn from(error: PanoramaError) -> Self {
+        Self::Panorama(Arc::new(error))
+    }
+}
+
+impl GltfError {
+    /// Fault of a part that can be left out, with its place.
+    ///
+    /// # Errors
+    /// The error itself, if the scene is too large: leaving a part out would hide it.
+    pub(super) fn part_fault(self) -> Result<String, Self> {
+        match self {
+            Self::Damaged { place, fault, .. } => Ok(format!("{place}: {fault}")),
+            Self::Read { path, error } => Ok(format!("{}: {error}", path.display())),
+            Self::NotAFile { path } => Ok(format!("{} is not a file", path.display())),
+            too_large => Err(too_large),
+        }
+    }
 }
 
 fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {

@@ -27,11 +27,14 @@ pub(crate) struct SceneExtras {
     /// Panorama: name of a file beside the scene, or a picture within it.
     pub(crate) panorama: Option<Value>,
     pub(crate) start: Option<Start>,
+    /// Speed of light for which the scene is made, m/s.
+    pub(crate) speed_of_light: Option<f64>,
     pub(crate) circuit: Vec<[f64; 3]>,
 }
 
 /// `extras.rapidity` of a glTF node.
 #[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct NodeExtras {
     pub(crate) solid: Option<bool>,
 }
@@ -50,6 +53,8 @@ struct SceneJson {
     panorama: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<StartJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    speed_of_light: Option<f64>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     circuit: Vec<[f64; 3]>,
 }
@@ -106,27 +111,85 @@ impl LightExtras {
 }
 
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct StartJson {
     position: [f64; 3],
     look: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    up: Option<[f64; 3]>,
+    /// Height of the eye above the position, metres; that of a standing person if it is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    eye_height: Option<f64>,
+    /// Vertical field of view, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    field_of_view: Option<f64>,
 }
 
-/// Extras may hold other programs' data; only the key `rapidity` is read.
-#[derive(Serialize, Deserialize)]
-struct Ours<T> {
-    rapidity: T,
+impl StartJson {
+    /// JSON of a start; values that are the usual ones are left out.
+    fn of(start: &Start) -> Self {
+        let usual = Start::default();
+        Self {
+            position: start.position.to_array(),
+            look: start.look.to_array(),
+            up: (start.up != usual.up).then_some(start.up.to_array()),
+            eye_height: (start.eye_height_m != usual.eye_height_m).then_some(start.eye_height_m),
+            field_of_view: start.field_of_view_rad.map(f64::to_degrees),
+        }
+    }
+
+    fn start(self) -> Result<Start, String> {
+        let usual = Start::default();
+        let (look, up) = (unit(self.look, "start.look")?, self.up.map(|up| unit(up, "start.up")).transpose()?);
+        let eye_height_m = self.eye_height.unwrap_or(usual.eye_height_m);
+        if !(eye_height_m.is_finite() && eye_height_m >= 0.0) {
+            return Err(format!("start.eyeHeight: expected metres, 0 or more, not {eye_height_m}"));
+        }
+        if let Some(fov) = self.field_of_view.filter(|fov| !(1.0..=170.0).contains(fov)) {
+            return Err(format!("start.fieldOfView: expected degrees from 1 to 170, not {fov}"));
+        }
+        let position = DVec3::from_array(self.position);
+        let field_of_view_rad = self.field_of_view.map(f64::to_radians);
+        Ok(Start { position, look, up: up.unwrap_or(usual.up), eye_height_m, field_of_view_rad })
+    }
+}
+
+/// Unit vector of a direction in the file.
+fn unit(vector: [f64; 3], name: &str) -> Result<DVec3, String> {
+    let vector = DVec3::from_array(vector);
+    let off = (vector.length_squared() - 1.0).abs();
+    let unit = if off <= UNIT_TOLERANCE { Some(vector) } else { vector.try_normalize() };
+    unit.ok_or_else(|| format!("{name} is no direction"))
+}
+
+/// Extras may hold other programs' data; only the keys of this program are read. The others are passed over without
+/// being understood: they may be nested to any depth, or hold numbers of any size.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct OwnExtras {
+    pub(super) rapidity: Option<Box<RawValue>>,
+    pub(super) celerity: Option<Box<RawValue>>,
+    pub(super) at: Option<Box<RawValue>>,
+    pub(super) spectrum: Option<Box<RawValue>>,
+}
+
+impl OwnExtras {
+    /// Values of this program's keys, if the extras are an object.
+    ///
+    /// # Errors
+    /// Fault of an object that cannot be read, such as a key that stands there twice.
+    pub(super) fn of(extras: &Extras) -> Result<Self, String> {
+        let Some(text) = extras.as_deref().map(RawValue::get).filter(|text| text.trim_start().starts_with('{')) else {
+            return Ok(Self::default());
+        };
+        serde_json::from_str(text).map_err(|error| error.to_string())
+    }
 }
 
 fn read<T: for<'a> Deserialize<'a> + Default>(extras: &Extras) -> Result<T, String> {
-    let Some(text) = extras.as_deref().map(RawValue::get) else {
-        return Ok(T::default());
-    };
-    match serde_json::from_str::<serde_json::Value>(text) {
-        Ok(value) if value.get("rapidity").is_some() => {
-            serde_json::from_str::<Ours<T>>(text).map(|ours| ours.rapidity).map_err(|error| error.to_string())
-        }
-        _ => Ok(T::default()),
+    match OwnExtras::of(extras)?.rapidity {
+        Some(own) => serde_json::from_str(own.get()).map_err(|error| error.to_string()),
+        None => Ok(T::default()),
     }
 }
 
@@ -142,20 +205,26 @@ pub(crate) fn to_extras(value: &Value) -> Extras {
 /// # Errors
 /// The faulty key, and what is wrong with it.
 pub(super) fn celerity(extras: &Extras) -> Result<Option<(Celerity, f64)>, (&'static str, String)> {
-    let value = extras.as_deref().and_then(|text| serde_json::from_str::<Value>(text.get()).ok()).unwrap_or_default();
-    let Some(celerity) = value.get("celerity") else { return Ok(None) };
-    let numbers: Option<Vec<f64>> = celerity.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
+    let own = OwnExtras::of(extras).map_err(|fault| ("", fault))?;
+    let Some(celerity) = own.celerity else { return Ok(None) };
+    let expected = "expected three finite numbers, γβ along the world's x, y and z";
+    let numbers: Option<[f64; 3]> = serde_json::from_str(celerity.get()).ok();
     let celerity = numbers
-        .and_then(|numbers| <[f64; 3]>::try_from(numbers).ok())
         .and_then(|numbers| Celerity::new(DVec3::from_array(numbers)).ok())
-        .ok_or_else(|| {
-            ("celerity", format!("expected three finite numbers, γβ along the world's x, y and z, not {celerity}"))
-        })?;
-    let at = value.get("at").map_or(Some(0.0), |at| at.as_f64().filter(|at| at.is_finite()));
-    let at = at.ok_or_else(|| {
-        ("at", format!("expected a time in metres of light travel, a finite number, not {}", value["at"]))
-    })?;
+        .ok_or_else(|| ("celerity", format!("{expected}, not {}", shortened(celerity.get()))))?;
+    let at = own.at.map_or(Some(0.0), |at| serde_json::from_str::<f64>(at.get()).ok().filter(|at| at.is_finite()));
+    let at = at.ok_or_else(|| ("at", "expected a time in metres of light travel, a finite number".to_owned()))?;
     Ok(Some((celerity, at)))
+}
+
+/// Beginning of a text, for messages.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 80;
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
 }
 
 impl NodeExtras {
@@ -172,42 +241,43 @@ impl NodeExtras {
 impl SceneExtras {
     pub(super) fn read(extras: &Extras) -> Result<Self, String> {
         let json: SceneJson = read(extras)?;
-        let unit = |vector: DVec3, name: &str| {
-            let off = (vector.length_squared() - 1.0).abs();
-            let unit = if off <= UNIT_TOLERANCE { Some(vector) } else { vector.try_normalize() };
-            unit.ok_or_else(|| format!("{name} is no direction"))
-        };
         let mut light = json.light.unwrap_or_default();
         let colours = [light.sun, light.sky, light.ground, light.zenith, light.horizon];
         if !colours.into_iter().flatten().flatten().all(f32::is_finite) {
             return Err("a colour of light is beyond all numbers".to_owned());
         }
         if let Some(direction) = &mut light.sun_direction {
-            *direction = unit(Vec3::from_array(*direction).as_dvec3(), "light.sunDirection")?.as_vec3().to_array();
+            *direction = unit(direction.map(f64::from), "light.sunDirection")?.as_vec3().to_array();
         }
         if let Some(white) = json.white.filter(|white| !(white.is_finite() && *white > 0.0)) {
             return Err(format!("white: expected a luminance in cd/m², a number above 0, not {white}"));
         }
-        let start = json.start.map(|start| {
-            let look = unit(DVec3::from_array(start.look), "start.look")?;
-            Ok::<_, String>(Start { position: DVec3::from_array(start.position), look })
-        });
+        if let Some(speed) = json.speed_of_light.filter(|speed| !(speed.is_finite() && *speed > 0.0)) {
+            return Err(format!("speedOfLight: expected metres per second, a number above 0, not {speed}"));
+        }
+        let start = json.start.map(StartJson::start);
         Ok(Self {
             origin: json.origin,
             light,
             white: json.white,
             panorama: json.panorama,
             start: start.transpose()?,
+            speed_of_light: json.speed_of_light,
             circuit: json.circuit,
         })
     }
 
     /// Extras of a scene to be written.
     pub(crate) fn into_extras(self) -> Extras {
-        let start =
-            self.start.map(|start| StartJson { position: start.position.to_array(), look: start.look.to_array() });
-        let (origin, light, white) = (self.origin, Some(self.light), self.white);
-        let json = SceneJson { origin, light, white, panorama: self.panorama, start, circuit: self.circuit };
+        let json = SceneJson {
+            origin: self.origin,
+            light: Some(self.light),
+            white: self.white,
+            panorama: self.panorama,
+            start: self.start.as_ref().map(StartJson::of),
+            speed_of_light: self.speed_of_light,
+            circuit: self.circuit,
+        };
         to_extras(&serde_json::json!({ "rapidity": json }))
     }
 }

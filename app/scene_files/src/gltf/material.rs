@@ -7,9 +7,8 @@ use ::gltf::json::material::AlphaMode;
 use ::gltf::json::validation::Checked;
 use glam::{Mat2, Vec2};
 
-use super::container::Document;
-use super::error::GltfError;
-use super::notices::Notices;
+use super::document::Document;
+use super::notices::{Notices, Part};
 use super::spectrum::SpectrumReader;
 use scene::{Alpha, Material};
 
@@ -48,46 +47,67 @@ impl UvChannel {
     }
 }
 
-/// Materials of the file, then the default one, each with its source of texture coordinates.
+/// Sources of texture coordinates of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SurfaceUvs {
+    /// Source for the base colour, and for the emission if it has none of its own.
+    pub(super) base: UvChannel,
+    /// Source for the emission, if it is another.
+    pub(super) emissive: Option<UvChannel>,
+}
+
+/// Materials of the file, then the default one, each with its sources of texture coordinates.
 ///
 /// Texture indices are still those of the file; `picture::textures` replaces them.
 pub(super) fn materials(
-    document: &Document,
+    document: &Document<'_>,
     spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
-) -> Result<(Vec<Material>, Vec<UvChannel>), GltfError> {
+) -> (Vec<Material>, Vec<SurfaceUvs>) {
     let mut materials = Vec::new();
     let mut channels = Vec::new();
     for (index, material) in document.json.materials.iter().enumerate() {
-        let (material, channel) = read(document, index, material, spectra, notices)?;
+        let (material, channel) = read(index, material, spectra, notices);
         materials.push(material);
         channels.push(channel);
     }
     if uses_default(document) {
         materials.push(Material { name: "default".into(), ..Material::default() });
-        channels.push(UvChannel::FIRST);
+        channels.push(SurfaceUvs { base: UvChannel::FIRST, emissive: None });
     }
-    Ok((materials, channels))
+    (materials, channels)
 }
 
-fn uses_default(document: &Document) -> bool {
-    document.json.meshes.iter().flat_map(|mesh| &mesh.primitives).any(|primitive| primitive.material.is_none())
+/// True if a primitive has no material, or one that does not exist.
+fn uses_default(document: &Document<'_>) -> bool {
+    let count = document.json.materials.len();
+    let mut primitives = document.json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    primitives.any(|primitive| primitive.material.is_none_or(|material| material.value() >= count))
 }
 
 fn read(
-    document: &Document,
     index: usize,
     material: &json::Material,
     spectra: &mut SpectrumReader<'_>,
     notices: &mut Notices,
-) -> Result<(Material, UvChannel), GltfError> {
+) -> (Material, SurfaceUvs) {
     let place = format!("materials[{index}]");
     let surface = &material.pbr_metallic_roughness;
+    // Specular-glossiness, where a file has it, is what the surface was made with; the rest is a fallback.
+    let specular = material.extensions.as_ref().and_then(|extensions| extensions.pbr_specular_glossiness.as_ref());
+    let base_texture = match specular {
+        Some(specular) => &specular.diffuse_texture,
+        None => &surface.base_color_texture,
+    };
     let extensions = material.extensions.as_ref();
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
-    let Checked::Valid(mode) = material.alpha_mode else {
-        return Err(document.damaged(&format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND"));
+    let mode = match material.alpha_mode {
+        Checked::Valid(mode) => mode,
+        Checked::Invalid => {
+            notices.left_out(Part::Material, &format!("{place}.alphaMode"), "it is none of OPAQUE, MASK, BLEND");
+            AlphaMode::Opaque
+        }
     };
     let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
     let rough = surface.metallic_roughness_texture.is_some();
@@ -98,18 +118,25 @@ fn read(
     if volume.is_some_and(|volume| volume.attenuation_distance.0 < NO_ABSORPTION) {
         notices.add(format!("the glass of material \"{}\" does not absorb light on its way", name));
     }
-    let read = Material {
+    let mut read = Material {
         spectrum: spectra.of_extras(&material.extras, &format!("{place} \"{name}\"")),
         name,
-        base_colour: surface.base_color_factor.0,
-        base_colour_texture: surface.base_color_texture.as_ref().map(|texture| texture.index.value()),
+        base_colour: specular.map_or(surface.base_color_factor.0, |specular| specular.diffuse_factor.0),
+        base_colour_texture: base_texture.as_ref().map(|texture| texture.index.value()),
         emissive: material.emissive_factor.0.map(|factor| factor * strength),
         emissive_texture: material.emissive_texture.as_ref().map(|texture| texture.index.value()),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         double_sided: material.double_sided,
-        metallic: factor(surface.metallic_factor.0),
+        metallic: if specular.is_some() { 0.0 } else { factor(surface.metallic_factor.0) },
         // A roughness map gives the smooth places, but it is not drawn, so no part of the surface is a mirror.
-        roughness: if rough { 1.0 } else { factor(surface.roughness_factor.0) },
+        roughness: match specular {
+            Some(specular) if specular.specular_glossiness_texture.is_none() => {
+                1.0 - factor(specular.glossiness_factor.0)
+            }
+            Some(_) => 1.0,
+            None if rough => 1.0,
+            None => factor(surface.roughness_factor.0),
+        },
         // The value 0 in glTF stands for a metal in another material model.
         index_of_refraction: if index >= 1.0 && index.is_finite() { index } else { 1.5 },
         transmission: transmission.map_or(0.0, |extension| factor(extension.transmission_factor.0)),
@@ -122,16 +149,16 @@ fn read(
     };
     let numbers = read.base_colour.iter().chain(&read.emissive);
     if !numbers.copied().all(f32::is_finite) {
-        return Err(document.damaged(&place, "its colours are beyond all numbers"));
+        notices.left_out(Part::Material, &place, "its colours are beyond all numbers");
+        (read.base_colour, read.emissive) = ([1.0; 4], [0.0; 3]);
     }
-    let channels: Vec<UvChannel> =
-        [&surface.base_color_texture, &material.emissive_texture].into_iter().flatten().map(UvChannel::of).collect();
-    if let [base, emissive] = channels[..]
-        && base != emissive
-    {
-        notices.add(format!("the emissive map of material \"{}\" is drawn where its base colour is", read.name));
-    }
-    Ok((read, channels.first().copied().unwrap_or(UvChannel::FIRST)))
+    let [base, emissive] =
+        [base_texture, &material.emissive_texture].map(|texture| texture.as_ref().map(UvChannel::of));
+    let uvs = SurfaceUvs {
+        base: base.or(emissive).unwrap_or(UvChannel::FIRST),
+        emissive: emissive.filter(|emissive| base.is_some_and(|base| base != *emissive)),
+    };
+    (read, uvs)
 }
 
 /// Indices of the file's textures that any material draws.

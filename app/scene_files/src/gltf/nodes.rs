@@ -1,25 +1,25 @@
 //! Placements: the node tree, flattened.
 //!
-//! Every node of a glTF scene has one parent at most, so a node that is reached twice means a circle or two parents;
-//! both are refused.
+//! Every node of a glTF scene has one parent at most. A node that is reached twice means a circle or two parents; it is
+//! placed where it was reached first.
+
+use std::collections::BTreeMap;
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
 use super::animation::{self, NodeKeys};
-use super::container::Document;
+use super::document::Document;
 use super::error::GltfError;
 use super::extras::{NodeExtras, celerity};
 use super::file_json::NodeJson;
-use super::notices::Notices;
-use super::primitive::Primitive;
+use super::instancing;
+use super::notices::{Notices, Part};
 use physics::Event;
-use scene::Start;
 use scene::motion::{Animated, ChainLink, Keyed, Track, Uniform};
 use std::sync::Arc;
 
-/// Distance from the file's origin, metres, up to which f32 keeps a quarter of a millimetre and positions stay as the
-/// file has them.
-const NEAR: f64 = 4096.0;
+/// Largest number of transforms in a chain of animated nodes. Each point asks for all of them whenever it is seen.
+const MOST_LINKS: usize = 128;
 
 /// Placement of a node that has a mesh, a light or a camera.
 pub(super) struct NodePlacement {
@@ -29,8 +29,8 @@ pub(super) struct NodePlacement {
     pub(super) mesh: Option<usize>,
     /// Index into the file's lights, not yet checked.
     pub(super) light: Option<usize>,
-    /// True if the node has a camera.
-    pub(super) camera: bool,
+    /// Index into the file's cameras, not yet checked.
+    pub(super) camera: Option<usize>,
     /// Transform from the node's frame to the file's.
     pub(super) transform: DAffine3,
     /// Value of `extras.rapidity.solid`.
@@ -38,6 +38,15 @@ pub(super) struct NodePlacement {
     /// Motion of the node, or of its nearest moving ancestor, with that ancestor's anchor: connected nodes move
     /// together.
     pub(super) motion: Option<NodeMotion>,
+}
+
+/// Placements of a scene.
+pub(super) struct Placed {
+    /// Placements of all visible nodes that have a mesh, a light or a camera, parents before children, in the file's
+    /// order.
+    pub(super) placements: Vec<NodePlacement>,
+    /// Transforms from each node's frame to the file's at time 0, of every node of the scene.
+    pub(super) transforms: BTreeMap<usize, DAffine3>,
 }
 
 /// Motion of a node.
@@ -52,6 +61,14 @@ pub(super) enum NodeMotion {
 }
 
 impl NodeMotion {
+    /// Number of transforms in the chain of an animated node.
+    fn links(&self) -> usize {
+        match self {
+            Self::Uniform(_) => 0,
+            Self::Animated { animated, .. } => animated.links().len(),
+        }
+    }
+
     /// Motion of a child with the transform `local`.
     fn of_child(&self, local: DAffine3) -> Self {
         match self {
@@ -63,68 +80,141 @@ impl NodeMotion {
     }
 }
 
-/// Placements of all nodes of a scene that have a mesh, a light or a camera, parents before children, in the file's
-/// order.
+/// Node on the way through the tree.
+struct Visit {
+    index: usize,
+    /// Transform of the parent's frame to the file's.
+    parent: DAffine3,
+    motion: Option<NodeMotion>,
+    visible: bool,
+}
+
+/// Placements of all nodes of a scene.
 pub(super) fn placements(
-    document: &Document,
+    document: &Document<'_>,
     scene: Option<usize>,
     notices: &mut Notices,
-) -> Result<Vec<NodePlacement>, GltfError> {
+) -> Result<Placed, GltfError> {
     let nodes = &document.json.nodes;
     let roots = match scene {
         Some(scene) => document.json.scenes[scene].nodes.iter().map(|node| node.value()).collect(),
         None => orphans(document),
     };
     let moved = animation::moved(document, notices)?;
-    let mut reached = vec![false; nodes.len()];
-    let mut placements = Vec::new();
-    let mut stack: Vec<_> =
-        roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, None::<NodeMotion>)).collect();
-    while let Some((index, parent, inherited)) = stack.pop() {
+    let mut placed = Placed { placements: Vec::new(), transforms: BTreeMap::new() };
+    let root = |index| Visit { index, parent: DAffine3::IDENTITY, motion: None, visible: true };
+    let mut stack: Vec<Visit> = roots.into_iter().rev().map(root).collect();
+    while let Some(Visit { index, parent, motion: inherited, visible }) = stack.pop() {
         let place = format!("nodes[{index}]");
-        let node = document.item(nodes, index, &place)?;
-        if std::mem::replace(&mut reached[index], true) {
-            return Err(document.damaged(&place, "it has two parents or is its own ancestor"));
+        let Some(node) = nodes.get(index) else {
+            notices.left_out(Part::Node, &place, &format!("there is no number {index} among {}", nodes.len()));
+            continue;
+        };
+        if placed.transforms.contains_key(&index) {
+            notices.left_out(Part::Node, &place, "it has two parents or is its own ancestor");
+            continue;
         }
-        let local = local(node, &place, notices);
+        let local = local(node, moved.get(&index), &place, notices);
         let transform = parent * local;
         let own =
             celerity(&node.extras).map_err(|(key, fault)| document.damaged(&format!("{place}.extras.{key}"), fault))?;
         let uniform = own.map(|(celerity, ct)| {
             NodeMotion::Uniform(Uniform { celerity, anchor: Event { ct, position: transform.translation } })
         });
-        let motion = match (uniform, moved.get(&index), inherited) {
-            (None, Some(moved), inherited @ (None | Some(NodeMotion::Animated { .. }))) => {
-                let keyed = keyed(node, moved);
+        let keys = moved.get(&index).filter(|keys| keys.moves());
+        let motion = match (uniform, keys, inherited) {
+            (None, Some(keys), inherited @ (None | Some(NodeMotion::Animated { .. })))
+                if inherited.as_ref().is_none_or(|motion| motion.links() < MOST_LINKS) =>
+            {
                 let name = node.name.clone().unwrap_or(place.clone());
-                Some(animated(name, parent, inherited, keyed))
+                Some(animated(name, parent, inherited, keyed(node, keys)))
             }
-            (uniform, moved, inherited) => {
-                if moved.is_some() {
+            (uniform, keys, inherited) => {
+                if keys.is_some() && inherited.as_ref().is_some_and(|motion| motion.links() >= MOST_LINKS) {
+                    notices.add(format!("nodes below {MOST_LINKS} animated ones do not move by themselves"));
+                } else if keys.is_some() {
                     notices.add(format!("{place} has a celerity, or hangs on what has: its animation stands still"));
                 }
                 uniform.or_else(|| inherited.map(|moves| moves.of_child(local)))
             }
         };
-        let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-        if node.mesh.is_some() || node.camera.is_some() || light.is_some() {
-            let extras = NodeExtras::read(&node.extras);
-            let extras = extras.map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
-            let mesh = node.mesh.map(|mesh| mesh.value());
-            placements.push(NodePlacement {
-                node: index,
-                mesh,
-                light: light.map(|light| light.light.value()),
-                camera: node.camera.is_some(),
-                transform,
-                solid: extras.solid,
-                motion: motion.clone(),
-            });
+        let at_start = match &motion {
+            Some(NodeMotion::Animated { animated, body_from_node }) => {
+                animated.at(0.0).world_from_body * *body_from_node
+            }
+            _ => transform,
+        };
+        placed.transforms.insert(index, at_start);
+        let visible = visible && visibility(node);
+        if !visible && node.mesh.is_some() {
+            notices.add("nodes that the file hides (KHR_node_visibility) are not drawn".into());
         }
+        place_node(document, (index, node), transform, motion.as_ref(), visible, &mut placed.placements, notices)?;
         let children = node.children.iter().flatten().rev();
-        stack.extend(children.map(|child| (child.value(), transform, motion.clone())));
+        stack.extend(children.map(|child| Visit {
+            index: child.value(),
+            parent: transform,
+            motion: motion.clone(),
+            visible,
+        }));
     }
-    Ok(placements)
+    Ok(placed)
+}
+
+/// Adds the placements of one node, if it has a mesh, a light or a camera: one for each instance of its mesh.
+fn place_node(
+    document: &Document<'_>,
+    (index, node): (usize, &NodeJson),
+    transform: DAffine3,
+    motion: Option<&NodeMotion>,
+    visible: bool,
+    placements: &mut Vec<NodePlacement>,
+    notices: &mut Notices,
+) -> Result<(), GltfError> {
+    let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+    if node.mesh.is_none() && node.camera.is_none() && light.is_none() {
+        return Ok(());
+    }
+    let place = format!("nodes[{index}]");
+    let extras =
+        NodeExtras::read(&node.extras).map_err(|fault| document.damaged(&format!("{place}.extras.rapidity"), fault))?;
+    let first = NodePlacement {
+        node: index,
+        mesh: node.mesh.filter(|_| visible).map(|mesh| mesh.value()),
+        light: light.filter(|_| visible).map(|light| light.light.value()),
+        camera: node.camera.map(|camera| camera.value()),
+        transform,
+        solid: extras.solid,
+        motion: motion.cloned(),
+    };
+    let instances = match instancing::instances(document, node, &place) {
+        Ok(instances) => instances,
+        Err(error) => {
+            notices.left_out(Part::Node, &place, &error.part_fault()?);
+            None
+        }
+    };
+    let Some(instances) = instances.filter(|_| first.mesh.is_some()) else {
+        placements.push(first);
+        return Ok(());
+    };
+    if first.light.is_some() || first.camera.is_some() {
+        placements.push(NodePlacement { mesh: None, motion: first.motion.clone(), ..first });
+    }
+    placements.extend(instances.into_iter().map(|instance| NodePlacement {
+        light: None,
+        camera: None,
+        transform: transform * instance,
+        motion: motion.map(|motion| motion.of_child(instance)),
+        ..first
+    }));
+    Ok(())
+}
+
+/// Visibility of a node, by `KHR_node_visibility`; its children share it.
+fn visibility(node: &NodeJson) -> bool {
+    let extension = node.extensions.as_ref().and_then(|extensions| extensions.others.get("KHR_node_visibility"));
+    extension.is_none_or(|extension| extension.get("visible").and_then(serde_json::Value::as_bool) != Some(false))
 }
 
 /// Motion of a chain that ends in an animated node. `parent`: transform from its parent's frame to the file's, used
@@ -148,16 +238,17 @@ fn keyed(node: &NodeJson, moved: &NodeKeys) -> Keyed {
     let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let rotation = if rotation.length().is_normal() { rotation.normalize() } else { DQuat::IDENTITY };
     let translation = DVec3::from_array(node.translation.unwrap_or_default());
+    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]));
     Keyed {
-        translation: moved.translation.clone().map_or(Track::Fixed(translation), Track::Keyed),
-        rotation: moved.rotation.clone().map_or(Track::Fixed(rotation), Track::Keyed),
-        scale: DVec3::from_array(node.scale.unwrap_or([1.0; 3])),
+        translation: moved.translation.clone().unwrap_or(Track::Fixed(translation)),
+        rotation: moved.rotation.clone().unwrap_or(Track::Fixed(rotation)),
+        scale: moved.scale.clone().unwrap_or(Track::Fixed(scale)),
     }
 }
 
 /// Indices of the nodes without a parent. If every node has one, the tree has a circle; then the first node alone,
 /// which reveals it.
-fn orphans(document: &Document) -> Vec<usize> {
+fn orphans(document: &Document<'_>) -> Vec<usize> {
     let nodes = &document.json.nodes;
     let mut orphan = vec![true; nodes.len()];
     for child in nodes.iter().flat_map(|node| node.children.iter().flatten()) {
@@ -169,12 +260,19 @@ fn orphans(document: &Document) -> Vec<usize> {
     if orphans.is_empty() && !nodes.is_empty() { vec![0] } else { orphans }
 }
 
-/// Transform from a node's frame to its parent's.
-fn local(node: &NodeJson, place: &str, notices: &mut Notices) -> DAffine3 {
+/// Transform from a node's frame to its parent's. Quantities that an animation holds constant are as it holds them.
+fn local(node: &NodeJson, held: Option<&NodeKeys>, place: &str, notices: &mut Notices) -> DAffine3 {
     if let Some(matrix) = &node.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(matrix));
     }
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+    let held_vector = |track: Option<&Track<DVec3>>| match track {
+        Some(Track::Fixed(value)) => Some(*value),
+        _ => None,
+    };
+    let rotation = match held.and_then(|held| held.rotation.as_ref()) {
+        Some(Track::Fixed(rotation)) => *rotation,
+        _ => node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array),
+    };
     let length = rotation.length();
     let rotation = if length.is_normal() {
         rotation / length
@@ -182,55 +280,9 @@ fn local(node: &NodeJson, place: &str, notices: &mut Notices) -> DAffine3 {
         notices.add(format!("{place} has a rotation without direction, which is left out"));
         DQuat::IDENTITY
     };
-    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]));
-    let translation = DVec3::from_array(node.translation.unwrap_or_default());
+    let scale = held_vector(held.and_then(|held| held.scale.as_ref()));
+    let scale = scale.unwrap_or(DVec3::from_array(node.scale.unwrap_or([1.0; 3])));
+    let translation = held_vector(held.and_then(|held| held.translation.as_ref()));
+    let translation = translation.unwrap_or(DVec3::from_array(node.translation.unwrap_or_default()));
     DAffine3 { matrix3: DMat3::from_quat(rotation) * DMat3::from_diagonal(scale), translation }
-}
-
-/// Bounding box of all finite vertices, in the file's frame.
-pub(super) struct Bounds {
-    least: DVec3,
-    most: DVec3,
-}
-
-impl Default for Bounds {
-    fn default() -> Self {
-        Self { least: DVec3::INFINITY, most: DVec3::NEG_INFINITY }
-    }
-}
-
-impl Bounds {
-    pub(super) fn add(&mut self, primitive: &Primitive, transform: DAffine3) {
-        for position in &primitive.positions {
-            let position = transform.transform_point3(position.as_dvec3());
-            if position.is_finite() {
-                self.least = self.least.min(position);
-                self.most = self.most.max(position);
-            }
-        }
-    }
-
-    fn is_empty(&self) -> bool {
-        !self.least.cmple(self.most).all()
-    }
-
-    /// Origin for the scene: the file's own if f32 is fine enough there, else the middle of the box in whole metres.
-    pub(super) fn origin(&self) -> DVec3 {
-        if self.is_empty() || self.least.abs().max(self.most.abs()).max_element() <= NEAR {
-            DVec3::ZERO
-        } else {
-            (0.5 * self.least + 0.5 * self.most).round()
-        }
-    }
-
-    /// Start at the file's origin if it lies within the box, else on the ground in front of the box, looking at it.
-    pub(super) fn start(&self) -> Start {
-        let within = self.least.cmple(DVec3::ZERO).all() && self.most.cmpge(DVec3::ZERO).all();
-        if self.is_empty() || within {
-            return Start::default();
-        }
-        let middle = 0.5 * self.least + 0.5 * self.most;
-        let size = (self.most - self.least).max_element();
-        Start { position: DVec3::new(middle.x, self.least.y, self.most.z + size), ..Start::default() }
-    }
 }

@@ -1,4 +1,7 @@
-//! Primitives: triangles, from accessors to arrays, and from a node's frame into the world.
+//! Primitives: triangles, from accessors or Draco data to arrays, and from a node's frame into the world.
+//!
+//! Positions decide: without them a primitive is left out. Any other attribute that cannot be read is replaced by its
+//! default, and a triangle with a corner that does not exist is left out alone.
 
 use ::gltf::json;
 use ::gltf::json::accessor::Type;
@@ -7,33 +10,48 @@ use ::gltf::json::validation::Checked;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 
 use super::accessor::{self, Purpose};
-use super::container::Document;
+use super::attribute::attribute;
+use super::deform::Deformation;
+use super::document::Document;
+use super::draco::DracoData;
 use super::error::GltfError;
 use super::extras::COLOURS;
-use super::material::UvChannel;
-use super::notices::Notices;
+use super::material::SurfaceUvs;
+use super::notices::{Notices, Part};
 use scene::Mesh;
 
 /// Tolerance of a normal's squared length, for f32 rounding; beyond it the normal is normalised.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
-/// Triangles in the frame of their node. All vertex arrays have the same length.
+/// Triangles in the frame of their node. All vertex arrays have the same length, except for `emissive_uvs`, which may
+/// be empty.
+#[derive(Default)]
 pub(super) struct Primitive {
     pub(super) positions: Vec<Vec3>,
     pub(super) indices: Vec<u32>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
+    emissive_uvs: Vec<Vec2>,
     colours: Vec<[f32; 4]>,
     material: usize,
 }
 
-/// Upper bound of the length of the primitive's longest array, or `None` if it has no triangles. No data are read.
-pub(super) fn corners(
-    document: &Document,
+/// Upper bounds of a primitive's arrays, before any data are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Extent {
+    /// Number of vertices.
+    pub(super) vertices: u64,
+    /// Number of indices of triangles.
+    pub(super) corners: u64,
+}
+
+/// Upper bounds of a primitive's arrays, or `None` if it has no triangles. No data are read.
+pub(super) fn extent(
+    document: &Document<'_>,
     primitive: &json::mesh::Primitive,
     place: &str,
     notices: &mut Notices,
-) -> Result<Option<u64>, GltfError> {
+) -> Result<Option<Extent>, GltfError> {
     let Checked::Valid(mode) = primitive.mode else {
         return Err(document.damaged(&format!("{place}.mode"), "there is no such mode"));
     };
@@ -45,104 +63,187 @@ pub(super) fn corners(
             return Ok(None);
         }
     };
-    let vertices = accessor::count(document, positions(document, primitive, place)?, place)? as u64;
+    let Some(positions) = attribute(primitive, Semantic::Positions) else {
+        notices.add("parts without positions are not drawn".into());
+        return Ok(None);
+    };
+    let vertices = accessor::count(document, positions, place)? as u64;
     let entries = match primitive.indices {
         Some(indices) => accessor::count(document, indices.value(), &format!("{place}.indices"))? as u64,
         None => vertices,
     };
-    Ok(Some(vertices.max(if strip { 3 * entries } else { entries })))
+    if vertices == 0 || entries == 0 {
+        notices.add("parts without vertices are not drawn".into());
+        return Ok(None);
+    }
+    let corners = if strip { 3 * entries } else { entries };
+    // Without normals of its own, each triangle gets its own vertices.
+    let flat = attribute(primitive, Semantic::Normals).is_none();
+    Ok(Some(Extent { vertices: if flat { corners } else { vertices }, corners }))
 }
 
-fn positions(document: &Document, primitive: &json::mesh::Primitive, place: &str) -> Result<usize, GltfError> {
-    let missing = || document.damaged(&format!("{place}.attributes"), "POSITION is missing");
-    attribute(primitive, Semantic::Positions).ok_or_else(missing)
+/// Data of a primitive that is being read: in accessors, or in Draco's form.
+struct Source<'a> {
+    document: &'a Document<'a>,
+    primitive: &'a json::mesh::Primitive,
+    place: &'a str,
+    draco: Option<DracoData>,
 }
 
-fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<usize> {
-    primitive.attributes.get(&Checked::Valid(semantic)).map(|index| index.value())
+impl Source<'_> {
+    /// Components of an attribute and their number in an element; `None` if the primitive has no such attribute.
+    fn attribute(
+        &self,
+        semantic: Semantic,
+        name: &str,
+        purpose: Purpose,
+    ) -> Result<Option<(Vec<f32>, usize)>, GltfError> {
+        let place = format!("{}.attributes.{name}", self.place);
+        if let Some(found) = self.draco.as_ref().and_then(|draco| draco.attribute(name)) {
+            let (values, width) = found;
+            return match purpose.width() {
+                Some(expected) if expected != width => {
+                    Err(self.document.damaged(&place, format!("{width} components instead of {expected}")))
+                }
+                _ => Ok(Some((values, width))),
+            };
+        }
+        let Some(index) = attribute(self.primitive, semantic) else { return Ok(None) };
+        let numbers = accessor::read(self.document, index, &place, purpose, |value| value as f32)?;
+        Ok(Some((numbers.values, numbers.width)))
+    }
+
+    /// Components of an attribute that has a default: one that cannot be read, or has another number of elements
+    /// than there are vertices, is `None`, and named.
+    fn optional(
+        &self,
+        (semantic, name, purpose): (Semantic, &str, Purpose),
+        vertices: usize,
+        notices: &mut Notices,
+    ) -> Result<Option<(Vec<f32>, usize)>, GltfError> {
+        let place = format!("{}.attributes.{name}", self.place);
+        match self.attribute(semantic, name, purpose) {
+            Ok(Some((values, width))) if values.len() != width * vertices => {
+                let fault = format!("{} entries for {vertices} positions", values.len() / width);
+                notices.left_out(Part::Mesh, &place, &fault);
+                Ok(None)
+            }
+            Ok(found) => Ok(found),
+            Err(error) => {
+                notices.left_out(Part::Mesh, &place, &error.part_fault()?);
+                Ok(None)
+            }
+        }
+    }
+
+    fn uvs(&self, set: u32, vertices: usize, notices: &mut Notices) -> Result<Option<Vec<Vec2>>, GltfError> {
+        let name = format!("TEXCOORD_{set}");
+        let purpose = Purpose::Vectors(Type::Vec2);
+        let found = self.optional((Semantic::TexCoords(set), &name, purpose), vertices, notices)?;
+        Ok(found.map(|(values, _)| values.as_chunks().0.iter().copied().map(Vec2::from_array).collect()))
+    }
+}
+
+fn vectors(values: &[f32]) -> Vec<Vec3> {
+    values.as_chunks().0.iter().copied().map(Vec3::from_array).collect()
 }
 
 impl Primitive {
-    /// Reads a primitive, given by the indices of its mesh and of itself.
+    /// Reads a primitive, given by the indices of its mesh and of itself, and deforms it.
     pub(super) fn read(
-        document: &Document,
+        document: &Document<'_>,
         (mesh, index): (usize, usize),
-        channels: &[UvChannel],
+        deformation: Option<&Deformation>,
+        channels: &[SurfaceUvs],
         notices: &mut Notices,
     ) -> Result<Self, GltfError> {
         let place = format!("meshes[{mesh}].primitives[{index}]");
         let primitive = &document.json.meshes[mesh].primitives[index];
-        let material = primitive.material.map(|material| material.value());
-        if let Some(material) = material {
-            document.item(&document.json.materials, material, &format!("{place}.material"))?;
-        }
-        let material = material.unwrap_or(document.json.materials.len()); // the default one is the last
+        let default = document.json.materials.len(); // the default material is the last
+        let material = primitive.material.map_or(default, |material| material.value());
+        let material = if material > default {
+            let fault = format!("there is no number {material} among {default}");
+            notices.left_out(Part::Material, &format!("{place}.material"), &fault);
+            default
+        } else {
+            material
+        };
         let channel = channels[material];
+        let source =
+            Source { document, primitive, place: &place, draco: DracoData::read(document, primitive, &place)? };
 
         // Read the attributes.
-        let index = positions(document, primitive, &place)?;
-        let vectors = |index, name: &str| {
-            let place = format!("{place}.attributes.{name}");
-            accessor::read(document, index, &place, Purpose::Vectors(Type::Vec3), |value| value as f32)
-                .map(|numbers| numbers.values.as_chunks().0.iter().copied().map(Vec3::from_array).collect::<Vec<_>>())
-        };
-        let positions = vectors(index, "POSITION")?;
+        let purpose = Purpose::Vectors(Type::Vec3);
+        let positions = source.attribute(Semantic::Positions, "POSITION", purpose)?;
+        let (positions, _) =
+            positions.ok_or_else(|| document.damaged(&format!("{place}.attributes"), "POSITION is missing"))?;
+        let mut positions = vectors(&positions);
         let count = positions.len();
-        let normals = attribute(primitive, Semantic::Normals).map(|index| vectors(index, "NORMAL")).transpose()?;
-        let uvs = match attribute(primitive, Semantic::TexCoords(channel.set)) {
-            Some(index) => {
-                let place = format!("{place}.attributes.TEXCOORD_{}", channel.set);
-                let purpose = Purpose::Vectors(Type::Vec2);
-                let numbers = accessor::read(document, index, &place, purpose, |value| value as f32)?;
-                numbers.values.as_chunks().0.iter().map(|&uv| channel.apply(Vec2::from_array(uv))).collect()
+        let normals = source.optional((Semantic::Normals, "NORMAL", purpose), count, notices)?;
+        let mut normals = normals.map(|(values, _)| vectors(&values));
+        let uvs = source.uvs(channel.base.set, count, notices)?;
+        let emissive_uvs = match channel.emissive {
+            None => Vec::new(),
+            Some(emissive) => {
+                let uvs = source.uvs(emissive.set, count, notices)?.unwrap_or_else(|| vec![Vec2::ZERO; count]);
+                uvs.into_iter().map(|uv| emissive.apply(uv)).collect()
             }
-            None => vec![Vec2::ZERO; count],
         };
-        let unclamped = attribute(primitive, Semantic::Extras(COLOURS.into()));
-        let colours = match unclamped.or_else(|| attribute(primitive, Semantic::Colors(0))) {
-            Some(index) => {
-                let place = format!("{place}.attributes.COLOR_0");
-                let numbers = accessor::read(document, index, &place, Purpose::Colours, |value| value as f32)?;
+        let uvs = uvs.unwrap_or_else(|| vec![Vec2::ZERO; count]).into_iter().map(|uv| channel.base.apply(uv));
+        let uvs = uvs.collect();
+        let unclamped = Semantic::Extras(COLOURS.into());
+        let semantic = match attribute(primitive, unclamped.clone()) {
+            Some(_) => (unclamped, COLOURS, Purpose::Colours),
+            None => (Semantic::Colors(0), "COLOR_0", Purpose::Colours),
+        };
+        let colours = match source.optional(semantic, count, notices)? {
+            Some((values, width)) => {
                 let colour = |c: &[f32]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)];
-                numbers.values.chunks_exact(numbers.width).map(colour).collect()
+                values.chunks_exact(width).map(colour).collect()
             }
             None => vec![[1.0; 4]; count],
         };
-        for (name, length) in
-            [("NORMAL", normals.as_ref().map_or(count, Vec::len)), ("TEXCOORD", uvs.len()), ("COLOR_0", colours.len())]
-        {
-            if length != count {
-                let fault = format!("{length} entries for {count} positions");
-                return Err(document.damaged(&format!("{place}.attributes.{name}"), fault));
-            }
+        if let Some(deformation) = deformation {
+            deformation.apply(document, (primitive, &place), &mut positions, normals.as_mut(), notices)?;
         }
 
         // Read the triangles.
-        let corners = match primitive.indices {
-            Some(index) => {
+        let corners = match (&source.draco, primitive.indices) {
+            (Some(draco), _) => draco.indices(),
+            (None, Some(index)) => {
                 let place = format!("{place}.indices");
                 accessor::read(document, index.value(), &place, Purpose::Indices, |value| value as u32)?.values
             }
-            None => (0..count as u32).collect(),
+            (None, None) => (0..count as u32).collect(),
         };
-        if let Some(beyond) = corners.iter().find(|&&corner| corner as usize >= count) {
-            return Err(document.damaged(&format!("{place}.indices"), format!("vertex {beyond} of {count}")));
-        }
         let indices = match primitive.mode {
-            Checked::Valid(Mode::TriangleStrip) => strip(&corners),
-            Checked::Valid(Mode::TriangleFan) => fan(&corners),
+            Checked::Valid(Mode::TriangleStrip) if source.draco.is_none() => strip(&corners),
+            Checked::Valid(Mode::TriangleFan) if source.draco.is_none() => fan(&corners),
             _ => corners,
         };
-        let mut read = Self { positions, indices, normals: Vec::new(), uvs, colours, material };
+        let mut read = Self { positions, indices, normals: Vec::new(), uvs, emissive_uvs, colours, material };
         if !read.indices.len().is_multiple_of(3) {
             notices.add(format!("{place} ends in an incomplete triangle, which is left out"));
             read.indices.truncate(read.indices.len() / 3 * 3);
         }
+        read.keep_whole_triangles(&place, notices);
         match normals {
             Some(normals) => read.normals = normals,
             None => read.flatten(),
         }
         Ok(read)
+    }
+
+    /// Leaves out the triangles with a corner that does not exist.
+    fn keep_whole_triangles(&mut self, place: &str, notices: &mut Notices) {
+        let count = self.positions.len();
+        let Some(beyond) = self.indices.iter().copied().find(|&corner| corner as usize >= count) else { return };
+        let before = self.indices.len() / 3;
+        let whole = |corners: &&[u32; 3]| corners.iter().all(|&corner| (corner as usize) < count);
+        let kept: Vec<[u32; 3]> = self.indices.as_chunks::<3>().0.iter().filter(whole).copied().collect();
+        let fault = format!("vertex {beyond} of {count}; {} of {before} triangles", before - kept.len());
+        notices.left_out(Part::Mesh, &format!("{place}.indices"), &fault);
+        self.indices = kept.into_flattened();
     }
 
     /// Gives each triangle its own vertices and its own normal, as glTF demands for a file without normals.
@@ -152,6 +253,9 @@ impl Primitive {
         }
         spread(&mut self.positions, &self.indices);
         spread(&mut self.uvs, &self.indices);
+        if !self.emissive_uvs.is_empty() {
+            spread(&mut self.emissive_uvs, &self.indices);
+        }
         spread(&mut self.colours, &self.indices);
         self.indices = (0..self.indices.len() as u32).collect();
         let normal = |&[a, b, c]: &[Vec3; 3]| {
@@ -181,7 +285,7 @@ impl Primitive {
             indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
         let not_finite = positions.iter().filter(|position| !position.is_finite()).count();
-        let (uvs, colours) = (self.uvs.clone(), self.colours.clone());
+        let (uvs, emissive_uvs, colours) = (self.uvs.clone(), self.emissive_uvs.clone(), self.colours.clone());
         (
             Mesh {
                 name,
@@ -189,6 +293,7 @@ impl Primitive {
                 positions,
                 normals,
                 uvs,
+                emissive_uvs,
                 colours,
                 indices,
                 solid: true,

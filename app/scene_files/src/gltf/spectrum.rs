@@ -8,19 +8,18 @@ use std::path::Path;
 
 use ::gltf::json::Extras;
 use physics::colour::{Spectrum, SpectrumError};
-use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
-use super::container::Document;
+use super::document::Document;
 use super::error::{GltfError, SpectrumFault};
-use super::extras;
+use super::extras::{self, OwnExtras};
 
 /// Keys of the kinds of spectra.
 const KINDS: [&str; 4] = ["planck", "sampled", "rgb", "gray"];
 
 /// Reader of a file's spectra, which collects their faults.
 pub(super) struct SpectrumReader<'a> {
-    document: &'a Document,
+    document: &'a Document<'a>,
     faults: Vec<SpectrumFault>,
 }
 
@@ -28,13 +27,26 @@ pub(super) struct SpectrumReader<'a> {
 type Refusal = (&'static str, String);
 
 impl<'a> SpectrumReader<'a> {
-    pub(super) fn new(document: &'a Document) -> Self {
+    pub(super) fn new(document: &'a Document<'a>) -> Self {
         Self { document, faults: Vec::new() }
     }
 
     /// Spectrum in an object's extras, if there is a valid one.
     pub(super) fn of_extras(&mut self, extras: &Extras, owner: &str) -> Option<Spectrum> {
-        in_extras(extras).and_then(|value| self.read(&value, owner, "extras.spectrum"))
+        let spectrum = match OwnExtras::of(extras) {
+            Ok(own) => own.spectrum?,
+            Err(fault) => {
+                self.refuse(owner, "extras", fault);
+                return None;
+            }
+        };
+        match serde_json::from_str(spectrum.get()) {
+            Ok(value) => self.read(&value, owner, "extras.spectrum"),
+            Err(error) => {
+                self.refuse(owner, "extras.spectrum", error.to_string());
+                None
+            }
+        }
     }
 
     /// Spectrum, if it is valid; `key` is its place in its owner.
@@ -126,12 +138,6 @@ impl<'a> SpectrumReader<'a> {
             _ => format!("{name}: {error}"),
         })
     }
-}
-
-/// Value of `spectrum` in extras, which may hold other programs' data too.
-pub(super) fn in_extras(extras: &Extras) -> Option<Value> {
-    let value: Value = serde_json::from_str(extras.as_deref().map(RawValue::get)?).ok()?;
-    value.get("spectrum").cloned()
 }
 
 /// Spectrum as JSON that reads back the same to the bit.

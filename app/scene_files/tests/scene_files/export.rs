@@ -39,7 +39,7 @@ fn scene(origin: DVec3) -> Scene {
         name: name.into(),
         width: 3,
         height: 2,
-        rgba: (0..24).map(|byte| byte * 10).collect(),
+        rgba: std::sync::Arc::new((0..24).map(|byte| byte * 10).collect()),
         wrap,
         nearest,
     };
@@ -170,7 +170,7 @@ fn an_independent_reader_accepts_it() {
     let (_folder, path) = written(&scene);
     let (document, buffers, images) = gltf::import(&path).unwrap();
     assert_eq!(document.nodes().count(), 3);
-    assert_eq!(images[0].pixels, scene.textures[0].rgba);
+    assert_eq!(images[0].pixels, *scene.textures[0].rgba);
     for (node, mesh) in document.nodes().zip(&scene.meshes) {
         let primitive = node.mesh().unwrap().primitives().next().unwrap();
         let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()]));

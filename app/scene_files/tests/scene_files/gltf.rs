@@ -249,7 +249,7 @@ fn materials_carry_what_is_drawn() {
     assert!(!scene.meshes[0].solid, "leaves do not stop a bicycle");
     let texture = &scene.textures[0];
     assert_eq!((texture.width, texture.height, texture.name.as_str()), (2, 1, "flag"));
-    assert_eq!(texture.rgba, [255, 0, 0, 255, 0, 255, 0, 128]);
+    assert_eq!(*texture.rgba, [255, 0, 0, 255, 0, 255, 0, 128]);
     assert_eq!(texture.wrap, [Wrap::Clamp, Wrap::Mirror]);
     assert!(texture.nearest);
 }
@@ -349,7 +349,7 @@ fn buffers_and_pictures_beside_or_within_a_gltf_are_read() {
     file.json["buffers"][0]["uri"] = json!("numbers.bin");
     let path = write(&folder, "scene.gltf", file.json.to_string().as_bytes());
     let beside = load(&path, |_| {}).unwrap();
-    assert_eq!(beside.textures[0].rgba, [9; 8]);
+    assert_eq!(*beside.textures[0].rgba, [9; 8]);
 
     file.json["buffers"][0]["uri"] =
         json!(format!("data:application/octet-stream;base64,{}", base64::encode(&file.blob)));

@@ -1,0 +1,212 @@
+//! Deformation of a mesh in its rest pose: morph targets by their weights, then the joints of a skin.
+//!
+//! A skinned vertex is where its joints take it: x' = Σ wᵢ Jᵢ Bᵢ x, J the joint's transform into the file's frame and
+//! B its inverse bind matrix (glTF 2.0, 3.7.3). The transform of the mesh's own node does not count.
+
+use std::collections::BTreeMap;
+
+use ::gltf::json;
+use ::gltf::json::accessor::Type;
+use ::gltf::json::mesh::Semantic;
+use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
+
+use super::accessor::{self, Purpose};
+use super::attribute::attribute;
+use super::document::Document;
+use super::error::GltfError;
+use super::file_json::NodeJson;
+use super::notices::{Notices, Part};
+
+/// Sum of a vertex's weights below which it has no joint.
+const NO_WEIGHT: f64 = 1e-12;
+
+/// Deformation of one node's mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Deformation {
+    /// Weights of the morph targets that are not zero, by their numbers.
+    pub(super) weights: Vec<(usize, f32)>,
+    /// Skin, if the mesh has joints.
+    pub(super) skin: Option<PosedSkin>,
+}
+
+/// Skin in a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PosedSkin {
+    /// Place in the file's frame that deformed positions are relative to, metres.
+    pub(super) anchor: DVec3,
+    /// Transform of each joint from the mesh's frame to the file's, relative to the anchor.
+    joints: Vec<DAffine3>,
+}
+
+impl PosedSkin {
+    /// Skin in the pose of its joints, whose transforms into the file's frame are `placed`.
+    pub(super) fn of(
+        document: &Document<'_>,
+        index: usize,
+        placed: &BTreeMap<usize, DAffine3>,
+        place: &str,
+    ) -> Result<Self, GltfError> {
+        let skin = document.item(&document.json.skins, index, place)?;
+        let place = format!("skins[{index}]");
+        let inverse = match skin.inverse_bind_matrices {
+            None => Vec::new(),
+            Some(matrices) => {
+                let place = format!("{place}.inverseBindMatrices");
+                let purpose = Purpose::Vectors(Type::Mat4);
+                let numbers = accessor::read(document, matrices.value(), &place, purpose, |value| value)?;
+                let matrices = numbers.values.as_chunks::<16>().0.iter();
+                matrices.map(|matrix| DAffine3::from_mat4(DMat4::from_cols_array(matrix))).collect()
+            }
+        };
+        let mut joints = Vec::with_capacity(skin.joints.len());
+        for (number, joint) in skin.joints.iter().enumerate() {
+            let transform = placed.get(&joint.value()).ok_or_else(|| {
+                document.damaged(&place, format!("its joint, nodes[{}], is not in the scene", joint.value()))
+            })?;
+            joints.push(*transform * inverse.get(number).copied().unwrap_or(DAffine3::IDENTITY));
+        }
+        let first = skin.joints.first().ok_or_else(|| document.damaged(&place, "it has no joints"))?;
+        let anchor = placed[&first.value()].translation;
+        joints.iter_mut().for_each(|joint| joint.translation -= anchor);
+        Ok(Self { anchor, joints })
+    }
+}
+
+impl Deformation {
+    /// Deformation of a node's mesh; `None` if there is none.
+    pub(super) fn of(
+        document: &Document<'_>,
+        node: &NodeJson,
+        mesh: &json::Mesh,
+        placed: &BTreeMap<usize, DAffine3>,
+        place: &str,
+        notices: &mut Notices,
+    ) -> Result<Option<Self>, GltfError> {
+        let weights = node.weights.as_ref().or(mesh.weights.as_ref()).into_iter().flatten().copied().enumerate();
+        let weights = weights.filter(|(_, weight)| *weight != 0.0 && weight.is_finite()).collect();
+        let skin = match node.skin {
+            None => None,
+            Some(skin) => match PosedSkin::of(document, skin.value(), placed, &format!("{place}.skin")) {
+                Ok(skin) => Some(skin),
+                Err(error) => {
+                    notices.left_out(Part::Skin, place, &error.part_fault()?);
+                    None
+                }
+            },
+        };
+        let deformation = Self { weights, skin };
+        Ok((deformation != Self::default()).then_some(deformation))
+    }
+
+    /// Applies the deformation to the vertices of a primitive, given with the place of it in the file.
+    pub(super) fn apply(
+        &self,
+        document: &Document<'_>,
+        (primitive, place): (&json::mesh::Primitive, &str),
+        positions: &mut [Vec3],
+        mut normals: Option<&mut Vec<Vec3>>,
+        notices: &mut Notices,
+    ) -> Result<(), GltfError> {
+        for &(number, weight) in &self.weights {
+            let Some(target) = primitive.targets.as_ref().and_then(|targets| targets.get(number)) else { continue };
+            let place = format!("{place}.targets[{number}]");
+            let add = |index: Option<usize>, values: &mut [Vec3]| -> Result<(), GltfError> {
+                let Some(index) = index else { return Ok(()) };
+                let purpose = Purpose::Vectors(Type::Vec3);
+                let moved = accessor::read(document, index, &place, purpose, |value| value as f32)?.values;
+                if moved.len() != 3 * values.len() {
+                    return Err(
+                        document.damaged(&place, format!("{} values for {} vertices", moved.len() / 3, values.len()))
+                    );
+                }
+                for (value, moved) in values.iter_mut().zip(moved.as_chunks::<3>().0) {
+                    *value += weight * Vec3::from_array(*moved);
+                }
+                Ok(())
+            };
+            let mut applied = add(target.positions.map(|index| index.value()), positions);
+            if let Some(normals) = normals.as_deref_mut() {
+                applied = applied.and_then(|()| add(target.normals.map(|index| index.value()), normals));
+            }
+            if let Err(error) = applied {
+                notices.left_out(Part::Morph, &place, &error.part_fault()?);
+            }
+        }
+        let Some(skin) = &self.skin else { return Ok(()) };
+        match Influences::read(document, primitive, place, positions.len(), skin.joints.len()) {
+            Ok(influences) => influences.apply(skin, positions, normals),
+            Err(error) => notices.left_out(Part::Skin, place, &error.part_fault()?),
+        }
+        Ok(())
+    }
+}
+
+/// Joints of every vertex and their weights, four or eight each.
+struct Influences {
+    sets: Vec<(Vec<usize>, Vec<f64>)>,
+}
+
+impl Influences {
+    fn read(
+        document: &Document<'_>,
+        primitive: &json::mesh::Primitive,
+        place: &str,
+        vertices: usize,
+        joint_count: usize,
+    ) -> Result<Self, GltfError> {
+        let mut sets = Vec::new();
+        for set in 0.. {
+            let named = |semantic, name: &str| {
+                attribute(primitive, semantic).map(|index| (index, format!("{place}.attributes.{name}_{set}")))
+            };
+            let (Some(joints), Some(weights)) =
+                (named(Semantic::Joints(set), "JOINTS"), named(Semantic::Weights(set), "WEIGHTS"))
+            else {
+                break;
+            };
+            let found = accessor::read(document, joints.0, &joints.1, Purpose::Joints, |value| value as usize)?.values;
+            let purpose = Purpose::Vectors(Type::Vec4);
+            let shares = accessor::read(document, weights.0, &weights.1, purpose, |value| value)?.values;
+            if found.len() != 4 * vertices || shares.len() != 4 * vertices {
+                return Err(document.damaged(&joints.1, format!("{} values for {vertices} vertices", found.len() / 4)));
+            }
+            let beyond = found.iter().zip(&shares).find(|(joint, share)| **joint >= joint_count && **share != 0.0);
+            if let Some((joint, _)) = beyond {
+                return Err(document.damaged(&joints.1, format!("joint {joint} of {joint_count}")));
+            }
+            sets.push((found, shares));
+        }
+        if sets.is_empty() {
+            return Err(document.damaged(&format!("{place}.attributes"), "JOINTS_0 and WEIGHTS_0 are missing"));
+        }
+        Ok(Self { sets })
+    }
+
+    fn apply(&self, skin: &PosedSkin, positions: &mut [Vec3], mut normals: Option<&mut Vec<Vec3>>) {
+        for (vertex, position) in positions.iter_mut().enumerate() {
+            let mut matrix = DMat3::ZERO;
+            let (mut translation, mut sum) = (DVec3::ZERO, 0.0);
+            for (joints, weights) in &self.sets {
+                for (&joint, &weight) in joints[4 * vertex..][..4].iter().zip(&weights[4 * vertex..][..4]) {
+                    let Some(joint) = skin.joints.get(joint).filter(|_| weight != 0.0) else { continue };
+                    matrix += joint.matrix3 * weight;
+                    translation += joint.translation * weight;
+                    sum += weight;
+                }
+            }
+            // A vertex that no joint holds follows the first.
+            let whole = if sum > NO_WEIGHT {
+                DAffine3 { matrix3: matrix * (1.0 / sum), translation: translation / sum }
+            } else {
+                skin.joints.first().copied().unwrap_or(DAffine3::IDENTITY)
+            };
+            *position = whole.transform_point3(position.as_dvec3()).as_vec3();
+            if let Some(normals) = normals.as_deref_mut() {
+                let [x, y, z] = [whole.matrix3.x_axis, whole.matrix3.y_axis, whole.matrix3.z_axis];
+                let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };
+                let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * mirror;
+                normals[vertex] = (cofactors * normals[vertex].as_dvec3()).normalize_or_zero().as_vec3();
+            }
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! Repair of a file's JSON: what exporters write against the letter of glTF is put right, and a part that cannot be
+//! read is replaced by an empty one, so that the rest can be drawn.
+//!
+//! A sound file never comes here: it is parsed in one pass. Only where that fails, or where a number is so large that
+//! an index would wrap around, is the text parsed as plain JSON, mended, and parsed again.
+
+use ::gltf::json;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Number, Value, json};
+
+use super::file_json::{GltfJson, NodeJson};
+use super::notices::{Notices, Part};
+
+/// Keys whose numbers are indices into lists.
+const INDEX_KEYS: [&str; 20] = [
+    "buffer",
+    "bufferView",
+    "camera",
+    "children",
+    "index",
+    "indices",
+    "input",
+    "inverseBindMatrices",
+    "joints",
+    "light",
+    "material",
+    "mesh",
+    "node",
+    "nodes",
+    "output",
+    "sampler",
+    "scene",
+    "skeleton",
+    "skin",
+    "source",
+];
+
+/// Keys below which every number is an index, whatever its own key.
+const INDEX_MAPS: [&str; 2] = ["attributes", "targets"];
+
+/// Index that no list has, in place of one that 32 bits cannot hold.
+const NOWHERE: u32 = u32::MAX - 1;
+
+/// Digits from which on a whole number may be larger than 32 bits hold.
+const LONG_NUMBER: usize = 10;
+
+/// True if the text may have an index that 32 bits cannot hold: a long run of digits that is no fraction.
+pub(super) fn may_wrap(text: &[u8]) -> bool {
+    let mut start = 0;
+    while start < text.len() {
+        if !text[start].is_ascii_digit() {
+            start += 1;
+            continue;
+        }
+        let length = text[start..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+        let fraction = start > 0 && text[start - 1] == b'.' || text.get(start + length) == Some(&b'.');
+        if length >= LONG_NUMBER && !fraction {
+            let digits = text[start..start + length].iter();
+            let value = digits.fold(0_u64, |sum, digit| sum.saturating_mul(10).saturating_add(u64::from(digit - b'0')));
+            if value > u64::from(NOWHERE) {
+                return true;
+            }
+        }
+        start += length;
+    }
+    false
+}
+
+/// JSON of a file with its repairs made and named; `None` if the text is no JSON object, or has no asset.
+pub(super) fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
+    let mut value: Value = serde_json::from_str(&String::from_utf8_lossy(text)).ok()?;
+    normalise(&mut value, "");
+    let root = value.as_object_mut()?;
+    list::<json::Scene>(root, "scenes", &json!({ "nodes": [] }), notices, |scene, _, _| {
+        scene.entry("nodes").or_insert_with(|| json!([]));
+    });
+    list::<NodeJson>(root, "nodes", &json!({}), notices, |_, _, _| {});
+    list::<json::Mesh>(root, "meshes", &json!({ "primitives": [] }), notices, |mesh, place, notices| {
+        inner::<json::mesh::Primitive>(mesh, "primitives", place, notices, Part::Mesh);
+    });
+    list::<json::Material>(root, "materials", &json!({}), notices, |_, _, _| {});
+    list::<json::Texture>(root, "textures", &json!({}), notices, |_, _, _| {});
+    list::<json::texture::Sampler>(root, "samplers", &json!({}), notices, |_, _, _| {});
+    list::<json::Image>(root, "images", &json!({}), notices, |_, _, _| {});
+    list::<json::Animation>(
+        root,
+        "animations",
+        &json!({ "channels": [], "samplers": [] }),
+        notices,
+        |animation, place, notices| {
+            inner::<json::animation::Channel>(animation, "channels", place, notices, Part::Animation);
+        },
+    );
+    list::<json::Skin>(root, "skins", &json!({ "joints": [] }), notices, |_, _, _| {});
+    list::<json::Camera>(root, "cameras", &json!({ "type": "unknown" }), notices, |_, _, _| {});
+    let none = json!({ "componentType": 0, "type": "none", "count": 0 });
+    list::<json::Accessor>(root, "accessors", &none, notices, |_, _, _| {});
+    list::<json::buffer::View>(
+        root,
+        "bufferViews",
+        &json!({ "buffer": NOWHERE, "byteLength": 0 }),
+        notices,
+        |_, _, _| {},
+    );
+    list::<json::Buffer>(root, "buffers", &json!({ "byteLength": 0 }), notices, |_, _, _| {});
+    for key in ["extensionsUsed", "extensionsRequired"] {
+        if let Some(names) = root.get_mut(key) {
+            let strings = names.as_array().into_iter().flatten().filter(|name| name.is_string()).cloned().collect();
+            *names = Value::Array(strings);
+        }
+    }
+    for key in ["extensions", "scene"] {
+        let readable = match (key, root.get(key)) {
+            (_, None) => true,
+            ("scene", Some(scene)) => scene.is_u64(),
+            (_, Some(extensions)) => reads::<json::extensions::Root>(extensions).is_ok(),
+        };
+        if !readable {
+            root.remove(key);
+            notices.left_out(Part::File, key, "it cannot be read");
+        }
+    }
+    serde_json::from_value(value).ok()
+}
+
+fn reads<T: DeserializeOwned>(value: &Value) -> Result<T, String> {
+    T::deserialize(value).map_err(|error| error.to_string())
+}
+
+/// Mends the items of one of the file's lists with `mend`, and replaces those that cannot be read by `empty`.
+fn list<T: DeserializeOwned>(
+    root: &mut Map<String, Value>,
+    key: &str,
+    empty: &Value,
+    notices: &mut Notices,
+    mend: impl Fn(&mut Map<String, Value>, &str, &mut Notices),
+) {
+    let Some(list) = root.get_mut(key) else { return };
+    let Value::Array(items) = list else {
+        root.remove(key);
+        notices.left_out(Part::File, key, "it is no list");
+        return;
+    };
+    for (index, item) in items.iter_mut().enumerate() {
+        let place = format!("{key}[{index}]");
+        if let Value::Object(item) = item {
+            mend(item, &place, notices);
+        }
+        let Err(fault) = reads::<T>(item) else { continue };
+        // An extension is the part that can be spared.
+        if let Value::Object(members) = item
+            && members.remove("extensions").is_some()
+            && reads::<T>(item).is_ok()
+        {
+            notices.left_out(Part::File, &format!("{place}.extensions"), &fault);
+            continue;
+        }
+        notices.left_out(part_of(key), &place, &fault);
+        *item = empty.clone();
+    }
+}
+
+/// Removes the items of an item's own list that cannot be read.
+fn inner<T: DeserializeOwned>(
+    item: &mut Map<String, Value>,
+    key: &str,
+    place: &str,
+    notices: &mut Notices,
+    part: Part,
+) {
+    let Some(Value::Array(parts)) = item.get_mut(key) else { return };
+    let mut index = 0;
+    parts.retain(|value| {
+        let read = reads::<T>(value);
+        if let Err(fault) = &read {
+            notices.left_out(part, &format!("{place}.{key}[{index}]"), fault);
+        }
+        index += 1;
+        read.is_ok()
+    });
+}
+
+fn part_of(key: &str) -> Part {
+    match key {
+        "meshes" | "accessors" | "bufferViews" | "buffers" => Part::Mesh,
+        "nodes" | "scenes" | "cameras" => Part::Node,
+        "materials" => Part::Material,
+        "textures" | "samplers" | "images" => Part::Picture,
+        "animations" => Part::Animation,
+        "skins" => Part::Skin,
+        _ => Part::File,
+    }
+}
+
+/// Writes whole numbers as such (4.0 as 4), removes members that are null, and replaces indices that are too large.
+/// Extras belong to other programs and stay as they are.
+fn normalise(value: &mut Value, key: &str) {
+    match value {
+        Value::Object(members) => {
+            members.retain(|key, member| key == "extras" || !member.is_null());
+            for (own, member) in members.iter_mut().filter(|(key, _)| key.as_str() != "extras") {
+                normalise(member, if INDEX_MAPS.contains(&key) { key } else { own });
+            }
+        }
+        Value::Array(items) => items.iter_mut().for_each(|item| normalise(item, key)),
+        Value::Number(number) => {
+            if let Some(whole) = whole(number) {
+                *number = whole.into();
+            }
+            let index = INDEX_KEYS.contains(&key) || INDEX_MAPS.contains(&key);
+            if index && number.as_u64().is_some_and(|number| number > u64::from(NOWHERE)) {
+                *number = NOWHERE.into();
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Whole number that is written with a fraction of zero.
+fn whole(number: &Number) -> Option<i64> {
+    /// Largest magnitude up to which a double holds every whole number.
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    let value = if number.is_f64() { number.as_f64()? } else { return None };
+    (value.fract() == 0.0 && value.abs() <= EXACT).then_some(value as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Laws under test: repaired JSON says what was meant, a part that cannot be read is empty and named, and only a
+    //! text with a long whole number may wrap.
+    #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+    use super::*;
+
+    #[test]
+    fn whole_numbers_with_a_fraction_of_zero_are_whole() {
+        let text = br#"{ "asset": { "version": "2.0" }, "scene": 0.0, "scenes": [{ "nodes": [1.0], "name": null }],
+            "accessors": [{ "componentType": 5126.0, "count": 3.0, "type": "VEC3", "extras": { "a": 2.0 } }] }"#;
+        let mut notices = Notices::default();
+        let json = repaired(text, &mut notices).unwrap();
+        assert_eq!((json.scene.unwrap().value(), json.scenes[0].nodes[0].value()), (0, 1));
+        assert_eq!(json.accessors[0].count.0, 3);
+        assert_eq!(json.accessors[0].extras.as_ref().unwrap().get(), r#"{"a":2.0}"#);
+        assert!(notices.into_sentences().is_empty());
+    }
+
+    #[test]
+    fn an_item_that_cannot_be_read_is_empty_and_named() {
+        let text = br#"{ "asset": { "version": "2.0" }, "materials": [{ "alphaCutoff": "x" }, { "name": "good" }],
+            "scenes": [{}], "animations": [{ "channels": [{ "sampler": 0, "target": { "path": "rotation" } }],
+            "samplers": [] }] }"#;
+        let mut notices = Notices::default();
+        let json = repaired(text, &mut notices).unwrap();
+        assert_eq!((json.materials[0].name.as_deref(), json.materials[1].name.as_deref()), (None, Some("good")));
+        assert!(json.animations[0].channels.is_empty() && json.scenes[0].nodes.is_empty());
+        let said = notices.into_sentences().join("\n");
+        assert!(said.contains("materials[0]") && said.contains("animations[0].channels[0]"), "{said}");
+    }
+
+    #[test]
+    fn an_index_beyond_32_bits_is_no_other_index() {
+        let text = br#"{ "asset": { "version": "2.0" }, "nodes": [{ "mesh": 4294967296 }], "meshes": [
+            { "primitives": [{ "attributes": { "POSITION": 4294967297 } }] }] }"#;
+        assert!(may_wrap(text));
+        let json = repaired(text, &mut Notices::default()).unwrap();
+        assert_eq!(json.nodes[0].mesh.unwrap().value(), NOWHERE as usize);
+        let positions = json.meshes[0].primitives[0].attributes.values().next().unwrap();
+        assert_eq!(positions.value(), NOWHERE as usize);
+        for harmless in ["0.70710678118654752", "1234567890.5", "[4294967, 12]", "\"4294967294\""] {
+            assert!(!may_wrap(harmless.as_bytes()), "{harmless}");
+        }
+    }
+}
