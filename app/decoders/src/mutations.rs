@@ -10,9 +10,9 @@ pub(crate) fn hex(text: &str) -> Vec<u8> {
 }
 
 /// Versions of some bytes with flipped, replaced, lost and added ones, the same at each call.
-pub(crate) fn mutations(bytes: &[u8], count: usize) -> impl Iterator<Item = Vec<u8>> {
+pub(crate) fn mutations(bytes: &[u8], count: usize) -> Vec<Vec<u8>> {
     let mut random = ChaCha8Rng::seed_from_u64(bytes.len() as u64);
-    (0..count).map(move |_| {
+    let mut mutation = || {
         let mut bytes = bytes.to_vec();
         for _ in 0..random.random_range(1..4) {
             let place = random.random_range(0..bytes.len().max(1));
@@ -34,5 +34,6 @@ pub(crate) fn mutations(bytes: &[u8], count: usize) -> impl Iterator<Item = Vec<
             }
         }
         bytes
-    })
+    };
+    (0..count).map(|_| mutation()).collect()
 }
