@@ -5,7 +5,10 @@
 
 pub mod draco;
 mod error;
+mod loan;
 pub mod meshopt;
+#[cfg(test)]
+mod mutations;
 pub mod picture;
 
 pub use error::DecodeError;

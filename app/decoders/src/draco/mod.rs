@@ -1,16 +1,13 @@
 //! Meshes as KHR_draco_mesh_compression packs them.
+//!
+//! The bit stream is decoded by the crate `draco-core`. Here its header is read first, so that the memory is known
+//! before it is asked for, and what comes out is turned into numbers.
 
+mod decode;
+mod header;
 mod mesh;
+#[cfg(test)]
+mod tests;
 
+pub use decode::decode;
 pub use mesh::{Attribute, DracoMesh};
-
-use crate::DecodeError;
-use regular_file::Budget;
-
-/// Decoded mesh, its memory taken from the budget.
-///
-/// # Errors
-/// [`DecodeError`]: the bytes are no Draco mesh, or what they decode to exceeds the budget.
-pub fn decode(_bytes: &[u8], _budget: &Budget) -> Result<DracoMesh, DecodeError> {
-    Err(DecodeError::Unsupported("KHR_draco_mesh_compression".to_owned()))
-}

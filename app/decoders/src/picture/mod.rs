@@ -1,7 +1,16 @@
 //! Pictures, told apart by their first bytes and decoded to 8-bit sRGB.
 
+mod decoded;
+mod jpeg;
+mod jpeg_outline;
 mod kind;
 mod pixels;
+mod png;
+#[cfg(test)]
+mod tests;
+mod webp;
+mod webp_outline;
 
+pub use decoded::DecodedPicture;
 pub use kind::{PictureKind, kind};
-pub use pixels::{DecodedPicture, decode, size};
+pub use pixels::{decode, size};

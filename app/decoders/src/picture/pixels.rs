@@ -1,51 +1,55 @@
 //! Pixels of a picture of any format.
 
+use super::decoded::DecodedPicture;
 use super::kind::{PictureKind, kind};
+use super::{jpeg, png, webp};
 use crate::DecodeError;
-use image::{ImageFormat, ImageReader};
+use crate::loan::Loan;
 use regular_file::Budget;
-use std::io::Cursor;
 
-/// Pixels of a picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DecodedPicture {
-    /// Width, pixels.
-    pub width: u32,
-    /// Height, pixels.
-    pub height: u32,
-    /// Red, green, blue, alpha of 8 bits, sRGB as stored, rows from the top.
-    pub rgba: Vec<u8>,
-    /// Remark on what could not be decoded, worded to follow the name of the picture.
-    pub notice: Option<String>,
-}
+/// Longest side of a picture, pixels: the limit of graphics processors.
+const MAX_SIDE: u32 = 16384;
 
 /// Width and height without decoding, pixels.
 ///
 /// # Errors
 /// [`DecodeError`]: the bytes are no picture, or one of an impossible size.
 pub fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
-    let format = format(bytes)?;
-    let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions();
-    size.map_err(|error| DecodeError::Damaged(error.to_string()))
+    let (width, height) = match kind(bytes).ok_or(DecodeError::UnknownPicture)? {
+        PictureKind::Png => png::size(bytes)?,
+        PictureKind::Jpeg => jpeg::size(bytes)?,
+        PictureKind::WebP => webp::size(bytes)?,
+        PictureKind::Ktx2 => return Err(DecodeError::Unsupported("KTX2".to_owned())),
+    };
+    if width.max(height) > MAX_SIDE || width.min(height) == 0 {
+        return Err(DecodeError::Size { width, height, most: MAX_SIDE });
+    }
+    Ok((width, height))
 }
 
-/// Pixels of the largest mip level, their memory taken from the budget. EXIF orientation is ignored, as glTF says.
+/// Pixels of the largest mip level. EXIF orientation is ignored, as glTF says.
+///
+/// The pixels' memory stays taken from the budget; memory of the decoding is taken and given back.
 ///
 /// # Errors
 /// [`DecodeError`]: the bytes are no picture, or it exceeds the budget.
 pub fn decode(bytes: &[u8], budget: &Budget) -> Result<DecodedPicture, DecodeError> {
     let (width, height) = size(bytes)?;
-    budget.take(u64::from(width) * u64::from(height) * 4)?;
-    let picture = ImageReader::with_format(Cursor::new(bytes), format(bytes)?).decode();
-    let rgba = picture.map_err(|error| DecodeError::Damaged(error.to_string()))?.into_rgba8().into_raw();
-    Ok(DecodedPicture { width, height, rgba, notice: None })
-}
-
-fn format(bytes: &[u8]) -> Result<ImageFormat, DecodeError> {
-    match kind(bytes) {
-        Some(PictureKind::Png) => Ok(ImageFormat::Png),
-        Some(PictureKind::Jpeg) => Ok(ImageFormat::Jpeg),
-        Some(_) => Err(DecodeError::Unsupported("WebP or KTX2".to_owned())),
-        None => Err(DecodeError::UnknownPicture),
-    }
+    let pixels = u64::from(width) * u64::from(height) * 4;
+    let kind = kind(bytes).ok_or(DecodeError::UnknownPicture)?;
+    let scratch = match kind {
+        PictureKind::Png => png::scratch(width),
+        PictureKind::Jpeg => jpeg::scratch(bytes)?,
+        PictureKind::WebP => webp::scratch(bytes, width, height),
+        PictureKind::Ktx2 => 0,
+    };
+    let loan = Loan::new(budget, pixels.saturating_add(scratch))?;
+    let (rgba, notice) = match kind {
+        PictureKind::Png => png::decode(bytes, width, height)?,
+        PictureKind::Jpeg => jpeg::decode(bytes, width, height)?,
+        PictureKind::WebP => webp::decode(bytes, width, height)?,
+        PictureKind::Ktx2 => return Err(DecodeError::Unsupported("KTX2".to_owned())),
+    };
+    loan.keep(pixels);
+    Ok(DecodedPicture { width, height, rgba, notice })
 }
