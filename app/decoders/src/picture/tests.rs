@@ -1,6 +1,7 @@
 //! Law: a picture's pixels come out as they went in, whatever its format; of a picture that ends too early the upper
 //! part is kept and said to be so; nothing that the bytes claim is allocated beyond the budget, and no bytes make a
-//! decoder panic. The pictures were written by libpng, libjpeg-turbo and libwebp, or by the hand of the test.
+//! decoder panic. The pictures were written by libpng, libjpeg-turbo, libwebp and
+//! Basis Universal's encoder, or by the hand of the test.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use super::{DecodedPicture, PictureKind, decode, kind, size};
@@ -83,6 +84,50 @@ const WEBP_MOVING: &str = "\
     c00b101f20102034f9af10a34520402811215ba5408090aa548998f90f80f6558399b66d4c32244b72f71844f43faaaaaaaa\
     aaaaaaaaaaaaaaaaaaaaaaaa0000000000000000b66ddbb66ddbb66ddbb66ddbb6bbd701";
 
+/// KTX2 with codebooks.
+const KTX2_ETC1S: &str = "\
+    ab4b5458203230bb0d0a1a0a0000000001000000100000003000000000000000000000000100000001000000010000006800\
+    00002c0000009400000024000000b8000000000000009b0000000000000053010000000000000d0000000000000000000000\
+    000000002c0000000000000002002800a301020003030000080000000000000000003f000000000000000000ffffffff1f00\
+    00004b545877726974657200426173697320556e6976657273616c20322e3130000004000300340000000d00000032000000\
+    0000000000000000000000000d00000000000000000000001d40d4800100004050f0034d0e2c8029010300000020cc51807d\
+    0298022000000000825e37f0008801000000000041c02af5d60efcffffffafaaaaaa020000000014c084000100000010d485\
+    900098001000000000409208781b2000002088426970f484fc4406600e400000000008d3170302cebb896374114dab23fa49\
+    5407";
+/// KTX2 with codebooks and smaller pictures, its last 8 rows of alpha 77.
+const KTX2_ETC1S_ALPHA: &str = "\
+    ab4b5458203230bb0d0a1a0a000000000100000010000000300000000000000000000000010000000600000001000000e000\
+    00003c0000001c0100002400000040010000000000006501000000000000d302000000000000220000000000000000000000\
+    00000000bc0200000000000017000000000000000000000000000000b3020000000000000900000000000000000000000000\
+    0000ad0200000000000006000000000000000000000000000000a90200000000000004000000000000000000000000000000\
+    a502000000000000040000000000000000000000000000003c0000000000000002003800a301020003030000080800000000\
+    000000003f000000000000000000ffffffff40003f0f0000000000000000ffffffff1f0000004b5458777269746572004261\
+    73697320556e6976657273616c20322e31300000170012006000000039000000400000000000000000000000000000001500\
+    0000150000000d00000000000000000000000d0000000d0000000a0000000000000000000000050000000500000004000000\
+    0000000000000000030000000300000003000000000000000000000002000000020000000200000000000000000000000200\
+    0000020000000200000020401c8801008600e059ba34c2e80b20c01b00010080609c94561e1106023c8210008008680fb34f\
+    2bb991461080080002000082208b5b01601d74674f4cfb8fd978d6ed6f87a9076eceb5a5f4a50ea884b9bef98bca08c20211\
+    29c946a4ee06000826050c80300c00c0e34532274898010400c51112268266ca66a25f5f5555adf1067fa0a0a04290094990\
+    08aad81e75edf7ecfd38c7f8160041440002008081500a7fa1cc9f65285d006f0008000808bd187206475f53402387011006\
+    a50eb4ee16c28123fe001ac737f800e2060800000040b2c815800039010500dd15f5009deef711b000cdbaa73a034fb0b001\
+    e9ca9939c7199ea4f7943f971f124c654c58ef8d8ebe015632c7eeaeae963084814b05268c86288d5b98301c120c15268cc7\
+    1843254785092b";
+/// KTX2 of blocks of 16 bytes, packed by Zstandard.
+const KTX2_UASTC: &str = "\
+    ab4b5458203230bb0d0a1a0a0000000001000000100000003000000000000000000000000100000001000000020000006800\
+    00002c000000940000002400000000000000000000000000000000000000b800000000000000400000000000000000030000\
+    000000002c0000000000000002002800a601020003030000100000000000000000007f000000000000000000ffffffff1f00\
+    00004b545877726974657200426173697320556e6976657273616c20322e3130000028b52ffd600002b501000402575f5fff\
+    5f7aef01001719c5e37fd0c7008596e73f301701d743c6f73f1ec50207007540f13aa0cc430a1d820400c83351c8c011";
+/// KTX2 of blocks of 16 bytes, its last 8 rows of alpha 77.
+const KTX2_UASTC_ALPHA: &str = "\
+    ab4b5458203230bb0d0a1a0a0000000001000000100000003000000000000000000000000100000001000000020000006800\
+    00002c000000940000002400000000000000000000000000000000000000b800000000000000450000000000000000030000\
+    000000002c0000000000000002002800a601020003030000100000000000000000007f030000000000000000ffffffff1f00\
+    00004b545877726974657200426173697320556e6976657273616c20322e3130000028b52ffd600002dd01002402575f5fff\
+    5f7aef01001719c5e37fd0c7008596e73f301701d743c6f73f1ec502b729082070a3850338c558caeb94f9a7d041020479a2\
+    908923";
+
 fn decoded(bytes: &[u8]) -> DecodedPicture {
     decode(bytes, &Budget::default()).unwrap()
 }
@@ -156,7 +201,7 @@ fn every_kind_of_png_gives_its_pixels() {
 }
 
 #[test]
-fn every_kind_of_jpeg_and_webp_gives_its_colours() {
+fn every_kind_of_jpeg_webp_and_ktx2_gives_its_colours() {
     for (text, tolerance, expected) in [
         (JPEG_BASELINE, 12, PictureKind::Jpeg),
         (JPEG_PROGRESSIVE, 3, PictureKind::Jpeg),
@@ -167,6 +212,10 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
         (WEBP_LOSSY, 2, PictureKind::WebP),
         (WEBP_LOSSY_ALPHA, 2, PictureKind::WebP),
         (WEBP_MOVING, 0, PictureKind::WebP),
+        (KTX2_ETC1S, 12, PictureKind::Ktx2),
+        (KTX2_ETC1S_ALPHA, 12, PictureKind::Ktx2),
+        (KTX2_UASTC, 1, PictureKind::Ktx2),
+        (KTX2_UASTC_ALPHA, 1, PictureKind::Ktx2),
     ] {
         let bytes = hex(text);
         assert_eq!((kind(&bytes), size(&bytes)), (Some(expected), Ok((16, 48))));
@@ -175,8 +224,12 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
             let found = pixel(&picture, place);
             let off = found.iter().zip(colour).map(|(found, wanted)| found.abs_diff(wanted)).max();
             assert!(off <= Some(tolerance), "{found:?} for {colour:?} in {text}");
-            let transparent = [WEBP_LOSSLESS_ALPHA, WEBP_LOSSY_ALPHA].contains(&text) && place[1] >= 40;
-            assert_eq!(found[3], if transparent { 77 } else { 255 });
+            let with_alpha = [WEBP_LOSSLESS_ALPHA, WEBP_LOSSY_ALPHA, KTX2_ETC1S_ALPHA, KTX2_UASTC_ALPHA];
+            let alpha = if with_alpha.contains(&text) && place[1] >= 40 { 77 } else { 255_u8 };
+            assert!(
+                found[3].abs_diff(alpha) <= if expected == PictureKind::Ktx2 { 5 } else { 0 },
+                "{found:?} in {text}"
+            );
         }
         assert_eq!(picture.notice.is_some(), text == WEBP_MOVING);
     }
@@ -184,6 +237,39 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
     let picture = decoded(&hex(JPEG_GREY));
     let grey = COLOURS.map(|(place, _)| pixel(&picture, place)[0]);
     assert!(grey.iter().zip([250, 87, 124, 60]).all(|(found, wanted)| found.abs_diff(wanted) <= 2), "{grey:?}");
+}
+
+/// KTX2 that no Basis Universal is in: the number of Vulkan's format, width, height and pixels.
+fn ktx2(format: u32, width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    let words = [format, 1, width, height, 0, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+    [104, pixels.len() as u64, pixels.len() as u64].iter().for_each(|long| bytes.extend(long.to_le_bytes()));
+    bytes.extend(pixels);
+    bytes
+}
+
+#[test]
+fn plain_ktx2_gives_its_first_picture() {
+    for (format, pixels, rgba) in [
+        (37, &[1, 2, 3, 4, 5, 6, 7, 8][..], [1, 2, 3, 4, 5, 6, 7, 8]),
+        (50, &[3, 2, 1, 4, 7, 6, 5, 8], [1, 2, 3, 4, 5, 6, 7, 8]),
+        (29, &[1, 2, 3, 5, 6, 7], [1, 2, 3, 255, 5, 6, 7, 255]),
+        (30, &[3, 2, 1, 7, 6, 5], [1, 2, 3, 255, 5, 6, 7, 255]),
+    ] {
+        let picture = decoded(&ktx2(format, 2, 1, &[pixels, pixels].concat()));
+        assert_eq!(picture.rgba, rgba);
+        assert_eq!(picture.notice.as_deref(), Some("it holds 2 pictures, and only the first is shown"));
+    }
+    let said = |bytes: &[u8]| decode(bytes, &Budget::default()).unwrap_err().to_string();
+    assert!(said(&ktx2(37, 2, 1, &[1, 2, 3, 4])).contains("end too early"));
+    assert!(said(&ktx2(145, 4, 4, &[0; 16])).contains("Vulkan's format 145"));
+    let mut packed = ktx2(37, 2, 1, &[0; 16]);
+    packed[44] = 3;
+    assert!(said(&packed).contains("supercompression 3"));
+    // Of the blocks only some are there.
+    let cut = hex(KTX2_UASTC);
+    assert!(said(&cut[..cut.len() - 9]).contains("end too early"));
 }
 
 #[test]
@@ -216,7 +302,7 @@ fn of_a_picture_cut_short_the_upper_part_is_kept_and_said() {
 
 #[test]
 fn what_a_picture_claims_is_refused_before_it_is_allocated() {
-    // A PNG, a JPEG and a WebP that are 16 000 pixels wide and high, as their headers say.
+    // Pictures that are 16 000 pixels wide and high, as their headers say.
     let mut large_png = png(1, ColorType::Grayscale, BitDepth::Eight, None, &[1]);
     large_png[16..24].copy_from_slice(&[0, 0, 0x3e, 0x80, 0, 0, 0x3e, 0x80]);
     let mut large_jpeg = hex(JPEG_GREY);
@@ -224,7 +310,9 @@ fn what_a_picture_claims_is_refused_before_it_is_allocated() {
     large_jpeg[frame + 5..frame + 9].copy_from_slice(&[0x3e, 0x80, 0x3e, 0x80]);
     let mut large_webp = hex(WEBP_LOSSLESS);
     large_webp[21..25].copy_from_slice(&(15_999_u32 << 14 | 15_999).to_le_bytes());
-    for bytes in [large_png, large_jpeg, large_webp] {
+    let mut large_ktx2 = hex(KTX2_ETC1S);
+    large_ktx2[20..28].copy_from_slice(&[0x80, 0x3e, 0, 0, 0x80, 0x3e, 0, 0]);
+    for bytes in [large_png, large_jpeg, large_webp, large_ktx2] {
         let budget = Budget::new(500_000_000);
         assert_eq!(size(&bytes), Ok((16_000, 16_000)));
         assert!(matches!(decode(&bytes, &budget), Err(DecodeError::OverBudget(_))));
@@ -262,6 +350,9 @@ fn mutated_pictures_end_in_pixels_or_a_sentence() {
         hex(WEBP_LOSSLESS_ALPHA),
         hex(WEBP_LOSSY_ALPHA),
         hex(WEBP_MOVING),
+        hex(KTX2_ETC1S_ALPHA),
+        hex(KTX2_UASTC),
+        ktx2(37, 2, 2, &[1; 32]),
     ];
     for bytes in pictures.iter().flat_map(|picture| mutations(picture, 300)) {
         let budget = Budget::new(40_000_000);
