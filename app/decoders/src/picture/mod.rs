@@ -10,6 +10,8 @@ mod ktx2_outline;
 mod pixels;
 mod png;
 #[cfg(test)]
+mod samples;
+#[cfg(test)]
 mod tests;
 mod webp;
 mod webp_outline;
