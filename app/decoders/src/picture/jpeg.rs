@@ -18,12 +18,19 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
     Ok((outline.width, outline.height))
 }
 
+/// Most blocks of 8 × 8 pixels that a byte may announce: each takes a bit at least, and a 64th of them must be there.
+const BLOCKS_PER_BYTE: u64 = 8 * 64;
+
 /// Memory of decoding, bytes: the coefficients of 16 bits, a few rows of blocks, a second copy of a file that is cut.
 pub(super) fn scratch(bytes: &[u8]) -> Result<u64, DecodeError> {
     let outline = JpegOutline::read(bytes)?;
     let [across, down] =
         [0, 1].map(|axis| outline.sampling.iter().map(|sampling| sampling[axis]).max().unwrap_or(1).max(1));
     let [columns, rows] = [outline.width.div_ceil(8 * across), outline.height.div_ceil(8 * down)].map(u64::from);
+    let least = u64::from(outline.width.div_ceil(8)) * u64::from(outline.height.div_ceil(8)) / BLOCKS_PER_BYTE;
+    if least > bytes.len() as u64 {
+        return Err(DecodeError::CutShort);
+    }
     let blocks: u64 = outline.sampling.iter().map(|[across, down]| u64::from(across * down)).sum();
     let row = columns * blocks * 64 * 2;
     Ok((1 << 20) + bytes.len() as u64 + row * (rows + 16))
@@ -39,7 +46,7 @@ pub(super) fn decode(bytes: &[u8], width: u32, height: u32) -> Result<(Vec<u8>, 
         .set_max_height(height)
         .set_strict_mode(false)
         .jpeg_set_max_scans(64);
-    // A file that is cut between two versions, or within a header, would give nothing, so it is made to end before that.
+    // A file that is cut between two versions or within a header would give nothing, so it is made to end before.
     let between = !outline.complete && (outline.progressive || outline.sound < bytes.len());
     let whole = match between {
         true => Cow::Owned([&bytes[..outline.sound], &END].concat()),

@@ -2,7 +2,7 @@
 
 use super::decoded::DecodedPicture;
 use super::kind::{PictureKind, kind};
-use super::{jpeg, png, webp};
+use super::{jpeg, ktx2, png, webp};
 use crate::DecodeError;
 use crate::loan::Loan;
 use regular_file::Budget;
@@ -19,7 +19,7 @@ pub fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
         PictureKind::Png => png::size(bytes)?,
         PictureKind::Jpeg => jpeg::size(bytes)?,
         PictureKind::WebP => webp::size(bytes)?,
-        PictureKind::Ktx2 => return Err(DecodeError::Unsupported("KTX2".to_owned())),
+        PictureKind::Ktx2 => ktx2::size(bytes)?,
     };
     if width.max(height) > MAX_SIDE || width.min(height) == 0 {
         return Err(DecodeError::Size { width, height, most: MAX_SIDE });
@@ -41,14 +41,14 @@ pub fn decode(bytes: &[u8], budget: &Budget) -> Result<DecodedPicture, DecodeErr
         PictureKind::Png => png::scratch(width),
         PictureKind::Jpeg => jpeg::scratch(bytes)?,
         PictureKind::WebP => webp::scratch(bytes, width, height),
-        PictureKind::Ktx2 => 0,
+        PictureKind::Ktx2 => ktx2::scratch(bytes)?,
     };
     let loan = Loan::new(budget, pixels.saturating_add(scratch))?;
     let (rgba, notice) = match kind {
         PictureKind::Png => png::decode(bytes, width, height)?,
         PictureKind::Jpeg => jpeg::decode(bytes, width, height)?,
         PictureKind::WebP => webp::decode(bytes, width, height)?,
-        PictureKind::Ktx2 => return Err(DecodeError::Unsupported("KTX2".to_owned())),
+        PictureKind::Ktx2 => ktx2::decode(bytes)?,
     };
     loan.keep(pixels);
     Ok(DecodedPicture { width, height, rgba, notice })

@@ -1,8 +1,10 @@
 //! Law: a picture's pixels come out as they went in, whatever its format; of a picture that ends too early the upper
 //! part is kept and said to be so; nothing that the bytes claim is allocated beyond the budget, and no bytes make a
-//! decoder panic. The pictures were written by libpng, libjpeg-turbo and libwebp, or by the hand of the test.
+//! decoder panic. The pictures were written by libpng, libjpeg-turbo, libwebp and
+//! Basis Universal's encoder, or by the hand of the test.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
+use super::samples::*;
 use super::{DecodedPicture, PictureKind, decode, kind, size};
 use crate::DecodeError;
 use crate::mutations::{hex, mutations};
@@ -13,75 +15,6 @@ use regular_file::Budget;
 /// beside it, green from row 16, blue from row 32. Each with a column and a row where it stands.
 const COLOURS: [([usize; 2], [u8; 3]); 4] =
     [([2, 2], [250, 250, 250]), ([12, 12], [200, 40, 30]), ([8, 24], [40, 180, 60]), ([8, 44], [30, 50, 190])];
-
-/// Baseline JPEG whose colour has half the resolution.
-const JPEG_BASELINE: &str = "\
-    ffd8ffe000104a46494600010100000100010000ffdb0043000d090a0b0a080d0b0a0b0e0e0d0f13201513121213271c1e17\
-    202e2931302e292d2c333a4a3e333646372c2d405741464c4e525352323e5a615a50604a51524fffdb0043010e0e0e131113\
-    261515264f352d354f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f\
-    4f4f4f4f4f4f4f4fffc00011080030001003012200021101031101ffc4001700010101010000000000000000000000000007\
-    0506ffc40014100100000000000000000000000000000000ffc4001801000203000000000000000000000000000306040507\
-    ffc4001a110002030101000000000000000000000000110304211214ffda000c03010002110311003f00a5a36083249dac18\
-    ead5f3bd6cd700033a39700fe5b1ffd9";
-/// Progressive JPEG.
-const JPEG_PROGRESSIVE: &str = "\
-    ffd8ffe000104a46494600010100000100010000ffdb0043000d090a0b0a080d0b0a0b0e0e0d0f13201513121213271c1e17\
-    202e2931302e292d2c333a4a3e333646372c2d405741464c4e525352323e5a615a50604a51524fffdb0043010e0e0e131113\
-    261515264f352d354f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f4f\
-    4f4f4f4f4f4f4f4fffc20011080030001003011100021101031101ffc4001700010101010000000000000000000000000006\
-    0405ffc4001801010003010000000000000000000000000002040605ffda000c03010002100310000001a5236b75c0d91cb8\
-    0397a0b600ffc40014100100000000000000000000000000000030ffda00080101000105024fffc400141101000000000000\
-    00000000000000000030ffda0008010301013f014fffc40014110100000000000000000000000000000030ffda0008010201\
-    013f014fffc40014100100000000000000000000000000000030ffda0008010100063f024fffc40014100100000000000000\
-    000000000000000030ffda0008010100013f214fffda000c03010002000300000010924492000fffc4001411010000000000\
-    0000000000000000000030ffda0008010301013f104fffc40014110100000000000000000000000000000030ffda00080102\
-    01013f104fffc40014100100000000000000000000000000000030ffda0008010100013f104fffd9";
-/// JPEG that stores red, green and blue.
-const JPEG_RGB: &str = "\
-    ffd8ffee000e41646f626500640000000000ffdb0043000d090a0b0a080d0b0a0b0e0e0d0f13201513121213271c1e17202e\
-    2931302e292d2c333a4a3e333646372c2d405741464c4e525352323e5a615a50604a51524fffc00011080030001003521100\
-    471100421100ffc4001800010101010100000000000000000000000007050803ffc400141001000000000000000000000000\
-    00000000ffda000c03520047004200003f00a5a96a5b01cfce78000475566900000f14bd5000001fffd9";
-/// JPEG of four inks.
-const JPEG_CMYK: &str = "\
-    ffd8ffee000e41646f626500640000000000ffdb0043000d090a0b0a080d0b0a0b0e0e0d0f13201513121213271c1e17202e\
-    2931302e292d2c333a4a3e333646372c2d405741464c4e525352323e5a615a50604a51524fffc00014080030001004431100\
-    4d11005911004b1100ffc4001800010101010100000000000000000000000007050803ffc400141001000000000000000000\
-    00000000000000ffda000e0443004d0059004b00003f00a5a96a5a9cc073f39e0000047556690000000f14bd500000001fff\
-    d9";
-/// Grey JPEG.
-const JPEG_GREY: &str = "\
-    ffd8ffe000104a46494600010100000100010000ffdb0043000d090a0b0a080d0b0a0b0e0e0d0f13201513121213271c1e17\
-    202e2931302e292d2c333a4a3e333646372c2d405741464c4e525352323e5a615a50604a51524fffc0000b08003000100101\
-    1100ffc40017000101010100000000000000000000000000070506ffc40014100100000000000000000000000000000000ff\
-    da0008010100003f00a5a360d701cb80ffd9";
-/// WebP without loss.
-const WEBP_LOSSLESS: &str = "\
-    5249464646000000574542505650384c390000002f0fc00b001f202420ba31469a6d899080e8069a6d90242420ced8698b9d\
-    d2fcc7df8009814cdaa6266b7226778f1988e8ff04806ef6bdcf3d00";
-/// WebP without loss, its last 8 rows of alpha 77.
-const WEBP_LOSSLESS_ALPHA: &str = "\
-    5249464658000000574542505650384c4b0000002f0fc00b102740986db4f7600679d84742a46d333c81937d414784d94683\
-    19e7588ef35e020142a15883e2ff4d6c00ce8299b66d422114466114c69f58b43fa2ff1300a0dae9dffb93df3c00";
-/// WebP with loss.
-const WEBP_LOSSY: &str = "\
-    5249464662000000574542505650382056000000d003009d012a1000300001402625a002c49505f807e00728a308e81f8abc\
-    2b3dc0ccfc0fce060000fb3fff7bfdffef749fffdec9885db29d4308d2760e7076c15bb056b056ec78bfc00f56ddcf4a87ed\
-    70053add0000";
-/// WebP with loss, its last 8 rows of alpha 77.
-const WEBP_LOSSY_ALPHA: &str = "\
-    524946469200000057454250565038580a000000100000000f00002f0000414c504815000000010f70a7ff8888201048f697\
-    4e608088fe673b0000005650382056000000d003009d012a1000300001402625a002c49505f807e00728a308e81f8abc2b3d\
-    c0ccfc0fce060000fb3fff7bfdffef749fffdec9885db29d4308d2760e7076c15bb056b056ec78bfc00f56ddcf4a87ed7005\
-    3add0000";
-/// WebP of two pictures, the second upside down.
-const WEBP_MOVING: &str = "\
-    524946461601000057454250565038580a000000120000000f00002f0000414e494d06000000000000000000414e4d467200\
-    00000000000000000f00002f0000320000025650384c590000002f0fc00b001f2010209eb42990a84e484074238cb0d85421\
-    01f1dc344b244be63fd001df0566dab631c9902cc9dd6310d1ffb8db7edbb66ddbb66ddbb66ddbb66d555555555555555555\
-    55555555555555000000000000000000414e4d46700000000000000000000f00002f0000320000005650384c580000002f0f\
-    c00b101f20102034f9af10a34520402811215ba5408090aa548998f90f80f6558399b66d4c32244b72f71844f43faaaaaaaa\
-    aaaaaaaaaaaaaaaaaaaaaaaa0000000000000000b66ddbb66ddbb66ddbb66ddbb6bbd701";
 
 fn decoded(bytes: &[u8]) -> DecodedPicture {
     decode(bytes, &Budget::default()).unwrap()
@@ -156,7 +89,7 @@ fn every_kind_of_png_gives_its_pixels() {
 }
 
 #[test]
-fn every_kind_of_jpeg_and_webp_gives_its_colours() {
+fn every_kind_of_jpeg_webp_and_ktx2_gives_its_colours() {
     for (text, tolerance, expected) in [
         (JPEG_BASELINE, 12, PictureKind::Jpeg),
         (JPEG_PROGRESSIVE, 3, PictureKind::Jpeg),
@@ -167,6 +100,10 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
         (WEBP_LOSSY, 2, PictureKind::WebP),
         (WEBP_LOSSY_ALPHA, 2, PictureKind::WebP),
         (WEBP_MOVING, 0, PictureKind::WebP),
+        (KTX2_ETC1S, 12, PictureKind::Ktx2),
+        (KTX2_ETC1S_ALPHA, 12, PictureKind::Ktx2),
+        (KTX2_UASTC, 1, PictureKind::Ktx2),
+        (KTX2_UASTC_ALPHA, 1, PictureKind::Ktx2),
     ] {
         let bytes = hex(text);
         assert_eq!((kind(&bytes), size(&bytes)), (Some(expected), Ok((16, 48))));
@@ -175,8 +112,12 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
             let found = pixel(&picture, place);
             let off = found.iter().zip(colour).map(|(found, wanted)| found.abs_diff(wanted)).max();
             assert!(off <= Some(tolerance), "{found:?} for {colour:?} in {text}");
-            let transparent = [WEBP_LOSSLESS_ALPHA, WEBP_LOSSY_ALPHA].contains(&text) && place[1] >= 40;
-            assert_eq!(found[3], if transparent { 77 } else { 255 });
+            let with_alpha = [WEBP_LOSSLESS_ALPHA, WEBP_LOSSY_ALPHA, KTX2_ETC1S_ALPHA, KTX2_UASTC_ALPHA];
+            let alpha = if with_alpha.contains(&text) && place[1] >= 40 { 77 } else { 255_u8 };
+            assert!(
+                found[3].abs_diff(alpha) <= if expected == PictureKind::Ktx2 { 5 } else { 0 },
+                "{found:?} in {text}"
+            );
         }
         assert_eq!(picture.notice.is_some(), text == WEBP_MOVING);
     }
@@ -184,6 +125,39 @@ fn every_kind_of_jpeg_and_webp_gives_its_colours() {
     let picture = decoded(&hex(JPEG_GREY));
     let grey = COLOURS.map(|(place, _)| pixel(&picture, place)[0]);
     assert!(grey.iter().zip([250, 87, 124, 60]).all(|(found, wanted)| found.abs_diff(wanted) <= 2), "{grey:?}");
+}
+
+/// KTX2 that no Basis Universal is in: the number of Vulkan's format, width, height and pixels.
+fn ktx2(format: u32, width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    let words = [format, 1, width, height, 0, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+    [104, pixels.len() as u64, pixels.len() as u64].iter().for_each(|long| bytes.extend(long.to_le_bytes()));
+    bytes.extend(pixels);
+    bytes
+}
+
+#[test]
+fn plain_ktx2_gives_its_first_picture() {
+    for (format, pixels, rgba) in [
+        (37, &[1, 2, 3, 4, 5, 6, 7, 8][..], [1, 2, 3, 4, 5, 6, 7, 8]),
+        (50, &[3, 2, 1, 4, 7, 6, 5, 8], [1, 2, 3, 4, 5, 6, 7, 8]),
+        (29, &[1, 2, 3, 5, 6, 7], [1, 2, 3, 255, 5, 6, 7, 255]),
+        (30, &[3, 2, 1, 7, 6, 5], [1, 2, 3, 255, 5, 6, 7, 255]),
+    ] {
+        let picture = decoded(&ktx2(format, 2, 1, &[pixels, pixels].concat()));
+        assert_eq!(picture.rgba, rgba);
+        assert_eq!(picture.notice.as_deref(), Some("it holds 2 pictures, and only the first is shown"));
+    }
+    let said = |bytes: &[u8]| decode(bytes, &Budget::default()).unwrap_err().to_string();
+    assert!(said(&ktx2(37, 2, 1, &[1, 2, 3, 4])).contains("end too early"));
+    assert!(said(&ktx2(145, 4, 4, &[0; 16])).contains("Vulkan's format 145"));
+    let mut packed = ktx2(37, 2, 1, &[0; 16]);
+    packed[44] = 3;
+    assert!(said(&packed).contains("supercompression 3"));
+    // Of the blocks only some are there.
+    let cut = hex(KTX2_UASTC);
+    assert!(said(&cut[..cut.len() - 9]).contains("end too early"));
 }
 
 #[test]
@@ -216,15 +190,20 @@ fn of_a_picture_cut_short_the_upper_part_is_kept_and_said() {
 
 #[test]
 fn what_a_picture_claims_is_refused_before_it_is_allocated() {
-    // A PNG, a JPEG and a WebP that are 16 000 pixels wide and high, as their headers say.
+    // Pictures that are 16 000 pixels wide and high, as their headers say.
     let mut large_png = png(1, ColorType::Grayscale, BitDepth::Eight, None, &[1]);
     large_png[16..24].copy_from_slice(&[0, 0, 0x3e, 0x80, 0, 0, 0x3e, 0x80]);
     let mut large_jpeg = hex(JPEG_GREY);
     let frame = large_jpeg.windows(2).position(|marker| marker == [0xff, 0xc0]).unwrap();
     large_jpeg[frame + 5..frame + 9].copy_from_slice(&[0x3e, 0x80, 0x3e, 0x80]);
+    // Of so few bytes not even a row could come.
+    assert_eq!(decode(&large_jpeg, &Budget::default()), Err(DecodeError::CutShort));
+    large_jpeg.resize(10_000, 0);
     let mut large_webp = hex(WEBP_LOSSLESS);
     large_webp[21..25].copy_from_slice(&(15_999_u32 << 14 | 15_999).to_le_bytes());
-    for bytes in [large_png, large_jpeg, large_webp] {
+    let mut large_ktx2 = hex(KTX2_ETC1S);
+    large_ktx2[20..28].copy_from_slice(&[0x80, 0x3e, 0, 0, 0x80, 0x3e, 0, 0]);
+    for bytes in [large_png, large_jpeg, large_webp, large_ktx2] {
         let budget = Budget::new(500_000_000);
         assert_eq!(size(&bytes), Ok((16_000, 16_000)));
         assert!(matches!(decode(&bytes, &budget), Err(DecodeError::OverBudget(_))));
@@ -262,6 +241,9 @@ fn mutated_pictures_end_in_pixels_or_a_sentence() {
         hex(WEBP_LOSSLESS_ALPHA),
         hex(WEBP_LOSSY_ALPHA),
         hex(WEBP_MOVING),
+        hex(KTX2_ETC1S_ALPHA),
+        hex(KTX2_UASTC),
+        ktx2(37, 2, 2, &[1; 32]),
     ];
     for bytes in pictures.iter().flat_map(|picture| mutations(picture, 300)) {
         let budget = Budget::new(40_000_000);
