@@ -7,40 +7,70 @@ use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
 use scene_files::gltf::ReadRules;
 use scene_files::panorama;
+use serde_json::{Value, json};
 use std::path::Path;
 
-/// Runs `rapidity check`: prints a paragraph for each file.
+/// Report on a file that can be used, as text and as the members of a JSON object.
+struct Good {
+    /// Kind of the file, in a word.
+    kind: &'static str,
+    text: String,
+    members: Value,
+}
+
+/// Runs `rapidity check`: prints a paragraph for each file, or a JSON object.
 ///
 /// # Errors
 /// [`Error::Checked`] if a file is not good. All files are checked first.
 pub fn check(options: &CheckOptions) -> Result<(), Error> {
     let mut bad = 0;
     for path in &options.files {
-        match report(path, &options.reading) {
-            Ok(text) => say(&format!("{}: good\n{text}", path.display()))?,
-            Err(error) => {
-                bad += 1;
-                say(&error.to_string())?;
+        let found = report(path, &options.reading);
+        bad += usize::from(found.is_err());
+        let path = path.display();
+        let text = match (found, options.json) {
+            (Ok(good), false) => format!("{path}: good\n{}", good.text),
+            (Err(error), false) => error.to_string(),
+            (Ok(good), true) => {
+                let mut object = json!({ "file": path.to_string(), "good": true, "kind": good.kind });
+                if let (Value::Object(object), Value::Object(members)) = (&mut object, good.members) {
+                    object.extend(members);
+                }
+                object.to_string()
             }
-        }
+            (Err(error), true) => {
+                json!({ "file": path.to_string(), "good": false, "error": error.to_string() }).to_string()
+            }
+        };
+        say(&text)?;
     }
     if bad == 0 { Ok(()) } else { Err(Error::Checked { bad, files: options.files.len() }) }
 }
 
-fn report(path: &Path, reading: &ReadingOptions) -> Result<String, Error> {
+fn report(path: &Path, reading: &ReadingOptions) -> Result<Good, Error> {
     let budget = reading.budget();
     let rules = ReadRules { budget: &budget, trust: reading.trust };
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("gltf" | "glb") => Ok(scene_files::check::check(path, rules)?.to_string()),
+    let ending = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("gltf" | "glb") => scene("scene", path, rules),
         Some("mcap") => Ok(recording(path)?),
-        _ if room::is_display(path) => Ok(Display::load(path)?.to_string()),
-        _ if panorama::is_picture(path) => Ok(scene_files::check::check(path, rules)?.to_string()),
+        _ if room::is_display(path) => {
+            let display = Display::load(path)?;
+            let members = json!({ "notices": display.notices });
+            Ok(Good { kind: "display", text: display.to_string(), members })
+        }
+        _ if panorama::is_picture(path) => scene("panorama", path, rules),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
 }
 
+fn scene(kind: &'static str, path: &Path, rules: ReadRules<'_>) -> Result<Good, Error> {
+    let report = scene_files::check::check(path, rules)?;
+    Ok(Good { kind, text: report.to_string(), members: report.to_json() })
+}
+
 /// Report on a recording that is complete.
-fn recording(path: &Path) -> Result<String, RecordingError> {
+fn recording(path: &Path) -> Result<Good, RecordingError> {
     let recording = Recording::open(path)?;
     let header = recording.header().clone();
     let (mut samples, mut frames, mut last) = (0_u64, 0_u64, 0);
@@ -57,13 +87,18 @@ fn recording(path: &Path) -> Result<String, RecordingError> {
             }
         }
     }
-    Ok(format!(
-        "  a ride of {:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step",
-        last as f64 * 1e-9,
-        header.scene,
-        header.build,
-        header.speed_of_light_m_s,
-        header.integrator,
-        header.step_s
-    ))
+    let seconds = last as f64 * 1e-9;
+    let text = format!(
+        "  a ride of {seconds:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step",
+        header.scene, header.build, header.speed_of_light_m_s, header.integrator, header.step_s
+    );
+    let members = json!({
+        "scene": header.scene,
+        "seconds": seconds,
+        "frames": frames,
+        "samples": samples,
+        "version": header.build,
+        "speedOfLight": header.speed_of_light_m_s,
+    });
+    Ok(Good { kind: "recording", text, members })
 }

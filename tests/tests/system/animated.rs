@@ -58,7 +58,8 @@ fn circling() -> KnownBody {
     let times = (0..=4).map(|quarter| 0.25 * PERIOD_S * f64::from(quarter)).collect();
     let keys = TrackKeys::slerp(times, (0..=4).map(turn).collect()).unwrap();
     let keys = keys.repeating([0.0, PERIOD_S], -DQuat::IDENTITY);
-    let node = Keyed { translation: Track::Fixed(DVec3::ZERO), rotation: Track::Keyed(keys), scale: DVec3::ONE };
+    let node =
+        Keyed { translation: Track::Fixed(DVec3::ZERO), rotation: Track::Keyed(keys), scale: Track::Fixed(DVec3::ONE) };
     let links = vec![ChainLink::Fixed(DAffine3::from_translation(CENTRE)), ChainLink::Keyed(node)];
     let motion = Motion::Animated(Arc::new(Animated::new("carousel", links)));
     let at = |place: DVec3, ct: f64| {
@@ -82,7 +83,11 @@ fn accelerated() -> KnownBody {
     let values = cts.iter().map(|&ct| TURN + DVec3::X * (root(ct) - LENGTH_M)).collect();
     let velocity = |ct: &f64| DVec3::X * (ct / root(*ct) * SPEED_OF_LIGHT);
     let keys = TrackKeys::<DVec3>::cubic(times, values, cts.iter().map(|ct| [velocity(ct); 2]).collect()).unwrap();
-    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    let node = Keyed {
+        translation: Track::Keyed(keys),
+        rotation: Track::Fixed(DQuat::IDENTITY),
+        scale: Track::Fixed(DVec3::ONE),
+    };
     let motion = Motion::Animated(Arc::new(Animated::new("rocket", vec![ChainLink::Keyed(node)])));
     let at = |place: DVec3, ct: f64| {
         let root = ct.hypot(LENGTH_M);
@@ -348,7 +353,11 @@ fn what_moves_evenly_by_keys_looks_like_what_has_a_celerity() {
     let place = |ct: f64| anchor.position + celerity.beta().vector() * (ct - anchor.ct);
     let keys =
         TrackKeys::linear(vec![from / SPEED_OF_LIGHT, to / SPEED_OF_LIGHT], vec![place(from), place(to)]).unwrap();
-    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    let node = Keyed {
+        translation: Track::Keyed(keys),
+        rotation: Track::Fixed(DQuat::IDENTITY),
+        scale: Track::Fixed(DVec3::ONE),
+    };
     let by_keys = Motion::Animated(Arc::new(Animated::new("train", vec![ChainLink::Keyed(node)])));
     let has_celerity = Motion::Uniform(Uniform { celerity, anchor });
     // Keys give the places of all points in the world, where the box is contracted.

@@ -195,7 +195,11 @@ fn by_keys(beta: DVec3) -> Motion {
     let end_s = 40.0;
     let end = beta * (end_s * SPEED_OF_LIGHT);
     let keys = TrackKeys::linear(vec![-end_s, end_s], vec![-end, end]).unwrap();
-    let node = Keyed { translation: Track::Keyed(keys), rotation: Track::Fixed(DQuat::IDENTITY), scale: DVec3::ONE };
+    let node = Keyed {
+        translation: Track::Keyed(keys),
+        rotation: Track::Fixed(DQuat::IDENTITY),
+        scale: Track::Fixed(DVec3::ONE),
+    };
     Motion::Animated(Arc::new(Animated::new("slide", vec![ChainLink::Keyed(node)])))
 }
 

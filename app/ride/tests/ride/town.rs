@@ -31,7 +31,7 @@ const BODY_M: f64 = 0.39;
 const CLIMB_M: f64 = 0.08;
 
 fn start() -> RideStart {
-    RideStart::at_rest(TOWN.0.circuit[0], TOWN.0.circuit[1] - TOWN.0.circuit[0])
+    RideStart::at_rest(TOWN.0.circuit[0], TOWN.0.circuit[1] - TOWN.0.circuit[0], DVec3::Y)
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn walls_of_the_streets_hold_at_any_celerity() {
         for (index, &place) in TOWN.0.circuit.iter().enumerate().step_by(40) {
             let angle = index as f64;
             let direction = DVec3::new(angle.sin(), 0.0, angle.cos());
-            let mut state: WorldlineState = RideStart::at_rest(place, direction).state().unwrap();
+            let mut state: WorldlineState = RideStart::at_rest(place, direction, DVec3::Y).state().unwrap();
             state.celerity = Celerity::new(direction * celerity).unwrap();
             let mut car =
                 Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Drive, state, VehicleSettings::default()).unwrap();

@@ -1,8 +1,21 @@
-//! Descriptions of a scene's motions and spectra, a line each.
+//! Descriptions of a scene's first view, motions and spectra, a line each.
 
 use physics::colour::Spectrum;
 use scene::Scene;
 use scene::motion::Motion;
+
+/// Description of the place from which the scene is seen first.
+pub fn first_view(scene: &Scene) -> String {
+    let start = &scene.start;
+    let [x, y, z] = start.position.to_array();
+    let place = format!("{x:.3}, {y:.3}, {z:.3} m");
+    match scene.cameras.iter().find(|camera| camera.start == *start) {
+        Some(camera) => format!("at its camera \"{}\"", camera.name),
+        None if scene.triangle_count() == 0 => "in the middle of a panorama".to_owned(),
+        None if start.is_on_ground() => format!("on the ground at {place}"),
+        None => format!("outside, with all of it in view, at {place}"),
+    }
+}
 
 /// Descriptions of the moving bodies, in the order of the scene's motions.
 pub fn moving(scene: &Scene) -> Vec<String> {

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::descriptions::{moving, spectra};
+use super::descriptions::{first_view, moving, spectra};
 use super::survey::Survey;
 use super::warnings::warnings;
 use crate::gltf::ReadRules;
 use crate::read::{SceneReadError, read};
+use serde_json::{Value, json};
+
 use scene::collision::Collision;
 use scene::{Scene, SceneFault};
 
@@ -47,6 +49,12 @@ pub struct Report {
     pub white: Option<f64>,
     /// Width and height of the panorama, in pixels, if there is one.
     pub panorama: Option<[u32; 2]>,
+    /// First view of the scene, in words.
+    pub first_view: String,
+    /// Names of the scene's cameras, in the order of their numbers.
+    pub cameras: Vec<String>,
+    /// Speed of light that suits the scene, m/s, if it is of no particular one.
+    pub speed_of_light_m_s: Option<f64>,
     /// Motions, one line each: the moving body, its motion and its largest speed.
     pub moving: Vec<String>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` if there are none.
@@ -87,6 +95,9 @@ impl Report {
             spectra: spectra(scene),
             white: scene.white,
             panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
+            first_view: first_view(scene),
+            cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
+            speed_of_light_m_s: scene.speed_of_light_m_s,
             moving: moving(scene),
             bounds,
             longest_edge: survey.longest_edge,
@@ -96,9 +107,44 @@ impl Report {
     }
 }
 
+impl Report {
+    /// Report as a JSON object, for other programs; lengths in metres.
+    pub fn to_json(&self) -> Value {
+        let corners = self.bounds.map(|corners| corners.map(|corner| corner.to_array()));
+        json!({
+            "name": self.name,
+            "opens": self.first_view,
+            "cameras": self.cameras,
+            "speedOfLight": self.speed_of_light_m_s,
+            "meshes": self.meshes,
+            "triangles": self.triangles,
+            "vertices": self.vertices,
+            "materials": self.materials,
+            "textures": self.textures,
+            "textureBytes": self.texture_bytes,
+            "spectra": self.spectra,
+            "white": self.white,
+            "panorama": self.panorama,
+            "moving": self.moving,
+            "bounds": corners,
+            "longestEdge": self.longest_edge,
+            "notices": self.notices,
+            "warnings": self.warnings,
+        })
+    }
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "scene       {}", self.name)?;
+        writeln!(f, "opens       {}", self.first_view)?;
+        if !self.cameras.is_empty() {
+            let numbered = self.cameras.iter().enumerate().map(|(index, name)| format!("{} \"{name}\"", index + 1));
+            writeln!(f, "cameras     {}", numbered.collect::<Vec<_>>().join(", "))?;
+        }
+        if let Some(speed) = self.speed_of_light_m_s {
+            writeln!(f, "light       {speed} m/s, unless --speed-of-light says otherwise")?;
+        }
         writeln!(f, "triangles   {}, {} vertices, {} meshes", self.triangles, self.vertices, self.meshes)?;
         let megabytes = self.texture_bytes as f64 / 1e6;
         writeln!(f, "materials   {}, {} textures of {megabytes:.1} MB", self.materials, self.textures)?;

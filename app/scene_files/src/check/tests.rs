@@ -4,6 +4,7 @@
 use glam::{Vec2, Vec3};
 
 use super::*;
+use regular_file::Budget;
 use scene::{Material, Mesh, Texture};
 
 /// Scene with a square of ground, 10 m wide, in two triangles.
@@ -33,7 +34,7 @@ fn ground() -> Scene {
         textures: vec![texture],
         materials: vec![Material::default()],
         meshes: vec![mesh],
-        start: scene::Start { position: DVec3::new(0.0, 100.0, 0.0), look: DVec3::NEG_Z },
+        start: scene::Start { position: DVec3::new(0.0, 100.0, 0.0), ..scene::Start::default() },
         circuit: vec![DVec3::new(1.0, 100.0, 1.0)],
         ..Scene::default()
     }
@@ -93,7 +94,7 @@ fn a_file_is_reported_as_it_is_drawn() {
     let mut expected = Report::new(&ground()).unwrap();
     // The texture is drawn by no material, so it is not loaded.
     (expected.textures, expected.texture_bytes) = (0, 0);
-    let report = check(&path).unwrap();
+    let report = check(&path, ReadRules { budget: &Budget::default(), trust: false }).unwrap();
     assert_eq!(report, expected);
     let text = report.to_string();
     assert!(text.contains("2, 4 vertices, 1 meshes") && text.contains("10.000 × 0.000 × 10.000 m"), "{text}");
@@ -101,5 +102,6 @@ fn a_file_is_reported_as_it_is_drawn() {
 
 #[test]
 fn a_file_that_is_no_scene_is_an_error() {
-    assert!(matches!(check(Path::new("/nowhere.glb")), Err(CheckError::Load(SceneReadError::Gltf(_)))));
+    let rules = ReadRules { budget: &Budget::default(), trust: false };
+    assert!(matches!(check(Path::new("/nowhere.glb"), rules), Err(CheckError::Load(SceneReadError::Gltf(_)))));
 }

@@ -6,7 +6,7 @@ use scene::collision::Collision;
 use scene::{Material, Scene, Surroundings};
 
 /// Plausible size of a scene, metres; outside of it the unit is probably not the metre.
-const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 0.1..=1e5;
+const PLAUSIBLE_SIZE: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
 /// Plausible brightness of white surfaces in sunlight, as a multiple of the luminance shown as white; above it the
 /// sun's unit is probably wrong.
@@ -74,9 +74,12 @@ pub fn warnings(scene: &Scene, survey: &Survey, collision: &Collision) -> Vec<St
     let grounded = |point: DVec3| collision.height_below(point).is_some();
     let advice = "a vehicle on wheels stays at its height";
     let solid = scene.meshes.iter().any(|mesh| mesh.solid);
-    let ridden_in = !empty || scene.panorama.is_none();
+    let ridden_in = (!empty || scene.panorama.is_none()) && scene.start.is_on_ground();
     warn(ridden_in && !solid, format!("no mesh is solid: {advice} and passes through everything"));
-    warn(solid && !grounded(scene.start.position), format!("there is no ground below the start: {advice}"));
+    warn(
+        solid && ridden_in && !grounded(scene.start.position),
+        format!("there is no ground below the start: {advice}"),
+    );
     let airborne = scene.circuit.iter().filter(|&&point| !grounded(point)).count();
     let points = scene.circuit.len();
     warn(

@@ -145,16 +145,7 @@ impl<'a> Document<'a> {
 
     /// Bytes behind an address: data in the address itself, or a file beside the scene.
     pub(super) fn fetch(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
-        self.fetch_as(uri, place, self.trust)
-    }
-
-    /// Bytes of a file that must lie in the scene's own folder or below it, even if the scene is trusted.
-    pub(super) fn beside(&self, uri: &str, place: &str) -> Result<Vec<u8>, GltfError> {
-        self.fetch_as(uri, place, false)
-    }
-
-    fn fetch_as(&self, uri: &str, place: &str, trust: bool) -> Result<Vec<u8>, GltfError> {
-        match address(uri, trust).map_err(|fault| self.damaged(place, fault))? {
+        match address(uri, self.trust).map_err(|fault| self.damaged(place, fault))? {
             Address::Data(bytes) => {
                 self.take(bytes.len() as u64, place)?;
                 Ok(bytes)

@@ -167,10 +167,19 @@ fn unit(vector: [f64; 3], name: &str) -> Result<DVec3, String> {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct OwnExtras {
+    #[serde(deserialize_with = "even_null")]
     pub(super) rapidity: Option<Box<RawValue>>,
+    #[serde(deserialize_with = "even_null")]
     pub(super) celerity: Option<Box<RawValue>>,
+    #[serde(deserialize_with = "even_null")]
     pub(super) at: Option<Box<RawValue>>,
+    #[serde(deserialize_with = "even_null")]
     pub(super) spectrum: Option<Box<RawValue>>,
+}
+
+/// Value of a key that is present, `null` included: a mistake there must be told.
+fn even_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Box<RawValue>>, D::Error> {
+    Box::<RawValue>::deserialize(deserializer).map(Some)
 }
 
 impl OwnExtras {

@@ -121,8 +121,8 @@ impl<'a> Instances<'a> {
 /// Name of an instance: the names of node and mesh (once if they are the same) and, if there are several, the
 /// primitive's number.
 fn instance_name(document: &Document<'_>, node: usize, mesh: usize, primitive: usize) -> String {
-    let node_name = document.json.nodes[node].name.as_deref().filter(|name| !name.is_empty());
-    let mesh_name = document.json.meshes[mesh].name.as_deref().filter(|name| !name.is_empty());
+    let node_name = document.json.nodes[node].name.as_deref();
+    let mesh_name = document.json.meshes[mesh].name.as_deref();
     let name = match (node_name, mesh_name) {
         (Some(node), Some(mesh)) if node != mesh => format!("{node} / {mesh}"),
         (Some(name), _) => name.to_owned(),

@@ -211,7 +211,7 @@ fn around(
     let view = value.get("bufferView").and_then(|view| usize::try_from(view.as_u64()?).ok());
     let (bytes, path) = match (value.as_str(), view) {
         (Some(data), _) if data.starts_with("data:") => (document.fetch(data, &place)?, document.path.clone()),
-        (Some(name), _) => (document.beside(name, &place)?, document.path.with_file_name(name)),
+        (Some(name), _) => (document.fetch(name, &place)?, document.path.with_file_name(name)),
         (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
         (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
     };

@@ -83,6 +83,7 @@ impl Notices {
         let parts = self.parts.entry(part).or_default();
         parts.count += 1;
         if parts.named.len() < NAMED {
+            let fault = fault.strip_prefix(place).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(fault);
             let fault: String = fault.chars().take(LONGEST).collect();
             let named = format!("{place} ({fault})");
             if !parts.named.contains(&named) {

@@ -160,14 +160,12 @@ impl Primitive {
         let place = format!("meshes[{mesh}].primitives[{index}]");
         let primitive = &document.json.meshes[mesh].primitives[index];
         let default = document.json.materials.len(); // the default material is the last
-        let material = primitive.material.map_or(default, |material| material.value());
-        let material = if material > default {
-            let fault = format!("there is no number {material} among {default}");
+        let material = primitive.material.map(|material| material.value());
+        if let Some(missing) = material.filter(|material| *material >= default) {
+            let fault = format!("there is no number {missing} among {default}");
             notices.left_out(Part::Material, &format!("{place}.material"), &fault);
-            default
-        } else {
-            material
-        };
+        }
+        let material = material.map_or(default, |material| material.min(default));
         let channel = channels[material];
         let source =
             Source { document, primitive, place: &place, draco: DracoData::read(document, primitive, &place)? };

@@ -5,7 +5,7 @@
 //! animation that jumps back where it should go on, or a body faster than light.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use crate::support::GltfUnderTest;
+use crate::support::{GltfUnderTest, read_path};
 use glam::{DQuat, DVec3};
 use scene::Scene;
 use scene::motion::{Animated, Motion};
@@ -59,7 +59,7 @@ fn read(file: &GltfUnderTest, speed_of_light: f64) -> Result<Scene, String> {
     let folder = tempfile::TempDir::new().unwrap();
     let path = folder.path().join("scene.glb");
     std::fs::write(&path, file.glb()).unwrap();
-    let mut scene = scene_files::read(&path, |_| {}).map_err(|error| error.to_string())?;
+    let mut scene = read_path(&path).map_err(|error| error.to_string())?;
     scene.set_speed_of_light(speed_of_light).map_err(|error| error.to_string())?;
     Ok(scene)
 }
@@ -124,15 +124,13 @@ fn what_would_be_faster_than_light_is_refused() {
 fn what_is_not_shown_stands_still_and_is_named() {
     let mut file = carousel();
     animate(&mut file, 2, "translation", "STEP", &[0.0, 1.0], &[0.0, 0.0, 0.0, 5.0, 0.0, 0.0]);
-    animate(&mut file, 3, "scale", "LINEAR", &[0.0, 1.0], &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
     animate(&mut file, 1, "rotation", "LINEAR", &[0.0], &[0.0, 0.0, 0.0, 1.0]);
     let scene = read(&file, SPEED_OF_LIGHT).unwrap();
     let said = scene.notices.join("\n");
     assert!(
-        said.contains("animations[1].channels[0] stands still: it jumps (STEP), which is faster than light"),
+        said.contains("1 channel of an animation stands still: animations[1].channels[0] (it jumps (STEP)"),
         "{said}"
     );
-    assert!(said.contains("animations[2].channels[0] stands still: it changes a scale"), "{said}");
     assert!(said.contains("nodes[1] is moved by two animations, of which the first is shown"), "{said}");
     let turned = corner(&scene, 1.0);
     assert!(turned.distance(DVec3::new(16.0, 2.0, 0.0)) < 10.0 * ROUNDED, "{turned}");
@@ -145,18 +143,65 @@ fn what_is_not_shown_stands_still_and_is_named() {
 }
 
 #[test]
-fn damaged_keys_are_errors() {
-    let fault = |change: fn(&mut GltfUnderTest)| {
+fn a_channel_that_holds_one_value_is_a_pose() {
+    for (interpolation, times, values) in [
+        ("LINEAR", &[2.0][..], &[0.0, 5.0, 0.0][..]),
+        ("STEP", &[0.0, 1.0], &[0.0, 5.0, 0.0, 0.0, 5.0, 0.0]),
+        ("CUBICSPLINE", &[2.0], &[9.0, 9.0, 9.0, 0.0, 5.0, 0.0, 9.0, 9.0, 9.0]),
+    ] {
+        let mut file = GltfUnderTest::triangle();
+        animate(&mut file, 0, "translation", interpolation, times, values);
+        let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+        assert!(scene.motions.is_empty() && scene.notices.is_empty(), "{interpolation}: {:?}", scene.notices);
+        assert_eq!(scene.meshes[0].positions[0], glam::Vec3::new(0.0, 5.0, 0.0), "{interpolation}");
+    }
+    let mut file = GltfUnderTest::triangle();
+    animate(&mut file, 0, "scale", "STEP", &[0.0], &[3.0, 1.0, 1.0]);
+    assert_eq!(read(&file, SPEED_OF_LIGHT).unwrap().meshes[0].positions[1], glam::Vec3::new(6.0, 0.0, 0.0));
+}
+
+#[test]
+fn a_body_grows_evenly_and_not_faster_than_light() {
+    let mut file = GltfUnderTest::triangle();
+    animate(&mut file, 0, "scale", "LINEAR", &[0.0, 2.0], &[0.0, 1.0, 1.0, 4.0, 1.0, 1.0]);
+    let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+    for (time, width) in [(0.0, 0.0), (0.5, 2.0), (1.0, 4.0), (3.0, 8.0)] {
+        let pose = animated(&scene).at(time * SPEED_OF_LIGHT);
+        let corner = pose.position(scene.meshes[0].positions[1].as_dvec3());
+        assert!((corner.x - width).abs() < ROUNDED, "{corner} at {time} s");
+    }
+    // Its corner, 2 m out, moves at 4 m/s.
+    let said = read(&file, 3.9).unwrap_err();
+    assert!(said.contains("moves at 4.000000 m/s"), "{said}");
+}
+
+#[test]
+fn damaged_keys_stand_still_and_are_named() {
+    let said = |change: fn(&mut GltfUnderTest)| {
         let mut file = carousel();
         change(&mut file);
-        read(&file, SPEED_OF_LIGHT).unwrap_err()
+        let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+        assert_eq!(animated(&scene).name, "carousel", "the rest moves");
+        scene.notices.join("\n")
     };
-    let said = fault(|file| animate(file, 2, "translation", "LINEAR", &[0.0, 0.0], &[0.0; 6]));
-    assert!(said.contains("animations[1].channels[0]") && said.contains("do not ascend at key 1"), "{said}");
-    let said = fault(|file| animate(file, 2, "translation", "CUBICSPLINE", &[0.0, 1.0], &[0.0; 6]));
-    assert!(said.contains("it has 2 times and 0 values"), "{said}");
-    let said = fault(|file| animate(file, 2, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
-    assert!(said.contains("key 0 is no rotation"), "{said}");
-    let said = fault(|file| animate(file, 9, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
-    assert!(said.contains("animations[1].channels[0].target.node"), "{said}");
+    let faulty = said(|file| animate(file, 2, "translation", "LINEAR", &[1.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0]));
+    assert!(faulty.contains("animations[1].channels[0] (its times do not ascend at key 1)"), "{faulty}");
+    let faulty = said(|file| animate(file, 2, "translation", "CUBICSPLINE", &[0.0, 1.0], &[0.0; 6]));
+    assert!(faulty.contains("it has 2 times and 0 values"), "{faulty}");
+    let faulty = said(|file| animate(file, 2, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
+    assert!(faulty.contains("key 0 is no rotation"), "{faulty}");
+    let faulty = said(|file| animate(file, 9, "rotation", "LINEAR", &[0.0], &[0.0; 4]));
+    assert!(faulty.contains("animations[1].channels[0].target.node") || faulty.contains("no number 9"), "{faulty}");
+}
+
+#[test]
+fn of_keys_at_one_time_the_later_counts_and_surplus_values_are_passed_over() {
+    let mut file = GltfUnderTest::triangle();
+    let (times, values) =
+        (&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 0.0, 9.0, 9.0, 9.0, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 7.0, 7.0, 7.0]);
+    animate(&mut file, 0, "translation", "LINEAR", times, values);
+    let scene = read(&file, SPEED_OF_LIGHT).unwrap();
+    assert!(corner(&scene, 0.5).distance(DVec3::X) < ROUNDED && corner(&scene, 1.5).distance(DVec3::X * 2.0) < ROUNDED);
+    let said = scene.notices.join("\n");
+    assert!(said.contains("several keys at one time") && said.contains("more values than times"), "{said}");
 }

@@ -8,7 +8,7 @@
 
 use std::f32::consts::PI;
 
-use crate::support::{GltfUnderTest, png, write};
+use crate::support::{GltfUnderTest, load_path, png, read_path, report, write};
 use built_in::spectra;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
@@ -16,10 +16,9 @@ use scene::Surroundings;
 use scene::collision::Collision;
 use scene::refine::refine;
 use scene::{Lighting, Material, Scene};
-use scene_files::check::{Report, check};
+use scene_files::check::Report;
 use scene_files::export::write_glb;
-use scene_files::gltf::{GltfError, load};
-use scene_files::read;
+use scene_files::gltf::GltfError;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -48,7 +47,7 @@ fn ours(file: &mut GltfUnderTest, extras: Value) {
 fn with_table(table: &str) -> Result<Scene, GltfError> {
     let folder = TempDir::new().unwrap();
     write(&folder, "paint.csv", table.as_bytes());
-    load(&write(&folder, "scene.glb", &with_spectrum(&json!({ "sampled": "paint.csv" })).glb()), |_| {})
+    load_path(&write(&folder, "scene.glb", &with_spectrum(&json!({ "sampled": "paint.csv" })).glb()))
 }
 
 #[test]
@@ -74,7 +73,7 @@ fn a_table_beside_the_scene_is_read() {
     std::fs::create_dir(folder.path().join("measured")).unwrap();
     write(&folder, "measured/green paint.CSV", b"400,0.25\n700.5,1\n");
     let file = with_spectrum(&json!("measured/green%20paint.CSV"));
-    assert_eq!(load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap().materials[0].spectrum, meant);
+    assert_eq!(load_path(&write(&folder, "scene.glb", &file.glb())).unwrap().materials[0].spectrum, meant);
 }
 
 #[test]
@@ -105,9 +104,9 @@ fn what_is_no_spectrum_is_told_by_owner_key_and_reason() {
     refused(json!({ "sampled": [[400, "x"]] }), "extras.spectrum.sampled", "sample 0 is [400,\"x\"]");
     refused(json!({ "sampled": "paint.txt" }), "extras.spectrum.sampled", "not \"paint.txt\"");
     refused(json!({ "sampled": "nowhere.csv" }), "extras.spectrum.sampled", "nowhere.csv");
-    refused(json!({ "sampled": "../paint.csv" }), "extras.spectrum.sampled", "not a file beside the scene");
-    refused(json!("/etc/paint.csv"), "extras.spectrum", "not a file beside the scene");
-    refused(json!("..%2Fpaint.csv"), "extras.spectrum", "not a file beside the scene");
+    refused(json!({ "sampled": "../paint.csv" }), "extras.spectrum.sampled", "not in the scene's folder");
+    refused(json!("/etc/paint.csv"), "extras.spectrum", "not in the scene's folder");
+    refused(json!("..%2Fpaint.csv"), "extras.spectrum", "not in the scene's folder");
 }
 
 #[test]
@@ -183,14 +182,16 @@ fn lights_that_do_not_shine_are_named() {
     assert_eq!((spot.direction, spot.inner_rad), (DVec3::NEG_Z, 0.0));
     assert!((spot.outer_rad - std::f64::consts::FRAC_PI_4).abs() < 1e-6);
     file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = json!(9);
-    assert!(file.error().contains("KHR_lights_punctual.light: there is no number 9 among 4"), "{}", file.error());
+    let said = file.scene().notices.join("\n");
+    assert!(said.contains("KHR_lights_punctual.light (there is no number 9 among 4)"), "{said}");
 }
 
 #[test]
-fn lights_that_are_none_are_refused() {
+fn lights_that_are_none_do_not_shine_and_are_named() {
     let refused = |light: Value, words: &str| {
-        let error = with_lights(&[light]).error();
-        assert!(error.contains("KHR_lights_punctual.lights[0]") && error.contains(words), "{error}");
+        let said = with_lights(&[light]).scene().notices.join("\n");
+        assert!(said.contains("1 light does not shine: extensions.KHR_lights_punctual.lights[0]"), "{said}");
+        assert!(said.contains(words), "{said}");
     };
     refused(json!({ "type": "area" }), "none of directional, point, spot");
     refused(json!({ "type": "directional", "intensity": -1 }), "negative");
@@ -240,7 +241,7 @@ fn a_report_names_spectra_and_what_darkens_them() {
     file.material(json!({ "name": "wall", "extras": planck, "pbrMetallicRoughness": black }));
     file.material(json!({ "name": "paint", "extras": { "spectrum": { "sampled": [[400, 0], [700, 1]] } } }));
     let folder = TempDir::new().unwrap();
-    let report = check(&write(&folder, "scene.glb", &file.glb())).unwrap();
+    let report = report(&write(&folder, "scene.glb", &file.glb()));
     assert_eq!(
         report.spectra,
         [
@@ -290,7 +291,7 @@ fn the_built_in_hall_survives_a_file() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("spectra.glb");
     write_glb(&scene, &path).unwrap();
-    assert_eq!(load(&path, |_| {}).unwrap(), scene);
+    assert_eq!(load_path(&path).unwrap(), scene);
 }
 
 #[test]
@@ -299,16 +300,16 @@ fn a_panorama_beside_the_scene_surrounds_it() {
     write(&folder, "sky.png", &png(2, 1, &[255, 0, 0, 255, 0, 255, 0, 255]));
     let mut file = GltfUnderTest::triangle();
     ours(&mut file, json!({ "panorama": "sky.png" }));
-    let scene = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap();
+    let scene = load_path(&write(&folder, "scene.glb", &file.glb())).unwrap();
     assert_eq!(scene.panorama.unwrap().rgb, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 
     let mut refused = |panorama: Value, words: &str| {
         ours(&mut file, json!({ "panorama": panorama }));
-        let error = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap_err().to_string();
+        let error = load_path(&write(&folder, "scene.glb", &file.glb())).unwrap_err().to_string();
         assert!(error.contains(words), "{words} is not in: {error}");
     };
     refused(json!("nowhere.png"), "cannot read");
-    refused(json!("../sky.png"), "scenes[0].extras.rapidity.panorama: ../sky.png is not a file beside the scene");
+    refused(json!("../sky.png"), "scenes[0].extras.rapidity.panorama: ../sky.png is not in the scene's folder");
     refused(json!(7), "expected the name of a picture, not 7");
     refused(json!({ "bufferView": 99 }), "no number 99");
     refused(json!({ "bufferView": 0 }), "scene.glb is no picture");
@@ -318,11 +319,11 @@ fn a_panorama_beside_the_scene_surrounds_it() {
 fn a_picture_is_a_good_scene_and_so_is_an_empty_one_to_ride_in() {
     let folder = TempDir::new().unwrap();
     let path = write(&folder, "sky.png", &png(2, 1, &[255; 8]));
-    let report = check(&path).unwrap();
+    let report = report(&path);
     assert_eq!((report.panorama, report.triangles), (Some([2, 1]), 0));
     assert!(report.warnings.is_empty() && report.notices.is_empty(), "{report}");
     assert!(report.to_string().contains("panorama    2 × 1 pixels"), "{report}");
-    let scene = read(&path, |_| {}).unwrap();
+    let scene = read_path(&path).unwrap();
     assert_eq!((scene.start.position, scene.start.look, scene.name.as_str()), (DVec3::ZERO, DVec3::NEG_Z, "sky"));
     assert_eq!(refine(&scene, 0.5).unwrap(), scene);
     let collision = Collision::new(&scene).unwrap();

@@ -3,10 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 #![allow(dead_code, reason = "each test program uses its part of it")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use regular_file::Budget;
 use scene::Scene;
-use scene_files::gltf::{GltfError, load};
+use scene_files::SceneReadError;
+use scene_files::check::{Report, check};
+use scene_files::gltf::{GltfError, ReadRules, load};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -99,9 +102,14 @@ impl GltfUnderTest {
     }
 
     pub fn glb(&self) -> Vec<u8> {
-        let mut text = self.json.to_string().into_bytes();
+        Self::with_text(&self.json.to_string(), &self.blob)
+    }
+
+    /// File with this text instead of its JSON, and this binary chunk.
+    pub fn with_text(text: &str, blob: &[u8]) -> Vec<u8> {
+        let mut text = text.as_bytes().to_vec();
         text.resize(text.len().next_multiple_of(4), b' ');
-        let mut blob = self.blob.clone();
+        let mut blob = blob.to_vec();
         blob.resize(blob.len().next_multiple_of(4), 0);
         let length = 12 + 8 + text.len() + 8 + blob.len();
         let word = |value: usize| (value as u32).to_le_bytes();
@@ -145,5 +153,20 @@ pub fn write(folder: &TempDir, name: &str, bytes: &[u8]) -> PathBuf {
 
 pub fn load_bytes(bytes: &[u8]) -> Result<Scene, GltfError> {
     let folder = TempDir::new().unwrap();
-    load(&write(&folder, "scene.glb", bytes), |_| {})
+    load_path(&write(&folder, "scene.glb", bytes))
+}
+
+/// Scene from a glTF file, read by the usual rules.
+pub fn load_path(path: &Path) -> Result<Scene, GltfError> {
+    load(path, ReadRules { budget: &Budget::default(), trust: false }, |_| {})
+}
+
+/// Scene from a file of any kind, read by the usual rules.
+pub fn read_path(path: &Path) -> Result<Scene, SceneReadError> {
+    scene_files::read(path, ReadRules { budget: &Budget::default(), trust: false }, |_| {})
+}
+
+/// Report on a file, read by the usual rules.
+pub fn report(path: &Path) -> Report {
+    check(path, ReadRules { budget: &Budget::default(), trust: false }).unwrap()
 }

@@ -3,13 +3,13 @@
 //! A scene of hundreds of meshes reveals faults of a loader or writer that one of three meshes hides. A town with a
 //! hole in its street would not carry a bicycle.
 
+use crate::support::load_path;
 use built_in::town;
 use scene::Surroundings;
 use scene::collision::Collision;
 use scene::refine::refine;
 use scene_files::check::Report;
 use scene_files::export::write_glb;
-use scene_files::gltf::load;
 use tempfile::TempDir;
 
 #[test]
@@ -28,7 +28,7 @@ fn the_town_is_sound_and_survives_a_file() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("town.glb");
     write_glb(&town, &path).unwrap();
-    let back = load(&path, |_| {}).unwrap();
+    let back = load_path(&path).unwrap();
     assert!(back == town, "a part is lost: {:?}", back.notices);
 
     // A circuit would allow longer edges far from it; without one, all are cut.
