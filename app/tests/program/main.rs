@@ -4,7 +4,9 @@
 #[cfg(target_os = "linux")]
 mod calibration;
 mod check;
+mod first_view;
 mod measure;
+mod models;
 mod probe;
 #[cfg(unix)]
 mod ride;
