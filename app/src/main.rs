@@ -1,9 +1,9 @@
 //! The program: reads the command line, carries out the command, reports once.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate alone reports to the user")]
 
 use rapidity::command::{self, Command};
 use rapidity::commands::{check, devices, measure, probe, render, ride, town};
 use rapidity::error::Error;
+use rapidity::tell;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -11,7 +11,7 @@ fn main() -> ExitCode {
     match command::parse().map(|command| run(&command)) {
         Ok(Ok(status)) => status,
         Ok(Err(error)) => {
-            eprintln!("rapidity: {error}");
+            tell(format_args!("rapidity: {error}"));
             ExitCode::FAILURE
         }
         Err(status) => status,

@@ -40,8 +40,10 @@ pub struct MeasureOptions {
     #[arg(long, value_name = "FILE", value_parser = values::plot())]
     pub plot: Option<PathBuf>,
     /// Scene: `town`, `spectra` or `lattice` (built in), or a glTF 2.0 file (.gltf, .glb).
-    #[arg(long, value_name = "SCENE", default_value = "town", value_parser = world::scene())]
-    pub scene: SceneChoice,
+    ///
+    /// [default: town, or the scene of the recording]
+    #[arg(long, value_name = "SCENE", value_parser = world::scene())]
+    pub scene: Option<SceneChoice>,
     /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,

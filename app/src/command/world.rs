@@ -50,11 +50,20 @@ impl SceneChoice {
 pub struct WorldOptions {
     /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
     /// .hdr, .exr).
-    #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
-    pub scene: SceneChoice,
+    ///
+    /// [default: town, or the scene of the recording]
+    #[arg(long, value_name = "SCENE", value_parser = scene())]
+    pub scene: Option<SceneChoice>,
     /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).
     #[arg(long, value_name = "SPEED", default_value = "30 km/h", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: f64,
+}
+
+impl WorldOptions {
+    /// Scene that is shown if no recording names one.
+    pub fn scene(&self) -> SceneChoice {
+        self.scene.clone().unwrap_or_default()
+    }
 }
 
 pub(super) fn scene() -> impl TypedValueParser<Value = SceneChoice> {

@@ -2,7 +2,8 @@
 
 use crate::command::CheckOptions;
 use crate::error::Error;
-use crate::output::say::say;
+use crate::output::say::{say, tell};
+use crate::session::gaps::ShownTimes;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
 use scene_files::panorama;
@@ -38,12 +39,13 @@ fn report(path: &Path) -> Result<String, Error> {
 
 /// Report on a recording that is complete.
 fn recording(path: &Path) -> Result<String, RecordingError> {
-    let recording = Recording::open(path)?;
+    let mut recording = Recording::open(path)?;
     let header = recording.header().clone();
     let (mut samples, mut frames, mut last) = (0_u64, 0_u64, 0);
-    for entry in recording {
+    let mut times = ShownTimes::default();
+    for entry in recording.by_ref() {
         let entry = entry.inspect_err(|_| {
-            eprintln!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9);
+            tell(format_args!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9));
         })?;
         match entry {
             RecordingEntry::Sample(_) => samples += 1,
@@ -51,11 +53,17 @@ fn recording(path: &Path) -> Result<String, RecordingError> {
             RecordingEntry::Frame(frame) => {
                 frames += 1;
                 last = frame.at;
+                times.shown(frame.at);
             }
         }
     }
+    let notices = [
+        times.sentence(),
+        recording.another().map(|offset| RecordingError::Another { path: path.to_owned(), offset }.to_string()),
+    ];
+    let notices: String = notices.into_iter().flatten().map(|notice| format!("\n  notice: {notice}")).collect();
     Ok(format!(
-        "  a ride of {:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step",
+        "  a ride of {:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step{notices}",
         last as f64 * 1e-9,
         header.scene,
         header.build,

@@ -21,9 +21,11 @@ use crate::command::MeasureOptions;
 use crate::error::Error;
 use crate::output::files::{WriteError, writable};
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
-use crate::session::{reel, scenes};
+use crate::session::reel::{self, Ridden};
+use crate::session::scenes;
 
 /// Pictures per second at which poses are taken from a recording.
 const LOOKED_THROUGH: f64 = 10.0;
@@ -71,7 +73,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
             Kind::Rides { own_m: views.light_speed.metres(frame_s.min(LONGEST_FRAME_S)) }
         }
     };
-    eprintln!(
+    tell(format_args!(
         "{}: {} poses of {} × {} pixels ({pixel_arcmin:.1} arcmin in the middle), {}, on {}",
         scene.name,
         shots.len(),
@@ -79,7 +81,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
         size[1],
         if kind == Kind::Stills { "stills from nothing" } else { "frames of a ride" },
         gpu.description()
-    );
+    ));
 
     let tracer = if kind == Kind::Stills { Some(RayTracer::new(scene.clone(), None, false)?) } else { None };
     let measurement = Measurement { gpu: &gpu, scene, shots, size, kind, rounds: options.rounds };
@@ -91,11 +93,11 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
     };
     let Measured { rows, left_out } = pictures::measure(&measurement, positions, tracer.as_ref(), &stop, &progress)?;
     bar.finish_and_clear();
-    left_out.iter().for_each(|sentence| eprintln!("{sentence}"));
+    left_out.iter().for_each(|sentence| tell(sentence));
     print!("{}", table::of_pictures(&rows));
     if !rows.is_empty() && rows.iter().all(|row| row.pixels == 0) {
-        eprintln!(
-            "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay"
+        tell(
+            "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay",
         );
     }
     let mut lines: Vec<Line> = rows.iter().map(Line::from).collect();
@@ -121,7 +123,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
         }
     }
     if stop.load(Ordering::Relaxed) {
-        eprintln!("interrupted: the tables hold what was measured until then");
+        tell("interrupted: the tables hold what was measured until then");
     }
     write(
         options,
@@ -140,11 +142,11 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
 fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pixel_arcmin: f64) -> Result<(), Error> {
     if let Some(out) = &options.out {
         table::write_csv(lines, out).map_err(|error| WriteError::new(out, error))?;
-        eprintln!("wrote {}", out.display());
+        tell(format_args!("wrote {}", out.display()));
     }
     if let Some(path) = options.plot.as_ref().filter(|_| !rows.is_empty()) {
         plot(rows, title, pixel_arcmin, path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
     }
     Ok(())
 }
@@ -163,13 +165,13 @@ fn accuracy() -> Result<(), Error> {
 fn looked_at(options: &MeasureOptions) -> Result<Views, Error> {
     let Some(recording) = &options.replay else {
         let light_speed = LightSpeed::new(options.speed_of_light)?;
-        let scene = scenes::load(&options.scene, options.speed_of_light)?;
+        let scene = scenes::load(&options.scene.clone().unwrap_or_default(), options.speed_of_light)?;
         let shots = views::along_circuit(&scene, options.poses);
         return Ok(Views { scene, light_speed, shots });
     };
-    let (scene, speed_of_light_m_s, moments) = reel::reel(recording, &options.scene, LOOKED_THROUGH, None)?;
-    let light_speed = LightSpeed::new(speed_of_light_m_s)?;
-    let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
+    let Ridden { scene, speed_of_light, reel } = reel::reel(recording, options.scene.as_ref(), LOOKED_THROUGH, None)?;
+    let light_speed = LightSpeed::new(speed_of_light)?;
+    let gazes: Vec<Gaze> = reel.evenly(options.poses).map(|moment| moment.gaze).collect();
     if gazes.is_empty() {
         return Err(Error::NothingRidden);
     }
@@ -188,13 +190,13 @@ fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result
         row.arcmin[1] / pixel_arcmin
     );
     let path = Preferences { ride: row.dial }.save(&note)?;
-    eprintln!(
+    tell(format_args!(
         "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
         row.dial,
         row.ms[0],
         row.ms[1],
         row.arcmin[1] / pixel_arcmin
-    );
-    eprintln!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display());
+    ));
+    tell(format_args!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display()));
     Ok(())
 }

@@ -9,7 +9,7 @@ use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::files::writable;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{self, Moment};
+use crate::session::reel::{self, Moment, Ridden};
 use crate::session::scenes;
 use glam::DVec3;
 use physics::{Event, Observer};
@@ -38,7 +38,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording);
     }
-    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
+    let scene = scenes::load(&options.world.scene(), options.world.speed_of_light)?;
     let start = scene.start;
     let speed_of_light = options.world.speed_of_light;
     let camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
@@ -62,16 +62,17 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// Draws the picture or film as a recorded rider saw it.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let (scene, speed_of_light, moments) = reel::reel(recording, &options.world.scene, rate, options.seconds)?;
+    let Ridden { scene, speed_of_light, reel } =
+        reel::reel(recording, options.world.scene.as_ref(), rate, options.seconds)?;
     let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
     let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
-        Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
-        Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Picture(path) => camera.still(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Light(path) => camera.light(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Folder(path) => Ok(writable(path)?),
         Output::Film(path) => {
-            let count = moments.len() as u64;
-            camera.film(moments.into_iter().map(Ok), count, rate, path)
+            let count = reel.len();
+            camera.film(reel.pictures().map(Ok), count, rate, path)
         }
     }
 }

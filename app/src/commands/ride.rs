@@ -5,13 +5,14 @@ use crate::commands::ride_film;
 use crate::error::Error;
 use crate::output::files::writable;
 use crate::output::progress;
-use crate::output::say::say;
+use crate::output::say::{say, tell};
 use crate::session::live::Live;
 use crate::session::preferences;
 use crate::session::scenes;
 use crate::session::start::{RideRoom, has_display, prepared, present, recorded};
 use crate::window;
 use input::HeadConfig;
+use input::recording::RecordingError;
 use scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
         return Err(Error::NoWindows);
     }
     let path = options.out.clone().unwrap_or_else(|| {
-        eprintln!("no display: filming the ride into {FILM}");
+        tell(format_args!("no display: filming the ride into {FILM}"));
         PathBuf::from(FILM)
     });
     writable(&path)?;
@@ -45,10 +46,13 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
 
 /// Computes a recorded ride again, and compares it bit for bit.
 fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
-    let (_, replay) = recorded(path, &options.world.scene)?;
+    let (_, mut replay) = recorded(path, options.world.scene.as_ref())?;
     let spinner = progress::spinner("riding again");
     let frames = replay.verify();
     spinner.finish_and_clear();
+    if let Some(offset) = replay.another() {
+        tell(RecordingError::Another { path: path.to_owned(), offset });
+    }
     Ok(say(&format!("{}: {} frames, identical to the bit", path.display(), frames?))?)
 }
 
@@ -56,10 +60,10 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
 fn begin(options: &RideOptions, head: Option<HeadConfig>) -> Result<(Scene, window::Begin), Error> {
     let seconds = options.seconds;
     if let Some(path) = &options.replay {
-        let (scene, replay) = recorded(path, &options.world.scene)?;
+        let (scene, replay) = recorded(path, options.world.scene.as_ref())?;
         return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
     }
-    let scene = scenes::load(&options.world.scene, options.world.speed_of_light)?;
+    let scene = scenes::load(&options.world.scene(), options.world.speed_of_light)?;
     let (simulation, mut log) = prepared(options, &scene, head)?;
     if let Some(path) = &options.record {
         log.record(path)?;

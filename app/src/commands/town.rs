@@ -3,6 +3,7 @@
 use crate::command::{SceneChoice, TownOptions};
 use crate::error::Error;
 use crate::output::files::writable;
+use crate::output::say::tell;
 use crate::session::scenes;
 use ride::LightSpeed;
 use scene_files::export::write_glb;
@@ -15,6 +16,6 @@ pub fn town(options: &TownOptions) -> Result<(), Error> {
     writable(&options.out)?;
     let scene = scenes::load(&SceneChoice::Town, LightSpeed::OLD_TOWN.speed_of_light_m_s())?;
     write_glb(&scene, &options.out)?;
-    eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
+    tell(format_args!("wrote {}: {} triangles", options.out.display(), scene.triangle_count()));
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::command::SceneChoice;
 use crate::output::progress;
+use crate::output::say::tell;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
 use scene::{Scene, TooFast};
@@ -54,7 +55,7 @@ pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, Scen
             })?;
             bar.finish_and_clear();
             for notice in &scene.notices {
-                eprintln!("{}: {notice}", path.display());
+                tell(format_args!("{}: {notice}", path.display()));
             }
             let checked = scene.set_speed_of_light(speed_of_light_m_s);
             checked.map_err(|fault| SceneError::TooFast { path: path.clone(), fault })?;

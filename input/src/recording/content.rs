@@ -93,7 +93,7 @@ impl Content {
     pub(super) fn finish(&mut self) -> Result<(), String> {
         match &mut self.order {
             RideOrder::Numbers(assembly) => assembly.finish(&mut self.ready),
-            RideOrder::Sequence { sequence, .. } => sequence.finish(),
+            RideOrder::Sequence { sequence, .. } => sequence.finish(&mut self.ready),
         }
     }
 

@@ -10,6 +10,8 @@ use std::collections::{BTreeMap, VecDeque};
 use super::record::RecordingEntry;
 use super::topic::RecordingTopic;
 
+/// Number of entries without a number 0 after which another way of counting is believed.
+const LONGEST_START: usize = 64;
 /// Largest memory of messages that wait for an earlier one, bytes.
 const MOST_WAITING: usize = 1 << 30;
 
@@ -61,6 +63,8 @@ pub(super) struct Sequence {
     held: BTreeMap<u32, RecordingEntry>,
     waiting: usize,
     unnumbered: bool,
+    /// First entries as they came, while none had the number 0, and their numbers.
+    start: Vec<(u32, RecordingEntry)>,
 }
 
 impl Sequence {
@@ -83,6 +87,9 @@ impl Sequence {
         if self.unnumbered {
             ready.push_back(entry);
             return Ok(());
+        }
+        if matches!(self.ride, Counting::New) {
+            return self.begin(topic, number, entry, ready);
         }
         let channel = self.channels[topic as usize];
         let channels_explain = !self.channels_refuted && channel.explains(number);
@@ -117,11 +124,63 @@ impl Sequence {
         Ok(())
     }
 
+    /// Takes an entry while none had the number 0: copies may count from 1, or may have put others first.
+    fn begin(
+        &mut self,
+        topic: RecordingTopic,
+        number: u32,
+        entry: RecordingEntry,
+        ready: &mut VecDeque<RecordingEntry>,
+    ) -> Result<(), String> {
+        self.file.count(number);
+        self.channels_refuted |= !self.channels[topic as usize].explains(number);
+        self.channels[topic as usize].count(number);
+        if number > 0 {
+            let is_twice = self.start.iter().any(|(earlier, _)| *earlier == number);
+            self.start.push((number, entry));
+            if is_twice || self.start.len() >= LONGEST_START {
+                self.decide(ready);
+            }
+            return Ok(());
+        }
+        self.ride.count(number);
+        ready.push_back(entry);
+        for (number, entry) in std::mem::take(&mut self.start) {
+            (self.file, self.channels_refuted) = (Counting::Refuted, true);
+            self.waiting += entry.memory();
+            if self.held.insert(number, entry).is_some() {
+                return Err(self.missing());
+            }
+        }
+        self.release(ready);
+        Ok(())
+    }
+
+    /// Decides how entries are counted of which none has the number 0.
+    fn decide(&mut self, ready: &mut VecDeque<RecordingEntry>) {
+        let file_explains = matches!(self.file, Counting::Next(_));
+        let ride_explains = (1..).zip(&self.start).all(|(expected, (number, _))| *number == expected);
+        let start = std::mem::take(&mut self.start);
+        if file_explains || ride_explains || !self.channels_refuted {
+            let next = u32::try_from(start.len()).unwrap_or(u32::MAX) + 1;
+            self.ride = if ride_explains { Counting::Next(next) } else { Counting::Refuted };
+            ready.extend(start.into_iter().map(|(_, entry)| entry));
+        } else {
+            // The first message is missing, or comes later.
+            self.ride = Counting::Next(0);
+            self.waiting += start.iter().map(|(_, entry)| entry.memory()).sum::<usize>();
+            self.held.extend(start);
+        }
+    }
+
     /// Checks at the end that no entry waits for one that is missing.
     ///
     /// # Errors
     /// A sentence: messages are missing.
-    pub(super) fn finish(&self) -> Result<(), String> {
+    pub(super) fn finish(&mut self, ready: &mut VecDeque<RecordingEntry>) -> Result<(), String> {
+        if !self.start.is_empty() {
+            self.decide(ready);
+        }
         if self.held.is_empty() { Ok(()) } else { Err(self.missing()) }
     }
 
@@ -177,7 +236,8 @@ mod tests {
                 }
             }
         }
-        (ready.into(), sequence.finish())
+        let outcome = sequence.finish(&mut ready);
+        (ready.into(), outcome)
     }
 
     /// Ride numbered by `number`, which is given the topic and the place.
@@ -229,9 +289,26 @@ mod tests {
 
     #[test]
     fn numbers_that_were_kept_restore_the_order() {
+        // One channel after the other, in both orders.
         let mut messages = renumbered(|_, place| place);
         messages.sort_by_key(|(topic, ..)| topic.map(|topic| topic as usize));
+        assert_eq!(taken(messages.clone()), (entries(), Ok(())));
+        messages.reverse();
         assert_eq!(taken(messages), (entries(), Ok(())));
+        // The first messages exchanged, as times may demand it.
+        for first in [1, 2, 3] {
+            let mut messages = renumbered(|_, place| place);
+            messages[..=first].rotate_left(1);
+            assert_eq!(taken(messages), (entries(), Ok(())), "{first}");
+        }
+    }
+
+    #[test]
+    fn a_ride_without_its_beginning_is_noticed() {
+        let mut messages = renumbered(|_, place| place);
+        messages.drain(..8);
+        let (found, outcome) = taken(messages);
+        assert!(found.is_empty() && outcome.is_err(), "{found:?}");
     }
 
     #[test]
