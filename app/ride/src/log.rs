@@ -23,7 +23,7 @@ pub enum LogError {
     #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
     NotRemembered,
     /// A recording that has failed during the ride.
-    #[error("{} holds only the beginning of the ride, because recording failed", path.display())]
+    #[error("{}: the ride was not recorded to its end", path.display())]
     Incomplete {
         /// Path of the recording.
         path: PathBuf,

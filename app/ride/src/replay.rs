@@ -93,7 +93,9 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
                     return Err(ReplayError::Differs { frame: frame.record.frame, difference });
                 }
                 Ok(None) => return Ok(self.frames),
-                Err(ReplayError::Recording { frames, cause }) => return Err(ReplayError::Partial { frames, cause }),
+                Err(ReplayError::Recording { frames: frames @ 1.., cause }) => {
+                    return Err(ReplayError::Partial { frames, cause });
+                }
                 Err(error) => return Err(error),
             }
         }

@@ -156,7 +156,6 @@ impl<'gpu> Cameraman<'gpu> {
         if traces && done == 0 && stop.load(Ordering::Relaxed) {
             // The encoder of a film without pictures has nothing to tell but a complaint.
             let _ = film.finish();
-            let _ = std::fs::remove_file(path);
             return Err(Error::Interrupted);
         }
         if done < count && stop.load(Ordering::Relaxed) {

@@ -110,8 +110,8 @@ impl Content {
             RideOrder::Numbers(assembly) => {
                 match topic {
                     RecordingTopic::Samples => {
-                        let (number, sample) = SampleMessage::from_cbor(message)?;
-                        assembly.sample(number, sample)?;
+                        SampleMessage::from_cbor(message)?
+                            .try_for_each(|(number, sample)| assembly.sample(number, sample))?;
                     }
                     RecordingTopic::Controls => {
                         let ReadControls { samples, record } = text(number, message)?;

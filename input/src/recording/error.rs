@@ -94,6 +94,12 @@ pub enum RecordingError {
         /// Error of the system.
         cause: io::Error,
     },
+    /// A recording whose file lost its name.
+    #[error("{} was removed or replaced while the ride was recorded, so the recording is lost; record into another file", path.display())]
+    Removed {
+        /// Path that the file had.
+        path: PathBuf,
+    },
     /// A number that no replay could read back.
     #[error("frame {frame} cannot be recorded: {field} is {value}")]
     NotFinite {

@@ -2,7 +2,7 @@
 //!
 //! | channel | a message for | holds |
 //! |---|---|---|
-//! | `/device/raw` | every sample | number, time, device, raw bytes, in CBOR |
+//! | `/device/raw` | every frame with samples | their number, times, devices and raw bytes, in CBOR |
 //! | `/controls` | every frame | what the desk made of them, and how many samples came before, in JSON |
 //! | `/observer` | every frame | where and how fast the observer was afterwards, in JSON |
 //! | `/pose` | every frame | the observer's pose as `foxglove.PoseInFrame`, for 3D views |

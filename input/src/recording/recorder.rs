@@ -195,7 +195,13 @@ fn failure(path: &Path, error: McapError) -> RecordingError {
 
 /// Error of a recording that cannot go on.
 fn broken(path: &Path, error: McapError) -> RecordingError {
-    RecordingError::Broken { path: path.to_owned(), cause: cause(error) }
+    let (path, cause) = (path.to_owned(), cause(error));
+    // The file is open, so what is not found is its name.
+    if cause.kind() == io::ErrorKind::NotFound {
+        RecordingError::Removed { path }
+    } else {
+        RecordingError::Broken { path, cause }
+    }
 }
 
 fn cause(error: McapError) -> io::Error {

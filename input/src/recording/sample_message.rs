@@ -1,6 +1,7 @@
 //! Samples, as they are written: in CBOR, whose bytes are bytes; and as the first format had them, in JSON.
 
 use serde::{Deserialize, Serialize};
+use serde_bytes::ByteBuf;
 
 use crate::clock::Nanos;
 use crate::sample::{Sample, SampleSource, Signal};
@@ -24,51 +25,65 @@ impl SignalKind {
     }
 }
 
-/// Sample with its number in the ride, from 0.
-#[derive(Clone, Debug, Deserialize)]
+/// Samples that came one after the other, a column for each of their parts: many of a tracker's share a message, and
+/// columns are compressed to a third of what rows are.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SampleMessage {
+    /// Number of the first sample in the ride, from 0.
     number: u64,
+    /// Time of the first sample.
     at: Nanos,
-    source: SampleSource,
-    kind: SignalKind,
-    #[serde(with = "serde_bytes")]
-    bytes: Box<[u8]>,
-}
-
-/// Sample that is about to be written.
-#[derive(Clone, Copy, Debug, Serialize)]
-struct WrittenSample<'a> {
-    number: u64,
-    at: Nanos,
-    source: SampleSource,
-    kind: SignalKind,
-    #[serde(with = "serde_bytes")]
-    bytes: &'a [u8],
+    /// Time from each of the samples to the next, nanoseconds; negative if it is dated earlier.
+    later: Vec<i64>,
+    source: Vec<SampleSource>,
+    kind: Vec<SignalKind>,
+    bytes: Vec<ByteBuf>,
 }
 
 impl SampleMessage {
-    /// Message of the sample with a number.
-    pub(super) fn to_cbor(number: u64, sample: &Sample) -> Vec<u8> {
-        let (kind, bytes): (_, &[u8]) = match &sample.signal {
-            Signal::Opened => (SignalKind::Opened, &[]),
-            Signal::Bytes(bytes) => (SignalKind::Bytes, bytes),
-            Signal::Closed => (SignalKind::Closed, &[]),
-        };
-        let mut message = Vec::with_capacity(bytes.len() + 64);
-        let written = WrittenSample { number, at: sample.at, source: sample.source, kind, bytes };
-        ciborium::into_writer(&written, &mut message).expect("memory takes all that is written into it");
-        message
+    /// Message of samples, of which the first has a number.
+    pub(super) fn to_cbor(number: u64, samples: &[Sample]) -> Vec<u8> {
+        let mut message = Self { number, at: samples.first().map_or(0, |sample| sample.at), ..Self::default() };
+        let mut before = None;
+        for sample in samples {
+            // Times beyond half the range pass through the sign bit, and back.
+            message.later.extend(before.replace(sample.at).map(|before| sample.at.wrapping_sub(before).cast_signed()));
+            let (kind, bytes): (_, &[u8]) = match &sample.signal {
+                Signal::Opened => (SignalKind::Opened, &[]),
+                Signal::Bytes(bytes) => (SignalKind::Bytes, bytes),
+                Signal::Closed => (SignalKind::Closed, &[]),
+            };
+            message.source.push(sample.source);
+            message.kind.push(kind);
+            message.bytes.push(ByteBuf::from(bytes));
+        }
+        let mut text = Vec::new();
+        ciborium::into_writer(&message, &mut text).expect("memory takes all that is written into it");
+        text
     }
 
-    /// Number and sample of a message.
+    /// Samples of a message, with their numbers.
     ///
     /// # Errors
-    /// A sentence, if the message is not that of a sample.
-    pub(super) fn from_cbor(message: &[u8]) -> Result<(u64, Sample), String> {
-        let Self { number, at, source, kind, bytes } =
-            ciborium::from_reader(message).map_err(|error| format!("a sample that cannot be read: {error}"))?;
-        Ok((number, Sample { at, source, signal: kind.signal(bytes) }))
+    /// A sentence, if the message is not one of samples.
+    pub(super) fn from_cbor(message: &[u8]) -> Result<impl Iterator<Item = (u64, Sample)>, String> {
+        let Self { number, mut at, later, source, kind, bytes } =
+            ciborium::from_reader(message).map_err(|error| format!("samples that cannot be read: {error}"))?;
+        let count = source.len();
+        if [kind.len(), bytes.len(), later.len() + usize::from(count > 0)] != [count; 3] {
+            return Err("samples of which parts are missing".to_owned());
+        }
+        let times = std::iter::once(at).chain(later.into_iter().map(move |later| {
+            at = at.wrapping_add_signed(later);
+            at
+        }));
+        let rows = times.zip(source).zip(kind).zip(bytes);
+        let samples = rows.map(|(((at, source), kind), bytes)| {
+            let signal = kind.signal(bytes.into_vec().into_boxed_slice());
+            Sample { at, source, signal }
+        });
+        Ok((number..).zip(samples))
     }
 }
 
@@ -107,23 +122,36 @@ mod tests {
     //! A sample must survive its message, and a message that claims more than it holds must end in a sentence.
     use super::*;
 
+    fn read(message: &[u8]) -> Result<Vec<(u64, Sample)>, String> {
+        SampleMessage::from_cbor(message).map(Iterator::collect)
+    }
+
     #[test]
     fn samples_survive_their_message() {
-        for (number, sample) in [
-            (0, Sample::opened(1, SampleSource::Bicycle)),
-            (u64::MAX, Sample::bytes(u64::MAX, SampleSource::SpaceMouse, [0, 0xff, 0x7f])),
-            (2, Sample::bytes(3, SampleSource::Settings, [])),
-            (3, Sample::closed(4, SampleSource::Keyboard)),
-        ] {
-            let message = SampleMessage::to_cbor(number, &sample);
-            assert_eq!(SampleMessage::from_cbor(&message), Ok((number, sample)));
+        let samples = [
+            Sample::opened(1, SampleSource::Bicycle),
+            Sample::bytes(u64::MAX, SampleSource::SpaceMouse, [0, 0xff, 0x7f]),
+            Sample::bytes(3, SampleSource::Settings, []),
+            Sample::closed(4, SampleSource::Keyboard),
+        ];
+        for count in 0..=samples.len() {
+            let message = SampleMessage::to_cbor(7, &samples[..count]);
+            assert_eq!(read(&message), Ok((7..).zip(samples[..count].iter().cloned()).collect()));
         }
     }
 
     #[test]
     fn bytes_take_the_room_of_bytes() {
         let long = Sample::bytes(3, SampleSource::Vrpn, vec![0xab; 1000]);
-        assert!(SampleMessage::to_cbor(7, &long).len() < 1100);
+        assert!(SampleMessage::to_cbor(7, &[long]).len() < 1100);
+    }
+
+    #[test]
+    fn a_message_whose_columns_differ_in_length_is_refused() {
+        let message = SampleMessage { source: vec![SampleSource::Vrpn], ..SampleMessage::default() };
+        let mut text = Vec::new();
+        ciborium::into_writer(&message, &mut text).unwrap();
+        assert!(read(&text).unwrap_err().contains("parts are missing"));
     }
 
     #[test]
@@ -135,14 +163,14 @@ mod tests {
 
     #[test]
     fn a_damaged_message_ends_in_a_sentence() {
-        let message = SampleMessage::to_cbor(1, &Sample::bytes(3, SampleSource::Vrpn, [1, 2, 3]));
+        let message = SampleMessage::to_cbor(1, &[Sample::bytes(3, SampleSource::Vrpn, [1, 2, 3])]);
         for length in 0..message.len() {
-            assert!(SampleMessage::from_cbor(&message[..length]).is_err(), "{length}");
+            assert!(read(&message[..length]).is_err(), "{length}");
         }
         // A length of gigabytes.
         let place = message.len() - 4;
         let hostile = [&message[..place], &[0x5a, 0xff, 0xff, 0xff, 0xff, 1, 2, 3]].concat();
-        assert!(SampleMessage::from_cbor(&hostile).is_err());
+        assert!(read(&hostile).is_err());
     }
 
     #[test]

@@ -19,10 +19,17 @@ use super::pose::{FrameTransform, POSE_SCHEMA, POSE_TOPIC, PoseInFrame, TRANSFOR
 use super::record::{RecordingEntry, WrittenControls};
 use super::sample_message::SampleMessage;
 use super::topic::{JSON, JSON_SCHEMA, RecordingTopic};
-use crate::clock::Nanos;
+use crate::clock::{Nanos, SECOND};
+use crate::sample::{Sample, Signal};
 
 /// Time after which a chunk is closed and handed to the disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(500);
+/// Time of the ride after which a chunk is closed, for a ride that is simulated faster than the clock.
+const LONGEST_CHUNK: Nanos = SECOND / 2;
+
+/// Most samples in a message, and most bytes in them, unless a single one has more.
+const MOST_SAMPLES: usize = 1024;
+const MOST_BYTES: usize = 64 << 10;
 
 /// Open file, and the numbers of its channels.
 pub(super) struct RecordingWriter {
@@ -38,8 +45,13 @@ pub(super) struct RecordingWriter {
     /// Number of messages, and of samples among them.
     messages: u32,
     samples: u64,
+    /// Samples that wait for the controls of their frame, and the number of their bytes.
+    waiting: Vec<Sample>,
+    waiting_bytes: usize,
     flushed: Instant,
     is_flushed: bool,
+    /// Time of the ride at which the chunk began.
+    chunk: Nanos,
 }
 
 impl RecordingWriter {
@@ -78,8 +90,11 @@ impl RecordingWriter {
             began: None,
             messages: 0,
             samples: 0,
+            waiting: Vec::new(),
+            waiting_bytes: 0,
             flushed: Instant::now(),
             is_flushed: true,
+            chunk: 0,
         })
     }
 
@@ -92,11 +107,20 @@ impl RecordingWriter {
     pub(super) fn write(&mut self, entry: &RecordingEntry) -> Result<(), McapError> {
         match entry {
             RecordingEntry::Sample(sample) => {
-                let message = SampleMessage::to_cbor(self.samples, sample);
-                self.samples += 1;
-                self.put(self.channels[RecordingTopic::Samples as usize], sample.at, &message)
+                self.waiting_bytes += if let Signal::Bytes(bytes) = &sample.signal { bytes.len() } else { 0 };
+                self.waiting.push(sample.clone());
+                if self.waiting.len() < MOST_SAMPLES && self.waiting_bytes < MOST_BYTES {
+                    Ok(())
+                } else {
+                    self.put_samples()
+                }
             }
             RecordingEntry::Controls(record) => {
+                self.put_samples()?;
+                if record.at.saturating_sub(self.chunk) >= LONGEST_CHUNK {
+                    self.chunk = record.at;
+                    self.mcap.flush()?;
+                }
                 let written = WrittenControls { samples: self.samples, record };
                 self.put_json(self.channels[RecordingTopic::Controls as usize], record.at, &written)
             }
@@ -124,6 +148,7 @@ impl RecordingWriter {
     /// A failed write, or a file that has been removed.
     pub(super) fn flush(&mut self) -> Result<(), McapError> {
         if !std::mem::replace(&mut self.is_flushed, true) {
+            self.put_samples()?;
             self.mcap.flush()?;
             self.file.sync_data()?;
             self.check_place()?;
@@ -137,24 +162,24 @@ impl RecordingWriter {
     /// # Errors
     /// A failed write, or a file that has been removed.
     pub(super) fn finish(&mut self) -> Result<(), McapError> {
+        self.put_samples()?;
         self.mcap.finish()?;
         self.file.sync_all()?;
         Ok(self.check_place()?)
     }
 
     /// Checks that the file still has its name: what is written into a removed file is lost.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::NotFound`] if the name is gone, or is that of another file.
     fn check_place(&self) -> io::Result<()> {
-        let removed = || io::Error::new(io::ErrorKind::NotFound, "the file has been removed or replaced meanwhile");
-        let named = std::fs::metadata(&self.path).map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => removed(),
-            _ => error,
-        })?;
+        let named = std::fs::metadata(&self.path)?;
         #[cfg(unix)]
         {
             use std::os::unix::fs::MetadataExt;
             let own = self.file.metadata()?;
             if (own.dev(), own.ino()) != (named.dev(), named.ino()) {
-                return Err(removed());
+                return Err(io::ErrorKind::NotFound.into());
             }
         }
         #[cfg(not(unix))]
@@ -169,6 +194,16 @@ impl RecordingWriter {
             u64::try_from(now.as_nanos()).unwrap_or(u64::MAX).saturating_sub(at)
         });
         began.saturating_add(at)
+    }
+
+    /// Writes the waiting samples as one message, dated by the last of them.
+    fn put_samples(&mut self) -> Result<(), McapError> {
+        let samples = std::mem::take(&mut self.waiting);
+        self.waiting_bytes = 0;
+        let Some(at) = samples.last().map(|sample| sample.at) else { return Ok(()) };
+        let message = SampleMessage::to_cbor(self.samples, &samples);
+        self.samples += samples.len() as u64;
+        self.put(self.channels[RecordingTopic::Samples as usize], at, &message)
     }
 
     fn put_json(&mut self, channel_id: u16, at: Nanos, message: &impl Serialize) -> Result<(), McapError> {
