@@ -25,8 +25,8 @@ impl SignalKind {
     }
 }
 
-/// Samples that came one after the other, a column for each of their parts: many of a tracker's share a message, and
-/// columns are compressed to a third of what rows are.
+/// Samples that came one after the other, a column for each of their parts, because columns can be compressed better
+/// than rows: what a tracker sends a thousand times a second differs in few places.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SampleMessage {
@@ -38,7 +38,10 @@ pub(super) struct SampleMessage {
     later: Vec<i64>,
     source: Vec<SampleSource>,
     kind: Vec<SignalKind>,
-    bytes: Vec<ByteBuf>,
+    /// Number of bytes of each sample.
+    length: Vec<u64>,
+    /// First bytes of all samples, then their second bytes, and so on; a sample takes part as long as it has bytes.
+    bytes: ByteBuf,
 }
 
 impl SampleMessage {
@@ -46,6 +49,7 @@ impl SampleMessage {
     pub(super) fn to_cbor(number: u64, samples: &[Sample]) -> Vec<u8> {
         let mut message = Self { number, at: samples.first().map_or(0, |sample| sample.at), ..Self::default() };
         let mut before = None;
+        let mut rows = Vec::new();
         for sample in samples {
             // Times beyond half the range pass through the sign bit, and back.
             message.later.extend(before.replace(sample.at).map(|before| sample.at.wrapping_sub(before).cast_signed()));
@@ -56,8 +60,10 @@ impl SampleMessage {
             };
             message.source.push(sample.source);
             message.kind.push(kind);
-            message.bytes.push(ByteBuf::from(bytes));
+            message.length.push(bytes.len() as u64);
+            rows.push(bytes);
         }
+        message.bytes = ByteBuf::from(columns(&rows));
         let mut text = Vec::new();
         ciborium::into_writer(&message, &mut text).expect("memory takes all that is written into it");
         text
@@ -68,23 +74,61 @@ impl SampleMessage {
     /// # Errors
     /// A sentence, if the message is not one of samples.
     pub(super) fn from_cbor(message: &[u8]) -> Result<impl Iterator<Item = (u64, Sample)>, String> {
-        let Self { number, mut at, later, source, kind, bytes } =
+        let Self { number, mut at, later, source, kind, length, bytes } =
             ciborium::from_reader(message).map_err(|error| format!("samples that cannot be read: {error}"))?;
         let count = source.len();
-        if [kind.len(), bytes.len(), later.len() + usize::from(count > 0)] != [count; 3] {
-            return Err("samples of which parts are missing".to_owned());
+        let incomplete = || "samples of which parts are missing".to_owned();
+        if [kind.len(), length.len(), later.len() + usize::from(count > 0)] != [count; 3] {
+            return Err(incomplete());
         }
+        let rows = rows(&length, &bytes).ok_or_else(incomplete)?;
         let times = std::iter::once(at).chain(later.into_iter().map(move |later| {
             at = at.wrapping_add_signed(later);
             at
         }));
-        let rows = times.zip(source).zip(kind).zip(bytes);
-        let samples = rows.map(|(((at, source), kind), bytes)| {
-            let signal = kind.signal(bytes.into_vec().into_boxed_slice());
+        let samples = times.zip(source).zip(kind).zip(rows);
+        let samples = samples.map(|(((at, source), kind), bytes)| {
+            let signal = kind.signal(bytes.into_boxed_slice());
             Sample { at, source, signal }
         });
         Ok((number..).zip(samples))
     }
+}
+
+/// First bytes of all rows, then their second bytes, and so on.
+fn columns(rows: &[&[u8]]) -> Vec<u8> {
+    let mut columns = Vec::with_capacity(rows.iter().map(|row| row.len()).sum());
+    let mut longer: Vec<&[u8]> = rows.to_vec();
+    loop {
+        longer.retain_mut(|row| {
+            let Some((first, rest)) = row.split_first() else { return false };
+            columns.push(*first);
+            *row = rest;
+            true
+        });
+        if longer.is_empty() {
+            return columns;
+        }
+    }
+}
+
+/// Rows of these lengths, whose bytes are ordered as by [`columns`]; `None` if there are more bytes, or fewer.
+fn rows(length: &[u64], columns: &[u8]) -> Option<Vec<Vec<u8>>> {
+    let sum = length.iter().try_fold(0_u64, |sum, length| sum.checked_add(*length))?;
+    if sum != columns.len() as u64 {
+        return None;
+    }
+    let length = length.iter().map(|length| usize::try_from(*length).ok()).collect::<Option<Vec<_>>>()?;
+    let mut rows: Vec<Vec<u8>> = length.iter().map(|length| Vec::with_capacity(*length)).collect();
+    let mut longer: Vec<usize> = (0..rows.len()).collect();
+    let mut columns = columns.iter();
+    while columns.len() > 0 {
+        longer.retain(|row| rows[*row].len() < length[*row]);
+        for (row, byte) in longer.iter().zip(columns.by_ref()) {
+            rows[*row].push(*byte);
+        }
+    }
+    Some(rows)
 }
 
 /// Sample, as the first format had it.
@@ -147,6 +191,14 @@ mod tests {
     }
 
     #[test]
+    fn bytes_are_ordered_by_their_place() {
+        let all: [&[u8]; 4] = [b"ab", b"", b"cdef", b"g"];
+        assert_eq!(columns(&all), b"acgbdef");
+        assert_eq!(rows(&[2, 0, 4, 1], b"acgbdef").unwrap(), all);
+        assert_eq!(rows(&[], b"").unwrap(), Vec::<Vec<u8>>::new());
+    }
+
+    #[test]
     fn a_message_whose_columns_differ_in_length_is_refused() {
         let message = SampleMessage { source: vec![SampleSource::Vrpn], ..SampleMessage::default() };
         let mut text = Vec::new();
@@ -166,6 +218,10 @@ mod tests {
         let message = SampleMessage::to_cbor(1, &[Sample::bytes(3, SampleSource::Vrpn, [1, 2, 3])]);
         for length in 0..message.len() {
             assert!(read(&message[..length]).is_err(), "{length}");
+        }
+        // Lengths that are not those of the bytes.
+        for length in [vec![2], vec![4], vec![u64::MAX], vec![u64::MAX, 4]] {
+            assert_eq!(rows(&length, &[1, 2, 3]), None);
         }
         // A length of gigabytes.
         let place = message.len() - 4;

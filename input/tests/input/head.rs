@@ -328,14 +328,15 @@ fn tracked_minute(path: &Path, is_f32: bool) {
         let time = f64::from(millisecond) * 1e-3;
         let at = (Nanos::from(millisecond) * MILLISECOND).saturating_add_signed((2e5 * number(0.0, 1.0)) as i64);
         let mut payload = vec![0; 8];
+        let turn = glam::DQuat::from_euler(glam::EulerRot::YXZ, 0.4 * time.sin(), 0.2 * (0.3 * time).cos(), 0.1);
         for value in [
             number(0.3 * time.sin(), 1e-4),
             number(1.7 + 0.02 * (9.0 * time).sin(), 1e-4),
             number(0.2 * (0.7 * time).cos(), 1e-4),
-            number(0.1 * time.sin(), 1e-4),
-            number(0.4 * (0.3 * time).sin(), 1e-4),
-            number(0.05 * (2.0 * time).cos(), 1e-4),
-            number(0.9, 1e-4),
+            number(turn.x, 1e-4),
+            number(turn.y, 1e-4),
+            number(turn.z, 1e-4),
+            number(turn.w, 1e-4),
         ] {
             payload.extend_from_slice(&value.to_be_bytes());
         }
@@ -373,7 +374,8 @@ fn tracked_minute(path: &Path, is_f32: bool) {
         }
     }
     recorder.finish().unwrap();
-    assert_eq!(frame, 3600);
+    let head = desk.controls(60 * SECOND).head.unwrap();
+    assert_eq!((frame, head.tracked), (3600, Tracking::Tracked));
 }
 
 /// A long ride must fit on a disk: an hour in 300 MB.
