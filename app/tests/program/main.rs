@@ -5,7 +5,10 @@
 mod calibration;
 mod check;
 mod measure;
+#[cfg(target_os = "linux")]
+mod outputs;
 mod probe;
+mod recording;
 #[cfg(unix)]
 mod ride;
 mod runner;
