@@ -17,10 +17,10 @@ pub fn check(options: &CheckOptions) -> Result<(), Error> {
     let mut bad = 0;
     for path in &options.files {
         match report(path) {
-            Ok(text) => say(&format!("{}: good\n{text}", path.display()))?,
+            Ok(text) => say(format_args!("{}: good\n{text}", path.display()))?,
             Err(error) => {
                 bad += 1;
-                say(&error.to_string())?;
+                say(error)?;
             }
         }
     }

@@ -21,7 +21,7 @@ use crate::command::MeasureOptions;
 use crate::error::Error;
 use crate::output::files::{WriteError, writable};
 use crate::output::progress;
-use crate::output::say::tell;
+use crate::output::say::{say, tell};
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
 use crate::session::reel::{self, Ridden};
@@ -93,8 +93,8 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
     };
     let Measured { rows, left_out } = pictures::measure(&measurement, positions, tracer.as_ref(), &stop, &progress)?;
     bar.finish_and_clear();
-    left_out.iter().for_each(|sentence| tell(sentence));
-    print!("{}", table::of_pictures(&rows));
+    left_out.iter().for_each(tell);
+    say(table::of_pictures(&rows).trim_end())?;
     if !rows.is_empty() && rows.iter().all(|row| row.pixels == 0) {
         tell(
             "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay",
@@ -103,23 +103,24 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
     let mut lines: Vec<Line> = rows.iter().map(Line::from).collect();
     if let Some(tracer) = &tracer {
         let mut add = |(text, of_dial): (String, Vec<Line>)| {
-            if !of_dial.is_empty() {
-                print!("\n{text}");
-                lines.extend(of_dial);
+            if of_dial.is_empty() {
+                return Ok(());
             }
+            lines.extend(of_dial);
+            say(format_args!("\n{}", text.trim_end()))
         };
         // Test `stop` before each one, so that an interrupt ends the run soon.
         if !stop.load(Ordering::Relaxed) {
-            add(samples::measure(&measurement, tracer, &stop)?);
+            add(samples::measure(&measurement, tracer, &stop)?)?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(shift_table::measure(&views));
+            add(shift_table::measure(&views))?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(steps::measure(&views)?);
+            add(steps::measure(&views)?)?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(precision::measure(&views)?);
+            add(precision::measure(&views)?)?;
         }
     }
     if stop.load(Ordering::Relaxed) {

@@ -53,7 +53,7 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
     if let Some(offset) = replay.another() {
         tell(RecordingError::Another { path: path.to_owned(), offset });
     }
-    Ok(say(&format!("{}: {} frames, identical to the bit", path.display(), frames?))?)
+    Ok(say(format_args!("{}: {} frames, identical to the bit", path.display(), frames?))?)
 }
 
 /// Scene, and the function that begins a live or a recorded ride in it.

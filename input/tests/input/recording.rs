@@ -212,6 +212,9 @@ fn assert_same_ride(what: &str, copy: &[u8], entries: &[RecordingEntry]) {
     assert_same_bits(&found, entries);
 }
 
+/// Way of numbering messages.
+type Numbering<'a> = dyn FnMut(&mcap::Message<'_>) -> u32 + 'a;
+
 /// Copies number the messages anew: MCAP leaves that to the program.
 #[test]
 fn a_copy_may_number_the_messages_as_it_likes() {
@@ -227,7 +230,7 @@ fn a_copy_may_number_the_messages_as_it_likes() {
             count += 1;
             count
         };
-        let ways: [(&str, &mut dyn FnMut(&mcap::Message<'_>) -> u32); 3] =
+        let ways: [(&str, &mut Numbering<'_>); 3] =
             [("by channel", &mut by_channel), ("from one", &mut from_one), ("zero", &mut |_| 0)];
         for (way, number) in ways {
             let copy = made(options(), |copy| {
@@ -273,8 +276,7 @@ fn a_copy_may_have_another_order() {
     for (bytes, entries) in both_formats() {
         let by_channel = |message: &mcap::Message<'_>| (u64::from(message.channel.id), 0);
         let by_time = |message: &mcap::Message<'_>| (message.log_time, u64::from(message.channel.id));
-        let orders: [fn(&mcap::Message<'_>) -> (u64, u64); 2] = [by_channel, by_time];
-        for order in orders {
+        for order in [by_channel, by_time] {
             let copy = made(options(), |copy| {
                 copy.write_metadata(&description(&bytes)).unwrap();
                 let mut messages = messages(&bytes);
