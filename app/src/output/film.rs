@@ -76,8 +76,8 @@ impl Film {
     /// Creates a film of `size` pixels at `frames_per_second`.
     ///
     /// # Errors
-    /// [`FilmError::Start`] if ffmpeg is there and cannot be started, [`FilmError::Write`] if there is none and no folder
-    /// for pictures can be created.
+    /// [`FilmError::Start`] if ffmpeg is there and cannot be started, [`FilmError::Write`] if there is none and no
+    /// folder for pictures can be created.
     pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
         let mut sink = Sink::open(path, size, frames_per_second)?;
         let (frames, queue) = bounded::<RgbaImage>(WAITING_FRAMES);
