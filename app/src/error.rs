@@ -128,6 +128,9 @@ pub enum Error {
     /// A window that cannot be opened.
     #[error("no window could be opened ({0}); to film the ride instead, name a file with --out")]
     Window(String),
+    /// A window that was lost during the ride.
+    #[error("the windows were lost: the display server has ended or closed them; what was recorded until then is kept")]
+    WindowLost,
     /// A terminal or a pipe that is gone.
     #[error("the output cannot be written: {0}")]
     Output(#[from] std::io::Error),

@@ -2,7 +2,6 @@
 //!
 //! [`frame`] shows the path of one frame through the program on one page. Commands are in [`commands`], their options
 //! in [`command`]. The crates beside this folder hold everything else.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate alone reports to the user")]
 
 mod canvas;
 pub mod command;
@@ -13,3 +12,5 @@ mod output;
 mod session;
 mod stage_times;
 mod window;
+
+pub use output::say::tell;

@@ -1,17 +1,18 @@
 //! The program: reads the command line, carries out the command, reports once.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate alone reports to the user")]
 
 use rapidity::command::{self, Command};
 use rapidity::commands::{check, devices, measure, probe, render, ride, town};
 use rapidity::error::Error;
+use rapidity::tell;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    outlive_full_files();
     quieten_mesa();
     match command::parse().map(|command| run(&command)) {
         Ok(Ok(status)) => status,
         Ok(Err(error)) => {
-            eprintln!("rapidity: {error}");
+            tell(format_args!("rapidity: {error}"));
             ExitCode::FAILURE
         }
         Err(status) => status,
@@ -42,6 +43,16 @@ fn limit_threads(threads: Option<u32>) {
     if let Some(threads) = threads {
         // An error means that the pool is already running, which cannot be before the first command.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
+    }
+}
+
+/// Makes a write beyond the largest size allowed for a file (`ulimit -f`) an error, as on a full disk, instead of the
+/// end of the program.
+fn outlive_full_files() {
+    #[cfg(unix)]
+    // SAFETY: to ignore a signal is always sound, and no other thread runs yet.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
     }
 }
 

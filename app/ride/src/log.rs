@@ -6,11 +6,12 @@
 use crate::frame::RideFrame;
 use input::Sample;
 use input::recording::{ControlsRecord, Recorder, RecordingEntry, RecordingError, RideHeader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 use thiserror::Error;
 
-/// Largest number of entries kept in memory: about three quarters of an hour at sixty frames per second.
-const MOST_ENTRIES: usize = 500_000;
+/// Largest memory of the entries that are kept, bytes: about an hour at sixty frames per second.
+const MOST_REMEMBERED: usize = 256 << 20;
 
 /// Reason why a ride is not recorded.
 #[derive(Debug, Error)]
@@ -21,6 +22,12 @@ pub enum LogError {
     /// A ride too long to be recorded from its beginning.
     #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
     NotRemembered,
+    /// A recording that has failed during the ride.
+    #[error("{}: the ride was not recorded to its end", path.display())]
+    Incomplete {
+        /// Path of the recording.
+        path: PathBuf,
+    },
 }
 
 /// Log of the ride so far: in memory as long as it is short enough, and in a file if one is wanted.
@@ -28,13 +35,19 @@ pub struct RideLog {
     header: RideHeader,
     /// Entries since the beginning; `None` once there were too many.
     kept: Option<Vec<RecordingEntry>>,
-    file: Option<Recorder>,
+    /// Memory of the kept entries, bytes.
+    remembered: usize,
+    /// Beginning of the ride, nanoseconds since 1970, once it has begun.
+    began: Option<u64>,
+    file: Option<(PathBuf, Recorder)>,
+    /// First recording that has failed.
+    failed: Option<PathBuf>,
 }
 
 impl RideLog {
     /// Creates the log at the beginning of the ride.
     pub fn new(header: RideHeader) -> Self {
-        Self { header, kept: Some(Vec::new()), file: None }
+        Self { header, kept: Some(Vec::new()), remembered: 0, began: None, file: None, failed: None }
     }
 
     /// True if a file is being written.
@@ -49,29 +62,47 @@ impl RideLog {
     /// is kept.
     pub fn frame(&mut self, samples: &[Sample], frame: &RideFrame) -> Result<(), LogError> {
         let (number, at) = (frame.record.frame, frame.record.at);
-        if let Some(entries) = &mut self.kept {
-            entries.extend(samples.iter().cloned().map(RecordingEntry::Sample));
-            entries.push(RecordingEntry::Controls(ControlsRecord {
-                frame: number,
-                at,
-                controls: frame.controls.clone(),
-            }));
-            entries.push(RecordingEntry::Frame(frame.record.clone()));
-            if entries.len() >= MOST_ENTRIES {
-                self.kept = None;
-            }
+        if self.began.is_none() {
+            let began = unix_now().saturating_sub(at);
+            self.began = Some(began);
+            self.write(|recorder| recorder.began(began))?;
         }
-        let Some(recorder) = &mut self.file else { return Ok(()) };
-        let mut write = || {
+        self.remember(samples, frame);
+        self.write(|recorder| {
             samples.iter().try_for_each(|sample| recorder.sample(sample))?;
             recorder.controls(number, at, &frame.controls)?;
             recorder.frame(&frame.record)
-        };
-        let written = write();
-        written.map_err(|error| {
-            self.file = None;
-            error.into()
         })
+    }
+
+    /// Keeps the entries of a frame in memory, as long as there is room.
+    fn remember(&mut self, samples: &[Sample], frame: &RideFrame) {
+        let Some(kept) = &mut self.kept else { return };
+        let (number, at) = (frame.record.frame, frame.record.at);
+        let first = kept.len();
+        kept.extend(samples.iter().cloned().map(RecordingEntry::Sample));
+        let controls = frame.controls.clone();
+        kept.push(RecordingEntry::Controls(ControlsRecord { frame: number, at, controls }));
+        kept.push(RecordingEntry::Frame(frame.record.clone()));
+        self.remembered += kept[first..].iter().map(RecordingEntry::memory).sum::<usize>();
+        if self.remembered > MOST_REMEMBERED {
+            self.kept = None;
+        }
+    }
+
+    /// Writes into the file, if there is one. The file is given up at the first error.
+    fn write(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), RecordingError>) -> Result<(), LogError> {
+        let Some((path, mut recorder)) = self.file.take() else { return Ok(()) };
+        match write(&mut recorder) {
+            Ok(()) => {
+                self.file = Some((path, recorder));
+                Ok(())
+            }
+            Err(error) => {
+                self.failed.get_or_insert(path);
+                Err(error.into())
+            }
+        }
     }
 
     /// Writes the ride so far into a new file, and from now on everything that follows.
@@ -84,16 +115,38 @@ impl RideLog {
         }
         let entries = self.kept.as_ref().ok_or(LogError::NotRemembered)?;
         let mut recorder = Recorder::create(path, &self.header)?;
+        if let Some(began) = self.began {
+            recorder.began(began)?;
+        }
         recorder.past(entries.clone())?;
-        self.file = Some(recorder);
+        self.file = Some((path.to_owned(), recorder));
         Ok(())
     }
 
-    /// Completes the file, if one is being written.
+    /// Completes the file, if one is being written; the ride goes on.
     ///
     /// # Errors
     /// [`LogError`] if the rest cannot be written.
-    pub fn finish(&mut self) -> Result<(), LogError> {
-        self.file.take().map_or(Ok(()), |recorder| Ok(recorder.finish()?))
+    pub fn stop(&mut self) -> Result<(), LogError> {
+        let Some((path, recorder)) = self.file.take() else { return Ok(()) };
+        recorder.finish().map_err(|error| {
+            self.failed.get_or_insert(path);
+            error.into()
+        })
     }
+
+    /// Completes the file at the end of the ride.
+    ///
+    /// # Errors
+    /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
+    pub fn finish(&mut self) -> Result<(), LogError> {
+        self.stop()?;
+        self.failed.take().map_or(Ok(()), |path| Err(LogError::Incomplete { path }))
+    }
+}
+
+/// Present moment, nanoseconds since 1970.
+fn unix_now() -> u64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    u64::try_from(now.as_nanos()).unwrap_or(u64::MAX)
 }

@@ -33,6 +33,13 @@ impl Replay<Recording> {
     }
 }
 
+impl Replay<Recording> {
+    /// Place at which another recording begins in the file behind this one, bytes. Asked for after the last frame.
+    pub fn another(&self) -> Option<u64> {
+        self.entries.another()
+    }
+}
+
 impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<Entries> {
     /// Begins a replay with entries from another source.
     ///
@@ -57,11 +64,12 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
         for entry in self.entries.by_ref() {
             match entry {
                 Ok(RecordingEntry::Sample(sample)) => samples.push(sample),
-                Ok(RecordingEntry::Controls(record)) => controls = Some(record.controls),
+                Ok(RecordingEntry::Controls(record)) => controls = Some(record),
                 Ok(RecordingEntry::Frame(recorded)) => {
                     let frame = self.simulation.frame(recorded.at, &samples);
                     let difference = controls
-                        .and_then(|controls| controls_difference(&controls, &frame.controls))
+                        .filter(|record| record.frame == recorded.frame)
+                        .and_then(|record| controls_difference(&record.controls, &frame.controls))
                         .or_else(|| recorded.first_difference(&frame.record));
                     self.frames += 1;
                     return Ok(Some(Replayed { frame, difference }));
@@ -75,14 +83,22 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
     /// Simulates all remaining frames. Returns the number of frames, all of them equal to the recorded ones.
     ///
     /// # Errors
-    /// [`ReplayError`]: the first difference, or the place where the recording is damaged.
-    pub fn verify(mut self) -> Result<u64, ReplayError> {
-        while let Some(Replayed { frame, difference }) = self.next_frame()? {
-            if let Some(difference) = difference {
-                return Err(ReplayError::Differs { frame: frame.record.frame, difference });
+    /// [`ReplayError`]: the first difference, or the place where the recording is damaged, with the number of frames
+    /// before that are equal.
+    pub fn verify(&mut self) -> Result<u64, ReplayError> {
+        loop {
+            match self.next_frame() {
+                Ok(Some(Replayed { difference: None, .. })) => {}
+                Ok(Some(Replayed { frame, difference: Some(difference) })) => {
+                    return Err(ReplayError::Differs { frame: frame.record.frame, difference });
+                }
+                Ok(None) => return Ok(self.frames),
+                Err(ReplayError::Recording { frames: frames @ 1.., cause }) => {
+                    return Err(ReplayError::Partial { frames, cause });
+                }
+                Err(error) => return Err(error),
             }
         }
-        Ok(self.frames)
     }
 }
 
@@ -116,6 +132,14 @@ pub enum ReplayError {
         frame: u64,
         /// First field of the frame that differs.
         difference: FrameDifference,
+    },
+    /// A recording that cannot be read to its end, and equals the replay so far.
+    #[error("all {frames} frames that can be read are identical to the bit, but {cause}")]
+    Partial {
+        /// Number of frames that are equal.
+        frames: u64,
+        /// Error of the recording.
+        cause: Box<RecordingError>,
     },
     /// A recording that cannot be read further.
     #[error("after {frames} frames: {cause}")]

@@ -1,5 +1,6 @@
 //! The command line as a whole: subcommands, help, mistakes.
 
+use crate::output::say::tell;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -125,7 +126,7 @@ impl Stop {
                 _ => ExitCode::from(Self::USAGE),
             },
             Self::Usage(sentence) => {
-                eprintln!("rapidity: {sentence}");
+                tell(format_args!("rapidity: {sentence}"));
                 ExitCode::from(Self::USAGE)
             }
         }

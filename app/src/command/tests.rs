@@ -46,7 +46,7 @@ fn clap_finds_no_fault_in_the_definitions() {
 #[test]
 fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
     let options = ride("");
-    assert_eq!(options.world.scene, SceneChoice::Town);
+    assert_eq!((&options.world.scene, options.world.scene()), (&None, SceneChoice::Town));
     assert_eq!((options.world.speed_of_light, options.world.camera.as_deref()), (None, None));
     assert_eq!(options.vehicle.vehicle, None);
     assert_eq!(options.vehicle.integrator, IntegratorKind::Rk4);
@@ -65,7 +65,7 @@ fn a_ride_takes_all_its_options() {
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
          --threads 2 --integrator exact --transport gyroscopic --time-scale 0.5 --out r.mp4 --realtime --fov 90",
     );
-    assert_eq!(options.world.scene, SceneChoice::File("a/b.glb".into()));
+    assert_eq!(options.world.scene, Some(SceneChoice::File("a/b.glb".into())));
     assert_eq!(options.world.speed_of_light, Some(299_792_458.0));
     assert_eq!(options.dial.edge, Some(0.1));
     assert_eq!(

@@ -51,8 +51,10 @@ impl SceneChoice {
 pub struct WorldOptions {
     /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
     /// .hdr, .exr).
-    #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
-    pub scene: SceneChoice,
+    ///
+    /// [default: town, or the scene of the recording]
+    #[arg(long, value_name = "SCENE", value_parser = scene())]
+    pub scene: Option<SceneChoice>,
     /// Camera of the scene's file from which it is seen at the start, by its name, or by its number from 1
     /// [default: the first perspective one]. `rapidity check` lists them.
     #[arg(long, value_name = "NAME|N")]
@@ -81,6 +83,13 @@ impl ReadingOptions {
     /// Budget of memory.
     pub fn budget(&self) -> Budget {
         Budget::new((self.limit * 1e9) as u64)
+    }
+}
+
+impl WorldOptions {
+    /// Scene that is shown if no recording names one.
+    pub fn scene(&self) -> SceneChoice {
+        self.scene.clone().unwrap_or_default()
     }
 }
 

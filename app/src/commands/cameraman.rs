@@ -6,6 +6,7 @@ use crate::output::exr;
 use crate::output::files::save;
 use crate::output::film::{Film, Written};
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::interrupt::{interrupted, interruption};
 use crate::session::reel::Moment;
 use image::RgbaImage;
@@ -56,7 +57,7 @@ impl<'gpu> Cameraman<'gpu> {
             if interruption().load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
-            eprintln!("{}: traced ray by ray, on the CPU", scene.name);
+            tell(format_args!("{}: traced ray by ray, on the CPU", scene.name));
             let spinner = progress::spinner("sorting triangles");
             let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
             spinner.finish_and_clear();
@@ -67,7 +68,7 @@ impl<'gpu> Cameraman<'gpu> {
         let spinner = progress::cutting(dial);
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
         spinner.finish_and_clear();
-        eprintln!("{because}, on {}", gpu.description());
+        tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
         let renderer = SceneRenderer::new(gpu, &scene, Studio::format(gpu), options.background, dial, Occasion::Still)?;
         let studio = Studio::new(gpu, options.size, options.samples);
@@ -98,7 +99,7 @@ impl<'gpu> Cameraman<'gpu> {
         let picture = self.take(&gaze, pending, None)?;
         self.tell_of_quality(&gaze);
         save(&picture, path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
         Ok(())
     }
 
@@ -115,7 +116,7 @@ impl<'gpu> Cameraman<'gpu> {
         };
         self.tell_of_quality(&gaze);
         exr::save(&light, path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
         Ok(())
     }
 
@@ -160,18 +161,17 @@ impl<'gpu> Cameraman<'gpu> {
         if traces && done == 0 && stop.load(Ordering::Relaxed) {
             // The encoder of a film without pictures has nothing to tell but a complaint.
             let _ = film.finish();
-            let _ = std::fs::remove_file(path);
             return Err(Error::Interrupted);
         }
         if done < count && stop.load(Ordering::Relaxed) {
-            eprintln!("interrupted: the film ends after {done} of {count} pictures");
+            tell(format_args!("interrupted: the film ends after {done} of {count} pictures"));
         }
         match film.finish()? {
-            Written::Film(path) => eprintln!("wrote {}", path.display()),
-            Written::Pictures(folder) => eprintln!(
+            Written::Film(path) => tell(format_args!("wrote {}", path.display())),
+            Written::Pictures(folder) => tell(format_args!(
                 "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
                 folder.display()
-            ),
+            )),
         }
         Ok(())
     }
@@ -183,25 +183,25 @@ impl<'gpu> Cameraman<'gpu> {
         let shot = gaze.shot(self.fov_deg, self.options.effects);
         let certainty = renderer.certainty(&shot, self.options.size);
         if certainty.error_px() > 1.0 {
-            eprintln!("{}", certainty.sentence());
+            tell(certainty.sentence());
         }
         if let Some(CutStats { tolerance_px, triangles, duration }) = renderer.cut_stats()
             && triangles > 0
         {
-            eprintln!(
+            tell(format_args!(
                 "cut into {triangles} triangles for {tolerance_px} pixels in {:.0} ms",
                 1000.0 * duration.as_secs_f64()
-            );
+            ));
         }
         let wanted = self.dial.map_scale.unwrap_or(1.0);
         if let Some(stats) = renderer.map_stats()
             && stats.panes > 0
             && stats.texels_per_pixel < 0.99 * wanted
         {
-            eprintln!(
+            tell(format_args!(
                 "the map had room for {:.1} texels a pixel along each axis instead of {wanted}; a smaller --size has more",
                 stats.texels_per_pixel
-            );
+            ));
         }
     }
 
@@ -241,7 +241,7 @@ fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<T
         return Err(Error::Interrupted);
     }
     if traced.done < traced.tiles {
-        eprintln!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles);
+        tell(format_args!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles));
     }
     Ok(traced)
 }

@@ -2,7 +2,8 @@
 
 use crate::command::{CheckOptions, ReadingOptions};
 use crate::error::Error;
-use crate::output::say::say;
+use crate::output::say::{say, say_exactly, tell};
+use crate::session::gaps::ShownTimes;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
 use scene_files::gltf::ReadRules;
@@ -42,7 +43,7 @@ pub fn check(options: &CheckOptions) -> Result<(), Error> {
                 json!({ "file": path.to_string(), "good": false, "error": error.to_string() }).to_string()
             }
         };
-        say(&text)?;
+        if options.json { say_exactly(text)? } else { say(text)? }
     }
     if bad == 0 { Ok(()) } else { Err(Error::Checked { bad, files: options.files.len() }) }
 }
@@ -71,12 +72,13 @@ fn scene(kind: &'static str, path: &Path, rules: ReadRules<'_>) -> Result<Good, 
 
 /// Report on a recording that is complete.
 fn recording(path: &Path) -> Result<Good, RecordingError> {
-    let recording = Recording::open(path)?;
+    let mut recording = Recording::open(path)?;
     let header = recording.header().clone();
     let (mut samples, mut frames, mut last) = (0_u64, 0_u64, 0);
-    for entry in recording {
+    let mut times = ShownTimes::default();
+    for entry in recording.by_ref() {
         let entry = entry.inspect_err(|_| {
-            eprintln!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9);
+            tell(format_args!("{}: {frames} frames, {:.1} s, can be read", path.display(), last as f64 * 1e-9));
         })?;
         match entry {
             RecordingEntry::Sample(_) => samples += 1,
@@ -84,12 +86,16 @@ fn recording(path: &Path) -> Result<Good, RecordingError> {
             RecordingEntry::Frame(frame) => {
                 frames += 1;
                 last = frame.at;
+                times.shown(frame.at);
             }
         }
     }
     let seconds = last as f64 * 1e-9;
+    let another = recording.another().map(|offset| RecordingError::Another { path: path.to_owned(), offset });
+    let notices: Vec<String> = times.sentence().into_iter().chain(another.map(|another| another.to_string())).collect();
+    let said: String = notices.iter().map(|notice| format!("\n  notice: {notice}")).collect();
     let text = format!(
-        "  a ride of {seconds:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step",
+        "  a ride of {seconds:.1} s in {}, {frames} frames, {samples} samples, recorded by version {}\n  light at {:.3} m/s, {} at {} s a step{said}",
         header.scene, header.build, header.speed_of_light_m_s, header.integrator, header.step_s
     );
     let members = json!({
@@ -99,6 +105,7 @@ fn recording(path: &Path) -> Result<Good, RecordingError> {
         "samples": samples,
         "version": header.build,
         "speedOfLight": header.speed_of_light_m_s,
+        "notices": notices,
     });
     Ok(Good { kind: "recording", text, members })
 }

@@ -21,9 +21,10 @@ use crate::command::MeasureOptions;
 use crate::error::Error;
 use crate::output::files::{WriteError, writable};
 use crate::output::progress;
+use crate::output::say::{say, tell};
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
-use crate::session::reel;
+use crate::session::reel::{self, Ridden};
 use crate::session::scenes::{self, World};
 
 /// Pictures per second at which poses are taken from a recording.
@@ -72,7 +73,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
             Kind::Rides { own_m: views.light_speed.metres(frame_s.min(LONGEST_FRAME_S)) }
         }
     };
-    eprintln!(
+    tell(format_args!(
         "{}: {} poses of {} × {} pixels ({pixel_arcmin:.1} arcmin in the middle), {}, on {}",
         scene.name,
         shots.len(),
@@ -80,7 +81,7 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
         size[1],
         if kind == Kind::Stills { "stills from nothing" } else { "frames of a ride" },
         gpu.description()
-    );
+    ));
 
     let tracer = if kind == Kind::Stills { Some(RayTracer::new(scene.clone(), None, false)?) } else { None };
     let measurement = Measurement { gpu: &gpu, scene, shots, size, kind, rounds: options.rounds };
@@ -92,37 +93,38 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
     };
     let Measured { rows, left_out } = pictures::measure(&measurement, positions, tracer.as_ref(), &stop, &progress)?;
     bar.finish_and_clear();
-    left_out.iter().for_each(|sentence| eprintln!("{sentence}"));
-    print!("{}", table::of_pictures(&rows));
+    left_out.iter().for_each(tell);
+    say(table::of_pictures(&rows).trim_end())?;
     if !rows.is_empty() && rows.iter().all(|row| row.pixels == 0) {
-        eprintln!(
-            "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay"
+        tell(
+            "no pixel showed a surface of this scene, so nothing is known of directions; choose another --scene or --replay",
         );
     }
     let mut lines: Vec<Line> = rows.iter().map(Line::from).collect();
     if let Some(tracer) = &tracer {
         let mut add = |(text, of_dial): (String, Vec<Line>)| {
-            if !of_dial.is_empty() {
-                print!("\n{text}");
-                lines.extend(of_dial);
+            if of_dial.is_empty() {
+                return Ok(());
             }
+            lines.extend(of_dial);
+            say(format_args!("\n{}", text.trim_end()))
         };
         // Test `stop` before each one, so that an interrupt ends the run soon.
         if !stop.load(Ordering::Relaxed) {
-            add(samples::measure(&measurement, tracer, &stop)?);
+            add(samples::measure(&measurement, tracer, &stop)?)?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(shift_table::measure(&views));
+            add(shift_table::measure(&views))?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(steps::measure(&views)?);
+            add(steps::measure(&views)?)?;
         }
         if !stop.load(Ordering::Relaxed) {
-            add(precision::measure(&views)?);
+            add(precision::measure(&views)?)?;
         }
     }
     if stop.load(Ordering::Relaxed) {
-        eprintln!("interrupted: the tables hold what was measured until then");
+        tell("interrupted: the tables hold what was measured until then");
     }
     write(
         options,
@@ -141,11 +143,11 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
 fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pixel_arcmin: f64) -> Result<(), Error> {
     if let Some(out) = &options.out {
         table::write_csv(lines, out).map_err(|error| WriteError::new(out, error))?;
-        eprintln!("wrote {}", out.display());
+        tell(format_args!("wrote {}", out.display()));
     }
     if let Some(path) = options.plot.as_ref().filter(|_| !rows.is_empty()) {
         plot(rows, title, pixel_arcmin, path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
     }
     Ok(())
 }
@@ -168,9 +170,9 @@ fn looked_at(options: &MeasureOptions) -> Result<Views, Error> {
         let shots = views::along_circuit(&scene, options.poses);
         return Ok(Views { scene, light_speed, shots });
     };
-    let (scene, speed_of_light_m_s, moments) = reel::reel(recording, &options.world, LOOKED_THROUGH, None)?;
-    let light_speed = LightSpeed::new(speed_of_light_m_s)?;
-    let gazes: Vec<Gaze> = moments.into_iter().map(|moment| moment.gaze).collect();
+    let Ridden { scene, speed_of_light, reel } = reel::reel(recording, &options.world, LOOKED_THROUGH, None)?;
+    let light_speed = LightSpeed::new(speed_of_light)?;
+    let gazes: Vec<Gaze> = reel.evenly(options.poses).map(|moment| moment.gaze).collect();
     if gazes.is_empty() {
         return Err(Error::NothingRidden);
     }
@@ -189,13 +191,13 @@ fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result
         row.arcmin[1] / pixel_arcmin
     );
     let path = Preferences { ride: row.dial }.save(&note)?;
-    eprintln!(
+    tell(format_args!(
         "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
         row.dial,
         row.ms[0],
         row.ms[1],
         row.arcmin[1] / pixel_arcmin
-    );
-    eprintln!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display());
+    ));
+    tell(format_args!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display()));
     Ok(())
 }

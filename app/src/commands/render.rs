@@ -9,7 +9,7 @@ use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::files::writable;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{self, Moment};
+use crate::session::reel::{self, Moment, Ridden};
 use crate::session::scenes::{self, World};
 use physics::{Event, Observer};
 use render::Gpu;
@@ -60,16 +60,16 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// Draws the picture or film as a recorded rider saw it.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let (scene, speed_of_light, moments) = reel::reel(recording, &options.world, rate, options.seconds)?;
+    let Ridden { scene, speed_of_light, reel } = reel::reel(recording, &options.world, rate, options.seconds)?;
     let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
     let mut camera = camera.with_rays(&options.rays, speed_of_light);
     match &options.out {
-        Output::Picture(path) => camera.still(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
-        Output::Light(path) => camera.light(moments.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Picture(path) => camera.still(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Light(path) => camera.light(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Folder(path) => Ok(writable(path)?),
         Output::Film(path) => {
-            let count = moments.len() as u64;
-            camera.film(moments.into_iter().map(Ok), count, rate, path)
+            let count = reel.len();
+            camera.film(reel.pictures().map(Ok), count, rate, path)
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::commands::cameraman::dial_of_stills;
 use crate::error::Error;
 use crate::output::files::{WriteError, save};
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::scenes;
 use glam::DVec3;
 use physics::Event;
@@ -29,7 +30,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     }
     let display = Display::named_or_file(display)?;
     for notice in &display.notices {
-        eprintln!("{}: {notice}", display.name);
+        tell(format_args!("{}: {notice}", display.name));
     }
     let limit = largest_side(gpu);
     if let Some(channel) = display.channels.iter().find(|channel| channel.size().iter().any(|side| *side > limit)) {
@@ -54,7 +55,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     let spinner = progress::cutting(wanted);
     let Choice { scene, dial, because } = Choice::of(scene, wanted, Occasion::Still)?;
     spinner.finish_and_clear();
-    eprintln!("{because}, on {}", gpu.description());
+    tell(format_args!("{because}, on {}", gpu.description()));
     let spinner = progress::spinner("uploading");
     let mut renderer = SceneRenderer::new(gpu, &scene, quality.format, picture.background, dial, Occasion::Still)?;
     let head = options.room.head(&display.viewer);
@@ -74,19 +75,19 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     gpu.wait()?;
     spinner.finish_and_clear();
     if drawn.certainty.error_px() > 1.0 {
-        eprintln!("{}", drawn.certainty.sentence());
+        tell(drawn.certainty.sentence());
     }
     for channel in 0..count {
         let path = folder.join(format!("{}.png", walls.display.channels[channel].name));
         save(&walls.develop(gpu, channel, &picture.development())?, &path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
     }
     if options.room.preview {
         let mut onlooker = RoomOnlooker::outside(&walls);
         onlooker.from_m = options.room.preview_from.unwrap_or(onlooker.from_m);
         let path = folder.join("room.png");
         save(&walls.develop_room(gpu, picture.size, &occupant, &onlooker, &picture.development())?, &path)?;
-        eprintln!("wrote {}", path.display());
+        tell(format_args!("wrote {}", path.display()));
     }
     Ok(())
 }

@@ -5,13 +5,14 @@ use crate::commands::ride_film;
 use crate::error::Error;
 use crate::output::files::writable;
 use crate::output::progress;
-use crate::output::say::say;
+use crate::output::say::{say, tell};
 use crate::session::live::Live;
 use crate::session::preferences;
 use crate::session::scenes;
 use crate::session::start::{RideRoom, has_display, prepared, present, recorded};
 use crate::window;
 use input::HeadConfig;
+use input::recording::RecordingError;
 use scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
         return Err(Error::NoWindows);
     }
     let path = options.out.clone().unwrap_or_else(|| {
-        eprintln!("no display: filming the ride into {FILM}");
+        tell(format_args!("no display: filming the ride into {FILM}"));
         PathBuf::from(FILM)
     });
     writable(&path)?;
@@ -45,11 +46,14 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
 
 /// Computes a recorded ride again, and compares it bit for bit.
 fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
-    let (_, replay) = recorded(path, &options.world)?;
+    let (_, mut replay) = recorded(path, &options.world)?;
     let spinner = progress::spinner("riding again");
     let frames = replay.verify();
     spinner.finish_and_clear();
-    Ok(say(&format!("{}: {} frames, identical to the bit", path.display(), frames?))?)
+    if let Some(offset) = replay.another() {
+        tell(RecordingError::Another { path: path.to_owned(), offset });
+    }
+    Ok(say(format_args!("{}: {} frames, identical to the bit", path.display(), frames?))?)
 }
 
 /// Scene, and the function that begins a live or a recorded ride in it.

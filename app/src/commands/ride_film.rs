@@ -7,13 +7,14 @@ use crate::command::RideOptions;
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
 use crate::error::Error;
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{Reel, reel};
+use crate::session::reel::{Reel, Ridden, reel};
 use crate::session::scenes;
 use crate::session::start::{RideRoom, first_actions, prepared, present};
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
 use render::Gpu;
-use ride::{RideLog, Simulation, Tour};
+use ride::{LogError, RideLog, Simulation, Tour};
 use scene::Scene;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -34,11 +35,11 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     // Without a graphics device the ride is not begun.
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
-    let (scene, moments) = match &options.replay {
+    let (scene, reel, recorded) = match &options.replay {
         Some(recording) => {
             let rate = f64::from(FRAMES_PER_SECOND);
-            let (scene, _, moments) = reel(recording, &options.world, rate, options.seconds)?;
-            (scene, moments)
+            let Ridden { scene, reel, .. } = reel(recording, &options.world, rate, options.seconds)?;
+            (scene, reel, Ok(()))
         }
         None => {
             let world = scenes::load(&options.world)?;
@@ -48,21 +49,26 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
                 log.record(path)?;
             }
             let has_devices = options.devices.bicycle.is_some() || options.devices.spacemouse;
-            let reel = if has_devices || options.realtime {
+            let (reel, recorded) = if has_devices || options.realtime {
                 follow(options, simulation, log, seconds)?
             } else {
                 demonstrate(options, &scene, simulation, log, seconds)?
             };
-            (scene, reel.moments)
+            (scene, reel, recorded)
         }
     };
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let count = moments.len() as u64;
-    camera.film(moments.into_iter().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)
+    let count = reel.len();
+    camera.film(reel.pictures().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)?;
+    // What was ridden is filmed even if it could not be recorded.
+    Ok(recorded?)
 }
 
+/// Film's moments, and the outcome of recording the ride.
+type Followed = (Reel, Result<(), LogError>);
+
 /// Follows a live ride in real time.
-fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: f64) -> Result<Reel, Error> {
+fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: f64) -> Result<Followed, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
     let mut live = present(&options, simulation, log)?;
     let stop = interrupted();
@@ -75,12 +81,12 @@ fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: 
         let next = (frame.record.at / period + 1) * period;
         std::thread::sleep(Duration::from_nanos(next.saturating_sub(live.now())));
     }
-    live.finish()?;
+    let recorded = live.finish();
     spinner.finish_and_clear();
     for line in live.devices() {
-        eprintln!("{line}");
+        tell(line);
     }
-    Ok(reel)
+    Ok((reel, recorded))
 }
 
 /// Simulates a ride of the built-in rider, which needs no clock.
@@ -90,7 +96,7 @@ fn demonstrate(
     mut simulation: Simulation,
     mut log: RideLog,
     seconds: f64,
-) -> Result<Reel, Error> {
+) -> Result<Followed, Error> {
     let mut rider = Demonstrator::new(scene, &simulation);
     let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);
     let stop = interrupted();
@@ -101,13 +107,14 @@ fn demonstrate(
             samples.extend(first_actions(options).iter().map(|action| Sample::action(0, action)));
         }
         let frame = simulation.frame(at, &samples);
-        log.frame(&samples, &frame)?;
+        if let Err(error) = log.frame(&samples, &frame) {
+            tell(error);
+        }
         if !reel.add(&frame) {
             break;
         }
     }
-    log.finish()?;
-    Ok(reel)
+    Ok((reel, log.finish()))
 }
 
 /// Scripted rider, used without devices: a cyclist that follows the scene's circuit, or a foot on the pedal.

@@ -3,6 +3,7 @@
 use crate::command::TownOptions;
 use crate::error::Error;
 use crate::output::files::writable;
+use crate::output::say::tell;
 use built_in::town;
 use scene_files::export::write_glb;
 
@@ -14,6 +15,6 @@ pub fn town(options: &TownOptions) -> Result<(), Error> {
     writable(&options.out)?;
     let scene = town::build(town::TOWN_SEED);
     write_glb(&scene, &options.out)?;
-    eprintln!("wrote {}: {} triangles", options.out.display(), scene.triangle_count());
+    tell(format_args!("wrote {}: {} triangles", options.out.display(), scene.triangle_count()));
     Ok(())
 }

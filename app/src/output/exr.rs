@@ -3,10 +3,12 @@
 //! The file states this itself: its chromaticities are those of ITU-R BT.709, which sRGB shares, and its white
 //! luminance is 1, so red = green = blue = 1 means 1 cd/m². Compression is lossless: values are read back to the bit.
 
-use super::files::WriteError;
+use super::files::{WriteError, whole};
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{Encoding, Image, SpecificChannels, Vec2, WritableImage};
 use image::Rgb32FImage;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Chromaticities x and y of red, green, blue and the D65 white of ITU-R BT.709.
@@ -26,7 +28,12 @@ pub fn save(light: &Rgb32FImage, path: &Path) -> Result<(), WriteError> {
     let mut file = Image::from_encoded_channels(size, Encoding::SMALL_FAST_LOSSLESS, SpecificChannels::rgb(pixel));
     file.attributes.chromaticities = Some(CHROMATICITIES);
     file.layer_data.attributes.white_luminance = Some(1.0);
-    file.write().to_file(path).map_err(|error| WriteError::new(path, error))
+    let written = whole(path, |temporary| {
+        let mut bytes = BufWriter::new(File::create(temporary)?);
+        file.write().to_buffered(&mut bytes).map_err(|error| io::Error::other(error.to_string()))?;
+        bytes.flush()
+    });
+    written.map_err(|error| WriteError::new(path, error))
 }
 
 #[cfg(test)]

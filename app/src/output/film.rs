@@ -4,9 +4,10 @@
 //! A separate thread writes, so that encoding a frame and drawing the next overlap. A short channel between the
 //! threads bounds the memory.
 
+use super::files::{WriteError, save, temporary};
 use crossbeam_channel::{Sender, bounded};
 use image::RgbaImage;
-use std::io::{Read, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
@@ -25,6 +26,26 @@ pub enum FilmError {
         path: PathBuf,
         /// Reason, as the operating system words it.
         reason: String,
+    },
+    /// An encoder that is there and cannot be started.
+    #[error(
+        "ffmpeg cannot be started: {reason}; mend or reinstall it, or take it off the PATH to get numbered pictures \
+         instead of a film"
+    )]
+    Start {
+        /// Reason, as the operating system words it.
+        reason: String,
+    },
+    /// An encoder that was ended from outside.
+    #[error(
+        "ffmpeg was ended by signal {signal} before {path} was whole, perhaps because memory was short; film again, \
+         or with a smaller --size"
+    )]
+    Killed {
+        /// Path of the film.
+        path: PathBuf,
+        /// Number of the signal.
+        signal: i32,
     },
     /// An encoder that stopped with an error.
     #[error("ffmpeg could not write {path}: {reason}")]
@@ -55,7 +76,8 @@ impl Film {
     /// Creates a film of `size` pixels at `frames_per_second`.
     ///
     /// # Errors
-    /// [`FilmError::Write`] if neither ffmpeg can be started nor a folder for pictures created.
+    /// [`FilmError::Start`] if ffmpeg is there and cannot be started, [`FilmError::Write`] if there is none and no
+    /// folder for pictures can be created.
     pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
         let mut sink = Sink::open(path, size, frames_per_second)?;
         let (frames, queue) = bounded::<RgbaImage>(WAITING_FRAMES);
@@ -88,78 +110,145 @@ impl Film {
 
 /// Destination of the frames.
 enum Sink {
-    Encoder { child: Child, input: ChildStdin, path: PathBuf },
+    Encoder(FilmEncoder),
     Pictures { folder: PathBuf, count: usize },
 }
 
 impl Sink {
     fn open(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
-        let failed =
-            |path: &Path, error: std::io::Error| FilmError::Write { path: path.to_owned(), reason: error.to_string() };
-        let mut encoder = Command::new("ffmpeg");
-        // The encoder gets its own process group, so that Ctrl-C on the terminal does not end it before it has
-        // written all frames.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut encoder, 0);
-        let encoder = encoder
-            .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
-            .args(["-video_size", &format!("{}x{}", size[0], size[1])])
-            .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])
-            // Common players need 4:2:0 colour, which needs even sides.
-            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast"])
-            .args(["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"])
-            .arg(path)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn();
-        match encoder {
-            Ok(mut child) => {
-                let input = child.stdin.take().expect("standard input was asked for as a pipe");
-                Ok(Self::Encoder { child, input, path: path.to_owned() })
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+        match FilmEncoder::start(path, size, frames_per_second) {
+            Ok(encoder) => Ok(Self::Encoder(encoder)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 let folder = path.with_extension("frames");
-                std::fs::create_dir_all(&folder).map_err(|error| failed(&folder, error))?;
+                let ready = std::fs::create_dir_all(&folder).and_then(|()| remove_pictures(&folder));
+                ready.map_err(|error| FilmError::Write { path: folder.clone(), reason: error.to_string() })?;
                 Ok(Self::Pictures { folder, count: 0 })
             }
-            Err(error) => Err(failed(path, error)),
+            Err(error) => Err(FilmError::Start { reason: error.to_string() }),
         }
     }
 
     fn write(&mut self, frame: &RgbaImage) -> Result<(), FilmError> {
         match self {
-            Self::Encoder { child, input, path } => input.write_all(frame).map_err(|error| FilmError::Encoder {
-                path: path.clone(),
-                reason: last_words(child).unwrap_or_else(|| error.to_string()),
-            }),
+            Self::Encoder(encoder) => encoder.write(frame),
             Self::Pictures { folder, count } => {
-                let path = folder.join(format!("{count:06}.png"));
-                *count += 1;
-                frame.save(&path).map_err(|error| FilmError::Write { path, reason: error.to_string() })
+                let WriteError { path, reason } = match save(frame, &folder.join(format!("{count:06}.png"))) {
+                    Ok(()) => {
+                        *count += 1;
+                        return Ok(());
+                    }
+                    Err(error) => error,
+                };
+                Err(FilmError::Write { path, reason })
             }
         }
     }
 
     fn finish(self) -> Result<Written, FilmError> {
         match self {
-            Self::Encoder { mut child, input, path } => {
-                drop(input);
-                let words = last_words(&mut child);
-                match child.wait() {
-                    Ok(status) if status.success() => Ok(Written::Film(path)),
-                    Ok(status) => Err(FilmError::Encoder { path, reason: words.unwrap_or_else(|| status.to_string()) }),
-                    Err(error) => Err(FilmError::Encoder { path, reason: error.to_string() }),
-                }
+            Self::Encoder(encoder) => encoder.finish(),
+            Self::Pictures { folder, .. } if folder.is_dir() => Ok(Written::Pictures(folder)),
+            Self::Pictures { folder, .. } => {
+                Err(FilmError::Write { path: folder, reason: "the folder was removed meanwhile".to_owned() })
             }
-            Self::Pictures { folder, .. } => Ok(Written::Pictures(folder)),
         }
     }
 }
 
-/// Last line of the encoder's messages. Waits for the encoder to end.
-fn last_words(child: &mut Child) -> Option<String> {
-    let mut words = String::new();
-    child.stderr.take()?.read_to_string(&mut words).ok()?;
-    words.lines().last().map(str::to_owned)
+/// Removes the numbered pictures of an earlier film, which a shorter one would end with.
+fn remove_pictures(folder: &Path) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let is_number = |stem: &str| stem.len() >= 6 && stem.bytes().all(|byte| byte.is_ascii_digit());
+        let is_ours = path.extension().is_some_and(|extension| extension == "png")
+            && path.file_stem().and_then(|stem| stem.to_str()).is_some_and(is_number);
+        if is_ours {
+            std::fs::remove_file(&path)?;
+        }
+    }
+    Ok(())
+}
+
+/// Running ffmpeg. It writes under a temporary name, and the film gets its name once it is whole.
+struct FilmEncoder {
+    child: Child,
+    /// Pipe of the frames; closed at the end.
+    input: Option<ChildStdin>,
+    path: PathBuf,
+    temporary: PathBuf,
+}
+
+impl FilmEncoder {
+    fn start(path: &Path, size: [u32; 2], frames_per_second: f64) -> io::Result<Self> {
+        let temporary = temporary(path);
+        let mut encoder = Command::new("ffmpeg");
+        // The encoder gets its own process group, so that Ctrl-C on the terminal does not end it before it has
+        // written all frames.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut encoder, 0);
+        let mut child = encoder
+            .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
+            .args(["-video_size", &format!("{}x{}", size[0], size[1])])
+            .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])
+            // Common players need 4:2:0 colour, which needs even sides.
+            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast"])
+            .args(["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"])
+            .arg(&temporary)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()?;
+        let input = child.stdin.take();
+        Ok(Self { child, input, path: path.to_owned(), temporary })
+    }
+
+    fn write(&mut self, frame: &RgbaImage) -> Result<(), FilmError> {
+        let Some(input) = &mut self.input else { return Ok(()) };
+        match input.write_all(frame) {
+            Ok(()) => Ok(()),
+            // The encoder has ended too early, and says why.
+            Err(error) => Err(self.end().err().unwrap_or_else(|| self.failed(error.to_string()))),
+        }
+    }
+
+    /// Waits for the encoder to end.
+    fn end(&mut self) -> Result<(), FilmError> {
+        self.input = None;
+        let words = self.last_words();
+        let status = self.child.wait().map_err(|error| self.failed(error.to_string()))?;
+        #[cfg(unix)]
+        if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+            return Err(FilmError::Killed { path: self.path.clone(), signal });
+        }
+        if status.success() { Ok(()) } else { Err(self.failed(words.unwrap_or_else(|| status.to_string()))) }
+    }
+
+    fn finish(mut self) -> Result<Written, FilmError> {
+        self.end()?;
+        match std::fs::rename(&self.temporary, &self.path) {
+            Ok(()) => Ok(Written::Film(self.path.clone())),
+            Err(error) => Err(FilmError::Write { path: self.path.clone(), reason: error.to_string() }),
+        }
+    }
+
+    fn failed(&self, reason: String) -> FilmError {
+        FilmError::Encoder { path: self.path.clone(), reason }
+    }
+
+    /// Last line of the encoder's messages.
+    fn last_words(&mut self) -> Option<String> {
+        let mut words = String::new();
+        self.child.stderr.take()?.read_to_string(&mut words).ok()?;
+        let named = |line: &str| line.replace(&*self.temporary.to_string_lossy(), &self.path.to_string_lossy());
+        words.lines().last().map(named)
+    }
+}
+
+impl Drop for FilmEncoder {
+    /// Removes what is not whole.
+    fn drop(&mut self) {
+        self.input = None;
+        let _ = self.child.wait();
+        let _ = std::fs::remove_file(&self.temporary);
+    }
 }

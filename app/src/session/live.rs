@@ -4,6 +4,8 @@
 //! was ridden. In both cases the caller asks once per frame and gets the observer.
 
 use crate::output::files::unused;
+use crate::output::say::tell;
+use crate::session::gaps::ShownTimes;
 use input::devices::{DeviceState, Devices};
 use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
@@ -26,7 +28,13 @@ enum Rider {
     /// Live devices, with a simulation and a log.
     Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<RideLog> },
     /// Recorded ride that is replayed.
-    Recorded { replay: Box<Replay>, next: Option<Box<RideFrame>>, shown: Option<Box<RideFrame>>, differed: bool },
+    Recorded {
+        replay: Box<Replay>,
+        next: Option<Box<(RideFrame, Nanos)>>,
+        shown: Option<Box<RideFrame>>,
+        differed: bool,
+        times: ShownTimes,
+    },
 }
 
 impl Live {
@@ -39,7 +47,11 @@ impl Live {
     /// Creates a replay of a recorded ride that starts now. The ride ends after `seconds`, if given.
     pub fn recorded(replay: Replay, seconds: Option<f64>) -> Self {
         let replay = Box::new(replay);
-        Self::new(Rider::Recorded { replay, next: None, shown: None, differed: false }, Clock::start(), seconds)
+        Self::new(
+            Rider::Recorded { replay, next: None, shown: None, differed: false, times: ShownTimes::default() },
+            Clock::start(),
+            seconds,
+        )
     }
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
@@ -82,16 +94,18 @@ impl Live {
                 let frame = simulation.frame(now, &samples);
                 devices.brake(frame.vehicle.resistance());
                 if let Err(error) = log.frame(&samples, &frame) {
-                    self.told.push((now + NOTICE_TIME, error.to_string()));
+                    // The ride goes on, and the notice stays: nobody should believe that the rest is recorded.
+                    tell(&error);
+                    self.told.push((Nanos::MAX, error.to_string()));
                 }
                 Some(frame)
             }
-            Rider::Recorded { replay, next, shown, differed } => {
+            Rider::Recorded { replay, next, shown, differed, times } => {
                 let said = std::mem::take(&mut self.said);
                 // The frames that were ridden since the last call are simulated, and the last of them is shown.
                 let ended = loop {
-                    let frame = match next.take() {
-                        Some(frame) => *frame,
+                    let (frame, due_at) = match next.take() {
+                        Some(next) => *next,
                         None => match replay.next_frame() {
                             Ok(Some(Replayed { frame, difference })) => {
                                 if let (Some(difference), false) = (difference, *differed) {
@@ -100,21 +114,22 @@ impl Live {
                                     let sentence = ReplayError::Differs { frame, difference }.to_string();
                                     self.told.push((Nanos::MAX, sentence));
                                 }
-                                frame
+                                let due_at = times.shown(frame.record.at);
+                                (frame, due_at)
                             }
                             Ok(None) => break true,
                             Err(error) if shown.is_none() => return Err(error),
                             Err(error) => {
-                                eprintln!("{error}");
+                                tell(error);
                                 break true;
                             }
                         },
                     };
-                    let due = frame.record.at <= now;
+                    let due = due_at <= now;
                     if due || shown.is_none() {
                         *shown = Some(Box::new(frame));
                     } else {
-                        *next = Some(Box::new(frame));
+                        *next = Some(Box::new((frame, due_at)));
                     }
                     if !due {
                         break false;
@@ -178,9 +193,12 @@ impl Live {
     /// Starts or ends a recording, and tells the rider.
     pub fn toggle_recording(&mut self) {
         let told = if self.is_recording() {
-            match self.finish() {
+            match self.stop_recording() {
                 Ok(()) => "the recording is complete".to_owned(),
-                Err(error) => error.to_string(),
+                Err(error) => {
+                    tell(&error);
+                    error.to_string()
+                }
             }
         } else {
             let path = unused("ride", "mcap");
@@ -192,10 +210,18 @@ impl Live {
         self.tell(told);
     }
 
-    /// Completes the recording.
+    /// Completes the recording, while the ride goes on.
+    fn stop_recording(&mut self) -> Result<(), LogError> {
+        match &mut self.rider {
+            Rider::Present { log, .. } => log.stop(),
+            Rider::Recorded { .. } => Ok(()),
+        }
+    }
+
+    /// Completes the recording at the end of the ride.
     ///
     /// # Errors
-    /// [`LogError`] if the rest cannot be written.
+    /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
     pub fn finish(&mut self) -> Result<(), LogError> {
         match &mut self.rider {
             Rider::Present { log, .. } => log.finish(),

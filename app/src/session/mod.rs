@@ -1,6 +1,7 @@
 //! Parts of a session besides its pictures: the requested scene, the ride's beginning, the user's preferences, the
 //! head's tracker, live devices, interruption.
 
+pub mod gaps;
 pub mod interrupt;
 pub mod live;
 pub mod preferences;

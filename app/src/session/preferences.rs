@@ -16,6 +16,7 @@ use thiserror::Error;
 use view::{Dial, RendererName, Transform};
 
 use crate::command::{DialOptions, RideOptions};
+use crate::output::say::tell;
 
 /// Name of the file.
 const FILE: &str = "rapidity.toml";
@@ -146,7 +147,7 @@ pub fn applied(options: &RideOptions) -> Result<RideOptions, PreferencesError> {
     }
     if let Some((preferences, path)) = Preferences::load()? {
         options.dial = DialOptions::of(preferences.ride);
-        eprintln!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride);
+        tell(format_args!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride));
     }
     Ok(options)
 }

@@ -2,6 +2,7 @@
 
 use crate::command::{ReadingOptions, SceneChoice, WorldOptions};
 use crate::output::progress;
+use crate::output::say::tell;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
 use scene::{Scene, TooFast, ViewCamera};
@@ -55,14 +56,15 @@ pub struct World {
 /// # Errors
 /// A fault of the file with its place, a camera that the scene does not have, or an animation faster than light.
 pub fn load(options: &WorldOptions) -> Result<World, SceneError> {
-    let mut scene = read_scene(&options.scene, &options.reading)?;
+    let choice = options.scene();
+    let mut scene = read_scene(&choice, &options.reading)?;
     if let Some(name) = &options.camera {
         scene.start = camera(&scene, name)?.start;
     }
     let Some(speed_of_light_m_s) = options.speed_of_light else {
-        return with_own_light(scene, options);
+        return with_own_light(scene, &choice);
     };
-    set_light(&mut scene, &options.scene, speed_of_light_m_s)?;
+    set_light(&mut scene, &choice, speed_of_light_m_s)?;
     Ok(World { scene, speed_of_light_m_s })
 }
 
@@ -81,16 +83,17 @@ pub fn load_recorded(
 }
 
 /// World whose speed of light suits the scene, with a line that says so.
-fn with_own_light(mut scene: Scene, options: &WorldOptions) -> Result<World, SceneError> {
+fn with_own_light(mut scene: Scene, choice: &SceneChoice) -> Result<World, SceneError> {
     let suited = scene.speed_of_light_m_s;
     let mut speed_of_light_m_s = suited.unwrap_or(SPEED_OF_LIGHT_M_S);
     if let Err(fault) = scene.set_speed_of_light(speed_of_light_m_s) {
         speed_of_light_m_s = AHEAD_OF_ANIMATIONS * fault.speed_m_s;
-        set_light(&mut scene, &options.scene, speed_of_light_m_s)?;
+        set_light(&mut scene, choice, speed_of_light_m_s)?;
     }
     if suited.is_some() || speed_of_light_m_s != SPEED_OF_LIGHT_M_S {
         let speed = described_speed(speed_of_light_m_s);
-        eprintln!("{}: light at {speed}, which suits the scene; --speed-of-light sets another", scene.name);
+        let name = &scene.name;
+        tell(format_args!("{name}: light at {speed}, which suits the scene; --speed-of-light sets another"));
     }
     Ok(World { scene, speed_of_light_m_s })
 }
@@ -156,7 +159,7 @@ fn read_scene(choice: &SceneChoice, reading: &ReadingOptions) -> Result<Scene, S
             })?;
             bar.finish_and_clear();
             for notice in &scene.notices {
-                eprintln!("{}: {notice}", path.display());
+                tell(format_args!("{}: {notice}", path.display()));
             }
             Ok(scene)
         }

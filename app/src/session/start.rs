@@ -3,6 +3,7 @@
 use crate::command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use crate::error::Error;
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
 use crate::session::tracker;
@@ -76,17 +77,14 @@ pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> R
 pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), Error> {
     let recording = Recording::open(path)?;
     // A scene that is named overrides the recorded one, whose file may have moved.
-    let choice = match &options.scene {
-        SceneChoice::Town => SceneChoice::from_name(&recording.header().scene),
-        named => named.clone(),
-    };
+    let choice = options.scene.clone().unwrap_or_else(|| SceneChoice::from_name(&recording.header().scene));
     let scene = scenes::load_recorded(&choice, &options.reading, recording.header().speed_of_light_m_s)?;
     if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
-        eprintln!(
+        tell(format_args!(
             "{}: {} is not the scene that was ridden through; expect another ride",
             path.display(),
             choice.name()
-        );
+        ));
     }
     let surroundings = surroundings(&scene)?;
     Ok((scene, Replay::new(recording, surroundings)?))
@@ -103,7 +101,7 @@ pub fn prepared(
 ) -> Result<(Simulation, RideLog), Error> {
     let scene = &world.scene;
     let setup = setup(options, world, head)?;
-    let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene.name());
+    let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     Ok((Simulation::new(setup, surroundings(scene)?)?, RideLog::new(header)))
 }

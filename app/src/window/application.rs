@@ -6,7 +6,11 @@ use crate::error::Error;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use scene::Scene;
+use std::panic::AssertUnwindSafe;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use winit::application::ApplicationHandler;
+use winit::error::EventLoopError;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
@@ -23,9 +27,34 @@ pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) ->
     events.set_control_flow(ControlFlow::Wait);
     let waiting = Some(WaitingRide { scene, room, begin });
     let mut application = Application { options: options.clone(), waiting, open: None, failed: None };
-    events.run_app(&mut application).map_err(|error| Error::Window(error.to_string()))?;
+    let ended = outlived(|| events.run_app(&mut application));
+    // Whatever has ended the windows, the recording is completed.
     let finished = application.open.map_or(Ok(()), |mut open| Ok(open.ride.live.finish()?));
+    ended?;
     application.failed.map_or(finished, Err)
+}
+
+/// Runs the windows. winit panics where it loses the display server, and such a panic is an error here.
+fn outlived(run: impl FnOnce() -> Result<(), EventLoopError>) -> Result<(), Error> {
+    static LOST: AtomicBool = AtomicBool::new(false);
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if panic.location().is_some_and(|place| is_of_winit(place.file())) {
+            LOST.store(true, Ordering::Relaxed);
+        } else {
+            usual(panic);
+        }
+    }));
+    match std::panic::catch_unwind(AssertUnwindSafe(run)) {
+        Ok(outcome) => outcome.map_err(|error| Error::Window(error.to_string())),
+        Err(_) if LOST.load(Ordering::Relaxed) => Err(Error::WindowLost),
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// True for a source file of winit.
+fn is_of_winit(file: &str) -> bool {
+    Path::new(file).components().any(|part| part.as_os_str().to_string_lossy().starts_with("winit-"))
 }
 
 /// State that winit calls.

@@ -9,6 +9,7 @@ use crate::command::RideOptions;
 use crate::error::Error;
 use crate::frame::{Look, RideInProgress};
 use crate::output::progress;
+use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
@@ -73,7 +74,7 @@ impl Open {
         let title = format!("Rapidity: {}", scene.name);
         let attributes = match &display {
             Some(display) if !options.preview => {
-                display.notices.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
+                display.notices.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
                 display.windows.iter().map(|place| attributes(events, place, &title)).collect()
             }
             _ => {
@@ -109,7 +110,7 @@ impl Open {
         let start = scene.start;
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
         spinner.finish_and_clear();
-        eprintln!("{because}, on {}", gpu.description());
+        tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
         let renderer = SceneRenderer::new(&gpu, &scene, format, options.picture.background, dial, Occasion::Ride)?;
         gpu.wait()?;

@@ -1,5 +1,6 @@
 //! Window with the surface that is drawn on.
 
+use crate::output::say::tell;
 use render::{Gpu, GpuError};
 use room::{Monitor, WindowPlace};
 use std::sync::Arc;
@@ -114,7 +115,7 @@ fn find(events: &ActiveEventLoop, wanted: &Monitor) -> Option<MonitorHandle> {
             Monitor::Index(index) => format!("number {index}"),
             Monitor::Name(name) => name.clone(),
         };
-        eprintln!("there is no monitor {wanted}; there are {}", names.join(", "));
+        tell(format_args!("there is no monitor {wanted}; there are {}", names.join(", ")));
     }
     found
 }

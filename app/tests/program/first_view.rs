@@ -35,7 +35,7 @@ fn the_first_picture_shows_the_model_whole_and_large() {
         let picture = picture(folder.path(), &["--scene", &file, "--background", "1,0,1"]);
         let sky = *picture.get_pixel(0, 0);
         let (mut left, mut right, mut top, mut bottom) = (320, 0, 180, 0);
-        for (x, y, pixel) in picture.enumerate_pixels().filter(|(.., pixel)| differ(pixel, &sky)) {
+        for (x, y, _) in picture.enumerate_pixels().filter(|(.., pixel)| differ(pixel, &sky)) {
             (left, right) = (left.min(x), right.max(x));
             (top, bottom) = (top.min(y), bottom.max(y));
         }

@@ -7,7 +7,10 @@ mod check;
 mod first_view;
 mod measure;
 mod models;
+#[cfg(target_os = "linux")]
+mod outputs;
 mod probe;
+mod recording;
 #[cfg(unix)]
 mod ride;
 mod runner;

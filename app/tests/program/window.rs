@@ -2,8 +2,9 @@
 //! recording is complete and replays to the bit. A window that lost keys, drew nothing or ended without completing
 //! its file would show here.
 
-use crate::runner::{run, told};
+use crate::runner::{run, said, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
+use input::recording::Recording;
 use std::time::Duration;
 
 #[test]
@@ -35,4 +36,27 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     assert!(picture.pixels().any(|pixel| *pixel != first), "the photo shows nothing");
     let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
     assert!(verified.status.success(), "{}", told(&verified));
+}
+
+/// A display server that ends takes the window with it, not the recording. Where Xlib sees it first, it ends the program
+/// at once with a sentence of its own, and the last half second of the recording is missing.
+#[test]
+fn a_display_that_goes_leaves_the_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let display = VirtualDisplay::open([640, 480]);
+    let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "320x240", "--record", "r.mcap"];
+    let program = display.rapidity(folder.path(), &arguments).stderr(std::process::Stdio::piped()).spawn().unwrap();
+    let path = folder.path().join("r.mcap");
+    wait_for("recording", || Recording::open(&path).ok()?.nth(20)).unwrap();
+    drop(display);
+    let output = program.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", told(&output));
+    assert!(!told(&output).contains("panicked"), "{}", told(&output));
+    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+    let all_told = said(&verified) + &told(&verified);
+    assert!(all_told.contains("identical to the bit"), "{all_told}");
+    if !told(&output).contains("X connection") {
+        assert!(told(&output).contains("rapidity: "), "{}", told(&output));
+        assert!(verified.status.success(), "{all_told}");
+    }
 }

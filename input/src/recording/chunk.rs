@@ -13,8 +13,10 @@ use mcap::McapError;
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
-use super::outer_records::LONGEST_RECORD;
 use super::parse::parsed;
+
+/// Largest content of a chunk, and longest record in it, bytes: a few compressed bytes may claim to be many.
+const LARGEST_CONTENT: usize = 512 << 20;
 
 /// Length of a chunk's fields before its content, without the name of the compression, bytes: start, end,
 /// uncompressed length, checksum, length of the name, length of the content.
@@ -41,8 +43,9 @@ pub(super) fn records_of_chunk(
         .with_skip_start_magic(true)
         .with_skip_end_magic(true)
         .with_prevalidate_chunk_crcs(true)
-        .with_record_length_limit(LONGEST_RECORD);
+        .with_record_length_limit(LARGEST_CONTENT);
     let mut reader = LinearReader::new_with_options(options);
+    let mut content = 0;
     while let Some(event) = reader.next_event() {
         match event.map_err(sentence)? {
             LinearReadEvent::ReadRequest(wanted) => {
@@ -51,7 +54,13 @@ pub(super) fn records_of_chunk(
                 reader.notify_read(length);
                 left -= length;
             }
-            LinearReadEvent::Record { opcode, data } => each(opcode, data)?,
+            LinearReadEvent::Record { opcode, data } => {
+                content += data.len();
+                if content > LARGEST_CONTENT {
+                    return Err(format!("the chunk holds more than {} MB", LARGEST_CONTENT >> 20));
+                }
+                each(opcode, data)?;
+            }
         }
     }
     Ok(())

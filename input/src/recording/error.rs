@@ -53,7 +53,7 @@ pub enum RecordingError {
         profile: String,
     },
     /// A recording in another version of the format.
-    #[error("{} has format {found:?}, this program reads \"{VERSION}\": replay it with the program that recorded it", path.display())]
+    #[error("{} has format {found:?}, this program reads up to \"{VERSION}\": replay it with the program that recorded it", path.display())]
     Version {
         /// Path of the file.
         path: PathBuf,
@@ -77,6 +77,28 @@ pub enum RecordingError {
         path: PathBuf,
         /// Place where the missing or incomplete record begins, bytes.
         offset: u64,
+    },
+    /// A file with a second recording behind the first, or among it.
+    #[error("{} holds another recording from byte {offset} on, which is not read; keep every ride in a file of its own", path.display())]
+    Another {
+        /// Path of the file.
+        path: PathBuf,
+        /// Place where the other recording begins, bytes.
+        offset: u64,
+    },
+    /// A recording that could not be continued.
+    #[error("cannot write {} any further: {cause}; what was recorded until then can be replayed", path.display())]
+    Broken {
+        /// Path of the file.
+        path: PathBuf,
+        /// Error of the system.
+        cause: io::Error,
+    },
+    /// A recording whose file lost its name.
+    #[error("{} was removed or replaced while the ride was recorded, so the recording is lost; record into another file", path.display())]
+    Removed {
+        /// Path that the file had.
+        path: PathBuf,
     },
     /// A number that no replay could read back.
     #[error("frame {frame} cannot be recorded: {field} is {value}")]

@@ -12,7 +12,9 @@ pub(super) const PROFILE: &str = "rapidity";
 /// Name of the metadata record with the header.
 pub(super) const METADATA: &str = "rapidity";
 /// Version of the format; counts up when older programs could not read it.
-pub(super) const VERSION: &str = "1";
+pub(super) const VERSION: &str = "2";
+/// Version in which samples were texts, and messages were told apart by MCAP's sequence numbers. It is read still.
+pub(super) const FIRST_VERSION: &str = "1";
 /// Key of the format's version in the metadata.
 pub(super) const KEY_VERSION: &str = "format_version";
 /// Key of the header, as JSON.

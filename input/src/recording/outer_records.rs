@@ -7,17 +7,18 @@
 use regular_file::FileFault;
 use std::fmt;
 use std::fs::File;
-use std::io::{self, BufReader, Read, Take};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Take};
 use std::path::{Path, PathBuf};
 
+use mcap::records::op;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
 
 use super::error::RecordingError;
 
-/// Length of the longest record that is read, bytes. Records of this program are far shorter; a length beyond this is
-/// damage.
-pub(super) const LONGEST_RECORD: usize = 64 << 20;
+/// Length of the longest record that is read, bytes. Records of this program are far shorter, other programs may write
+/// large chunks and attach films; a length beyond this is damage.
+const LONGEST_RECORD: usize = 1 << 30;
 /// Most bytes read at once. The buffer grows with what the file holds, not with the length that a record claims.
 const MOST_AT_ONCE: usize = 64 << 10;
 
@@ -83,6 +84,34 @@ impl OuterRecords {
         RecordingError::Damaged { path: self.path.clone(), offset, what: what.into() }
     }
 
+    /// The error that another recording begins at `offset`.
+    pub(super) fn another(&self, offset: u64) -> RecordingError {
+        RecordingError::Another { path: self.path.clone(), offset }
+    }
+
+    /// Place at which another MCAP file begins behind this one, if the data has been read to its end.
+    ///
+    /// The index and the end of this file are passed over by their lengths alone.
+    pub(super) fn another_behind(&self) -> Option<u64> {
+        let mut file = BufReader::new(regular_file::open(&self.path).ok()?);
+        let mut place = file.seek(SeekFrom::Start(self.given)).ok()?;
+        loop {
+            let mut head = [0; 1 + 8];
+            file.read_exact(&mut head).ok()?;
+            let [opcode, length @ ..] = head;
+            let length = i64::try_from(u64::from_le_bytes(length)).ok()?;
+            file.seek_relative(length).ok()?;
+            place = place.checked_add(head.len() as u64)?.checked_add(length.unsigned_abs())?;
+            if opcode == op::FOOTER {
+                break;
+            }
+        }
+        let mut magic = [0; MAGIC.len()];
+        file.read_exact(&mut magic).ok()?;
+        file.read_exact(&mut magic).ok()?;
+        (magic == MAGIC).then_some(place + MAGIC.len() as u64)
+    }
+
     /// The error that the file is of another program.
     pub(super) fn foreign(&self, profile: String) -> RecordingError {
         RecordingError::Foreign { path: self.path.clone(), profile }
@@ -91,6 +120,11 @@ impl OuterRecords {
     /// The error that the file is of another version of this program.
     pub(super) fn version(&self, found: String) -> RecordingError {
         RecordingError::Version { path: self.path.clone(), found }
+    }
+
+    /// Place up to which the file has been read, bytes.
+    pub(super) fn place(&self) -> u64 {
+        self.given
     }
 
     /// Reads the next record.

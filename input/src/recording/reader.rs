@@ -1,23 +1,22 @@
-//! Reader of recordings, also of those that are damaged or still being written.
+//! Reader of recordings, also of those that are damaged or still being written, and of copies by other programs.
 //!
-//! The file is read once from front to back, a chunk at a time. A chunk is checked against its checksum before
-//! anything in it is believed, messages must follow each other without a gap, and the data as a whole has a checksum
-//! at its end. At the first error the reader says what is wrong and where, and stops; every entry before is good.
-//! Lengths and checksums are checked by the linear reader of the `mcap` crate (`outer_records.rs`, `chunk.rs`); the
-//! order of the messages and their content are checked here.
+//! The file is read from front to back, a chunk at a time. A chunk is checked against its checksum before anything in
+//! it is believed, the numbering of the messages may have no gap, and the data as a whole has a checksum at its end;
+//! a checksum of zero means that there is none. At the first error the reader says what is wrong and where, and stops;
+//! every entry before is good. Lengths and checksums are checked by the linear reader of the `mcap` crate
+//! (`outer_records.rs`, `chunk.rs`); the order of the messages and their content in `content.rs`.
 
-use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
-use mcap::records::{MessageHeader, Record, op};
-use serde::de::DeserializeOwned;
+use mcap::records::{Metadata, Record, op};
 
 use super::chunk::records_of_chunk;
+use super::content::Content;
 use super::error::RecordingError;
-use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
-use super::outer_records::OuterRecords;
+use super::header::{FIRST_VERSION, KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
+use super::outer_records::{OuterRecord, OuterRecords};
 use super::parse::parsed;
-use super::record::{RecordingEntry, RecordingTopic, SampleRecord};
+use super::record::RecordingEntry;
 
 /// Length of the record that ends the data, bytes: its checksum.
 const DATA_END_LENGTH: usize = 4;
@@ -29,22 +28,33 @@ const DATA_END_LENGTH: usize = 4;
 pub struct Recording {
     records: OuterRecords,
     header: RideHeader,
-    messages: Messages,
+    /// Text of the header, to tell another ride in the same file.
+    header_text: String,
+    content: Content,
     /// Outcome to be reported after the entries, once no more is read.
     end: Option<Result<(), RecordingError>>,
 }
 
 impl Recording {
-    /// Opens a recording and reads its header.
+    /// Opens a recording and reads its header, wherever it stands in the file.
     ///
     /// # Errors
-    /// A file that cannot be opened, is no recording of this program or of another format, or is damaged within the
-    /// header.
+    /// A file that cannot be opened, is no recording of this program or of another format, or is damaged within or
+    /// before the header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let mut records = OuterRecords::open(path)?;
         check_profile(&mut records)?;
-        let header = read_header(&mut records)?;
-        Ok(Self { records, header, messages: Messages::default(), end: None })
+        let (record, metadata, is_first) = find_header(&mut records)?;
+        let (version, header_text) = check_header(&records, &record, metadata)?;
+        let header = serde_json::from_str(&header_text)
+            .map_err(|error| records.damaged(record.offset, format!("`{KEY_HEADER}`: {error}")))?;
+        if !is_first {
+            // Copies may have the description behind the messages.
+            records = OuterRecords::open(path)?;
+            records.next()?;
+        }
+        let content = if version == FIRST_VERSION { Content::of_first_format() } else { Content::new() };
+        Ok(Self { records, header, header_text, content, end: None })
     }
 
     /// Everything that the ride depends on besides its samples.
@@ -56,14 +66,33 @@ impl Recording {
     fn advance(&mut self) -> Result<bool, RecordingError> {
         let record = self.records.next()?;
         let outcome = match record.opcode {
-            op::CHUNK => records_of_chunk(&record.body, |opcode, body| self.messages.take(opcode, body)),
-            op::DATA_END if record.body.len() == DATA_END_LENGTH => return Ok(false),
+            op::CHUNK => records_of_chunk(&record.body, |opcode, body| self.content.take(opcode, body)).map(|()| true),
+            op::DATA_END if record.body.len() == DATA_END_LENGTH => self.content.finish().map(|()| false),
             op::DATA_END => Err("the data does not match its checksum".to_owned()),
             op::FOOTER => Err("the end of the data is missing".to_owned()),
+            op::METADATA => match header_of(&record) {
+                Some(other) if other.metadata.get(KEY_HEADER).is_some_and(|text| *text != self.header_text) => {
+                    return Err(self.records.another(record.offset));
+                }
+                _ => Ok(true),
+            },
             // Indexes, attachments and records of other programs are passed over.
-            opcode => self.messages.take(opcode, &record.body),
+            opcode => self.content.take(opcode, &record.body).map(|()| true),
         };
-        outcome.map(|()| true).map_err(|what| self.records.damaged(record.offset, what))
+        outcome.map_err(|what| self.records.damaged(record.offset, what))
+    }
+
+    /// Place at which another recording begins behind this one, bytes, if there is one. Asked for after all entries.
+    pub fn another(&self) -> Option<u64> {
+        self.records.another_behind()
+    }
+
+    /// Puts in order what was read before an error, and chooses the error to be told.
+    fn broken(&mut self, error: RecordingError) -> RecordingError {
+        match (self.content.finish(), error) {
+            (Err(what), RecordingError::CutOff { offset, .. }) => self.records.damaged(offset, what),
+            (_, error) => error,
+        }
     }
 }
 
@@ -77,80 +106,47 @@ fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
     }
 }
 
-/// Reads the metadata record that describes the ride.
-fn read_header(records: &mut OuterRecords) -> Result<RideHeader, RecordingError> {
-    let record = records.next()?;
-    let damaged = |what: String| records.damaged(record.offset, what);
-    let values = match parsed(record.opcode, &record.body) {
-        Some(Record::Metadata(metadata)) if metadata.name == METADATA => metadata.metadata,
-        _ => return Err(damaged("the description of the ride is missing".to_owned())),
-    };
-    let value = |key: &str| values.get(key).map(String::as_str);
-    match value(KEY_VERSION) {
-        Some(VERSION) => {}
-        found => return Err(records.version(found.unwrap_or_default().to_owned())),
+/// Metadata record that describes a ride, if `record` is one.
+fn header_of(record: &OuterRecord) -> Option<Metadata> {
+    match parsed(record.opcode, &record.body) {
+        Some(Record::Metadata(metadata)) if metadata.name == METADATA => Some(metadata),
+        _ => None,
     }
-    let text = value(KEY_HEADER).ok_or_else(|| damaged(format!("`{KEY_HEADER}` is missing")))?;
-    if value(KEY_CHECKSUM) != Some(&format!("{:08x}", crc32fast::hash(text.as_bytes()))) {
+}
+
+/// Finds the metadata record that describes the ride; true if it is the first record.
+fn find_header(records: &mut OuterRecords) -> Result<(OuterRecord, Metadata, bool), RecordingError> {
+    let mut first = None;
+    loop {
+        let record = records.next()?;
+        let place = *first.get_or_insert(record.offset);
+        if let Some(metadata) = header_of(&record) {
+            let is_first = record.offset == place;
+            return Ok((record, metadata, is_first));
+        }
+        if matches!(record.opcode, op::DATA_END | op::FOOTER) {
+            return Err(records.damaged(place, "the description of the ride is missing"));
+        }
+    }
+}
+
+/// Version and text of the header.
+fn check_header(
+    records: &OuterRecords,
+    record: &OuterRecord,
+    metadata: Metadata,
+) -> Result<(String, String), RecordingError> {
+    let damaged = |what: String| records.damaged(record.offset, what);
+    let mut values = metadata.metadata;
+    let version = match values.remove(KEY_VERSION) {
+        Some(version) if [VERSION, FIRST_VERSION].contains(&version.as_str()) => version,
+        found => return Err(records.version(found.unwrap_or_default())),
+    };
+    let text = values.remove(KEY_HEADER).ok_or_else(|| damaged(format!("`{KEY_HEADER}` is missing")))?;
+    if values.get(KEY_CHECKSUM) != Some(&format!("{:08x}", crc32fast::hash(text.as_bytes()))) {
         return Err(damaged(format!("`{KEY_HEADER}` does not match its checksum")));
     }
-    serde_json::from_str(text).map_err(|error| damaged(format!("`{KEY_HEADER}`: {error}")))
-}
-
-/// Messages that have been read and not yet returned, and the channels known so far.
-#[derive(Debug, Default)]
-struct Messages {
-    /// Topic of each channel; `None` for one that a later program has added.
-    channels: BTreeMap<u16, Option<RecordingTopic>>,
-    /// Number that the next message must have.
-    sequence: u32,
-    entries: VecDeque<RecordingEntry>,
-}
-
-impl Messages {
-    /// Takes a channel or a message; other records are passed over.
-    fn take(&mut self, opcode: u8, body: &[u8]) -> Result<(), String> {
-        match opcode {
-            op::CHANNEL => match parsed(opcode, body) {
-                Some(Record::Channel(channel)) => {
-                    let topic = RecordingTopic::ALL.into_iter().find(|topic| topic.name() == channel.topic);
-                    self.channels.insert(channel.id, topic);
-                    Ok(())
-                }
-                _ => Err("a channel is shorter than it says".to_owned()),
-            },
-            op::MESSAGE => match parsed(opcode, body) {
-                Some(Record::Message { header, data }) => self.message(header, &data),
-                _ => Err("a message is shorter than its header".to_owned()),
-            },
-            _ => Ok(()),
-        }
-    }
-
-    fn message(&mut self, header: MessageHeader, text: &[u8]) -> Result<(), String> {
-        let MessageHeader { sequence, channel_id, .. } = header;
-        let expected = self.sequence;
-        if sequence != expected {
-            return Err(format!("message {sequence} follows where {expected} should: some are missing"));
-        }
-        self.sequence = self.sequence.wrapping_add(1);
-
-        let topic = self.channels.get(&channel_id).ok_or_else(|| format!("message {sequence} is of no channel"))?;
-        self.entries.push_back(match topic {
-            Some(RecordingTopic::Samples) => {
-                let record: SampleRecord = parse(sequence, text)?;
-                RecordingEntry::Sample(record.try_into().map_err(|what| format!("message {sequence}: {what}"))?)
-            }
-            Some(RecordingTopic::Controls) => RecordingEntry::Controls(parse(sequence, text)?),
-            Some(RecordingTopic::Frames) => RecordingEntry::Frame(parse(sequence, text)?),
-            None => return Ok(()),
-        });
-        Ok(())
-    }
-}
-
-fn parse<T: DeserializeOwned>(sequence: u32, text: &[u8]) -> Result<T, String> {
-    serde_json::from_slice(text).map_err(|error| format!("message {sequence}: {error}"))
+    Ok((version, text))
 }
 
 impl Iterator for Recording {
@@ -158,18 +154,24 @@ impl Iterator for Recording {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            if let Some(entry) = self.messages.entries.pop_front() {
-                return Some(Ok(entry));
+            match self.content.next() {
+                Ok(Some(entry)) => return Some(Ok(entry)),
+                Ok(None) => {}
+                Err(what) => {
+                    let place = self.records.place();
+                    self.end = Some(Ok(()));
+                    return Some(Err(self.records.damaged(place, what)));
+                }
             }
             // The error is reported once.
             if let Some(end) = &mut self.end {
                 return std::mem::replace(end, Ok(())).err().map(Err);
             }
-            match self.advance() {
-                Ok(true) => {}
-                Ok(false) => self.end = Some(Ok(())),
-                Err(error) => self.end = Some(Err(error)),
-            }
+            self.end = match self.advance() {
+                Ok(true) => None,
+                Ok(false) => Some(Ok(())),
+                Err(error) => Some(Err(self.broken(error))),
+            };
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Records of a frame and of a sample, and the JSON schemas that describe them.
+//! Records of a frame, and the entries of a recording.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::clock::Nanos;
 use crate::controls::Controls;
-use crate::sample::{Sample, SampleSource, Signal};
+use crate::sample::{Sample, Signal};
 
 /// Observer after a frame's steps.
 ///
@@ -139,99 +139,39 @@ pub enum RecordingEntry {
     Frame(FrameRecord),
 }
 
-/// Kind of a sample's signal, as it is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum SignalKind {
-    Opened,
-    Bytes,
-    Closed,
-}
-
-/// Sample, as it is written.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SampleRecord {
-    at: Nanos,
-    source: SampleSource,
-    kind: SignalKind,
-    bytes: String,
-}
-
-impl From<&Sample> for SampleRecord {
-    fn from(sample: &Sample) -> Self {
-        let (kind, bytes): (_, &[u8]) = match &sample.signal {
-            Signal::Opened => (SignalKind::Opened, &[]),
-            Signal::Bytes(bytes) => (SignalKind::Bytes, bytes),
-            Signal::Closed => (SignalKind::Closed, &[]),
+impl RecordingEntry {
+    /// Memory that the entry takes, bytes.
+    pub fn memory(&self) -> usize {
+        let more = match self {
+            Self::Sample(Sample { signal: Signal::Bytes(bytes), .. }) => bytes.len(),
+            Self::Sample(_) | Self::Frame(_) => 0,
+            Self::Controls(record) => size_of_val(record.controls.actions.as_slice()),
         };
-        Self { at: sample.at, source: sample.source, kind, bytes: hex(bytes) }
+        size_of::<Self>() + more
     }
 }
 
-impl TryFrom<SampleRecord> for Sample {
-    type Error = String;
-
-    fn try_from(record: SampleRecord) -> Result<Self, String> {
-        let signal = match record.kind {
-            SignalKind::Opened => Signal::Opened,
-            SignalKind::Bytes => Signal::Bytes(unhex(&record.bytes)?),
-            SignalKind::Closed => Signal::Closed,
-        };
-        Ok(Self { at: record.at, source: record.source, signal })
-    }
+/// Controls of a frame, as they are written, with the number of samples that came before them.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct WrittenControls<'a> {
+    pub(super) samples: u64,
+    #[serde(flatten)]
+    pub(super) record: &'a ControlsRecord,
 }
 
-/// Hexadecimal digits of the bytes.
-pub(super) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-fn unhex(text: &str) -> Result<Box<[u8]>, String> {
-    let digits: Option<Vec<u8>> =
-        text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
-    match digits {
-        Some(digits) if digits.len().is_multiple_of(2) => {
-            Ok(digits.as_chunks().0.iter().map(|[high, low]| high << 4 | low).collect())
-        }
-        _ => Err(format!("{text:?} is not a row of hexadecimal bytes")),
-    }
-}
-
-/// Channel of the recording.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum RecordingTopic {
-    Samples,
-    Controls,
-    Frames,
-}
-
-impl RecordingTopic {
-    pub(super) const ALL: [Self; 3] = [Self::Samples, Self::Controls, Self::Frames];
-
-    /// Name of the channel in the file.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Samples => "/device/raw",
-            Self::Controls => "/controls",
-            Self::Frames => "/observer",
-        }
-    }
-
-    /// Name and text of the channel's schema.
-    pub(super) fn schema(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Samples => ("rapidity.Sample", include_str!("sample.schema.json")),
-            Self::Controls => ("rapidity.Controls", include_str!("controls.schema.json")),
-            Self::Frames => ("rapidity.Observer", include_str!("observer.schema.json")),
-        }
-    }
+/// Controls of a frame, as they are read. The first format had no number of samples.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct ReadControls {
+    pub(super) samples: Option<u64>,
+    #[serde(flatten)]
+    pub(super) record: ControlsRecord,
 }
 
 #[cfg(test)]
 mod tests {
     //! Every field must take part in the comparison and be known to the schema: a forgotten field would differ
     //! unnoticed, or would not be plotted.
+    use super::super::topic::RecordingTopic;
     use super::*;
     use serde_json::Value;
 
@@ -294,36 +234,17 @@ mod tests {
     }
 
     #[test]
-    fn samples_survive_their_text() {
-        for sample in [
-            Sample::opened(1, SampleSource::Bicycle),
-            Sample::bytes(u64::MAX, SampleSource::SpaceMouse, [0, 0xff, 0x7f]),
-            Sample::bytes(3, SampleSource::Settings, []),
-            Sample::closed(4, SampleSource::Keyboard),
-        ] {
-            let text = serde_json::to_string(&SampleRecord::from(&sample)).unwrap();
-            let record: SampleRecord = serde_json::from_str(&text).unwrap();
-            assert_eq!(Sample::try_from(record), Ok(sample));
-        }
-    }
-
-    #[test]
-    fn texts_that_are_no_bytes_are_refused() {
-        for text in ["0", "0g", "é0", " 00", "+1"] {
-            assert!(unhex(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
     fn schemas_describe_exactly_what_is_written() {
-        let sample = SampleRecord::from(&Sample::opened(0, SampleSource::Gamepad));
+        let controls = ControlsRecord::default();
         let written = [
-            serde_json::to_value(sample).unwrap(),
-            serde_json::to_value(ControlsRecord::default()).unwrap(),
-            serde_json::to_value(FrameRecord::default()).unwrap(),
+            (
+                RecordingTopic::Controls,
+                serde_json::to_value(WrittenControls { samples: 0, record: &controls }).unwrap(),
+            ),
+            (RecordingTopic::Frames, serde_json::to_value(FrameRecord::default()).unwrap()),
         ];
-        for (topic, written) in RecordingTopic::ALL.into_iter().zip(written) {
-            let schema: Value = serde_json::from_str(topic.schema().1).unwrap();
+        for (topic, written) in written {
+            let schema: Value = serde_json::from_str(topic.schema().unwrap().1).unwrap();
             let described: Vec<_> = schema["properties"].as_object().unwrap().keys().collect();
             let written: Vec<_> = written.as_object().unwrap().keys().collect();
             assert_eq!(described, written, "{topic:?}");

@@ -1,215 +1,68 @@
-//! Writer of a recording while the ride goes on.
+//! Writer of a recording's file.
 //!
-//! The frame loop only puts entries into a queue; a thread named `recorder` turns them into JSON and writes them.
-//! Every half second it closes the chunk and hands it to the disk. A full queue means that the disk has stalled for
-//! many seconds. A recording with a gap would not replay, so recording then stops with an error, rather than losing
-//! entries or stopping the ride.
-//!
-//! The bytes are written by the `mcap` crate's writer, which puts a chunk together in memory and writes it whole.
-//! Only the end of a chunk is decided here ([`FLUSH_EVERY`]), because it decides how much a crash costs.
+//! The bytes are written by the `mcap` crate's writer, which puts a chunk together in memory, compresses it and writes
+//! it whole. Only the end of a chunk is decided here ([`FLUSH_EVERY`]), because it decides how much a crash costs.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TrySendError, bounded};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
-use mcap::{McapError, WriteOptions};
+use mcap::{Compression, McapError, WriteOptions};
 use serde::Serialize;
 
-use super::error::RecordingError;
-use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, RideHeader, VERSION};
-use super::record::{ControlsRecord, FrameRecord, RecordingEntry, RecordingTopic, SampleRecord};
-use crate::clock::Nanos;
-use crate::controls::Controls;
-use crate::sample::Sample;
+use super::header::{KEY_CHECKSUM, KEY_HEADER, KEY_VERSION, METADATA, PROFILE, VERSION};
+use super::pose::{FrameTransform, POSE_SCHEMA, POSE_TOPIC, PoseInFrame, TRANSFORM_SCHEMA, TRANSFORM_TOPIC};
+use super::record::{RecordingEntry, WrittenControls};
+use super::sample_message::SampleMessage;
+use super::topic::{JSON, JSON_SCHEMA, RecordingTopic};
+use crate::clock::{Nanos, SECOND};
+use crate::sample::{Sample, Signal};
 
 /// Time after which a chunk is closed and handed to the disk.
 const FLUSH_EVERY: Duration = Duration::from_millis(500);
-/// Length of the queue, entries: half a minute of a ride with all devices.
-const QUEUE: usize = 32_768;
+/// Time of the ride after which a chunk is closed, for a ride that is simulated faster than the clock.
+const LONGEST_CHUNK: Nanos = SECOND / 2;
 
-/// Item of the queue.
-enum Queued {
-    One(RecordingEntry),
-    Many(Vec<RecordingEntry>),
-}
-
-/// Recording that is being made.
-///
-/// The order of the calls is the order of the replay: samples as they are fed to the desk, then the controls and the
-/// observer of the frame.
-#[derive(Debug)]
-pub struct Recorder {
-    path: PathBuf,
-    queue: Option<Sender<Queued>>,
-    thread: Option<JoinHandle<Result<(), McapError>>>,
-}
-
-impl Recorder {
-    /// Creates the file and writes the header.
-    ///
-    /// # Errors
-    /// A file that exists already, or that the system does not allow to create or write.
-    pub fn create(path: &Path, header: &RideHeader) -> Result<Self, RecordingError> {
-        let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
-        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
-            io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
-            io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
-            _ => RecordingError::io(path, "create", cause),
-        })?;
-        let mut writer = RecordingWriter::new(file, header).map_err(|error| failure(path, error))?;
-        let (queue, messages) = bounded(QUEUE);
-        let thread = thread::Builder::new()
-            .name("recorder".to_owned())
-            .spawn(move || write_until_closed(&messages, &mut writer))
-            .map_err(|cause| RecordingError::io(path, "start the thread that writes", cause))?;
-        Ok(Self { path: path.to_owned(), queue: Some(queue), thread: Some(thread) })
-    }
-
-    /// Records a sample.
-    ///
-    /// # Errors
-    /// A failed write, or a disk that does not keep up. The recording has then stopped.
-    pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Queued::One(RecordingEntry::Sample(sample.clone())))
-    }
-
-    /// Records the controls of a frame.
-    ///
-    /// # Errors
-    /// Errors of [`sample`](Self::sample).
-    pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Queued::One(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
-    }
-
-    /// Records the observer after a frame.
-    ///
-    /// # Errors
-    /// A number that is not finite, and errors of [`sample`](Self::sample).
-    pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
-        check(record)?;
-        self.push(Queued::One(RecordingEntry::Frame(record.clone())))
-    }
-
-    /// Records all entries from before the file was created, however many; called first.
-    ///
-    /// # Errors
-    /// Errors of [`frame`](Self::frame).
-    pub fn past(&mut self, entries: Vec<RecordingEntry>) -> Result<(), RecordingError> {
-        for entry in &entries {
-            if let RecordingEntry::Frame(record) = entry {
-                check(record)?;
-            }
-        }
-        self.push(Queued::Many(entries))
-    }
-
-    /// Writes the waiting entries, the index and the end of the file.
-    ///
-    /// # Errors
-    /// A part of the recording that could not be written.
-    pub fn finish(mut self) -> Result<(), RecordingError> {
-        self.close()
-    }
-
-    fn push(&mut self, message: Queued) -> Result<(), RecordingError> {
-        let Some(queue) = &self.queue else {
-            return Err(RecordingError::Stopped { path: self.path.clone() });
-        };
-        match queue.try_send(message) {
-            Ok(()) => Ok(()),
-            Err(TrySendError::Full(_)) => {
-                // Leave the thread to its disk.
-                self.queue = None;
-                self.thread = None;
-                Err(RecordingError::TooSlow { path: self.path.clone() })
-            }
-            Err(TrySendError::Disconnected(_)) => {
-                self.close()?;
-                Err(RecordingError::Stopped { path: self.path.clone() })
-            }
-        }
-    }
-
-    /// Closes the queue and waits until everything is written.
-    fn close(&mut self) -> Result<(), RecordingError> {
-        self.queue = None;
-        let Some(thread) = self.thread.take() else {
-            return Ok(());
-        };
-        match thread.join() {
-            Ok(outcome) => outcome.map_err(|error| failure(&self.path, error)),
-            Err(_) => Err(failure(&self.path, McapError::Io(io::Error::other("the thread that writes has died")))),
-        }
-    }
-}
-
-impl Drop for Recorder {
-    /// Finishes the file. Call [`finish`](Recorder::finish) to learn of errors.
-    fn drop(&mut self) {
-        let _ = self.close();
-    }
-}
-
-/// Header as JSON. A number that is not finite is written as null, so the text is read back to check it.
-fn text(header: &RideHeader) -> Result<String, serde_json::Error> {
-    let text = serde_json::to_string(header)?;
-    serde_json::from_str::<RideHeader>(&text)?;
-    Ok(text)
-}
-
-/// Checks that every number can be read back.
-fn check(record: &FrameRecord) -> Result<(), RecordingError> {
-    match record.not_finite() {
-        Some((field, value)) => Err(RecordingError::NotFinite { frame: record.frame, field, value }),
-        None => Ok(()),
-    }
-}
-
-fn failure(path: &Path, error: McapError) -> RecordingError {
-    let cause = match error {
-        McapError::Io(cause) => cause,
-        other => io::Error::other(other),
-    };
-    RecordingError::io(path, "write", cause)
-}
-
-/// Writes entries until the queue is closed, and flushes at intervals.
-fn write_until_closed(messages: &Receiver<Queued>, writer: &mut RecordingWriter) -> Result<(), McapError> {
-    loop {
-        match messages.recv_timeout(FLUSH_EVERY.saturating_sub(writer.flushed.elapsed())) {
-            Ok(Queued::One(entry)) => writer.write(&entry)?,
-            Ok(Queued::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
-            Err(RecvTimeoutError::Timeout) => writer.flush()?,
-            Err(RecvTimeoutError::Disconnected) => return writer.finish(),
-        }
-    }
-}
+/// Most samples in a message, and most bytes in them, unless a single one has more.
+const MOST_SAMPLES: usize = 1024;
+const MOST_BYTES: usize = 64 << 10;
 
 /// Open file, and the numbers of its channels.
-struct RecordingWriter {
+pub(super) struct RecordingWriter {
     mcap: mcap::Writer<NoSeek<BufWriter<File>>>,
     /// Second handle of the file, to hand it to the disk.
     file: File,
+    path: PathBuf,
     channels: [u16; RecordingTopic::ALL.len()],
-    sequence: u32,
+    pose_channel: u16,
+    transform_channel: u16,
+    /// Beginning of the ride, nanoseconds since 1970, once it is known.
+    began: Option<u64>,
+    /// Number of messages, and of samples among them.
+    messages: u32,
+    samples: u64,
+    /// Samples that wait for the controls of their frame, and the number of their bytes.
+    waiting: Vec<Sample>,
+    waiting_bytes: usize,
     flushed: Instant,
     is_flushed: bool,
+    /// Time of the ride at which the chunk began.
+    chunk: Nanos,
 }
 
 impl RecordingWriter {
     /// Writes everything that comes before the first message. Chunks are put together in memory and written whole, so
     /// that the file never holds an incomplete one that looks complete.
-    fn new(file: File, header: String) -> Result<Self, McapError> {
+    pub(super) fn new(file: File, path: &Path, header: String) -> Result<Self, McapError> {
         let mut mcap = WriteOptions::new()
             .profile(PROFILE)
             .library(format!("{PROFILE} {}", env!("CARGO_PKG_VERSION")))
-            .compression(None)
+            .compression(Some(Compression::Zstd))
+            .compression_threads(0)
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file.try_clone()?)))?;
 
@@ -222,89 +75,162 @@ impl RecordingWriter {
 
         let mut channels = [0; RecordingTopic::ALL.len()];
         for (channel, topic) in channels.iter_mut().zip(RecordingTopic::ALL) {
-            let (name, schema) = topic.schema();
-            let schema = mcap.add_schema(name, "jsonschema", schema.as_bytes())?;
-            *channel = mcap.add_channel(schema, topic.name(), "json", &BTreeMap::new())?;
+            *channel = add_channel(&mut mcap, topic.name(), topic.encoding(), topic.schema())?;
         }
+        let pose_channel = add_channel(&mut mcap, POSE_TOPIC, JSON, Some(POSE_SCHEMA))?;
+        let transform_channel = add_channel(&mut mcap, TRANSFORM_TOPIC, JSON, Some(TRANSFORM_SCHEMA))?;
         mcap.flush()?;
-        Ok(Self { mcap, file, channels, sequence: 0, flushed: Instant::now(), is_flushed: true })
+        Ok(Self {
+            mcap,
+            file,
+            path: path.to_owned(),
+            channels,
+            pose_channel,
+            transform_channel,
+            began: None,
+            messages: 0,
+            samples: 0,
+            waiting: Vec::new(),
+            waiting_bytes: 0,
+            flushed: Instant::now(),
+            is_flushed: true,
+            chunk: 0,
+        })
+    }
+
+    /// Sets the beginning of the ride, nanoseconds since 1970.
+    pub(super) fn began(&mut self, unix_ns: u64) {
+        self.began = Some(unix_ns);
     }
 
     /// Writes an entry, and hands the chunk to the disk if it is time.
-    fn write(&mut self, entry: &RecordingEntry) -> Result<(), McapError> {
+    pub(super) fn write(&mut self, entry: &RecordingEntry) -> Result<(), McapError> {
         match entry {
-            RecordingEntry::Sample(sample) => self.put(RecordingTopic::Samples, sample.at, &SampleRecord::from(sample)),
-            RecordingEntry::Controls(record) => self.put(RecordingTopic::Controls, record.at, record),
-            RecordingEntry::Frame(record) => self.put(RecordingTopic::Frames, record.at, record),
+            RecordingEntry::Sample(sample) => {
+                self.waiting_bytes += if let Signal::Bytes(bytes) = &sample.signal { bytes.len() } else { 0 };
+                self.waiting.push(sample.clone());
+                if self.waiting.len() < MOST_SAMPLES && self.waiting_bytes < MOST_BYTES {
+                    Ok(())
+                } else {
+                    self.put_samples()
+                }
+            }
+            RecordingEntry::Controls(record) => {
+                self.put_samples()?;
+                if record.at.saturating_sub(self.chunk) >= LONGEST_CHUNK {
+                    self.chunk = record.at;
+                    self.mcap.flush()?;
+                }
+                let written = WrittenControls { samples: self.samples, record };
+                self.put_json(self.channels[RecordingTopic::Controls as usize], record.at, &written)
+            }
+            RecordingEntry::Frame(record) => {
+                let unix_ns = self.unix_ns(record.at);
+                if record.frame == 0 {
+                    self.put_json(self.transform_channel, record.at, &FrameTransform::new(unix_ns))?;
+                }
+                self.put_json(self.channels[RecordingTopic::Frames as usize], record.at, record)?;
+                self.put_json(self.pose_channel, record.at, &PoseInFrame::new(unix_ns, record))
+            }
         }?;
         self.is_flushed = false;
         if self.flushed.elapsed() < FLUSH_EVERY { Ok(()) } else { self.flush() }
     }
 
+    /// Time until the chunk is to be closed.
+    pub(super) fn time_to_flush(&self) -> Duration {
+        FLUSH_EVERY.saturating_sub(self.flushed.elapsed())
+    }
+
     /// Closes the chunk, if there is one, and hands it to the disk.
-    fn flush(&mut self) -> Result<(), McapError> {
+    ///
+    /// # Errors
+    /// A failed write, or a file that has been removed.
+    pub(super) fn flush(&mut self) -> Result<(), McapError> {
         if !std::mem::replace(&mut self.is_flushed, true) {
+            self.put_samples()?;
             self.mcap.flush()?;
             self.file.sync_data()?;
+            self.check_place()?;
         }
         self.flushed = Instant::now();
         Ok(())
     }
 
     /// Writes the index and the end of the file.
-    fn finish(&mut self) -> Result<(), McapError> {
+    ///
+    /// # Errors
+    /// A failed write, or a file that has been removed.
+    pub(super) fn finish(&mut self) -> Result<(), McapError> {
+        self.put_samples()?;
         self.mcap.finish()?;
         self.file.sync_all()?;
+        Ok(self.check_place()?)
+    }
+
+    /// Checks that the file still has its name: what is written into a removed file is lost.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::NotFound`] if the name is gone, or is that of another file.
+    fn check_place(&self) -> io::Result<()> {
+        let named = std::fs::metadata(&self.path)?;
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt;
+            let own = self.file.metadata()?;
+            if (own.dev(), own.ino()) != (named.dev(), named.ino()) {
+                return Err(io::ErrorKind::NotFound.into());
+            }
+        }
+        #[cfg(not(unix))]
+        let _ = named;
         Ok(())
     }
 
-    fn put(&mut self, topic: RecordingTopic, at: Nanos, record: &impl Serialize) -> Result<(), McapError> {
-        let text = serde_json::to_vec(record).map_err(io::Error::other)?;
-        let channel_id = self.channels[topic as usize];
-        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: at, publish_time: at };
-        self.mcap.write_to_known_channel(&header, &text)?;
-        self.sequence = self.sequence.wrapping_add(1);
+    /// Moment since 1970 of a time of the ride, nanoseconds.
+    fn unix_ns(&mut self, at: Nanos) -> u64 {
+        let began = self.began.get_or_insert_with(|| {
+            let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+            u64::try_from(now.as_nanos()).unwrap_or(u64::MAX).saturating_sub(at)
+        });
+        began.saturating_add(at)
+    }
+
+    /// Writes the waiting samples as one message, dated by the last of them.
+    fn put_samples(&mut self) -> Result<(), McapError> {
+        let samples = std::mem::take(&mut self.waiting);
+        self.waiting_bytes = 0;
+        let Some(at) = samples.last().map(|sample| sample.at) else { return Ok(()) };
+        let message = SampleMessage::to_cbor(self.samples, &samples);
+        self.samples += samples.len() as u64;
+        self.put(self.channels[RecordingTopic::Samples as usize], at, &message)
+    }
+
+    fn put_json(&mut self, channel_id: u16, at: Nanos, message: &impl Serialize) -> Result<(), McapError> {
+        let text = serde_json::to_vec(message).map_err(io::Error::other)?;
+        self.put(channel_id, at, &text)
+    }
+
+    fn put(&mut self, channel_id: u16, at: Nanos, message: &[u8]) -> Result<(), McapError> {
+        let log_time = self.unix_ns(at);
+        let header = MessageHeader { channel_id, sequence: self.messages, log_time, publish_time: log_time };
+        self.mcap.write_to_known_channel(&header, message)?;
+        self.messages = self.messages.wrapping_add(1);
         Ok(())
     }
 }
 
-#[cfg(test)]
-mod tests {
-    //! A recorder that cannot write must report it once, with the cause, and must never stop the ride.
-    use super::*;
-    use crate::sample::SampleSource;
-
-    fn recorder(queue: Sender<Queued>, thread: Option<JoinHandle<Result<(), McapError>>>) -> Recorder {
-        Recorder { path: PathBuf::from("ride.mcap"), queue: Some(queue), thread }
-    }
-
-    #[test]
-    fn a_stalled_disk_ends_the_recording_not_the_ride() {
-        let (queue, _never_read) = bounded(1);
-        let mut recorder = recorder(queue, None);
-        let sample = Sample::opened(0, SampleSource::Bicycle);
-        recorder.sample(&sample).unwrap();
-        assert!(matches!(recorder.sample(&sample), Err(RecordingError::TooSlow { .. })));
-        assert!(matches!(recorder.sample(&sample), Err(RecordingError::Stopped { .. })));
-    }
-
-    #[test]
-    fn a_failed_write_is_told_with_its_cause() {
-        let (queue, messages) = bounded(1);
-        drop(messages);
-        let thread = thread::spawn(|| Err(McapError::Io(io::Error::other("no space left"))));
-        let mut recorder = recorder(queue, Some(thread));
-        let error = recorder.sample(&Sample::opened(0, SampleSource::Bicycle)).unwrap_err();
-        assert_eq!(error.to_string(), "cannot write ride.mcap: no space left");
-        assert!(recorder.finish().is_ok());
-    }
-
-    #[test]
-    fn a_number_that_json_cannot_carry_is_named() {
-        let (queue, _messages) = bounded(1);
-        let mut record = FrameRecord { frame: 7, ..Default::default() };
-        record.celerity[1] = f64::NAN;
-        let error = recorder(queue, None).frame(&record).unwrap_err();
-        assert_eq!(error.to_string(), "frame 7 cannot be recorded: celerity[1] is NaN");
-    }
+/// Adds a channel with its schema; its number.
+fn add_channel(
+    mcap: &mut mcap::Writer<NoSeek<BufWriter<File>>>,
+    topic: &str,
+    encoding: &str,
+    schema: Option<(&str, &str)>,
+) -> Result<u16, McapError> {
+    let schema = match schema {
+        Some((name, text)) => mcap.add_schema(name, JSON_SCHEMA, text.as_bytes())?,
+        // The number of no schema.
+        None => 0,
+    };
+    mcap.add_channel(schema, topic, encoding, &BTreeMap::new())
 }

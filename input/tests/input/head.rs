@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use input::head::{Tracking, VelocityFilter};
-use input::recording::{ControlsRecord, Recorder, Recording, RecordingEntry, RideHeader};
+use input::recording::{ControlsRecord, FrameRecord, Recorder, Recording, RecordingEntry, RideHeader};
 use input::vrpn::wire::{COOKIE, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnMessage, description};
 use input::{
     Controls, Desk, DeskConfig, HeadConfig, MouseButton, MouseEvent, Nanos, SECOND, Sample, SampleSource, VehicleKind,
@@ -293,5 +293,103 @@ proptest! {
             prop_assert!(head.velocity_m_s.is_finite() && head.orientation.is_normalized(), "{head:?}");
         }
         assert_same_again(&path, &ridden);
+    }
+}
+
+/// Noise in −1 to 1, the same in every run.
+fn noise(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+/// Ride of a minute, sixty frames a second, with a head that a tracker reports a thousand times a second. The
+/// tracker's numbers have the noise of a tenth of a millimetre, and as many bits as floats have (`is_f32`) or all.
+fn tracked_minute(path: &Path, is_f32: bool) {
+    const MILLISECOND: Nanos = SECOND / 1000;
+    let config = config(URLS[0], VelocityFilter::default());
+    let mut desk = Desk::new(config.clone()).unwrap();
+    let mut recorder = Recorder::create(path, &header(config)).unwrap();
+    let mut state = 1;
+    let mut number = |value: f64, by: f64| {
+        let value = value + by * noise(&mut state);
+        if is_f32 { f64::from(value as f32) } else { value }
+    };
+    let mut first = COOKIE.to_vec();
+    first.extend(description(DESCRIBES_SENDER, 3, "Head"));
+    first.extend(description(DESCRIBES_TYPE, 5, vrpn::POSE));
+    let give = |recorder: &mut Recorder, desk: &mut Desk, sample: Sample| {
+        desk.feed(&sample);
+        recorder.sample(&sample).unwrap();
+    };
+    give(&mut recorder, &mut desk, Sample::opened(0, SampleSource::Vrpn));
+    give(&mut recorder, &mut desk, Sample::bytes(0, SampleSource::Vrpn, first));
+    let mut frame = 0;
+    for millisecond in 0..60_000_u32 {
+        let time = f64::from(millisecond) * 1e-3;
+        let at = (Nanos::from(millisecond) * MILLISECOND).saturating_add_signed((2e5 * number(0.0, 1.0)) as i64);
+        let mut payload = vec![0; 8];
+        let turn = glam::DQuat::from_euler(glam::EulerRot::YXZ, 0.4 * time.sin(), 0.2 * (0.3 * time).cos(), 0.1);
+        for value in [
+            number(0.3 * time.sin(), 1e-4),
+            number(1.7 + 0.02 * (9.0 * time).sin(), 1e-4),
+            number(0.2 * (0.7 * time).cos(), 1e-4),
+            number(turn.x, 1e-4),
+            number(turn.y, 1e-4),
+            number(turn.z, 1e-4),
+            number(turn.w, 1e-4),
+        ] {
+            payload.extend_from_slice(&value.to_be_bytes());
+        }
+        let microseconds = millisecond % 1000 * 1000 + (50.0 + 49.0 * number(0.0, 1.0)) as u32;
+        let message = VrpnMessage {
+            seconds: 1_700_000_000 + millisecond / 1000,
+            microseconds,
+            sender: 3,
+            kind: 5,
+            payload: &payload,
+        };
+        give(&mut recorder, &mut desk, Sample::bytes(at, SampleSource::Vrpn, message.to_bytes()));
+        if u64::from(millisecond) * 60 / 1000 >= frame {
+            let at = Nanos::from(millisecond) * MILLISECOND + (1e5 * (1.0 + number(0.0, 1.0))) as Nanos;
+            recorder.controls(frame, at, &desk.controls(at)).unwrap();
+            let three = |scale: f64| [1.0, 2.0, 3.0].map(|axis| scale * (axis * time).sin());
+            let record = FrameRecord {
+                frame,
+                at,
+                steps: 4,
+                proper_time: 8.3 * time,
+                ct: 9.1 * time,
+                position: three(20.0),
+                celerity: three(0.5),
+                orientation: [0.1 * time.sin(), 0.7 * time.cos(), 0.0, 0.7],
+                rapidity: 0.4 + 0.1 * time.sin(),
+                doppler_ahead: 1.5 + 0.1 * time.cos(),
+                road: 5.0 * time,
+                odometer: 5.3 * time,
+            };
+            recorder.frame(&record).unwrap();
+            frame += 1;
+            // The writer is not to be flooded: a minute is written in a second or two.
+            std::thread::sleep(std::time::Duration::from_micros(500));
+        }
+    }
+    recorder.finish().unwrap();
+    let head = desk.controls(60 * SECOND).head.unwrap();
+    assert_eq!((frame, head.tracked), (3600, Tracking::Tracked));
+}
+
+/// A long ride must fit on a disk: an hour in 300 MB.
+#[test]
+fn an_hour_of_a_tracked_ride_is_less_than_300_megabytes() {
+    const MOST_BYTES_PER_MINUTE: u64 = 300_000_000 / 60;
+    for is_f32 in [true, false] {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("ride.mcap");
+        tracked_minute(&path, is_f32);
+        let bytes = std::fs::metadata(&path).unwrap().len();
+        println!("{:.0} MB an hour (floats: {is_f32})", bytes as f64 * 60e-6);
+        assert!(bytes < MOST_BYTES_PER_MINUTE, "{} MB an hour", bytes as f64 * 60e-6);
+        let samples = Recording::open(&path).unwrap().filter(|entry| matches!(entry, Ok(RecordingEntry::Sample(_))));
+        assert_eq!(samples.count(), 60_002);
     }
 }

@@ -150,18 +150,35 @@ fn options() -> mcap::WriteOptions {
     mcap::WriteOptions::new().profile("rapidity").compression(None)
 }
 
+/// Description of the ride in a recording.
+fn description(bytes: &[u8]) -> mcap::records::Metadata {
+    let summary = mcap::Summary::read(bytes).unwrap().unwrap();
+    mcap::read::metadata(bytes, &summary.metadata_indexes[0]).unwrap()
+}
+
+/// Messages of a recording.
+fn messages(bytes: &[u8]) -> Vec<mcap::Message<'_>> {
+    mcap::MessageStream::new(bytes).unwrap().map(Result::unwrap).collect()
+}
+
+/// Bytes of a file by another program, with what `fill` writes.
+fn made(options: mcap::WriteOptions, fill: impl FnOnce(&mut OtherWriter)) -> Vec<u8> {
+    let mut writer = options.create(std::io::Cursor::new(Vec::new())).unwrap();
+    fill(&mut writer);
+    writer.finish().unwrap();
+    writer.into_inner().into_inner()
+}
+
+/// Writer of another program.
+type OtherWriter = mcap::Writer<std::io::Cursor<Vec<u8>>>;
+
 /// Bytes of a copy of a recording by another program, with a note at its end.
 fn copied(bytes: &[u8], options: mcap::WriteOptions) -> Vec<u8> {
-    let summary = mcap::Summary::read(bytes).unwrap().unwrap();
-    let metadata = mcap::read::metadata(bytes, &summary.metadata_indexes[0]).unwrap();
-    let mut copy = options.create(std::io::Cursor::new(Vec::new())).unwrap();
-    copy.write_metadata(&metadata).unwrap();
-    for message in mcap::MessageStream::new(bytes).unwrap() {
-        copy.write(&message.unwrap()).unwrap();
-    }
-    copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
-    copy.finish().unwrap();
-    copy.into_inner().into_inner()
+    made(options, |copy| {
+        copy.write_metadata(&description(bytes)).unwrap();
+        messages(bytes).iter().for_each(|message| copy.write(message).unwrap());
+        copy.write_metadata(&mcap::records::Metadata { name: "notes".to_owned(), metadata: BTreeMap::new() }).unwrap();
+    })
 }
 
 /// Copies by other programs, with other chunks or none, compressed, and without checksums, must read the same.
@@ -179,6 +196,163 @@ fn a_recording_copied_by_another_program_is_the_same() {
         let (found, error) = read_bytes(&copied(&bytes, options));
         assert!(error.is_none(), "{error:?}");
         assert_same_bits(&found, &entries);
+    }
+}
+
+/// Recordings of both formats, with their entries.
+fn both_formats() -> [(Vec<u8>, Vec<RecordingEntry>); 2] {
+    [short_ride(), (include_bytes!("recordings/format_1.bin").to_vec(), ride(3))]
+}
+
+/// Checks that a copy is read as the recording was.
+#[track_caller]
+fn assert_same_ride(what: &str, copy: &[u8], entries: &[RecordingEntry]) {
+    let (found, error) = read_bytes(copy);
+    assert!(error.is_none(), "{what}: {error:?}");
+    assert_same_bits(&found, entries);
+}
+
+/// Way of numbering messages.
+type Numbering<'a> = dyn FnMut(&mcap::Message<'_>) -> u32 + 'a;
+
+/// Copies number the messages anew: MCAP leaves that to the program.
+#[test]
+fn a_copy_may_number_the_messages_as_it_likes() {
+    for (bytes, entries) in both_formats() {
+        let mut counts = BTreeMap::new();
+        let mut by_channel = |message: &mcap::Message<'_>| {
+            let count = counts.entry(message.channel.id).or_insert(0);
+            *count += 1;
+            *count - 1
+        };
+        let mut count = 0;
+        let mut from_one = |_: &mcap::Message<'_>| {
+            count += 1;
+            count
+        };
+        let ways: [(&str, &mut Numbering<'_>); 3] =
+            [("by channel", &mut by_channel), ("from one", &mut from_one), ("zero", &mut |_| 0)];
+        for (way, number) in ways {
+            let copy = made(options(), |copy| {
+                copy.write_metadata(&description(&bytes)).unwrap();
+                for mut message in messages(&bytes) {
+                    message.sequence = number(&message);
+                    copy.write(&message).unwrap();
+                }
+            });
+            assert_same_ride(way, &copy, &entries);
+        }
+    }
+}
+
+/// Copies may hold more than the ride: notes of their own between the messages, a picture, the description at the end.
+#[test]
+fn a_copy_may_hold_more_and_elsewhere() {
+    for (bytes, entries) in both_formats() {
+        let copy = made(options().chunk_size(Some(700)), |copy| {
+            let (topic, message_encoding) = ("/notes".to_owned(), "json".to_owned());
+            let channel = mcap::Channel { id: 77, topic, message_encoding, schema: None, metadata: BTreeMap::new() };
+            let channel = std::sync::Arc::new(channel);
+            for (sequence, message) in (0..).zip(messages(&bytes)) {
+                if sequence % 2 == 0 {
+                    let (channel, data) = (channel.clone(), b"{}"[..].into());
+                    let (log_time, publish_time) = (message.log_time, message.log_time);
+                    copy.write(&mcap::Message { channel, sequence, log_time, publish_time, data }).unwrap();
+                }
+                copy.write(&message).unwrap();
+            }
+            let (name, media_type) = ("helmet.txt".to_owned(), "text/plain".to_owned());
+            let data = b"the rider wore a helmet"[..].into();
+            copy.attach(&mcap::Attachment { log_time: 0, create_time: 0, name, media_type, data }).unwrap();
+            copy.write_metadata(&description(&bytes)).unwrap();
+        });
+        assert_same_ride("more", &copy, &entries);
+    }
+}
+
+/// Order of the file is nothing that MCAP promises: one channel after the other, or sorted by time.
+#[test]
+fn a_copy_may_have_another_order() {
+    for (bytes, entries) in both_formats() {
+        let by_channel = |message: &mcap::Message<'_>| (u64::from(message.channel.id), 0);
+        let by_time = |message: &mcap::Message<'_>| (message.log_time, u64::from(message.channel.id));
+        for order in [by_channel, by_time] {
+            let copy = made(options(), |copy| {
+                copy.write_metadata(&description(&bytes)).unwrap();
+                let mut messages = messages(&bytes);
+                messages.sort_by_key(order);
+                messages.iter().for_each(|message| copy.write(message).unwrap());
+            });
+            assert_same_ride("sorted", &copy, &entries);
+        }
+    }
+}
+
+/// Without a summary, an index or checksums a file is still whole.
+#[test]
+fn a_copy_may_lack_all_that_is_optional() {
+    for (bytes, entries) in both_formats() {
+        let bare = options()
+            .emit_summary_records(false)
+            .emit_summary_offsets(false)
+            .emit_message_indexes(false)
+            .calculate_chunk_crcs(false)
+            .calculate_data_section_crc(false)
+            .calculate_summary_section_crc(false);
+        assert_same_ride("bare", &copied(&bytes, bare), &entries);
+    }
+}
+
+/// Two rides in one file must be noticed: whoever has joined them expects both.
+#[test]
+fn two_rides_in_one_file_are_noticed() {
+    let (bytes, entries) = short_ride();
+    let (_directory, path) = place();
+    fs::write(&path, [bytes.clone(), bytes.clone()].concat()).unwrap();
+    let mut recording = Recording::open(&path).unwrap();
+    let found: Vec<_> = recording.by_ref().map(Result::unwrap).collect();
+    assert_same_bits(&found, &entries);
+    assert_eq!(recording.another(), Some(bytes.len() as u64));
+
+    fs::write(&path, &bytes).unwrap();
+    let mut recording = Recording::open(&path).unwrap();
+    assert_eq!((recording.by_ref().count(), recording.another()), (entries.len(), None));
+
+    // Messages of two rides, merged into one file, and the description of a second ride among them.
+    let merged = made(options(), |copy| {
+        copy.write_metadata(&description(&bytes)).unwrap();
+        messages(&bytes).iter().chain(&messages(&bytes)).for_each(|message| copy.write(message).unwrap());
+    });
+    let (found, error) = read_bytes(&merged);
+    assert_same_bits(&found, &entries);
+    assert!(error.unwrap().to_string().contains("two rides"));
+    let other = made(options(), |copy| {
+        copy.write_metadata(&description(&bytes)).unwrap();
+        let mut second = description(&bytes);
+        second.metadata.insert("header".to_owned(), "{}".to_owned());
+        copy.write_metadata(&second).unwrap();
+    });
+    assert!(matches!(read_bytes(&other).1, Some(RecordingError::Another { .. })));
+}
+
+/// A few compressed bytes that claim to be gigabytes must be refused before they fill the memory.
+#[test]
+fn a_chunk_that_unpacks_to_gigabytes_is_refused() {
+    let (bytes, _) = short_ride();
+    for has_checksum in [true, false] {
+        let options = options().compression(Some(mcap::Compression::Zstd)).chunk_size(None);
+        let bomb = made(options.calculate_chunk_crcs(has_checksum), |copy| {
+            copy.write_metadata(&description(&bytes)).unwrap();
+            let channel_id = copy.add_channel(0, "/notes", "json", &BTreeMap::new()).unwrap();
+            let zeros = vec![0; 64 << 20];
+            for sequence in 0..9 {
+                let header = mcap::records::MessageHeader { channel_id, sequence, log_time: 0, publish_time: 0 };
+                copy.write_to_known_channel(&header, &zeros).unwrap();
+            }
+        });
+        assert!(bomb.len() < 1 << 20);
+        let text = read_bytes(&bomb).1.unwrap().to_string();
+        assert!(text.contains("the chunk holds"), "{text}");
     }
 }
 
@@ -238,20 +412,69 @@ fn others_read_it_too() {
     record(&path, &entries);
     let bytes = fs::read(&path).unwrap();
     let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
-    assert_eq!(summary.stats.unwrap().message_count, entries.len() as u64);
+    assert_eq!(summary.stats.unwrap().message_count, entries.len() as u64 + 101);
     assert_eq!(summary.metadata_indexes.len(), 1);
     let mut topics = BTreeMap::new();
     for message in mcap::MessageStream::new(&bytes).unwrap() {
         let message = message.unwrap();
+        *topics.entry(message.channel.topic.clone()).or_insert(0) += 1;
+        if message.channel.topic == "/device/raw" {
+            assert_eq!((message.channel.message_encoding.as_str(), &message.channel.schema), ("cbor", &None));
+            let samples: ciborium::Value = ciborium::from_reader(&*message.data).unwrap();
+            let bytes = samples.as_map().unwrap().iter().find(|(key, _)| key.as_text() == Some("bytes")).unwrap();
+            assert!(bytes.1.is_bytes());
+            continue;
+        }
         let schema = message.channel.schema.as_ref().unwrap();
         assert_eq!((message.channel.message_encoding.as_str(), schema.encoding.as_str()), ("json", "jsonschema"));
         serde_json::from_slice::<serde_json::Value>(&schema.data).unwrap();
-        let value: serde_json::Value = serde_json::from_slice(&message.data).unwrap();
-        assert_eq!(value["at"], message.log_time);
-        *topics.entry(message.channel.topic.clone()).or_insert(0) += 1;
+        serde_json::from_slice::<serde_json::Value>(&message.data).unwrap();
     }
-    let expected = ["/controls", "/device/raw", "/observer"].map(|topic| (topic.to_owned(), 100));
-    assert_eq!(topics, BTreeMap::from(expected));
+    let expected = [("/controls", 100), ("/device/raw", 100), ("/observer", 100), ("/pose", 100), ("/tf", 1)];
+    assert_eq!(topics, BTreeMap::from(expected.map(|(topic, count)| (topic.to_owned(), count))));
+}
+
+/// Times of a wall clock date the messages; the ride's own time stays in them.
+#[test]
+fn messages_are_dated_since_1970() {
+    const BEGAN: u64 = 1_700_000_000_123_456_789;
+    let (_directory, path) = place();
+    let mut recorder = Recorder::create(&path, &header()).unwrap();
+    recorder.began(BEGAN).unwrap();
+    ride(5).iter().for_each(|entry| put(&mut recorder, entry));
+    recorder.finish().unwrap();
+    let bytes = fs::read(&path).unwrap();
+    let mut frames = 0;
+    for message in mcap::MessageStream::new(&bytes).unwrap() {
+        let message = message.unwrap();
+        let value = || serde_json::from_slice::<serde_json::Value>(&message.data).unwrap();
+        match message.channel.topic.as_str() {
+            "/controls" | "/observer" => {
+                let at = value()["at"].as_u64().unwrap();
+                assert_eq!((message.log_time, message.publish_time), (BEGAN + at, BEGAN + at));
+            }
+            "/pose" => {
+                let (pose, third) = (value(), 1.0 / (3.0 + f64::from(frames)));
+                let nanoseconds = pose["timestamp"]["nsec"].as_u64().unwrap();
+                assert_eq!(pose["timestamp"]["sec"].as_u64().unwrap() * SECOND + nanoseconds, message.log_time);
+                assert_eq!(pose["pose"]["position"]["x"].as_f64().unwrap(), -third);
+                frames += 1;
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(frames, 5);
+}
+
+#[test]
+fn a_recording_without_a_beginning_is_dated_by_its_making() {
+    let now = || std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap().as_nanos() as u64;
+    let (_directory, path) = place();
+    let before = now();
+    record(&path, &ride(2));
+    let bytes = fs::read(&path).unwrap();
+    let first = mcap::MessageStream::new(&bytes).unwrap().next().unwrap().unwrap().log_time;
+    assert!((before..=now()).contains(&first), "{first}");
 }
 
 #[test]
@@ -380,9 +603,17 @@ fn data_end(bytes: &[u8]) -> usize {
 #[test]
 fn a_chunk_that_is_missing_is_noticed() {
     let (_directory, path) = place();
-    // Three megabytes, in chunks of about one.
-    let loud = |at| RecordingEntry::Sample(Sample::bytes(at, SampleSource::Bicycle, vec![0; 4000]));
-    let entries: Vec<_> = (0..375).map(loud).collect();
+    // Four megabytes that cannot be compressed, in chunks of about one.
+    let mut noise = 1_u64;
+    let mut byte = || {
+        noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (noise >> 56) as u8
+    };
+    let mut loud = |at| {
+        let bytes: Vec<u8> = (0..4000).map(|_| byte()).collect();
+        RecordingEntry::Sample(Sample::bytes(at, SampleSource::Bicycle, bytes))
+    };
+    let entries: Vec<_> = (0..1000).map(&mut loud).collect();
     record(&path, &entries);
     let bytes = fs::read(&path).unwrap();
     let chunks: Vec<_> = records(&bytes).filter(|(_, kind, _)| *kind == 6).collect();
@@ -393,7 +624,7 @@ fn a_chunk_that_is_missing_is_noticed() {
     assert_eq!(found, entries[..found.len()]);
     assert!(!found.is_empty() && found.len() < entries.len());
     let text = error.unwrap().to_string();
-    assert!(text.contains("some are missing"), "{text}");
+    assert!(text.contains("missing"), "{text}");
 }
 
 /// A wrong speed of light must be noticed before the ride, not at its end.
@@ -412,11 +643,11 @@ fn a_changed_header_is_refused_at_once() {
 #[test]
 fn damage_is_told_with_its_place() {
     let (bytes, _) = short_ride();
-    let place = bytes.windows(7).position(|text| text == b"\"at\":16").unwrap() + 5;
+    let chunk = records(&bytes).filter(|(_, kind, _)| *kind == 6).last().unwrap();
     let mut damaged = bytes;
-    damaged[place] = b'2';
+    damaged[chunk.2 - 4] ^= 1;
     let text = read_bytes(&damaged).1.unwrap().to_string();
-    assert!(text.contains("is damaged at byte") && text.contains("does not match its checksum"), "{text}");
+    assert!(text.contains("is damaged at byte") && text.contains("chunk"), "{text}");
 }
 
 #[test]
@@ -453,9 +684,9 @@ fn a_later_format_is_named() {
     let key = b"format_version\x01\x00\x00\x00";
     let version = bytes.windows(key.len()).position(|text| text == key).unwrap() + key.len();
     let mut later = bytes;
-    later[version] = b'2';
+    later[version] = b'3';
     fs::write(&path, later).unwrap();
-    assert!(Recording::open(&path).unwrap_err().to_string().contains("has format \"2\""));
+    assert!(Recording::open(&path).unwrap_err().to_string().contains("has format \"3\""));
 }
 
 #[test]
@@ -546,7 +777,7 @@ proptest! {
         whole_start in any::<bool>(),
     ) {
         let (bytes, _) = short_ride();
-        let mut hostile = if whole_start { bytes[..bytes.len() / 2].to_vec() } else { bytes[..8].to_vec() };
+        let mut hostile = if whole_start { bytes[..data_end(&bytes) / 2].to_vec() } else { bytes[..8].to_vec() };
         for (kind, claimed, honest, body) in records {
             hostile.push(kind);
             let length = if honest > 0 { body.len() as u64 } else { claimed };

@@ -143,7 +143,8 @@ fn the_figures_of_the_house_are_kept() {
     assert!(share(measures.docs) <= NAMELESS_DOCS, "{:?}", measures.docs);
     assert_eq!(measures.comments.1, Vec::<String>::new());
     assert!(large.is_empty(), "{:?}", large.iter().map(|room| &room.name).collect::<Vec<_>>());
-    assert_eq!(measures.printing.keys().collect::<Vec<_>>(), ["rapidity"], "libraries return, the program reports");
+    // The program writes lines without macros that panic where nothing can be written.
+    assert!(measures.printing.is_empty(), "{:?}: libraries return, the program reports", measures.printing);
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn path(name: &str) -> PathBuf {
 fn assert_replays(name: &str, kind: VehicleKind) {
     let recording = Recording::open(&path(name)).unwrap();
     assert_eq!((recording.header().scene.as_str(), recording.header().vehicle), ("lattice", kind));
-    let replay = Replay::new(recording, LATTICE.clone()).unwrap();
+    let mut replay = Replay::new(recording, LATTICE.clone()).unwrap();
     assert_eq!(replay.verify().unwrap(), FRAMES);
 }
 

@@ -312,12 +312,22 @@ fn a_ride_replays_from_its_file() {
     }
     recorder.finish().unwrap();
 
-    let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
+    let mut replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
     assert_eq!(replay.verify().unwrap(), 541);
 
     // The recording is cut off: the remaining part is the same ride, and the end is reported.
     let bytes = std::fs::read(&path).unwrap();
-    std::fs::write(&path, &bytes[..bytes.len() * 2 / 3]).unwrap();
-    let replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
-    assert!(matches!(replay.verify(), Err(ReplayError::Recording { frames: 0..541, .. })));
+    let data = bytes.windows(9).position(|record| record == [0x0f, 4, 0, 0, 0, 0, 0, 0, 0]).unwrap();
+    std::fs::write(&path, &bytes[..data * 2 / 3]).unwrap();
+    let verify = || Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap().verify();
+    let told = match verify() {
+        Err(error @ ReplayError::Partial { frames: 1..541, .. }) => error.to_string(),
+        Err(error @ ReplayError::Recording { frames: 0, .. }) => error.to_string(),
+        other => panic!("{other:?}"),
+    };
+    assert!(told.contains("ends too early"), "{told}");
+    // Whole chunks before the cut are identical, and that is told.
+    std::fs::write(&path, &bytes[..data]).unwrap();
+    let told = verify().unwrap_err().to_string();
+    assert!(told.starts_with("all 541 frames that can be read are identical to the bit, but"), "{told}");
 }

@@ -22,6 +22,9 @@ const CROSSING_S: f64 = 5.0;
 /// Vertical field of view for which scenes are framed, radians: that of a picture without options.
 const FIELD_OF_VIEW_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
+/// Width over height of the narrowest picture in which the whole of a framed scene is seen.
+const ASPECT: f64 = 4.0 / 3.0;
+
 /// Share of the picture's height and width that a framed scene may fill.
 const FILLED: f64 = 0.85;
 
@@ -94,7 +97,7 @@ fn speed_of_light(size: DVec3) -> Option<f64> {
     (rounded.is_finite() && rounded > 0.0).then_some(rounded)
 }
 
-/// Start outside a box from where the whole of it is seen, in a picture that is at least as wide as high.
+/// Start outside a box from where the whole of it is seen.
 pub(super) fn framed([least, most]: [DVec3; 2]) -> Start {
     let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
     let flat = half.y < FLAT * half.x.min(half.z);
@@ -113,7 +116,7 @@ pub(super) fn framed([least, most]: [DVec3; 2]) -> Start {
         half * DVec3::new(side(0), side(1), side(2))
     });
     let distance = corners
-        .map(|corner| corner.dot(backward) + corner.dot(right).abs().max(corner.dot(up).abs()) / edge)
+        .map(|corner| corner.dot(backward) + (corner.dot(right).abs() / ASPECT).max(corner.dot(up).abs()) / edge)
         .fold(0.0, f64::max);
     let distance = if distance > 0.0 { distance } else { 1.0 };
     Start {
@@ -149,7 +152,7 @@ mod tests {
                     let towards = middle + half * DVec3::new(side(0), side(1), side(2)) - start.position;
                     let depth = towards.dot(start.look);
                     assert!(depth > 0.0);
-                    let out = (towards.dot(right) / depth).abs().max((towards.dot(up) / depth).abs()) / edge;
+                    let out = (towards.dot(right) / depth / ASPECT).abs().max((towards.dot(up) / depth).abs()) / edge;
                     assert!(out < 0.9, "a corner of {shape} at {out} of the picture's half");
                     filled = filled.max(out);
                 }

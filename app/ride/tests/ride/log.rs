@@ -1,0 +1,103 @@
+//! Law: a log that cannot be written any further says so once when it happens, and again at the end of the ride; and
+//! the memory of a ride is bounded by bytes, not by entries.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use input::recording::Recording;
+use input::{DeskConfig, SECOND, Sample, SampleSource, VehicleKind};
+use ride::{LightSpeed, LogError, RideLog, RideStart, Setup, Simulation, VehicleSettings};
+use scene::OpenPlane;
+
+/// Ride, and its log.
+struct LoggedRide {
+    simulation: Simulation,
+    log: RideLog,
+    frames: u64,
+}
+
+impl LoggedRide {
+    fn new() -> Self {
+        let setup = Setup {
+            light_speed: LightSpeed::OLD_TOWN,
+            kind: VehicleKind::Fly,
+            start: RideStart::at_rest(glam::DVec3::ZERO, glam::DVec3::NEG_Z),
+            vehicle: VehicleSettings::default(),
+            desk: DeskConfig::default(),
+        };
+        let log = RideLog::new(setup.header("0.1.0 (test)", "plane"));
+        Self { simulation: Simulation::new(setup, std::sync::Arc::new(OpenPlane)).unwrap(), log, frames: 0 }
+    }
+
+    /// Rides a frame in which a device says so many bytes.
+    fn frame(&mut self, bytes: usize) -> Result<(), LogError> {
+        let at = self.frames * SECOND / 60;
+        self.frames += 1;
+        let samples = [Sample::bytes(at, SampleSource::Bicycle, vec![b'x'; bytes])];
+        let frame = self.simulation.frame(at, &samples);
+        self.log.frame(&samples, &frame)
+    }
+}
+
+fn frames(path: &Path) -> usize {
+    let entries = Recording::open(path).unwrap();
+    entries.filter(|entry| matches!(entry, Ok(input::recording::RecordingEntry::Frame(_)))).count()
+}
+
+/// A file that is removed while it is written takes the ride with it.
+#[cfg(unix)]
+#[test]
+fn a_removed_file_is_told_when_it_happens_and_at_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ride.mcap");
+    let mut ride = LoggedRide::new();
+    ride.log.record(&path).unwrap();
+    ride.frame(1).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let began = Instant::now();
+    let told = loop {
+        match ride.frame(1) {
+            Ok(()) => assert!(began.elapsed() < Duration::from_secs(20), "nothing was told"),
+            Err(error) => break error.to_string(),
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    };
+    assert!(told.contains("was removed or replaced"), "{told}");
+    // The ride goes on, without another word.
+    assert!(!ride.log.is_recording());
+    ride.frame(1).unwrap();
+
+    // What is remembered can be recorded into another file, and the end tells of the first all the same.
+    let other = folder.path().join("other.mcap");
+    ride.log.record(&other).unwrap();
+    ride.log.stop().unwrap();
+    assert_eq!(frames(&other) as u64, ride.frames);
+    assert!(matches!(ride.log.finish(), Err(LogError::Incomplete { path: told }) if told == path));
+}
+
+#[test]
+fn a_recording_that_is_whole_ends_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ride.mcap");
+    let mut ride = LoggedRide::new();
+    ride.frame(1).unwrap();
+    ride.log.record(&path).unwrap();
+    ride.frame(1).unwrap();
+    ride.log.finish().unwrap();
+    assert_eq!(frames(&path), 2);
+}
+
+/// A device that sends megabytes must not fill the memory: the ride is no longer remembered then.
+#[test]
+fn a_ride_is_remembered_by_its_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ride = LoggedRide::new();
+    (0..40).for_each(|_| ride.frame(4 << 20).unwrap());
+    ride.log.record(&folder.path().join("early.mcap")).unwrap();
+    ride.log.stop().unwrap();
+    (0..40).for_each(|_| ride.frame(4 << 20).unwrap());
+    let refused = ride.log.record(&folder.path().join("late.mcap"));
+    assert!(matches!(refused, Err(LogError::NotRemembered)));
+}
