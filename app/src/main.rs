@@ -29,7 +29,10 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
             limit_threads(options.picture.threads);
             render::render(options)?;
         }
-        Command::Measure(options) => measure::measure(options)?,
+        Command::Measure(options) => {
+            limit_threads(None);
+            measure::measure(options)?;
+        }
         Command::Town(options) => town::town(options)?,
         Command::Probe => return probe::probe(),
         Command::Devices(options) => devices::devices(options)?,
@@ -40,7 +43,14 @@ fn run(command: &Command) -> Result<ExitCode, Error> {
 
 /// Sets the number of threads that transform the scene.
 fn limit_threads(threads: Option<u32>) {
-    if let Some(threads) = threads {
+    /// Largest number of threads that is of use.
+    const MOST: usize = 1024;
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse::<usize>().ok());
+    let excessive = asked.is_some_and(|asked| asked > MOST);
+    if excessive && threads.is_none() {
+        tell(format_args!("RAYON_NUM_THREADS is above {MOST}: {MOST} threads are used"));
+    }
+    if let Some(threads) = threads.or(excessive.then_some(MOST as u32)) {
         // An error means that the pool is already running, which cannot be before the first command.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
     }

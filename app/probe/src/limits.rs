@@ -5,4 +5,4 @@
 pub const LONGEST_LINE: usize = 4 << 20;
 
 /// Largest number of steps of one `worldline` question, all legs together: seconds of computing.
-pub const MOST_STEPS: f64 = 1e8;
+pub const MOST_STEPS: f64 = 1e7;

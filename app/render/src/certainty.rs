@@ -72,10 +72,12 @@ impl Usual {
         self.coordinates.push(coordinate);
     }
 
+    /// Median of both; zeros if no edge is finite.
     fn median(mut self) -> (f64, f64) {
         [&mut self.lengths, &mut self.coordinates].into_iter().for_each(|values| values.sort_by(f64::total_cmp));
         let middle = self.lengths.len() / 2;
-        (self.lengths[middle], self.coordinates[middle])
+        let at = |values: &[f64]| values.get(middle).copied().unwrap_or_default();
+        (at(&self.lengths), at(&self.coordinates))
     }
 }
 

@@ -33,7 +33,11 @@ impl Choice {
     pub fn of(scene: Scene, wanted: Dial, occasion: Occasion) -> Result<Self, RefineError> {
         scene.validate()?;
         let (renderer, why) = renderer(&scene, wanted, occasion);
-        let because = format!("{}: drawn by the {} renderer ({why})", scene.name, renderer.name());
+        let unused = match renderer {
+            RendererName::Image if wanted.edge.is_some() => "; --edge and --transform are for polygon, and not used",
+            _ => "",
+        };
+        let because = format!("{}: drawn by the {} renderer ({why}){unused}", scene.name, renderer.name());
         let dial = Dial { renderer, ..wanted };
         match (renderer, wanted.edge) {
             (RendererName::Polygon, Some(edge_m)) => Ok(Self { scene: refine(&scene, edge_m as f32)?, dial, because }),

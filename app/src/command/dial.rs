@@ -20,7 +20,7 @@ pub struct DialOptions {
     /// cut for every picture, see --tolerance].
     ///
     /// In a scene that names a circuit, edges farther than 4 m from it may be longer in proportion.
-    #[arg(long, value_name = "METRES", value_parser = values::positive, conflicts_with = "tolerance")]
+    #[arg(long, value_name = "METRES", value_parser = values::within(1e-5, 1e9), conflicts_with = "tolerance")]
     pub edge: Option<f64>,
     /// Processor that bends the vertices after --edge: cpu, in parallel with drawing, or gpu, in its vertex stage,
     /// except for vertices astern. gpu needs --edge.

@@ -123,7 +123,8 @@ impl RideOptions {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "Vehicle")]
 pub struct VehicleOptions {
-    /// Vehicle that carries the observer [default: bicycle; fly in a scene without a floor to ride on].
+    /// Vehicle that carries the observer [default: bicycle; in a model without a start of its own drive, or fly where
+    /// there is no floor].
     #[arg(long, value_enum)]
     pub vehicle: Option<VehicleName>,
     /// Method of integrating the worldline.
@@ -132,8 +133,8 @@ pub struct VehicleOptions {
     /// Turning of the nose of a driven or flown vehicle.
     #[arg(long, value_enum, default_value = "facing")]
     pub transport: Nose,
-    /// Seconds of the rider's own time per second of real time.
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::positive)]
+    /// Seconds of the rider's own time per second of real time, up to 16.
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::within(1e-6, 16.0))]
     pub time_scale: f64,
 }
 

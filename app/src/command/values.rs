@@ -17,6 +17,9 @@ pub enum ValueError {
     /// A text that is no vector.
     #[error("expected three finite numbers with commas between them, as in -3,1.6,0")]
     Vector,
+    /// A vector whose square no number holds.
+    #[error("expected numbers up to 1e100")]
+    Farthest,
     /// A direction of length zero.
     #[error("expected a direction, which must not be 0,0,0")]
     Direction,
@@ -65,6 +68,9 @@ pub enum ValueError {
     #[error("expected bicycle, drive or fly")]
     Vehicle,
 }
+
+/// Largest coordinate: the square of a longer way overflows.
+const FARTHEST: f64 = 1e100;
 
 /// Largest side of a picture, pixels: that of a graphics device's texture.
 const MAXIMAL_SIZE: u32 = 16_384;
@@ -159,7 +165,8 @@ pub(super) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 
 /// Vector of three finite numbers.
 pub(super) fn vector(text: &str) -> Result<DVec3, ValueError> {
-    numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)
+    let vector = numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)?;
+    if vector.abs().max_element() <= FARTHEST { Ok(vector) } else { Err(ValueError::Farthest) }
 }
 
 /// Unit vector along a vector of any length but zero.

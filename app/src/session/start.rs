@@ -124,7 +124,12 @@ fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
 
 fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Result<Setup, Error> {
     let start = &world.scene.start;
-    let usual = if start.is_on_ground() { VehicleName::Bicycle } else { VehicleName::Fly };
+    // A bicycle belongs to scenes made for it; other places are to show something within seconds.
+    let usual = match (start.is_on_ground(), world.scene.speed_of_light_m_s) {
+        (true, None) => VehicleName::Bicycle,
+        (true, Some(_)) => VehicleName::Drive,
+        (false, _) => VehicleName::Fly,
+    };
     let kind = match options.vehicle.vehicle.unwrap_or(usual) {
         VehicleName::Bicycle => VehicleKind::Bicycle,
         VehicleName::Drive => VehicleKind::Drive,

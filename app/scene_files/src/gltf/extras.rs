@@ -14,6 +14,9 @@ use scene::{Lighting, Start};
 /// scene which is saved and loaded stays the same to the bit; beyond it the vector is normalised.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
+/// Largest coordinate of a start, metres: the square of a longer way overflows.
+const FARTHEST_M: f64 = 1e100;
+
 /// Name, without its leading underscore, of the vertex attribute for colours above 1, which glTF's own must clamp.
 pub(crate) const COLOURS: &str = "RAPIDITY_COLOR";
 
@@ -149,6 +152,9 @@ impl StartJson {
             return Err(format!("start.fieldOfView: expected degrees from 1 to 170, not {fov}"));
         }
         let position = DVec3::from_array(self.position);
+        if position.abs().max_element() > FARTHEST_M {
+            return Err(format!("start.position: expected numbers up to {FARTHEST_M:e}"));
+        }
         let field_of_view_rad = self.field_of_view.map(f64::to_radians);
         Ok(Start { position, look, up: up.unwrap_or(usual.up), eye_height_m, field_of_view_rad })
     }
@@ -252,8 +258,8 @@ impl SceneExtras {
         let json: SceneJson = read(extras)?;
         let mut light = json.light.unwrap_or_default();
         let colours = [light.sun, light.sky, light.ground, light.zenith, light.horizon];
-        if !colours.into_iter().flatten().flatten().all(f32::is_finite) {
-            return Err("a colour of light is beyond all numbers".to_owned());
+        if !colours.into_iter().flatten().flatten().all(|channel| channel.is_finite() && channel >= 0.0) {
+            return Err("a colour of light is negative or beyond all numbers".to_owned());
         }
         if let Some(direction) = &mut light.sun_direction {
             *direction = unit(direction.map(f64::from), "light.sunDirection")?.as_vec3().to_array();

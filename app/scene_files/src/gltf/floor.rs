@@ -41,7 +41,7 @@ pub(super) fn start(scene: &Scene, [least, most]: [DVec3; 2]) -> Option<Start> {
         return None;
     }
 
-    // Stand before the middle of each side, a little inside, or in the middle, and look across.
+    // Stand before the middle of each side, a little inside, and look across; or in the middle, if that is a room.
     let middle = (0.5 * (least + most)).with_y(height);
     let half = 0.5 * size * 0.96;
     let [z, x] = [DVec3::Z * half.z, DVec3::X * half.x];
@@ -50,22 +50,21 @@ pub(super) fn start(scene: &Scene, [least, most]: [DVec3; 2]) -> Option<Start> {
     let along = if size.x > size.z { aside } else { ahead };
     let inside = [(DVec3::ZERO, along), (DVec3::ZERO, -along)];
     let shapes: Vec<&Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
-    let mut best: Option<(usize, Start)> = None;
-    for (offset, look) in places.into_iter().chain(inside) {
-        let position = middle + offset;
-        let eye = position + DVec3::Y * EYE_HEIGHT_M - scene.origin;
-        let below = nearest(&shapes, eye, DVec3::NEG_Y).filter(|distance| *distance < 1.5 * EYE_HEIGHT_M);
-        let right = look.cross(DVec3::Y);
-        let rays = DIRECTIONS.map(|aside| (look + aside * right).normalize());
-        let met: Vec<f64> = rays.iter().filter_map(|ray| nearest(&shapes, eye, *ray)).collect();
-        if below.is_none() || met.iter().any(|distance| *distance < FREE_M) {
-            continue;
-        }
-        if best.as_ref().is_none_or(|(most, _)| met.len() > *most) {
-            best = Some((met.len(), Start { position, look, ..Start::default() }));
-        }
-    }
-    best.filter(|(seen, _)| *seen > 0).map(|(_, start)| start)
+    let best = |places: &[(DVec3, DVec3)]| {
+        let seen = places.iter().filter_map(|&(offset, look)| {
+            let position = middle + offset;
+            let eye = position + DVec3::Y * EYE_HEIGHT_M - scene.origin;
+            let below = nearest(&shapes, eye, DVec3::NEG_Y).filter(|distance| *distance < 1.5 * EYE_HEIGHT_M);
+            let right = look.cross(DVec3::Y);
+            let rays = DIRECTIONS.map(|aside| (look + aside * right).normalize());
+            let met: Vec<f64> = rays.iter().filter_map(|ray| nearest(&shapes, eye, *ray)).collect();
+            let free = below.is_some() && !met.is_empty() && met.iter().all(|distance| *distance >= FREE_M);
+            free.then_some((met.len(), Start { position, look, ..Start::default() }))
+        });
+        // Of places that see the same, the first.
+        seen.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, start)| start)
+    };
+    best(&places).or_else(|| best(&inside))
 }
 
 /// Height of the floor in the file's frame, metres: the mean of what faces up at the bottom of the box, if that covers

@@ -4,6 +4,7 @@ mod animation;
 mod export;
 mod gltf;
 mod gltf_broken;
+mod kinds;
 mod spectra;
 mod support;
 mod town_file;
