@@ -23,7 +23,7 @@ impl LoggedRide {
         let setup = Setup {
             light_speed: LightSpeed::OLD_TOWN,
             kind: VehicleKind::Fly,
-            start: RideStart::at_rest(glam::DVec3::ZERO, glam::DVec3::NEG_Z),
+            start: RideStart::at_rest(glam::DVec3::ZERO, glam::DVec3::NEG_Z, glam::DVec3::Y),
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         };
