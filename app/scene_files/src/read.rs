@@ -2,6 +2,7 @@
 
 use crate::gltf::{self, GltfError};
 use crate::panorama::{self, PanoramaError};
+use regular_file::Budget;
 use scene::Scene;
 use std::path::Path;
 
@@ -16,10 +17,11 @@ pub enum SceneReadError {
     Panorama(#[from] PanoramaError),
 }
 
-/// Reads a scene from a file: a picture all around, by the ending of its name, or glTF.
+/// Reads a scene from a file: a picture all around, by the ending of its name, or glTF. What it holds in memory is
+/// taken from the budget.
 ///
 /// # Errors
 /// [`SceneReadError`], with the fault and its place.
-pub fn read(path: &Path, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, SceneReadError> {
-    if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, progress)?) }
+pub fn read(path: &Path, budget: &Budget, progress: impl Fn(gltf::Progress) + Sync) -> Result<Scene, SceneReadError> {
+    if panorama::is_picture(path) { Ok(panorama::load(path, budget)?) } else { Ok(gltf::load(path, progress)?) }
 }

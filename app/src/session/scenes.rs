@@ -4,6 +4,7 @@ use crate::command::SceneChoice;
 use crate::output::progress;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
+use regular_file::Budget;
 use scene::{Scene, TooFast};
 use scene_files::gltf::LoadStage;
 use scene_files::read;
@@ -43,7 +44,7 @@ pub fn load(choice: &SceneChoice, speed_of_light_m_s: f64) -> Result<Scene, Scen
         SceneChoice::Lattice => Ok(Lattice::default().build()),
         SceneChoice::File(path) => {
             let bar = progress::bar(path.display().to_string(), 0);
-            let mut scene = read(path, |progress| {
+            let mut scene = read(path, &Budget::default(), |progress| {
                 let stage = match progress.stage {
                     LoadStage::Pictures => "pictures",
                     LoadStage::Meshes => "meshes",

@@ -39,6 +39,7 @@ const PLAN: [(&str, &[&str]); 17] = [
             "measure",
             "physics",
             "probe",
+            "regular_file",
             "render",
             "ride",
             "room",

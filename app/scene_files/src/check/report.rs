@@ -8,7 +8,9 @@ use glam::DVec3;
 use super::descriptions::{moving, spectra};
 use super::survey::Survey;
 use super::warnings::warnings;
+use crate::panorama;
 use crate::read::{SceneReadError, read};
+use regular_file::Budget;
 use scene::collision::Collision;
 use scene::{Scene, SceneFault};
 
@@ -46,6 +48,8 @@ pub struct Report {
     pub white: Option<f64>,
     /// Width and height of the panorama, in pixels, if there is one.
     pub panorama: Option<[u32; 2]>,
+    /// Kind of the picture and its layout, if the file is a picture.
+    pub picture: Option<String>,
     /// Motions, one line each: the moving body, its motion and its largest speed.
     pub moving: Vec<String>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` if there are none.
@@ -63,7 +67,12 @@ pub struct Report {
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
 pub fn check(path: &Path) -> Result<Report, CheckError> {
-    Ok(Report::new(&read(path, |_| {})?)?)
+    let budget = Budget::default();
+    if panorama::is_picture(path) {
+        let (scene, picture) = panorama::load_described(path, &budget).map_err(SceneReadError::from)?;
+        return Ok(Report { picture: Some(picture), ..Report::new(&scene)? });
+    }
+    Ok(Report::new(&read(path, &budget, |_| {})?)?)
 }
 
 impl Report {
@@ -86,6 +95,7 @@ impl Report {
             spectra: spectra(scene),
             white: scene.white,
             panorama: scene.panorama.as_ref().map(|panorama| [panorama.width, panorama.height]),
+            picture: None,
             moving: moving(scene),
             bounds,
             longest_edge: survey.longest_edge,
@@ -106,6 +116,9 @@ impl fmt::Display for Report {
         }
         if let Some(white) = self.white {
             writeln!(f, "white       {white} cd/m²")?;
+        }
+        if let Some(picture) = &self.picture {
+            writeln!(f, "picture     {picture}")?;
         }
         if let Some([width, height]) = self.panorama {
             writeln!(f, "panorama    {width} × {height} pixels")?;

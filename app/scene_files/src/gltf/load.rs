@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+use regular_file::Budget;
 use scene::collision::ground_below;
 use scene::motion::Motion;
 use scene::{Alpha, MAX_TRIANGLES, Mesh, Panorama, Scene, Start};
@@ -162,7 +163,9 @@ fn around(
         (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
         (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
     };
-    Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
+    let read = panorama::decode(&bytes, &path, &Budget::default())?;
+    read.notices.into_iter().for_each(|notice| notices.add(notice));
+    Ok(Some(read.panorama))
 }
 
 /// Primitive of a mesh, placed at a node.

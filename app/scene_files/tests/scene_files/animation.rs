@@ -59,7 +59,8 @@ fn read(file: &GltfUnderTest, speed_of_light: f64) -> Result<Scene, String> {
     let folder = tempfile::TempDir::new().unwrap();
     let path = folder.path().join("scene.glb");
     std::fs::write(&path, file.glb()).unwrap();
-    let mut scene = scene_files::read(&path, |_| {}).map_err(|error| error.to_string())?;
+    let mut scene =
+        scene_files::read(&path, &regular_file::Budget::default(), |_| {}).map_err(|error| error.to_string())?;
     scene.set_speed_of_light(speed_of_light).map_err(|error| error.to_string())?;
     Ok(scene)
 }

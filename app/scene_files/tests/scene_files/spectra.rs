@@ -12,10 +12,11 @@ use crate::support::{GltfUnderTest, png, write};
 use built_in::spectra;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
+use regular_file::Budget;
 use scene::Surroundings;
 use scene::collision::Collision;
 use scene::refine::refine;
-use scene::{Lighting, Material, Scene};
+use scene::{Lighting, Material, Panorama, Scene};
 use scene_files::check::{Report, check};
 use scene_files::export::write_glb;
 use scene_files::gltf::{GltfError, load};
@@ -300,7 +301,7 @@ fn a_panorama_beside_the_scene_surrounds_it() {
     let mut file = GltfUnderTest::triangle();
     ours(&mut file, json!({ "panorama": "sky.png" }));
     let scene = load(&write(&folder, "scene.glb", &file.glb()), |_| {}).unwrap();
-    assert_eq!(scene.panorama.unwrap().rgb, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(scene.panorama.unwrap(), Panorama::new(2, 1, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
 
     let mut refused = |panorama: Value, words: &str| {
         ours(&mut file, json!({ "panorama": panorama }));
@@ -322,7 +323,7 @@ fn a_picture_is_a_good_scene_and_so_is_an_empty_one_to_ride_in() {
     assert_eq!((report.panorama, report.triangles), (Some([2, 1]), 0));
     assert!(report.warnings.is_empty() && report.notices.is_empty(), "{report}");
     assert!(report.to_string().contains("panorama    2 × 1 pixels"), "{report}");
-    let scene = read(&path, |_| {}).unwrap();
+    let scene = read(&path, &Budget::default(), |_| {}).unwrap();
     assert_eq!((scene.start.position, scene.start.look, scene.name.as_str()), (DVec3::ZERO, DVec3::NEG_Z, "sky"));
     assert_eq!(refine(&scene, 0.5).unwrap(), scene);
     let collision = Collision::new(&scene).unwrap();
