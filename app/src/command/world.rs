@@ -49,7 +49,7 @@ impl SceneChoice {
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
     /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
-    /// .hdr, .exr).
+    /// .webp, .tif, .hdr, .exr).
     #[arg(long, value_name = "SCENE", default_value = "town", value_parser = scene())]
     pub scene: SceneChoice,
     /// Speed of light, as a number and a unit: m/s (the internal unit), km/h, mph, km/s or c (299792458 m/s).

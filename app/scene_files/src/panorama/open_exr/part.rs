@@ -1,6 +1,7 @@
 //! Part of a file, and its channels, that make a panorama.
 
 use exr::math::Vec2;
+use exr::meta::MetaData;
 use exr::meta::attribute::{ChannelDescription, SampleType};
 use exr::meta::header::Header;
 
@@ -40,8 +41,11 @@ impl ColourChannels {
 ///
 /// # Errors
 /// A fault that says what the file has instead.
-pub(super) fn drawn_part(headers: &[Header]) -> Result<DrawnPart, String> {
-    let flat = || headers.iter().enumerate().filter(|(_, header)| !header.deep);
+pub(super) fn drawn_part(meta: &MetaData) -> Result<DrawnPart, String> {
+    let headers = meta.headers.as_slice();
+    // A file of one part says that it is deep at its beginning, and need not say so in its header.
+    let all_deep = meta.requirements.has_deep_data && !meta.requirements.has_multiple_layers;
+    let flat = || headers.iter().enumerate().filter(|(_, header)| !all_deep && !header.deep);
     if flat().next().is_none() {
         return Err("it is deep data, with many samples in a pixel; flatten it".into());
     }

@@ -37,7 +37,7 @@ pub(in super::super) fn read(
     // Read the headers, and choose a part.
     let mut cursor = Cursor::new(bytes);
     let meta = MetaData::read_from_buffered(&mut cursor, false).map_err(|error| intake.damaged(error))?;
-    let drawn = drawn_part(&meta.headers).map_err(|fault| intake.damaged(fault))?;
+    let drawn = drawn_part(&meta).map_err(|fault| intake.damaged(fault))?;
     let header = &meta.headers[drawn.index];
     let many_parts = meta.requirements.has_multiple_layers;
     check_resolutions(header).map_err(|fault| intake.damaged(fault))?;
