@@ -126,10 +126,10 @@ impl Linearized {
         let places = if channels < 3 { [0; 3] } else { [0, 1, 2] };
         let bytes_per_number = bytes_per_pixel / channels;
         for (pixel, bytes) in line.iter_mut().zip(row.chunks_exact(bytes_per_pixel)) {
-            *pixel = places.map(|channel| match &bytes[channel * bytes_per_number..][..bytes_per_number] {
-                &[code] => self.of_code[usize::from(code)],
-                &[low, high] => self.of_code[usize::from(u16::from_ne_bytes([low, high]))],
-                &[a, b, c, d] => f32::from_ne_bytes([a, b, c, d]),
+            *pixel = places.map(|channel| match bytes[channel * bytes_per_number..][..bytes_per_number] {
+                [code] => self.of_code[usize::from(code)],
+                [low, high] => self.of_code[usize::from(u16::from_ne_bytes([low, high]))],
+                [a, b, c, d] => f32::from_ne_bytes([a, b, c, d]),
                 _ => 0.0,
             });
         }
