@@ -24,10 +24,10 @@ impl PixelSample {
 
 /// Offset of sample `index` of `count` from the centre of its pixel, pixels, in −½…½.
 ///
-/// *Equation:* a lattice of N = `count` + 1 points without its origin, x = ib mod N and y = xa mod N, a being close to N
-/// over the golden ratio. Every column and every row of `count` has one sample, and with each place its mirror image
-/// in the centre is one: the mean place is the centre, so no number of samples shifts a picture. The step b, close to N
-/// over the plastic number, keeps neighbours in the order of the samples apart. A single sample is at the centre.
+/// *Equation:* a lattice of N = `count` + 1 points without its origin, x = ib mod N and y = xa mod N, a being close to
+/// N over the golden ratio. Every column and every row of `count` has one sample, and with each place its mirror image
+/// in the centre is one: the mean place is the centre, so no number of samples shifts a picture. The step b, close to
+/// N over the plastic number, keeps neighbours in the order of the samples apart. A single sample is at the centre.
 pub fn sample_offset(index: u32, count: u32) -> DVec2 {
     const GOLDEN: f64 = 1.618_033_988_749_895;
     const PLASTIC: f64 = 1.324_717_957_244_746;
