@@ -155,7 +155,7 @@ impl<'gpu> Bench<'gpu> {
     fn draw(&mut self, effects: Effects) -> Result<(), GpuError> {
         let shot = Shot { camera: self.camera, observer: self.observer, effects, stored_scale: None };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, glam::DVec2::ZERO);
+        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, view::PixelSample::WHOLE);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait()
     }

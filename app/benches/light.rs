@@ -10,7 +10,7 @@
 mod support;
 
 use built_in::town;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use physics::{Beta, Celerity, Event, Observer};
 use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance, texture};
@@ -20,7 +20,7 @@ use scene::refine::refine;
 use std::error::Error;
 use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor, quantile};
-use view::{Camera, Dial, EYE_HEIGHT_M, Effects, Occasion, Shot};
+use view::{Camera, Dial, EYE_HEIGHT_M, Effects, Occasion, PixelSample, Shot};
 
 /// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 720];
@@ -154,7 +154,7 @@ impl<'gpu> Stage<'gpu> {
         let shot = Shot { camera, observer, effects, stored_scale: None };
         self.renderer.prepare(self.gpu, &shot, SIZE);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, DVec2::ZERO);
+        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, PixelSample::WHOLE);
         self.gpu.queue.submit([encoder.finish()]);
 
         // Show the frame on the screen.

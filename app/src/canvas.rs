@@ -204,7 +204,7 @@ impl FlatPicture {
         let transformed = renderer.show(gpu, pending)?;
         renderer.prepare(gpu, shot, self.radiance.size);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        renderer.draw(gpu, &mut encoder, &self.radiance, shot, glam::DVec2::ZERO);
+        renderer.draw(gpu, &mut encoder, &self.radiance, shot, view::PixelSample::WHOLE);
         gpu.queue.submit([encoder.finish()]);
         self.stored = renderer.stored(shot);
         Ok(DrawnChannels {

@@ -22,7 +22,8 @@ pub struct ViewUniforms {
     /// x = κ that shifts light, geometry on or off; y = factor of radiance; z = 2 over the width, w = 2 over the
     /// height in pixels.
     pub shift: Vec4,
-    /// x = carrier whose weights are kept, when the map is drawn; yzw unused.
+    /// x = carrier whose weights are kept, when the map is drawn; y = width of what a sample stands for, pixels; zw
+    /// unused.
     pub layer: Vec4,
     /// Motion of a moving object when geometry is off: unit vector along it, world axes, and w = κ; w = 1 for an
     /// object at rest, and when geometry is on.

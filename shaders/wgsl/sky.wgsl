@@ -75,9 +75,9 @@ fn fragment(in: Pixel) -> @location(0) vec4<f32> {
     var carrier = 0.0;
     if (!BACKGROUND) {
         if (PANORAMA) {
-            // The neighbouring pixels' directions, at unit distance along the view's middle.
-            let step_right = view.shift.z * view.right.xyz;
-            let step_down = -view.shift.w * view.up.xyz;
+            // The directions of the neighbouring samples, at unit distance along the view's middle.
+            let step_right = view.layer.y * view.shift.z * view.right.xyz;
+            let step_down = -view.layer.y * view.shift.w * view.up.xyz;
             let middle = view.forward.xyz + in.place.x * view.right.xyz + in.place.y * view.up.xyz;
             let right = world_from_observer(normalize(middle + step_right), view.motion).direction;
             let down = world_from_observer(normalize(middle + step_down), view.motion).direction;

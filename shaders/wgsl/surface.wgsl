@@ -129,10 +129,13 @@ fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -
 
 // Radiance, weights or position that a fragment shows.
 fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
-    let base = material.base_colour * in.colour * textureSample(base_colour_texture, base_colour_sampler, in.uv.xy);
+    // A sample stands for a part of its pixel only.
+    let level = log2(view.layer.y);
+    let texel = textureSampleBias(base_colour_texture, base_colour_sampler, in.uv.xy, level);
+    let base = material.base_colour * in.colour * texel;
     var emitted = vec3(0.0);
     if (EMISSIVE) {
-        emitted = material.emissive.rgb * textureSample(emissive_texture, emissive_sampler, in.uv.zw).rgb;
+        emitted = material.emissive.rgb * textureSampleBias(emissive_texture, emissive_sampler, in.uv.zw, level).rgb;
     }
     // A shader that may discard is run for hidden fragments as well: only masked materials do.
     if (MASKED && base.a < material.emissive.w) {

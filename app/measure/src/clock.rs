@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use render::target::Radiance;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
-use view::{Shot, sample_offset};
+use view::{PixelSample, Shot};
 
 /// Times of one picture's stages, milliseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,7 +89,7 @@ fn picture(
     }
     for sample in 0..samples {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        renderer.draw(gpu, &mut encoder, radiance, shot, sample_offset(sample, samples));
+        renderer.draw(gpu, &mut encoder, radiance, shot, PixelSample::of(sample, samples));
         gpu.queue.submit([encoder.finish()]);
     }
     gpu.wait()?;

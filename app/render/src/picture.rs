@@ -10,7 +10,7 @@ use crate::textures::view_from_rows;
 use glam::{DVec3, Vec3};
 use half::f16;
 use image::{Rgb32FImage, RgbaImage};
-use view::{Shot, Stored, sample_offset};
+use view::{PixelSample, Shot, Stored};
 
 /// Texture format in which a picture is stored.
 pub const SCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -271,7 +271,7 @@ impl Studio {
         self.sum.restart();
         for sample in 0..samples {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample_offset(sample, samples));
+            renderer.draw(gpu, &mut encoder, &self.radiance, shot, PixelSample::of(sample, samples));
             if samples > 1 {
                 self.darkroom.developer.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), samples);
             }

@@ -12,14 +12,14 @@ use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
 use crate::world::World;
-use glam::{DMat4, DVec2, Vec4};
+use glam::{DMat4, Vec4};
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
 use scene::cut::SeenFrom;
 use scene::motion::Motion;
 use std::time::Duration;
-use view::{Dial, Effects, Occasion, RendererName, Shot, Stored, Transform};
+use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Stored, Transform};
 
 /// Texels of the map per pixel, along each axis, if the dial does not say.
 const USUAL_MAP_SCALE: f64 = 1.0;
@@ -179,19 +179,19 @@ impl SceneRenderer {
         }
     }
 
-    /// Draws one sample of a picture, at `offset` pixels from each pixel's centre. One submission has room for one.
+    /// Draws one sample of a picture. One submission has room for one.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &Radiance,
         shot: &Shot,
-        offset: DVec2,
+        sample: PixelSample,
     ) {
         let bent = shot.effects.geometry && self.method.is_ready();
         let observer = &shot.observer;
         let resting =
-            shader_view(&shot.camera, target.size, offset, observer.celerity, shot.effects.geometry, shot.scale());
+            shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.geometry, shot.scale());
 
         // There is a view for the resting scene, then one for each motion; places say which it is.
         let mut views = vec![resting];
@@ -201,7 +201,7 @@ impl SceneRenderer {
             } else {
                 moving_objects::plain_view(&resting, motion, observer, self.world.origin)
             };
-            views.push(shaders::ViewUniforms { layer: Vec4::X * (1 + number) as f32, ..view });
+            views.push(shaders::ViewUniforms { layer: resting.layer + Vec4::X * (1 + number) as f32, ..view });
         }
         if !bent {
             // Positions of the plain world are relative to its origin, not to the eye.

@@ -1,8 +1,8 @@
 //! Conversion of a camera for the shaders: projection, the directions of pixels, motion.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec4};
 use physics::Celerity;
-use view::Camera;
+use view::{Camera, PixelSample};
 
 /// Distance in front of the eye, at rest, within which nothing is drawn, metres. Reversed depth has the same relative
 /// precision whatever it is, so it is small enough for jewels.
@@ -12,14 +12,14 @@ pub const NEAR_M: f64 = 1e-5;
 ///
 /// # Arguments
 /// * `size` — pixels.
-/// * `offset` — place of the sampled point from each pixel's centre, pixels, x right and y down.
+/// * `sample` — place within each pixel, and the part of the pixel that it stands for.
 /// * `motion` — the eye's celerity.
 /// * `geometry` — true if the eye's aberration is drawn.
 /// * `scale` — factor of radiance, so that the target can hold it.
 pub fn shader_view(
     camera: &Camera,
     size: [u32; 2],
-    offset: DVec2,
+    sample: PixelSample,
     motion: Celerity,
     geometry: bool,
     scale: f64,
@@ -39,7 +39,7 @@ pub fn shader_view(
         DVec4::new(middle.x / half.x, middle.y / half.y, 0.0, -1.0),
         DVec4::new(0.0, 0.0, near, 0.0),
     );
-    let shift = DVec3::new(-2.0 * offset.x / width, 2.0 * offset.y / height, 0.0);
+    let shift = DVec3::new(-2.0 * sample.offset.x / width, 2.0 * sample.offset.y / height, 0.0);
     let clip_from_observer =
         DMat4::from_translation(shift) * projection * DMat4::from_quat(camera.observer_from_eye.conjugate());
 
@@ -55,7 +55,7 @@ pub fn shader_view(
         up: up.as_vec3().extend(0.0),
         motion: along.as_vec3().extend(kappa as f32),
         shift: DVec4::new(kappa_of_light, scale, 2.0 / width, 2.0 / height).as_vec4(),
-        layer: Vec4::ZERO,
+        layer: Vec4::new(0.0, sample.width as f32, 0.0, 0.0),
         source: Vec4::new(0.0, 0.0, -1.0, 1.0),
         eye: Vec4::ZERO,
         eye_rest: Vec4::ZERO,

@@ -38,17 +38,3 @@ impl Default for Lighting {
         }
     }
 }
-
-/// Panorama: a picture of all directions, infinitely far away, in the world frame.
-///
-/// The projection is equirectangular: the first row is straight up, the last straight down. Columns go once round to
-/// the right; the middle one is −z.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Panorama {
-    /// Width, pixels.
-    pub width: u32,
-    /// Height, pixels.
-    pub height: u32,
-    /// Radiances of the pixels, `width * height`, linear sRGB, on the scale where white is 1.
-    pub rgb: Vec<[f32; 3]>,
-}

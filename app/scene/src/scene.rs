@@ -1,10 +1,11 @@
 //! A scene: geometry, materials, light, and a place to start from, as plain data.
 
 use crate::lamp::Lamp;
-use crate::lighting::{Lighting, Panorama};
+use crate::lighting::Lighting;
 use crate::material::{Material, Texture};
 use crate::mesh::Mesh;
 use crate::motion::Motion;
+use crate::panorama::Panorama;
 use glam::DVec3;
 use physics::colour::Spectrum;
 

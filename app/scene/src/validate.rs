@@ -1,10 +1,10 @@
 //! Check of the promises of a scene's types: array lengths, indices, and values that have a range.
 
 use crate::lamp::Lamp;
-use crate::lighting::Panorama;
 use crate::material::{Material, Texture};
 use crate::mesh::Mesh;
 use crate::motion::{Motion, Uniform};
+use crate::panorama::Panorama;
 use crate::scene::{MAX_SPECTRA, Scene};
 use physics::colour::Spectrum;
 

@@ -16,7 +16,8 @@ pub enum SceneReadError {
     Panorama(#[from] PanoramaError),
 }
 
-/// Reads a scene from a file: a picture all around, by the ending of its name, or glTF.
+/// Reads a scene from a file: a picture all around, by the ending of its name, or glTF. What it holds in memory is
+/// taken from the budget.
 ///
 /// # Errors
 /// [`SceneReadError`], with the fault and its place.
@@ -25,5 +26,9 @@ pub fn read(
     rules: ReadRules<'_>,
     progress: impl Fn(gltf::Progress) + Sync,
 ) -> Result<Scene, SceneReadError> {
-    if panorama::is_picture(path) { Ok(panorama::load(path)?) } else { Ok(gltf::load(path, rules, progress)?) }
+    if panorama::is_picture(path) {
+        Ok(panorama::load(path, rules.budget)?)
+    } else {
+        Ok(gltf::load(path, rules, progress)?)
+    }
 }

@@ -50,7 +50,7 @@ impl SceneChoice {
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
     /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
-    /// .hdr, .exr).
+    /// .webp, .tif, .hdr, .exr).
     ///
     /// [default: town, or the scene of the recording]
     #[arg(long, value_name = "SCENE", value_parser = scene())]

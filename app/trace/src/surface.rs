@@ -239,7 +239,7 @@ fn surrounding(panorama: &Panorama, direction: DVec3) -> DVec3 {
     mixed(x, y, |x, y| {
         let column = wrapped(x, panorama.width, Wrap::Repeat);
         let row = wrapped(y, panorama.height, Wrap::Clamp);
-        rgb(panorama.rgb[row * panorama.width as usize + column])
+        rgb(panorama.pixel(column, row))
     })
 }
 

@@ -11,5 +11,5 @@ mod shot;
 pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
 pub use effects::{Effects, EffectsError};
-pub use sampling::sample_offset;
+pub use sampling::{PixelSample, sample_offset};
 pub use shot::{EYE_HEIGHT_M, Gaze, Shot, Stored};

@@ -11,7 +11,7 @@ use render::display::{Accumulator, Developer, Pass, clear};
 use render::target::Radiance;
 use render::{Gpu, SceneRenderer};
 use room::{Channel, Display, EyeBehind, frustum};
-use view::{Camera, Effects, Field, Shot, Stored, Tangents, sample_offset};
+use view::{Camera, Effects, Field, PixelSample, Shot, Stored, Tangents};
 
 /// Side of the square of pixels that share one computed gain, pixels.
 const COARSER_GAINS: u32 = 4;
@@ -139,11 +139,14 @@ impl ChannelPicture {
         }
         let submit = |encoder: wgpu::CommandEncoder| gpu.queue.submit([encoder.finish()]);
         for sample in 0..quality.samples {
-            let offset = sample_offset(sample, quality.samples);
-            let (targets, offset): (Vec<_>, _) = match &self.target {
-                PictureTarget::Flat(target) => (vec![&**target], offset),
+            let place = PixelSample::of(sample, quality.samples);
+            let (targets, place): (Vec<_>, _) = match &self.target {
+                PictureTarget::Flat(target) => (vec![&**target], place),
                 PictureTarget::Curved(curved) => {
-                    (curved.facets.iter().map(|(_, target)| target).collect(), offset * quality.density)
+                    // A pixel of the screen has several of a facet.
+                    let width = (place.width * quality.density).min(1.0);
+                    let place = PixelSample { offset: place.offset * quality.density, width };
+                    (curved.facets.iter().map(|(_, target)| target).collect(), place)
                 }
             };
             for (target, (shot, size)) in targets.into_iter().zip(shots) {
@@ -152,7 +155,7 @@ impl ChannelPicture {
                     renderer.prepare_picture(gpu, shot, *size);
                 }
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                renderer.draw(gpu, &mut encoder, target, shot, offset);
+                renderer.draw(gpu, &mut encoder, target, shot, place);
                 submit(encoder);
             }
             if let PictureTarget::Curved(curved) = &self.target {

@@ -40,6 +40,7 @@ const PLAN: [(&str, &[&str]); 18] = [
             "measure",
             "physics",
             "probe",
+            "regular_file",
             "render",
             "ride",
             "room",

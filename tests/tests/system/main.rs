@@ -8,6 +8,7 @@ mod camera;
 mod colour;
 mod directions;
 mod display;
+mod footprints;
 mod house;
 mod lamps;
 mod lattice_pixels;

@@ -295,9 +295,9 @@ fn a_panorama_is_behind_everything_as_the_others_draw_it() {
         let (x, y) = (x as f32 / width as f32, y as f32 / height as f32);
         [0.3 + 0.2 * (x * std::f32::consts::TAU).sin(), 0.2 + 0.5 * y, 0.4]
     };
-    let rgb = (0..height).flat_map(|y| (0..width).map(move |x| colour(x, y))).collect();
+    let rgb = (0..height).flat_map(|y| (0..width).map(move |x| colour(x, y)));
     let mut scene = sheets([sheet(-6.0, 0.5, [0.1, 0.2, 0.4, 1.0], Alpha::Opaque)]);
-    scene.panorama = Some(Panorama { width, height, rgb });
+    scene.panorama = Some(Panorama::new(width, height, rgb));
     hold(&scene, DVec3::ZERO, DVec3::new(0.2, 0.1, -1.0), 0.02, [0.98, 0.98]);
 }
 

@@ -239,7 +239,7 @@ impl Placed {
             up: (half.y * up).as_vec3().extend(0.0),
             motion: forward.as_vec3().extend(1.0),
             shift: Vec4::new(1.0, 1.0, pixel.x, pixel.y),
-            layer: Vec4::ZERO,
+            layer: Vec4::Y,
             source: Vec4::new(0.0, 0.0, -1.0, 1.0),
             eye: Vec4::ZERO,
             eye_rest: Vec4::ZERO,

@@ -119,7 +119,7 @@ impl MapRenderer {
         let views: Vec<_> =
             plan.placed.iter().map(|pane| pane.view(&picture_map.cube_from_world, from_eye, NEAR_M)).collect();
         let of_layer = |layer: u32| {
-            let layer = Vec4::new(layer as f32, 0.0, 0.0, 0.0);
+            let layer = Vec4::new(layer as f32, 1.0, 0.0, 0.0);
             views.iter().map(move |(view, _)| shaders::ViewUniforms { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());

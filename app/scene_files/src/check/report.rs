@@ -9,6 +9,7 @@ use super::descriptions::{first_view, moving, spectra};
 use super::survey::Survey;
 use super::warnings::warnings;
 use crate::gltf::ReadRules;
+use crate::panorama;
 use crate::read::{SceneReadError, read};
 use serde_json::{Value, json};
 
@@ -55,6 +56,8 @@ pub struct Report {
     pub cameras: Vec<String>,
     /// Speed of light that suits the scene, m/s, if it is of no particular one.
     pub speed_of_light_m_s: Option<f64>,
+    /// Kind of the picture and its layout, if the file is a picture.
+    pub picture: Option<String>,
     /// Motions, one line each: the moving body, its motion and its largest speed.
     pub moving: Vec<String>,
     /// Least and greatest corner of the box round all finite vertices, world metres; `None` if there are none.
@@ -72,6 +75,10 @@ pub struct Report {
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
 pub fn check(path: &Path, rules: ReadRules<'_>) -> Result<Report, CheckError> {
+    if panorama::is_picture(path) {
+        let (scene, picture) = panorama::load_described(path, rules.budget).map_err(SceneReadError::from)?;
+        return Ok(Report { picture: Some(picture), ..Report::new(&scene)? });
+    }
     Ok(Report::new(&read(path, rules, |_| {})?)?)
 }
 
@@ -98,6 +105,7 @@ impl Report {
             first_view: first_view(scene),
             cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
             speed_of_light_m_s: scene.speed_of_light_m_s,
+            picture: None,
             moving: moving(scene),
             bounds,
             longest_edge: survey.longest_edge,
@@ -125,6 +133,7 @@ impl Report {
             "spectra": self.spectra,
             "white": self.white,
             "panorama": self.panorama,
+            "picture": self.picture,
             "moving": self.moving,
             "bounds": corners,
             "longestEdge": self.longest_edge,
@@ -153,6 +162,9 @@ impl fmt::Display for Report {
         }
         if let Some(white) = self.white {
             writeln!(f, "white       {white} cd/m²")?;
+        }
+        if let Some(picture) = &self.picture {
+            writeln!(f, "picture     {picture}")?;
         }
         if let Some([width, height]) = self.panorama {
             writeln!(f, "panorama    {width} × {height} pixels")?;

@@ -18,7 +18,7 @@ pub fn check_values(scene: &Scene) -> Result<(), ExportError> {
     let light = [light.sun_direction.to_array(), light.sun, light.sky, light.ground, light.zenith, light.horizon];
     ensure(light.as_flattened().iter().all(|value| value.is_finite()), "the light", name, FINITE)?;
     if let Some(panorama) = &scene.panorama {
-        let light = panorama.rgb.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0);
+        let light = panorama.rgb.as_flattened().iter().all(|value| (0.0..f32::INFINITY).contains(&value.to_f32()));
         ensure(light, "the panorama", name, "it has a radiance that is negative or not finite")?;
         let around = is_equirectangular(panorama.width, panorama.height);
         ensure(around, "the panorama", name, "it is not twice as wide as high")?;

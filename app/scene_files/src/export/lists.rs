@@ -11,6 +11,7 @@ use ::gltf::json::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
 use ::gltf::json::validation::{Checked, USize64};
 use ::gltf::json::{self, Accessor, Index};
 use glam::{Vec2, Vec3};
+use half::f16;
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -184,7 +185,8 @@ fn exr(panorama: &Panorama, scene: &str) -> Result<Vec<u8>, ExportError> {
     let Panorama { width, height, rgb } = panorama;
     let mut bytes = Cursor::new(Vec::new());
     let encoder = OpenExrEncoder::new(&mut bytes);
-    let result = encoder.write_image(bytemuck::cast_slice(rgb), *width, *height, ExtendedColorType::Rgb32F);
+    let rgb: Vec<[f32; 3]> = rgb.iter().map(|pixel| pixel.map(f16::to_f32)).collect();
+    let result = encoder.write_image(bytemuck::cast_slice(&rgb), *width, *height, ExtendedColorType::Rgb32F);
     let fault = "it cannot be encoded as EXR";
     result.map_err(|_| ExportError::Value { what: "the panorama", name: scene.into(), fault })?;
     Ok(bytes.into_inner())

@@ -215,5 +215,7 @@ fn around(
         (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
         (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
     };
-    Ok(Some(panorama::decode(&bytes, &path, |notice| notices.add(notice))?))
+    let read = panorama::decode(&bytes, &path, document.budget)?;
+    read.notices.into_iter().for_each(|notice| notices.add(notice));
+    Ok(Some(read.panorama))
 }

@@ -1,18 +1,16 @@
 //! Reasons why a picture is no panorama, and its limits.
 
+use regular_file::OverBudget;
 use std::path::PathBuf;
 
 /// Largest width of a panorama, pixels: the limit of graphics processors.
 pub const MAX_WIDTH: u32 = 16384;
 
-/// Largest number of bytes of a decoded picture, before it is scaled down.
-pub(super) const MAX_BYTES: u64 = 4 << 30;
-
 /// Reason why a picture is no panorama. Every message says what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum PanoramaError {
     /// A picture that the operating system cannot read.
-    #[error("cannot read {path}: {error}; check the name and the permissions")]
+    #[error("cannot read {}: {error}; check the name and the permissions", path.display())]
     Read {
         /// Path of the picture.
         path: PathBuf,
@@ -20,35 +18,46 @@ pub enum PanoramaError {
         error: std::io::Error,
     },
     /// A file of another format.
-    #[error("{path} is no picture that can be read; save it as PNG, JPEG, HDR (Radiance) or EXR")]
+    #[error("{} is no picture that can be read; save it as PNG, JPEG, WebP, TIFF, HDR (Radiance) or EXR", path.display())]
     Format {
         /// Path of the picture.
         path: PathBuf,
     },
     /// A damaged picture, or one of an unsupported kind.
-    #[error("{path} cannot be decoded: {fault}; save it again as PNG, JPEG, HDR (Radiance) or EXR")]
+    #[error("{} cannot be decoded: {fault}; save it again as PNG, JPEG, HDR (Radiance) or EXR", path.display())]
     Damaged {
         /// Path of the picture.
         path: PathBuf,
         /// Message of the decoder.
         fault: String,
     },
-    /// A picture that is too large to decode.
-    #[error(
-        "{path} would have {bytes} bytes when decoded, above {MAX_BYTES}; scale it down to {MAX_WIDTH} pixels in width"
-    )]
+    /// A picture that is too large.
+    #[error("{}: {fault}", path.display())]
     TooLarge {
         /// Path of the picture.
         path: PathBuf,
-        /// Size of the decoded picture, bytes.
-        bytes: u64,
+        /// Memory that it would take.
+        fault: OverBudget,
     },
     /// A picture that does not show all directions.
     #[error(
-        "{path} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a \
-         cube side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)"
+        "{} has {width} × {height} pixels, which is no panorama; expected 2:1 (equirectangular), or the faces of a \
+         cube side by side (6:1 or 1:6) or as a cross (4:3 or 3:4)", path.display()
     )]
     Shape {
+        /// Path of the picture.
+        path: PathBuf,
+        /// Width, pixels.
+        width: u32,
+        /// Height, pixels.
+        height: u32,
+    },
+    /// A picture with the proportions of a cross of six faces, in whose corners there is a picture.
+    #[error(
+        "{} is a photo of {width} × {height} pixels, not a panorama: a cube's cross of these proportions leaves its \
+         corners empty, in one colour; give a picture of all directions, 2:1 (equirectangular)", path.display()
+    )]
+    Photo {
         /// Path of the picture.
         path: PathBuf,
         /// Width, pixels.

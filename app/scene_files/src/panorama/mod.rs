@@ -1,15 +1,31 @@
-//! Panoramas: pictures of all directions as scenes, from PNG, JPEG, HDR (Radiance) or EXR.
+//! Panoramas: pictures of all directions as scenes, from PNG, JPEG, WebP, TIFF, HDR (Radiance) or EXR.
 //!
-//! A picture twice as wide as high is equirectangular already; the layouts of cube maps (`cube`) are converted, so
-//! that all later code knows one layout. PNG and JPEG are sRGB and become linear; HDR and EXR are linear and stay
-//! unchanged. Sizes are checked before anything is decoded. Pictures larger than graphics processors take are scaled
-//! down while they become linear.
+//! The kind of a picture follows from its bytes (`kind`), its layout from its proportions (`shape`) or its header.
+//! Each reader (`common`, `radiance`, `open_exr`) hands over a few rows at a time, in linear sRGB; the `canvas` scales
+//! them down, if graphics processors do not take such a width, and rounds them to half floats. So a picture is held
+//! once. Cubes (`cube`) are converted at the end: all later code knows one layout. Sizes are known, and their memory is
+//! taken from a budget, before anything is decoded.
 
+mod canvas;
+mod common;
 mod cube;
 mod decode;
 mod error;
+mod gpano;
+mod intake;
+mod jpeg_end;
+mod kind;
 mod load;
+mod open_exr;
+mod primaries;
+mod radiance;
+mod shape;
+#[cfg(test)]
+mod tests;
+mod turn;
 
-pub(crate) use decode::{decode, is_equirectangular};
+pub(crate) use decode::decode;
 pub use error::{MAX_WIDTH, PanoramaError};
+pub(crate) use load::load_described;
 pub use load::{is_picture, load};
+pub(crate) use shape::is_equirectangular;

@@ -96,7 +96,7 @@ fn scene(origin: DVec3) -> Scene {
         circuit: vec![DVec3::new(0.1, 0.0, 1e9 + 0.1), DVec3::ZERO],
         illuminant: Some(measured(&mut random)),
         white: Some(1e10 / 7.0),
-        panorama: Some(Panorama { width: 4, height: 2, rgb: (0..8).map(|_| random.random()).collect() }),
+        panorama: Some(Panorama::new(4, 2, (0..8).map(|_| random.random()))),
         ..Scene::default()
     }
 }
@@ -236,7 +236,7 @@ fn what_gltf_cannot_say_is_refused_by_name() {
     );
     refused(|scene| scene.illuminant = Some(Spectrum::Rgb([-1.0, 0.0, 0.0])), "the spectrum of the light");
     refused(
-        |scene| scene.panorama.as_mut().unwrap().rgb[0][0] = -1.0,
+        |scene| scene.panorama = Some(Panorama::new(4, 2, [[-1.0, 0.0, 0.0]; 8])),
         "the panorama of \"Marktplatz\": it has a radiance",
     );
     refused(

@@ -12,10 +12,11 @@ use crate::support::{GltfUnderTest, load_path, png, read_path, report, write};
 use built_in::spectra;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
+use regular_file::Budget;
 use scene::Surroundings;
 use scene::collision::Collision;
 use scene::refine::refine;
-use scene::{Lighting, Material, Scene};
+use scene::{Lighting, Material, Panorama, Scene};
 use scene_files::check::Report;
 use scene_files::export::write_glb;
 use scene_files::gltf::GltfError;
@@ -301,7 +302,7 @@ fn a_panorama_beside_the_scene_surrounds_it() {
     let mut file = GltfUnderTest::triangle();
     ours(&mut file, json!({ "panorama": "sky.png" }));
     let scene = load_path(&write(&folder, "scene.glb", &file.glb())).unwrap();
-    assert_eq!(scene.panorama.unwrap().rgb, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(scene.panorama.unwrap(), Panorama::new(2, 1, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
 
     let mut refused = |panorama: Value, words: &str| {
         ours(&mut file, json!({ "panorama": panorama }));
