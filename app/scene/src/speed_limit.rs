@@ -79,6 +79,24 @@ impl Scene {
         }
     }
 
+    /// Box that an animated body passes through, world metres: the places of its outermost points at sampled times.
+    /// `None` for other motions.
+    pub fn path_bounds(&self, motion: usize) -> Option<[DVec3; 2]> {
+        /// Number of times that are looked at.
+        const TIMES: usize = 48;
+        let animated = self.motions[motion].animated()?;
+        let (places, looks) = (self.outermost(motion), animated.looks());
+        let mut bounds: Option<[DVec3; 2]> = None;
+        for time_s in looks.iter().step_by(looks.len().div_ceil(TIMES).max(1)) {
+            let pose = animated.at(time_s * animated.speed_of_light_m_s);
+            for position in places.iter().map(|place| pose.position(*place)).filter(|position| position.is_finite()) {
+                let [least, most] = bounds.unwrap_or([position; 2]);
+                bounds = Some([least.min(position), most.max(position)]);
+            }
+        }
+        bounds
+    }
+
     /// Outermost vertices of the meshes with this motion, in the body's own frame.
     fn outermost(&self, motion: usize) -> Vec<DVec3> {
         let meshes = self.meshes.iter().filter(|mesh| mesh.motion == Some(motion));

@@ -9,6 +9,7 @@ use room::Display;
 use scene_files::gltf::ReadRules;
 use scene_files::panorama;
 use serde_json::{Value, json};
+use std::io::Read;
 use std::path::Path;
 
 /// Report on a file that can be used, as text and as the members of a JSON object.
@@ -61,8 +62,15 @@ fn report(path: &Path, reading: &ReadingOptions) -> Result<Good, Error> {
             Ok(Good { kind: "display", text: display.to_string(), members })
         }
         _ if panorama::is_picture(path) => scene("panorama", path, rules),
+        _ if is_glb(path) => scene("scene", path, rules),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }
+}
+
+/// True if a file begins as a `.glb` does, whatever the ending of its name: models of other programs do.
+fn is_glb(path: &Path) -> bool {
+    let mut start = [0; 4];
+    regular_file::open(path).is_ok_and(|mut file| file.read_exact(&mut start).is_ok() && &start == b"glTF")
 }
 
 fn scene(kind: &'static str, path: &Path, rules: ReadRules<'_>) -> Result<Good, Error> {

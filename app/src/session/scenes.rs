@@ -86,10 +86,12 @@ pub fn load_recorded(
 fn with_own_light(mut scene: Scene, choice: &SceneChoice) -> Result<World, SceneError> {
     let suited = scene.speed_of_light_m_s;
     let mut speed_of_light_m_s = suited.unwrap_or(SPEED_OF_LIGHT_M_S);
-    if let Err(fault) = scene.set_speed_of_light(speed_of_light_m_s) {
+    // One animation after the other may be too fast.
+    for _ in 0..scene.motions.len() {
+        let Err(fault) = scene.set_speed_of_light(speed_of_light_m_s) else { break };
         speed_of_light_m_s = AHEAD_OF_ANIMATIONS * fault.speed_m_s;
-        set_light(&mut scene, choice, speed_of_light_m_s)?;
     }
+    set_light(&mut scene, choice, speed_of_light_m_s)?;
     if suited.is_some() || speed_of_light_m_s != SPEED_OF_LIGHT_M_S {
         let speed = described_speed(speed_of_light_m_s);
         let name = &scene.name;

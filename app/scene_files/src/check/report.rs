@@ -27,6 +27,9 @@ pub enum CheckError {
     Damaged(#[from] SceneFault),
 }
 
+/// Largest number of moving bodies that the text names.
+const MOST_MOVING: usize = 8;
+
 /// Report on the contents of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -175,8 +178,11 @@ impl fmt::Display for Report {
             writeln!(f, "from        {:.3}, {:.3}, {:.3} m", least.x, least.y, least.z)?;
             writeln!(f, "to          {:.3}, {:.3}, {:.3} m", most.x, most.y, most.z)?;
         }
-        for moving in &self.moving {
+        for moving in self.moving.iter().take(MOST_MOVING) {
             writeln!(f, "moves       {moving}")?;
+        }
+        if self.moving.len() > MOST_MOVING {
+            writeln!(f, "moves       and {} more", self.moving.len() - MOST_MOVING)?;
         }
         writeln!(f, "edges       {:.3} m at most", self.longest_edge)?;
         for notice in &self.notices {

@@ -59,7 +59,7 @@ pub(super) fn moved(document: &Document<'_>, notices: &mut Notices) -> Result<BT
         let of_animation = read(document, number, animation, notices)?;
         for (node, channels) in repeated(of_animation) {
             if moved.entry(node).or_default().complete(channels) {
-                notices.add(format!("nodes[{node}] is moved by two animations, of which the first is shown"));
+                notices.add("nodes that several animations move follow the first".into());
             }
         }
     }

@@ -11,7 +11,6 @@ use ::gltf::json::mesh::Semantic;
 use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
 
 use super::accessor::{self, Purpose};
-use super::attribute::attribute;
 use super::document::Document;
 use super::error::GltfError;
 use super::file_json::NodeJson;
@@ -19,6 +18,9 @@ use super::notices::{Notices, Part};
 
 /// Sum of a vertex's weights below which it has no joint.
 const NO_WEIGHT: f64 = 1e-12;
+
+/// Function that reads an attribute by its semantic and its name: its components, and their number in an element.
+type ReadAttribute<'a> = dyn Fn(Semantic, &str, Purpose) -> Result<Option<(Vec<f32>, usize)>, GltfError> + 'a;
 
 /// Deformation of one node's mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,15 +100,17 @@ impl Deformation {
         Ok((deformation != Self::default()).then_some(deformation))
     }
 
-    /// Applies the deformation to the vertices of a primitive, given with the place of it in the file.
+    /// Applies the deformation to the vertices of a primitive, given with the place of it in the file; `read` gives
+    /// the values of an attribute. True if the skin mirrors the primitive.
     pub(super) fn apply(
         &self,
         document: &Document<'_>,
         (primitive, place): (&json::mesh::Primitive, &str),
+        read: &ReadAttribute<'_>,
         positions: &mut [Vec3],
         mut normals: Option<&mut Vec<Vec3>>,
         notices: &mut Notices,
-    ) -> Result<(), GltfError> {
+    ) -> Result<bool, GltfError> {
         for &(number, weight) in &self.weights {
             let Some(target) = primitive.targets.as_ref().and_then(|targets| targets.get(number)) else { continue };
             let place = format!("{place}.targets[{number}]");
@@ -132,12 +136,14 @@ impl Deformation {
                 notices.left_out(Part::Morph, &place, &error.part_fault()?);
             }
         }
-        let Some(skin) = &self.skin else { return Ok(()) };
-        match Influences::read(document, primitive, place, positions.len(), skin.joints.len()) {
-            Ok(influences) => influences.apply(skin, positions, normals),
-            Err(error) => notices.left_out(Part::Skin, place, &error.part_fault()?),
+        let Some(skin) = &self.skin else { return Ok(false) };
+        match Influences::read(document, place, read, positions.len(), skin.joints.len()) {
+            Ok(influences) => Ok(influences.apply(skin, positions, normals)),
+            Err(error) => {
+                notices.left_out(Part::Skin, place, &error.part_fault()?);
+                Ok(false)
+            }
         }
-        Ok(())
     }
 }
 
@@ -149,30 +155,26 @@ struct Influences {
 impl Influences {
     fn read(
         document: &Document<'_>,
-        primitive: &json::mesh::Primitive,
         place: &str,
+        read: &ReadAttribute<'_>,
         vertices: usize,
         joint_count: usize,
     ) -> Result<Self, GltfError> {
         let mut sets = Vec::new();
         for set in 0.. {
-            let named = |semantic, name: &str| {
-                attribute(primitive, semantic).map(|index| (index, format!("{place}.attributes.{name}_{set}")))
-            };
-            let (Some(joints), Some(weights)) =
-                (named(Semantic::Joints(set), "JOINTS"), named(Semantic::Weights(set), "WEIGHTS"))
-            else {
-                break;
-            };
-            let found = accessor::read(document, joints.0, &joints.1, Purpose::Joints, |value| value as usize)?.values;
+            let joints = read(Semantic::Joints(set), &format!("JOINTS_{set}"), Purpose::Joints)?;
             let purpose = Purpose::Vectors(Type::Vec4);
-            let shares = accessor::read(document, weights.0, &weights.1, purpose, |value| value)?.values;
-            if found.len() != 4 * vertices || shares.len() != 4 * vertices {
-                return Err(document.damaged(&joints.1, format!("{} values for {vertices} vertices", found.len() / 4)));
+            let weights = read(Semantic::Weights(set), &format!("WEIGHTS_{set}"), purpose)?;
+            let (Some((joints, _)), Some((shares, _))) = (joints, weights) else { break };
+            let place = format!("{place}.attributes.JOINTS_{set}");
+            if joints.len() != 4 * vertices || shares.len() != 4 * vertices {
+                return Err(document.damaged(&place, format!("{} values for {vertices} vertices", joints.len() / 4)));
             }
+            let found: Vec<usize> = joints.into_iter().map(|joint| joint as usize).collect();
+            let shares: Vec<f64> = shares.into_iter().map(f64::from).collect();
             let beyond = found.iter().zip(&shares).find(|(joint, share)| **joint >= joint_count && **share != 0.0);
             if let Some((joint, _)) = beyond {
-                return Err(document.damaged(&joints.1, format!("joint {joint} of {joint_count}")));
+                return Err(document.damaged(&place, format!("joint {joint} of {joint_count}")));
             }
             sets.push((found, shares));
         }
@@ -182,7 +184,9 @@ impl Influences {
         Ok(Self { sets })
     }
 
-    fn apply(&self, skin: &PosedSkin, positions: &mut [Vec3], mut normals: Option<&mut Vec<Vec3>>) {
+    /// Applies a skin; true if it mirrors most of the vertices.
+    fn apply(&self, skin: &PosedSkin, positions: &mut [Vec3], mut normals: Option<&mut Vec<Vec3>>) -> bool {
+        let mut mirrored = 0;
         for (vertex, position) in positions.iter_mut().enumerate() {
             let mut matrix = DMat3::ZERO;
             let (mut translation, mut sum) = (DVec3::ZERO, 0.0);
@@ -201,12 +205,14 @@ impl Influences {
                 skin.joints.first().copied().unwrap_or(DAffine3::IDENTITY)
             };
             *position = whole.transform_point3(position.as_dvec3()).as_vec3();
+            let [x, y, z] = [whole.matrix3.x_axis, whole.matrix3.y_axis, whole.matrix3.z_axis];
+            let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };
+            mirrored += usize::from(mirror < 0.0);
             if let Some(normals) = normals.as_deref_mut() {
-                let [x, y, z] = [whole.matrix3.x_axis, whole.matrix3.y_axis, whole.matrix3.z_axis];
-                let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };
                 let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * mirror;
                 normals[vertex] = (cofactors * normals[vertex].as_dvec3()).normalize_or_zero().as_vec3();
             }
         }
+        2 * mirrored > positions.len()
     }
 }

@@ -123,7 +123,7 @@ impl<'a> Document<'a> {
                 },
                 (None, Some(blob)) if index == 0 => Ok(blob.clone()),
                 // The buffer stands for data that are there in compressed form.
-                (None, _) if fallback => Ok(SharedBytes::default()),
+                (None, _) if fallback || self.stands_for_packed(index) => Ok(SharedBytes::default()),
                 (None, _) => Err(self.damaged(&place, "it has neither an address nor a binary chunk")),
             };
             let bytes = match read {
@@ -141,6 +141,16 @@ impl<'a> Document<'a> {
             buffers.push(bytes);
         }
         Ok(buffers)
+    }
+
+    /// True if all views of a buffer are there in compressed form, too.
+    fn stands_for_packed(&self, buffer: usize) -> bool {
+        let packed = |view: &json::buffer::View| {
+            let extensions = view.extensions.as_ref();
+            extensions.is_some_and(|extensions| MESHOPT.iter().any(|name| extensions.others.contains_key(*name)))
+        };
+        let mut views = self.json.buffer_views.iter().filter(|view| view.buffer.value() == buffer).peekable();
+        views.peek().is_some() && views.all(packed)
     }
 
     /// Bytes behind an address: data in the address itself, or a file beside the scene.
@@ -170,7 +180,7 @@ impl<'a> Document<'a> {
         let place = format!("bufferViews[{index}]");
         let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
         let packed = view.extensions.as_ref().and_then(|extensions| {
-            MESHOPT.iter().find_map(|name| extensions.others.get(*name)).and_then(|of| PackedView::read(of))
+            MESHOPT.iter().find_map(|name| extensions.others.get(*name)).and_then(PackedView::read)
         });
         if let Some(packed) = packed {
             let unpacked = self.unpacked[index].get_or_init(|| self.unpack(&packed, &place));

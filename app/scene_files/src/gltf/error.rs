@@ -68,8 +68,7 @@ pub enum GltfError {
         fault: OverBudget,
     },
     /// A scene without triangles.
-    #[error("{path} has nothing to draw: no triangles in its scene{}; export meshes, not only {found}",
-            fault.as_ref().map(|fault| format!(" but faulty ones, {fault}")).unwrap_or_default())]
+    #[error("{}", nothing(path, found, fault.as_deref()))]
     Nothing {
         /// Path of the scene.
         path: PathBuf,
@@ -115,6 +114,17 @@ impl GltfError {
 fn sentences(path: &Path, faults: &[SpectrumFault]) -> String {
     let sentence = |fault| format!("{} has a spectrum that cannot be used: {fault}", path.display());
     faults.iter().map(sentence).collect::<Vec<_>>().join("\n")
+}
+
+fn nothing(path: &Path, found: &str, fault: Option<&str>) -> String {
+    let path = path.display();
+    match fault {
+        None => format!("{path} has nothing to draw: no triangles in its scene; export meshes, not only {found}"),
+        Some(fault) => format!(
+            "{path} has nothing to draw, as a part is missing or faulty: {fault}; put missing files beside the scene, \
+             or export it again"
+        ),
+    }
 }
 
 /// Fault of one spectrum of a file.

@@ -41,6 +41,11 @@ pub(super) fn note_undrawn(document: &Document<'_>, notices: &mut Notices) {
         count(json.skins.len(), "skins do not move: they are drawn in their pose at the start");
     }
     let materials = || json.materials.iter();
+    let glass = materials().filter(|material| {
+        let extensions = material.extensions.as_ref().and_then(|extensions| extensions.transmission.as_ref());
+        extensions.is_some_and(|extension| extension.transmission_factor.0 > 0.0)
+    });
+    count(glass.count(), "clear glass is opaque, except in pictures by --renderer raytrace --bounces");
     count(materials().filter(|material| material.normal_texture.is_some()).count(), "normal maps are not drawn");
     count(materials().filter(|material| material.occlusion_texture.is_some()).count(), "occlusion maps are not drawn");
     let metallic = materials().filter(|material| material.pbr_metallic_roughness.metallic_roughness_texture.is_some());

@@ -19,6 +19,13 @@ use super::notices::{Notices, Part};
 /// Time in which light crosses a scene by default, seconds.
 const CROSSING_S: f64 = 5.0;
 
+/// Factor by which light is faster than everything that is animated: at a fifth of its speed a body at rest in the
+/// picture is still recognised.
+const FASTER_THAN_ANIMATIONS: f64 = 5.0;
+
+/// Length of the mean direction of all faces from which on a scene has a front.
+const HAS_A_FRONT: f64 = 0.5;
+
 /// Vertical field of view for which scenes are framed, radians: that of a picture without options.
 const FIELD_OF_VIEW_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
@@ -50,7 +57,8 @@ pub(super) fn cameras(document: &Document<'_>, placements: &[NodePlacement], not
             notices.left_out(Part::Node, &format!("nodes[{}].camera", placement.node), &fault);
             continue;
         };
-        let name = camera.name.as_deref().or(node.name.as_deref()).unwrap_or("without a name");
+        let named = camera.name.as_deref().or(node.name.as_deref()).filter(|name| !name.is_empty());
+        let name = &named.map_or_else(|| format!("camera {index}"), str::to_owned);
         let perspective =
             camera.perspective.as_ref().filter(|_| camera.type_ != Checked::Valid(json::camera::Type::Orthographic));
         if perspective.is_none() {
@@ -59,7 +67,7 @@ pub(super) fn cameras(document: &Document<'_>, placements: &[NodePlacement], not
         let fov = perspective.map(|perspective| f64::from(perspective.yfov));
         let axes = placement.transform.matrix3;
         found.push(ViewCamera {
-            name: name.to_owned(),
+            name: name.clone(),
             start: Start {
                 position: placement.transform.translation,
                 look: (axes * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z),
@@ -80,33 +88,75 @@ pub(super) fn first_view(scene: &Scene, extras: &SceneExtras, bounds: Option<[DV
     if let Some(start) = extras.start {
         return (start, extras.speed_of_light);
     }
-    let Some([least, most]) = bounds else { return (Start::default(), extras.speed_of_light) };
-    let light = extras.speed_of_light.or_else(|| speed_of_light(most - least));
+    let Some(bounds) = bounds else { return (Start::default(), extras.speed_of_light) };
+    let [least, most] = with_paths(scene, bounds);
+    let light = extras.speed_of_light.or_else(|| speed_of_light(most - least, fastest_m_s(scene)));
     if let Some(camera) = scene.cameras.first().filter(|camera| camera.start.field_of_view_rad.is_some()) {
         return (camera.start, light);
     }
-    let start = floor::start(scene, [least, most]).unwrap_or_else(|| framed([least, most]));
+    let start = floor::start(scene, bounds).unwrap_or_else(|| framed([least, most], facing(scene)));
     (start, light)
 }
 
-/// Speed of light that crosses a scene of this size in a few seconds, m/s, rounded to two digits.
-fn speed_of_light(size: DVec3) -> Option<f64> {
-    let speed = size.length() / CROSSING_S;
-    let digit = 10_f64.powf(speed.log10().floor() - 1.0);
-    let rounded = (speed / digit).round() * digit;
+/// Box round a scene and the paths of what is animated in it, as far as these are not much larger than the scene.
+fn with_paths(scene: &Scene, [least, most]: [DVec3; 2]) -> [DVec3; 2] {
+    /// Largest size of a path, as a multiple of the scene's own, that the first view takes in.
+    const LARGEST: f64 = 10.0;
+    let size = (most - least).length();
+    let paths = (0..scene.motions.len()).filter_map(|motion| scene.path_bounds(motion));
+    let near = paths.filter(|[from, to]| size > 0.0 && (*to - *from).length() <= LARGEST * size);
+    near.fold([least, most], |[least, most], [from, to]| [least.min(from), most.max(to)])
+}
+
+/// Largest speed of what is animated, m/s.
+fn fastest_m_s(scene: &Scene) -> f64 {
+    let speed = |number: usize| {
+        scene.motions[number].animated().map(|body| scene.fastest(number).beta * body.speed_of_light_m_s())
+    };
+    (0..scene.motions.len()).filter_map(speed).fold(0.0, f64::max)
+}
+
+/// Mean direction in which the single-sided triangles of a scene face, weighted by their areas: a unit vector if all
+/// face the same way, short if they face all ways.
+fn facing(scene: &Scene) -> DVec3 {
+    let (mut sum, mut area) = (DVec3::ZERO, 0.0);
+    for mesh in scene.meshes.iter().filter(|mesh| mesh.motion.is_none()) {
+        let double_sided = scene.materials[mesh.material].double_sided;
+        for corners in mesh.indices.as_chunks::<3>().0 {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+            let face = (b - a).cross(c - a);
+            if face.is_finite() {
+                area += face.length();
+                sum += if double_sided { DVec3::ZERO } else { face };
+            }
+        }
+    }
+    if area > 0.0 { sum / area } else { DVec3::ZERO }
+}
+
+/// Speed of light that crosses a scene of this size in a few seconds, and leaves its animations slow beside it; m/s,
+/// rounded to two digits.
+fn speed_of_light(size: DVec3, fastest_m_s: f64) -> Option<f64> {
+    let speed = (size.length() / CROSSING_S).max(FASTER_THAN_ANIMATIONS * fastest_m_s);
+    // By way of a text, whose digits are those that a person reads.
+    let rounded = format!("{speed:.1e}").parse::<f64>().ok()?;
     (rounded.is_finite() && rounded > 0.0).then_some(rounded)
 }
 
-/// Start outside a box from where the whole of it is seen.
-pub(super) fn framed([least, most]: [DVec3; 2]) -> Start {
+/// Start outside a box from where the whole of it is seen, on the side that its faces show, `facing`, if it has one.
+pub(super) fn framed([least, most]: [DVec3; 2], facing: DVec3) -> Start {
     let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
     let flat = half.y < FLAT * half.x.min(half.z);
     let above = if flat { FROM_HIGH_ABOVE } else { FROM_ABOVE };
     // A box without depth, a wall or a picture, is looked at straight.
     let sideways = if half.z < FLAT * half.x.max(half.y) { 0.0 } else { FROM_THE_RIGHT };
     let above = if half.z < FLAT * half.x.max(half.y) && !flat { 0.0 } else { above };
-    let backward = DVec3::new(sideways, above, 1.0).normalize();
-    let right = DVec3::Y.cross(backward).normalize();
+    let mut backward = DVec3::new(sideways, above, 1.0).normalize();
+    if facing.length() > HAS_A_FRONT && backward.dot(facing.normalize()) < 0.15 {
+        backward = (facing.normalize() + DVec3::new(0.0, 0.2, 0.1)).normalize();
+    }
+    let upward = if backward.y.abs() > 0.99 { DVec3::NEG_Z } else { DVec3::Y };
+    let right = upward.cross(backward).normalize();
     let up = backward.cross(right);
 
     // The distance at which the outermost corners touch the edges of the picture.
@@ -122,7 +172,7 @@ pub(super) fn framed([least, most]: [DVec3; 2]) -> Start {
     Start {
         position: middle + backward * distance,
         look: -backward,
-        up: DVec3::Y,
+        up: upward,
         eye_height_m: 0.0,
         field_of_view_rad: None,
     }
@@ -142,7 +192,7 @@ mod tests {
             {
                 let half = 0.5 * size * shape;
                 let middle = DVec3::new(7.0, -3.0, 2.0) * size;
-                let start = framed([middle - half, middle + half]);
+                let start = framed([middle - half, middle + half], DVec3::ZERO);
                 let right = start.look.cross(start.up).normalize();
                 let up = right.cross(start.look);
                 let edge = (0.5 * FIELD_OF_VIEW_RAD).tan();
@@ -164,9 +214,20 @@ mod tests {
     #[test]
     fn light_crosses_a_scene_in_seconds() {
         for size in [1e-4, 0.02, 1.0, 150.0, 4000.0] {
-            let speed = speed_of_light(DVec3::new(size, 0.0, 0.0)).unwrap_or_default();
+            let speed = speed_of_light(DVec3::new(size, 0.0, 0.0), 0.0).unwrap_or_default();
             assert!((4.5..5.6).contains(&(size / speed)), "{size} m at {speed} m/s");
         }
-        assert_eq!(speed_of_light(DVec3::ZERO), None);
+        assert_eq!(speed_of_light(DVec3::ZERO, 0.0), None);
+        assert_eq!(speed_of_light(DVec3::X, 3.0), Some(15.0), "animations stay slow beside light");
+    }
+
+    #[test]
+    fn a_scene_with_a_front_is_seen_from_there() {
+        let half = DVec3::new(1.0, 1.0, 0.0);
+        for facing in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_Y, DVec3::Y] {
+            let start = framed([-half, half], facing);
+            assert!(start.look.dot(facing) < 0.0, "{facing}: {start:?}");
+            assert!(start.look.cross(start.up).length() > 0.05, "{facing}: {start:?}");
+        }
     }
 }

@@ -50,16 +50,18 @@ pub(super) fn start(scene: &Scene, [least, most]: [DVec3; 2]) -> Option<Start> {
     let along = if size.x > size.z { aside } else { ahead };
     let inside = [(DVec3::ZERO, along), (DVec3::ZERO, -along)];
     let shapes: Vec<&Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_none()).collect();
+    let sight = |eye, ray| nearest(scene, &shapes, eye, ray);
     let best = |places: &[(DVec3, DVec3)]| {
         let seen = places.iter().filter_map(|&(offset, look)| {
             let position = middle + offset;
             let eye = position + DVec3::Y * EYE_HEIGHT_M - scene.origin;
-            let below = nearest(&shapes, eye, DVec3::NEG_Y).filter(|distance| *distance < 1.5 * EYE_HEIGHT_M);
+            let below = sight(eye, DVec3::NEG_Y).filter(|(distance, front)| *front && *distance < 1.5 * EYE_HEIGHT_M);
             let right = look.cross(DVec3::Y);
             let rays = DIRECTIONS.map(|aside| (look + aside * right).normalize());
-            let met: Vec<f64> = rays.iter().filter_map(|ray| nearest(&shapes, eye, *ray)).collect();
-            let free = below.is_some() && !met.is_empty() && met.iter().all(|distance| *distance >= FREE_M);
-            free.then_some((met.len(), Start { position, look, ..Start::default() }))
+            let met: Vec<(f64, bool)> = rays.iter().filter_map(|ray| sight(eye, *ray)).collect();
+            let shown = met.iter().filter(|(_, front)| *front).count();
+            let free = below.is_some() && shown > 0 && met.iter().all(|(distance, _)| *distance >= FREE_M);
+            free.then_some((shown, Start { position, look, ..Start::default() }))
         });
         // Of places that see the same, the first.
         seen.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, start)| start)
@@ -87,19 +89,21 @@ fn height(solid: &[&Mesh], origin: DVec3, [least, most]: [DVec3; 2]) -> Option<f
     (footprint > 0.0 && area >= COVERED * footprint).then(|| sum / area)
 }
 
-/// Distance along a ray (unit vector, from `eye` relative to the scene's origin) to the nearest triangle.
-fn nearest(meshes: &[&Mesh], eye: DVec3, ray: DVec3) -> Option<f64> {
+/// Distance along a ray (unit vector, from `eye` relative to the scene's origin) to the nearest triangle, and true if
+/// its visible side is met.
+fn nearest(scene: &Scene, meshes: &[&Mesh], eye: DVec3, ray: DVec3) -> Option<(f64, bool)> {
+    let nearer = |a: (f64, bool), b: (f64, bool)| if b.0 < a.0 { b } else { a };
     let of_mesh = |mesh: &&Mesh| {
-        let triangles = mesh.indices.as_chunks::<3>().0.iter();
-        triangles
-            .filter_map(|corners| {
-                let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
-                crossing(eye, ray, [a, b, c])
-            })
-            .fold(f64::INFINITY, f64::min)
+        let double_sided = scene.materials[mesh.material].double_sided;
+        let met = mesh.indices.as_chunks::<3>().0.iter().filter_map(|corners| {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+            let distance = crossing(eye, ray, [a, b, c])?;
+            Some((distance, double_sided || (b - a).cross(c - a).dot(ray) < 0.0))
+        });
+        met.fold((f64::INFINITY, false), nearer)
     };
-    let distance = meshes.par_iter().map(of_mesh).reduce(|| f64::INFINITY, f64::min);
-    distance.is_finite().then_some(distance)
+    let met = meshes.par_iter().map(of_mesh).reduce(|| (f64::INFINITY, false), nearer);
+    met.0.is_finite().then_some(met)
 }
 
 /// Distance along a ray to a triangle (Möller and Trumbore 1997).

@@ -126,6 +126,13 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
     }
     meshes.retain(|mesh| !mesh.indices.is_empty());
 
+    if !meshes.iter().any(has_area) {
+        let fault = format!(
+            "none of its {} triangles has a finite area",
+            meshes.iter().map(|mesh| mesh.indices.len() / 3).sum::<usize>()
+        );
+        return Err(GltfError::Nothing { path: document.path, found: "triangles", fault: Some(fault) });
+    }
     let cameras = cameras(&document, &placed.placements, &mut notices);
     let mut scene = Scene {
         name: document.scene_name(scene_index),
@@ -181,6 +188,15 @@ impl MotionList {
             self.list.len() - 1
         }))
     }
+}
+
+/// True if a triangle of a mesh can be seen at all: its corners are finite and not on one line.
+fn has_area(mesh: &Mesh) -> bool {
+    mesh.indices.as_chunks::<3>().0.iter().any(|corners| {
+        let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+        let face = (b - a).cross(c - a);
+        face.is_finite() && face != DVec3::ZERO
+    })
 }
 
 /// Mesh of an instance, relative to `origin`, and the number of its vertices that are not finite.

@@ -201,9 +201,13 @@ impl Primitive {
             }
             None => vec![[1.0; 4]; count],
         };
-        if let Some(deformation) = deformation {
-            deformation.apply(document, (primitive, &place), &mut positions, normals.as_mut(), notices)?;
-        }
+        let mirrored = match deformation {
+            Some(deformation) => {
+                let read = |semantic, name: &str, purpose| source.attribute(semantic, name, purpose);
+                deformation.apply(document, (primitive, &place), &read, &mut positions, normals.as_mut(), notices)?
+            }
+            None => false,
+        };
 
         // Read the triangles.
         let corners = match (&source.draco, primitive.indices) {
@@ -225,6 +229,9 @@ impl Primitive {
             read.indices.truncate(read.indices.len() / 3 * 3);
         }
         read.keep_whole_triangles(&place, notices);
+        if mirrored {
+            read.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
         match normals {
             Some(normals) => read.normals = normals,
             None => read.flatten(),

@@ -173,6 +173,9 @@ fn inner<T: DeserializeOwned>(
     parts.retain(|value| {
         let read = reads::<T>(value);
         if let Err(fault) = &read {
+            // A channel of KHR_animation_pointer has no node.
+            let pointer = part == Part::Animation && value["target"]["node"].is_null();
+            let fault = if pointer { "it moves something else than a node" } else { fault };
             notices.left_out(part, &format!("{place}.{key}[{index}]"), fault);
         }
         index += 1;
@@ -197,7 +200,11 @@ fn part_of(key: &str) -> Part {
 fn normalise(value: &mut Value, key: &str) {
     match value {
         Value::Object(members) => {
-            members.retain(|key, member| key == "extras" || !member.is_null());
+            // A name that is none costs nothing but itself.
+            let kept = |key: &str, member: &Value| {
+                key == "extras" || !member.is_null() && (key != "name" || member.is_string())
+            };
+            members.retain(|key, member| kept(key, member));
             for (own, member) in members.iter_mut().filter(|(key, _)| key.as_str() != "extras") {
                 normalise(member, if INDEX_MAPS.contains(&key) { key } else { own });
             }

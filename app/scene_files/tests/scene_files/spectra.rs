@@ -12,7 +12,6 @@ use crate::support::{GltfUnderTest, load_path, png, read_path, report, write};
 use built_in::spectra;
 use glam::{DVec3, Vec3};
 use physics::colour::Spectrum;
-use regular_file::Budget;
 use scene::Surroundings;
 use scene::collision::Collision;
 use scene::refine::refine;
