@@ -2,7 +2,7 @@
 
 CARGO ?= cargo
 
-.PHONY: help ride test bench docs clean
+.PHONY: help ride test bench fuzz docs clean
 
 help: ## What can be made
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /make \1\t/'
@@ -18,6 +18,9 @@ test: ## Install what the tests need, and run every test
 bench: ## Measure: kernel against copy bandwidth, integrators, frames
 	@scripts/install test
 	$(CARGO) bench --workspace
+
+fuzz: ## Try damaged files and lines of every kind, a minute each (SECONDS=…): nothing may panic or hang
+	$(CARGO) run --release -p rapidity --example fuzz -- $(or $(SECONDS),60)
 
 docs: ## Build the documentation of all crates
 	$(CARGO) doc --workspace --no-deps

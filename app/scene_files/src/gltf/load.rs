@@ -126,9 +126,9 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
     }
     meshes.retain(|mesh| !mesh.indices.is_empty());
 
-    if !meshes.iter().any(has_area) {
+    if !meshes.iter().any(has_extent) {
         let fault = format!(
-            "none of its {} triangles has a finite area",
+            "none of its {} triangles has finite corners at different places",
             meshes.iter().map(|mesh| mesh.indices.len() / 3).sum::<usize>()
         );
         return Err(GltfError::Nothing { path: document.path, found: "triangles", fault: Some(fault) });
@@ -190,12 +190,11 @@ impl MotionList {
     }
 }
 
-/// True if a triangle of a mesh can be seen at all: its corners are finite and not on one line.
-fn has_area(mesh: &Mesh) -> bool {
+/// True if a triangle of a mesh can be seen at all: its corners are finite and not one place.
+fn has_extent(mesh: &Mesh) -> bool {
     mesh.indices.as_chunks::<3>().0.iter().any(|corners| {
         let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
-        let face = (b - a).cross(c - a);
-        face.is_finite() && face != DVec3::ZERO
+        a.is_finite() && b.is_finite() && c.is_finite() && (a != b || b != c)
     })
 }
 

@@ -334,10 +334,16 @@ fn a_scene_is_seen_first_from_its_first_perspective_camera() {
 #[test]
 fn vertices_that_are_nowhere_are_counted() {
     let mut file = GltfUnderTest::triangle();
-    let positions = file.floats("VEC3", &[0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0, 0.0, f32::INFINITY, 0.0]);
+    let whole = [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let nowhere = [0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0, 0.0, f32::INFINITY, 0.0];
+    let positions = file.floats("VEC3", &[whole, nowhere].concat());
     file.attribute("POSITION", positions);
     let notices = file.scene().notices;
     assert!(notices[0].contains("not finite): 2"), "{notices:?}");
+    // Where nothing else is, there is nothing to draw.
+    let positions = file.floats("VEC3", &nowhere);
+    file.attribute("POSITION", positions);
+    assert!(file.error().contains("none of its 1 triangles has finite corners"), "{}", file.error());
 }
 
 #[test]

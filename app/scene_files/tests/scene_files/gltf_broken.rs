@@ -261,7 +261,8 @@ fn rich_file() -> GltfUnderTest {
     file.json["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
         { "type": "directional", "color": [1, 1, 1], "intensity": 3, "extras": { "spectrum": { "planck": 5800 } } },
     ] } });
-    let (indices, values) = (file.view(&[1, 2]), file.view(&[0; 24]));
+    let corners: Vec<u8> = [3.0_f32, 0.0, 0.0, 0.0, 2.0, 0.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    let (indices, values) = (file.view(&[1, 2]), file.view(&corners));
     file.json["accessors"][0]["sparse"] = json!({
         "count": 2,
         "indices": { "bufferView": indices, "componentType": 5121 },
