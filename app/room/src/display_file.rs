@@ -3,6 +3,7 @@
 use crate::error::DisplayError;
 use crate::format::DisplayFormat;
 use crate::read;
+use regular_file::Budget;
 use std::path::Path;
 
 /// File of a display, read whole.
@@ -20,8 +21,8 @@ impl<'a> DisplayFile<'a> {
     ///
     /// # Errors
     /// [`DisplayError::Read`].
-    pub fn read(path: &'a Path) -> Result<Self, DisplayError> {
-        let bytes = read::bytes(path).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
+    pub fn read(path: &'a Path, budget: &Budget) -> Result<Self, DisplayError> {
+        let bytes = read::bytes(path, budget).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
         Ok(Self { path, format: DisplayFormat::of(path).unwrap_or(DisplayFormat::Toml), bytes })
     }
 

@@ -11,6 +11,8 @@ pub(crate) enum DisplayFormat {
     Pvx,
     /// Projector calibration, `.mpcdi` or `.mpcdi.xml`.
     Mpcdi,
+    /// Cluster of Unreal Engine, `.ndisplay`.
+    NDisplay,
 }
 
 impl DisplayFormat {
@@ -23,6 +25,7 @@ impl DisplayFormat {
         match path.extension()?.to_string_lossy().to_ascii_lowercase().as_str() {
             "toml" => Some(Self::Toml),
             "pvx" => Some(Self::Pvx),
+            "ndisplay" => Some(Self::NDisplay),
             _ => None,
         }
     }

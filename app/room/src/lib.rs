@@ -37,6 +37,7 @@ mod lens;
 mod load;
 mod maps;
 mod net;
+mod overlaps;
 mod pfm;
 mod picture_plane;
 mod pixels;
