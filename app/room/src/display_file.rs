@@ -10,8 +10,8 @@ use std::path::Path;
 pub(crate) struct DisplayFile<'a> {
     /// Path of the file, as the user gave it.
     pub path: &'a Path,
-    /// Format by the file's ending. A file with another ending is taken for one of this program.
-    pub format: DisplayFormat,
+    /// Format by the file's ending; `None` for another ending, which is taken for a file of this program.
+    pub format: Option<DisplayFormat>,
     /// Contents of the file.
     pub bytes: Vec<u8>,
 }
@@ -23,7 +23,7 @@ impl<'a> DisplayFile<'a> {
     /// [`DisplayError::Read`].
     pub fn read(path: &'a Path, budget: &Budget) -> Result<Self, DisplayError> {
         let bytes = read::bytes(path, budget).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
-        Ok(Self { path, format: DisplayFormat::of(path).unwrap_or(DisplayFormat::Toml), bytes })
+        Ok(Self { path, format: DisplayFormat::of(path), bytes })
     }
 
     /// Text of the file.

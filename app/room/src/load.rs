@@ -11,6 +11,9 @@ use crate::import::{mpcdi, ndisplay, pvx};
 use regular_file::Budget;
 use std::path::Path;
 
+/// Tables of a display's file, at least one of which must be there.
+const TABLES: [&str; 4] = ["screen", "window", "channel", "projector"];
+
 /// Largest memory of a description, in bytes of its text.
 const BYTES_OF_TEXT: u64 = 30;
 
@@ -33,20 +36,22 @@ impl Display {
         let file = DisplayFile::read(path, budget)?;
         let (name, stem, folder) = (path.display().to_string(), file.stem(), file.folder());
         let import = |reason: String| DisplayError::Import { path: path.to_owned(), reason };
-        if file.format != DisplayFormat::Mpcdi {
+        if file.format != Some(DisplayFormat::Mpcdi) {
             budget.take(BYTES_OF_TEXT * file.bytes.len() as u64).map_err(|error| import(error.to_string()))?;
         }
         let imported = match file.format {
-            DisplayFormat::Toml => {
-                let mut display = parse_within(file.text()?, &name, folder, budget)?;
+            None | Some(DisplayFormat::Toml) => {
+                let no_display = DisplayError::NoDisplay { path: path.to_owned() };
+                let Some(text) = display_text(&file) else { return Err(no_display) };
+                let mut display = parse_within(text, &name, folder, budget)?;
                 if display.name.is_empty() {
                     display.name = stem;
                 }
                 return Ok(display);
             }
-            DisplayFormat::Pvx => pvx::parse(&file.bytes),
-            DisplayFormat::Mpcdi => mpcdi::parse(file.bytes, folder, &stem, budget),
-            DisplayFormat::NDisplay => ndisplay::parse(&file.bytes),
+            Some(DisplayFormat::Pvx) => pvx::parse(&file.bytes),
+            Some(DisplayFormat::Mpcdi) => mpcdi::parse(file.bytes, folder, &stem, budget),
+            Some(DisplayFormat::NDisplay) => ndisplay::parse(&file.bytes),
         };
         let mut display = imported.map_err(import)?;
         display.name = stem;
@@ -82,6 +87,17 @@ impl Display {
             return Self::load_within(path, budget);
         }
         Err(DisplayError::NoSuch { name: name.to_owned() })
+    }
+}
+
+/// Text of a file of this program; `None` if it is something else. A faulty display with the ending `.toml` is a display:
+/// what is wrong with it is said when it is parsed.
+fn display_text<'a>(file: &'a DisplayFile<'_>) -> Option<&'a str> {
+    let named = file.format.is_some();
+    let Ok(text) = std::str::from_utf8(&file.bytes) else { return None };
+    match toml::from_str::<toml::Table>(text) {
+        Ok(table) => TABLES.iter().any(|key| table.contains_key(*key)).then_some(text),
+        Err(_) => named.then_some(text),
     }
 }
 

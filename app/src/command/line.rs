@@ -90,7 +90,8 @@ pub struct DevicesOptions {
 /// Options of `rapidity check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckOptions {
-    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .hdr, .exr), displays (.toml, .pvx, .mpcdi, .mpcdi.xml) and
+    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .hdr, .exr), displays, which describe rooms with screens (.toml of
+    /// this program, .mpcdi or .mpcdi.xml of projector calibrations, .pvx of ParaView, .ndisplay of Unreal Engine), and
     /// recordings (.mcap).
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
