@@ -40,7 +40,7 @@ pub enum DisplayError {
     },
     /// A file that is no display of any format.
     #[error(
-        "{}: it is no display; a display is a file of this program (.toml with [[screen]], [[window]] and [[channel]]), a file of another one ({FILE_ENDINGS}), or one of {}",
+        "{}: it is no display; a display is a file ({FILE_ENDINGS}; a .toml has [[screen]], [[window]] and [[channel]]), or one of {}",
         path.display(), built_in::NAMES.join(", ")
     )]
     NoDisplay {
