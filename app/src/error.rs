@@ -114,7 +114,7 @@ pub enum Error {
         files: usize,
     },
     /// A file of a kind that the program does not read.
-    #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .webp, .tif, .hdr, .exr), a display (.toml, .pvx, .mpcdi) nor a recording (.mcap)", path.display())]
+    #[error("{}: neither a scene (.gltf, .glb), a panorama (.png, .jpg, .webp, .tif, .hdr, .exr), a display ({}) nor a recording (.mcap)", path.display(), room::FILE_ENDINGS)]
     UnknownKind {
         /// Path of the file.
         path: PathBuf,

@@ -3,14 +3,15 @@
 use crate::error::DisplayError;
 use crate::format::DisplayFormat;
 use crate::read;
+use regular_file::Budget;
 use std::path::Path;
 
 /// File of a display, read whole.
 pub(crate) struct DisplayFile<'a> {
     /// Path of the file, as the user gave it.
     pub path: &'a Path,
-    /// Format by the file's ending. A file with another ending is taken for one of this program.
-    pub format: DisplayFormat,
+    /// Format by the file's ending; `None` for another ending, which is taken for a file of this program.
+    pub format: Option<DisplayFormat>,
     /// Contents of the file.
     pub bytes: Vec<u8>,
 }
@@ -20,9 +21,9 @@ impl<'a> DisplayFile<'a> {
     ///
     /// # Errors
     /// [`DisplayError::Read`].
-    pub fn read(path: &'a Path) -> Result<Self, DisplayError> {
-        let bytes = read::bytes(path).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
-        Ok(Self { path, format: DisplayFormat::of(path).unwrap_or(DisplayFormat::Toml), bytes })
+    pub fn read(path: &'a Path, budget: &Budget) -> Result<Self, DisplayError> {
+        let bytes = read::bytes(path, budget).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })?;
+        Ok(Self { path, format: DisplayFormat::of(path), bytes })
     }
 
     /// Text of the file.

@@ -1,6 +1,7 @@
 //! Errors in displays. Each message says where the error is, what it is, and what to do.
 
 use crate::built_in;
+use crate::format::FILE_ENDINGS;
 use crate::frustum::EyeBehind;
 use crate::surface::flat::NotRectangle;
 use std::fmt;
@@ -36,6 +37,15 @@ pub enum DisplayError {
     NoSuch {
         /// Name, as the user gave it.
         name: String,
+    },
+    /// A file that is no display of any format.
+    #[error(
+        "{}: it is no display; a display is a file ({FILE_ENDINGS}; a .toml has [[screen]], [[window]] and [[channel]]), or one of {}",
+        path.display(), built_in::NAMES.join(", ")
+    )]
+    NoDisplay {
+        /// Path of the file.
+        path: PathBuf,
     },
     /// A file that cannot be read.
     #[error("{}: {reason}", path.display())]

@@ -1,14 +1,15 @@
 //! Measured maps of the factors of a channel's pixels.
 
 use glam::DVec2;
+use std::sync::Arc;
 
-/// Measured map of a channel's pixels: linear light, 0 to 1, of any size.
+/// Measured map of a channel's pixels: linear light, 0 to 1, of any size. Copies share their samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GainMap {
     /// Width and height, samples.
     pub size: [u32; 2],
     /// Samples row by row from the upper left.
-    pub values: Vec<f32>,
+    pub values: Arc<Vec<f32>>,
 }
 
 impl GainMap {

@@ -1,7 +1,7 @@
 //! Room around the viewer: which surface shows which part of the world, for which eye, in which window.
 //!
 //! A [`Display`] is plain data. It comes from a TOML file ([`mod@file`]), is built in ([`built_in`]), or is imported
-//! (MPCDI, ParaView's `.pvx`: [`Display::load`]). It lists *screens* (surfaces in the room), *windows* (pixels of a
+//! (MPCDI, ParaView's `.pvx`, Unreal's `.ndisplay`: [`Display::load`]). It lists *screens* (surfaces in the room), *windows* (pixels of a
 //! monitor), *projectors* and *channels*. A channel shows one screen to one eye in a rectangle of a window. In
 //! essence it is a map
 //!
@@ -37,6 +37,7 @@ mod lens;
 mod load;
 mod maps;
 mod net;
+mod overlaps;
 mod pfm;
 mod picture_plane;
 mod pixels;
@@ -44,6 +45,7 @@ mod projector;
 mod read;
 mod reflection;
 mod report;
+mod shrink;
 pub mod surface;
 mod turning;
 mod unit_square;
@@ -54,6 +56,7 @@ mod window;
 pub use channel::{Channel, ChannelPart};
 pub use display::{Display, Screen};
 pub use error::{DisplayError, FilePlace};
+pub use format::FILE_ENDINGS;
 pub use frustum::{EyeBehind, Frustum, frustum};
 pub use gain_map::GainMap;
 pub use gains::Gains;

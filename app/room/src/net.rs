@@ -5,9 +5,18 @@
 
 use crate::unit_square::inside;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// Largest amount by which rounding may take a barycentric coordinate below 0.
 pub(crate) const EDGE: f64 = 1e-9;
+
+/// Largest number of entries in a net's buckets, for each triangle. Triangles that lie on top of one another get
+/// larger buckets, so that the entries stay in proportion to the triangles.
+const ENTRIES: usize = 8;
+
+/// Largest number of triangles that are tried at one place. A net in which more lie on top of one another is none that
+/// was measured, and what lies deeper is not found.
+const DEEPEST: usize = 1 << 16;
 
 /// Place within a triangle: the indices of the corners, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +93,7 @@ impl EvenGrid {
 /// Triangles in the plane, sorted into buckets so that the triangle at a place is found quickly.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TriangleNet {
-    corners: Vec<DVec2>,
+    corners: Arc<Vec<DVec2>>,
     triangles: Vec<[u32; 3]>,
     lowest: DVec2,
     /// Number of buckets per unit of length, along each axis.
@@ -97,7 +106,8 @@ pub(crate) struct TriangleNet {
 
 impl TriangleNet {
     /// Sorts triangles into buckets. A triangle without area, or with a corner that is not finite, is left out.
-    pub fn new(corners: Vec<DVec2>, triangles: &[[u32; 3]]) -> Self {
+    pub fn new(corners: impl Into<Arc<Vec<DVec2>>>, triangles: &[[u32; 3]]) -> Self {
+        let corners = corners.into();
         let good = |triangle: &&[u32; 3]| {
             let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
             let area = (b - a).perp_dot(c - a);
@@ -107,10 +117,22 @@ impl TriangleNet {
         let used = || triangles.iter().flatten().map(|&corner| corners[corner as usize]);
         let lowest = used().fold(DVec2::INFINITY, DVec2::min);
         let highest = used().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let side = ((triangles.len() as f64 / 2.0).sqrt() as usize).clamp(1, 2048);
-        let scale = side as f64 / (highest - lowest).max(DVec2::splat(f64::MIN_POSITIVE));
-        let mut net =
-            Self { corners, triangles, lowest, scale, side, starts: vec![0; side * side + 1], sorted: Vec::new() };
+        let size = (highest - lowest).max(DVec2::splat(f64::MIN_POSITIVE));
+        let mut side = ((triangles.len() as f64 / 2.0).sqrt() as usize).clamp(1, 2048);
+        let mut net = Self {
+            corners,
+            triangles,
+            lowest,
+            scale: side as f64 / size,
+            side,
+            starts: Vec::new(),
+            sorted: Vec::new(),
+        };
+        while side > 1 && net.entries() > ENTRIES * net.triangles.len() + side * side {
+            side /= 2;
+            (net.side, net.scale) = (side, side as f64 / size);
+        }
+        net.starts = vec![0; side * side + 1];
 
         // Counting sort: count, add up, fill.
         for index in 0..net.triangles.len() {
@@ -138,7 +160,7 @@ impl TriangleNet {
         let [column, row] = self.bucket(scaled)?;
         let bucket = row * self.side + column;
         let range = self.starts[bucket] as usize..self.starts[bucket + 1] as usize;
-        self.sorted[range].iter().find_map(|&index| {
+        self.sorted[range].iter().take(DEEPEST).find_map(|&index| {
             let corners = self.triangles[index as usize];
             let [a, b, c] = corners.map(|corner| self.corners[corner as usize]);
             let area = (b - a).perp_dot(c - a);
@@ -154,14 +176,26 @@ impl TriangleNet {
         inside.then(|| scaled.to_array().map(|part| (part.max(0.0) as usize).min(self.side - 1)))
     }
 
+    /// Number of entries of all buckets.
+    fn entries(&self) -> usize {
+        (0..self.triangles.len())
+            .map(|index| self.reach(index))
+            .fold(0, |sum, [low, high]| sum.saturating_add((high[0] - low[0] + 1) * (high[1] - low[1] + 1)))
+    }
+
     /// Indices of the buckets that a triangle's bounding box touches.
     fn buckets(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+        let ([low, high], side) = (self.reach(index), self.side);
+        (low[1]..=high[1]).flat_map(move |row| (low[0]..=high[0]).map(move |column| row * side + column))
+    }
+
+    /// Column and row of the first and of the last bucket that a triangle's bounding box touches.
+    fn reach(&self, index: usize) -> [[usize; 2]; 2] {
         let corners = self.triangles[index].map(|corner| (self.corners[corner as usize] - self.lowest) * self.scale);
         let slack = DVec2::splat(2.0 * EDGE * self.side as f64);
         let cell = |place: DVec2| place.max(DVec2::ZERO).to_array().map(|part| (part as usize).min(self.side - 1));
         let low = cell(corners[0].min(corners[1]).min(corners[2]) - slack);
         let high = cell(corners[0].max(corners[1]).max(corners[2]) + slack);
-        let side = self.side;
-        (low[1]..=high[1]).flat_map(move |row| (low[0]..=high[0]).map(move |column| row * side + column))
+        [low, high]
     }
 }

@@ -10,11 +10,21 @@ pub(crate) struct Pfm {
     pub samples: Vec<[f32; 3]>,
 }
 
+/// Header of a file, and its samples as they are written.
+pub(crate) struct PfmHeader<'a> {
+    pub width: u32,
+    pub height: u32,
+    /// True if the low byte of a number comes first.
+    little: bool,
+    /// Bytes of the samples, the lowest row first.
+    rows: &'a [u8],
+}
+
 /// Largest number of samples that is read.
 const MAX_SAMPLES: u64 = 16_000_000;
 
-/// Reads a file's bytes. Error texts are worded to follow the file's name.
-pub(crate) fn read(bytes: &[u8]) -> Result<Pfm, String> {
+/// Reads a file's header. Error texts are worded to follow the file's name.
+pub(crate) fn header(bytes: &[u8]) -> Result<PfmHeader<'_>, String> {
     // Header: three words and one white space each, then floats.
     let mut rest = bytes;
     let mut word = || -> Option<&str> {
@@ -50,11 +60,18 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Pfm, String> {
     }
 
     // A negative scale means little-endian.
-    let float = |bytes: [u8; 4]| if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) };
-    let sample = |bytes: &[u8; 12]| {
-        let [r, g, b] = [0, 4, 8].map(|at| float([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]));
-        [r, g, b]
-    };
-    let rows = rest[..needed].as_chunks::<12>().0.chunks(width as usize);
-    Ok(Pfm { width, height, samples: rows.rev().flatten().map(sample).collect() })
+    Ok(PfmHeader { width, height, little: scale < 0.0, rows: &rest[..needed] })
+}
+
+impl PfmHeader<'_> {
+    /// Map with all samples.
+    pub fn samples(&self) -> Pfm {
+        let float = |bytes: [u8; 4]| if self.little { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) };
+        let sample = |bytes: &[u8; 12]| {
+            let [r, g, b] = [0, 4, 8].map(|at| float([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]));
+            [r, g, b]
+        };
+        let rows = self.rows.as_chunks::<12>().0.chunks(self.width as usize);
+        Pfm { width: self.width, height: self.height, samples: rows.rev().flatten().map(sample).collect() }
+    }
 }

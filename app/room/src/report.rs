@@ -7,8 +7,14 @@ use crate::window::{Combine, Monitor};
 use glam::{DMat3, DVec2, DVec3};
 use std::fmt::{Formatter, Result};
 
-/// Number of places, each way, at which screens and viewports are examined.
-const PROBES: u32 = 33;
+/// Largest number of places, each way, at which screens and viewports are examined.
+const MOST_PROBES: u32 = 33;
+
+/// Number of places of all channels together, at most, unless that leaves fewer than [`LEAST_PROBES`] each way.
+const ALL_PROBES: f64 = 2e6;
+
+/// Smallest number of places, each way.
+const LEAST_PROBES: u32 = 3;
 
 impl std::fmt::Display for Display {
     /// Writes the viewer, screens, projectors, windows, channels and notices.
@@ -23,11 +29,18 @@ impl std::fmt::Display for Display {
         if viewer.eye_scale != 1.0 {
             write!(f, ", {} times as far apart in the world", viewer.eye_scale)?;
         }
-        for (index, screen) in self.screens.iter().enumerate() {
+        // A display of very many channels is examined at fewer places each, so that the time stays in bounds.
+        let each = ALL_PROBES / self.channels.len().max(1) as f64;
+        let probes = (each.sqrt() as u32).clamp(LEAST_PROBES, MOST_PROBES);
+        let mut shown: Vec<Vec<&Channel>> = vec![Vec::new(); self.screens.len()];
+        for channel in &self.channels {
+            shown[channel.screen].push(channel);
+        }
+        for (screen, channels) in self.screens.iter().zip(&shown) {
             write!(f, "\n  screen {:?}: {}", screen.name, measure(screen))?;
-            let covered = 100.0 * covered(self, index);
-            let channels = self.channels.iter().filter(|channel| channel.screen == index).count();
-            write!(f, ", {covered:.0} % of it shown by {channels} channel{}", if channels == 1 { "" } else { "s" })?;
+            let covered = 100.0 * covered(self, screen, channels, probes);
+            let count = channels.len();
+            write!(f, ", {covered:.0} % of it shown by {count} channel{}", if count == 1 { "" } else { "s" })?;
         }
         for projector in &self.projectors {
             let place = projector.position_m;
@@ -57,7 +70,7 @@ impl std::fmt::Display for Display {
                 channel.eye.name(),
                 self.windows[channel.window].name,
             )?;
-            let seen = seen(self, channel);
+            let seen = seen(self, channel, probes);
             match seen.densities.as_slice() {
                 [] => write!(f, ", lights nothing")?,
                 all => {
@@ -89,16 +102,16 @@ fn measure(screen: &Screen) -> String {
     }
 }
 
-fn places() -> impl Iterator<Item = DVec2> {
-    (0..PROBES * PROBES)
-        .map(|probe| (DVec2::new(f64::from(probe % PROBES), f64::from(probe / PROBES)) + 0.5) / f64::from(PROBES))
+/// Places spread evenly over the unit square, `probes` each way.
+fn places(probes: u32) -> impl Iterator<Item = DVec2> {
+    (0..probes * probes)
+        .map(move |probe| (DVec2::new(f64::from(probe % probes), f64::from(probe / probes)) + 0.5) / f64::from(probes))
 }
 
-/// Share of a screen's places that at least one channel shows.
-fn covered(display: &Display, screen: usize) -> f64 {
-    let surface = &display.screens[screen].surface;
-    let channels: Vec<&Channel> = display.channels.iter().filter(|channel| channel.screen == screen).collect();
-    let points: Vec<(DVec2, DVec3)> = places().filter_map(|uv| Some((uv, surface.point(uv)?))).collect();
+/// Share of a screen's places that at least one of its channels shows.
+fn covered(display: &Display, screen: &Screen, channels: &[&Channel], probes: u32) -> f64 {
+    let surface = &screen.surface;
+    let points: Vec<(DVec2, DVec3)> = places(probes).filter_map(|uv| Some((uv, surface.point(uv)?))).collect();
     let shown =
         |&&(uv, point): &&(DVec2, DVec3)| channels.iter().any(|channel| channel.place_of(display, uv, point).is_some());
     points.iter().filter(shown).count() as f64 / points.len().max(1) as f64
@@ -112,7 +125,7 @@ struct SeenPixels {
     lit: f64,
 }
 
-fn seen(display: &Display, channel: &Channel) -> SeenPixels {
+fn seen(display: &Display, channel: &Channel, probes: u32) -> SeenPixels {
     let eye = display.viewer.eye_m(channel.eye, display.viewer.head_m, DMat3::IDENTITY);
     let pixel = channel.size().map(|side| 1.0 / f64::from(side));
     let direction = |place: DVec2| Some((channel.point(display, place)? - eye).normalize());
@@ -122,8 +135,8 @@ fn seen(display: &Display, channel: &Channel) -> SeenPixels {
         let down = direction(place + DVec2::new(0.0, pixel[1]))? - from;
         Some(1.0 / right.cross(down).length().sqrt().to_degrees())
     };
-    let lit = places().filter(|&place| channel.point(display, place).is_some()).count();
-    let mut densities: Vec<f64> = places().filter_map(density).filter(|density| density.is_finite()).collect();
+    let lit = places(probes).filter(|&place| channel.point(display, place).is_some()).count();
+    let mut densities: Vec<f64> = places(probes).filter_map(density).filter(|density| density.is_finite()).collect();
     densities.sort_by(f64::total_cmp);
-    SeenPixels { densities, lit: lit as f64 / f64::from(PROBES * PROBES) }
+    SeenPixels { densities, lit: lit as f64 / f64::from(probes * probes) }
 }

@@ -3,6 +3,7 @@
 use crate::net::{EvenGrid, TriangleNet};
 use crate::unit_square::inside;
 use glam::{DMat3, DVec2, DVec3};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Corners that do not form a convex quadrilateral.
@@ -55,12 +56,13 @@ impl CornerWarp {
     }
 }
 
-/// Measured map: piecewise linear over an even grid, the first sample in the viewport's upper left corner.
+/// Measured map: piecewise linear over an even grid, the first sample in the viewport's upper left corner. Copies share
+/// their samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredWarp {
     grid: EvenGrid,
-    places: Vec<DVec2>,
-    back: TriangleNet,
+    places: Arc<Vec<DVec2>>,
+    back: Arc<TriangleNet>,
 }
 
 impl MeasuredWarp {
@@ -68,7 +70,8 @@ impl MeasuredWarp {
     /// that is not finite is unknown.
     pub fn new(columns: u32, rows: u32, places: Vec<DVec2>) -> Self {
         let grid = EvenGrid { columns, rows };
-        let back = TriangleNet::new(places.clone(), &grid.triangles());
+        let places = Arc::new(places);
+        let back = Arc::new(TriangleNet::new(Arc::clone(&places), &grid.triangles()));
         Self { grid, places, back }
     }
 }

@@ -91,8 +91,9 @@ pub struct DevicesOptions {
 /// Options of `rapidity check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckOptions {
-    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .webp, .tif, .hdr, .exr), displays (.toml, .pvx, .mpcdi,
-    /// .mpcdi.xml) and recordings (.mcap).
+    /// Scenes (.gltf, .glb), panoramas (.png, .jpg, .webp, .tif, .hdr, .exr), displays, which describe rooms with
+    /// screens (.toml of this program, .mpcdi or .mpcdi.xml of projector calibrations, .pvx of ParaView, .ndisplay of
+    /// Unreal Engine), and recordings (.mcap).
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Print one JSON object per file instead of text.

@@ -13,7 +13,7 @@ use super::values;
 #[command(next_help_heading = "Room")]
 pub struct RoomOptions {
     /// Room for whose surfaces the pictures are drawn: window, stereo-wall, cave4, cave6, curved, dome6, or a display
-    /// file (.toml, .mpcdi, .pvx).
+    /// file (.toml, .mpcdi, .mpcdi.xml, .pvx, .ndisplay).
     ///
     /// The room rests in the vehicle: its reference point is at --position, and its −z points along --look. Each
     /// channel's picture becomes a file in the folder that --out names. --size and --fov do not apply to these

@@ -30,6 +30,16 @@ fn ride(options: &str) -> RideOptions {
     }
 }
 
+#[test]
+fn a_folder_for_a_display_may_have_a_dot_in_its_name() {
+    for folder in ["walls", "walls-1.2", "walls.d/", "2026.05.01", ".hidden"] {
+        let Ok(Command::Render(options)) = parse(&format!("render --display cave4 --out {folder}")) else {
+            panic!("{folder} was refused")
+        };
+        assert_eq!(options.out, Output::Folder(folder.into()));
+    }
+}
+
 /// Sentence with which a line is refused.
 fn refusal(line: &str) -> String {
     match parse(line) {
@@ -196,6 +206,9 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --out a.png --edge 0", ["--edge", "above 0"]),
         ("render --out a.png --threads 0", ["--threads", "1..=1024"]),
         ("render --out a.jpg", ["--out", ".exr"]),
+        ("render --out walls-1.2", ["--out", ".exr"]),
+        ("render --display cave4 --out walls.jpg", ["--out", ".exr"]),
+        ("render --display cave4 --out walls.png", ["--out", "folder"]),
         ("render --out png", ["--out", ".png"]),
         ("render --out a.mp4 --seconds -1", ["--seconds", "above 0"]),
         ("render --out a.mp4 --seconds inf", ["--seconds", "above 0"]),

@@ -75,6 +75,11 @@ const FARTHEST: f64 = 1e100;
 /// Largest side of a picture, pixels: that of a graphics device's texture.
 const MAXIMAL_SIZE: u32 = 16_384;
 
+/// Endings of files that are no folders, though this program does not write them: a name that has one is a mistake.
+const OTHER_FILES: [&str; 16] = [
+    "jpg", "jpeg", "bmp", "tif", "tiff", "gif", "webp", "hdr", "ppm", "tga", "avi", "mov", "mkv", "webm", "gltf", "glb",
+];
+
 /// File endings that `--out` takes, for messages.
 pub(super) const ENDINGS: &str = ".png (a picture), .exr (a picture as light) or .mp4 (a film)";
 
@@ -113,7 +118,8 @@ impl TryFrom<PathBuf> for Output {
             Ok(Self::Light(path))
         } else if has_extension(&path, &["mp4"]) {
             Ok(Self::Film(path))
-        } else if path.extension().is_none() || path.is_dir() {
+        } else if path.is_dir() || !has_extension(&path, &OTHER_FILES) {
+            // A folder's name may have a dot in it. Whether a folder is wanted is known when all options are.
             Ok(Self::Folder(path))
         } else {
             Err(ValueError::Extension { allowed: ENDINGS })

@@ -57,7 +57,7 @@ fn report(path: &Path, reading: &ReadingOptions) -> Result<Good, Error> {
         Some("gltf" | "glb") => scene("scene", path, rules),
         Some("mcap") => Ok(recording(path)?),
         _ if room::is_display(path) => {
-            let display = Display::load(path)?;
+            let display = Display::load_within(path, &budget)?;
             let members = json!({ "notices": display.notices });
             Ok(Good { kind: "display", text: display.to_string(), members })
         }

@@ -28,7 +28,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     if options.dial.renderer == RendererName::Raytrace {
         return Err(Error::WallsByRays);
     }
-    let display = Display::named_or_file(display)?;
+    let display = Display::named_or_file_within(display, &options.world.reading.budget())?;
     for notice in &display.notices {
         tell(format_args!("{}: {notice}", display.name));
     }

@@ -42,7 +42,9 @@ impl RideRoom {
     /// A display or a tracker that cannot be used.
     pub fn of(options: &RideOptions) -> Result<Self, Error> {
         let tracked = options.devices.tracker.as_ref().map(|_| WINDOW);
-        let display = options.display.as_deref().or(tracked).map(Display::named_or_file).transpose()?;
+        let budget = options.world.reading.budget();
+        let named = |name| Display::named_or_file_within(name, &budget);
+        let display = options.display.as_deref().or(tracked).map(named).transpose()?;
         let head = match &display {
             Some(display) => tracker::head_config(display, options.devices.tracker.as_ref())?,
             None => None,

@@ -14,6 +14,7 @@ use crate::session::interrupt::interrupted;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use render::choice::Choice;
+use render::picture::largest_side;
 use render::target::Format;
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
 use scene::Scene;
@@ -117,7 +118,9 @@ impl Open {
         spinner.finish_and_clear();
         let interface = Interface::new(&gpu, &surfaces[0].window, screen_format);
         let canvas = match display {
-            Some(display) => {
+            Some(mut display) => {
+                let smaller = display.shrink_to(largest_side(&gpu));
+                smaller.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
                 let walls = Walls::new(&gpu, display, quality, screen_format);
                 if options.preview {

@@ -1,6 +1,7 @@
 //! Window with the surface that is drawn on.
 
 use crate::output::say::tell;
+use render::picture::largest_side;
 use render::{Gpu, GpuError};
 use room::{Monitor, WindowPlace};
 use std::sync::Arc;
@@ -32,6 +33,13 @@ impl WindowSurface {
         configuration.present_mode = if waits { wgpu::PresentMode::AutoVsync } else { wgpu::PresentMode::AutoNoVsync };
         // The interface mixes encoded colours, so the surface must not encode them once more.
         configuration.format = configuration.format.remove_srgb_suffix();
+        [configuration.width, configuration.height] = drawable(gpu, size);
+        if [configuration.width, configuration.height] != [size.width.max(1), size.height.max(1)] {
+            eprintln!(
+                "a window of {} × {} pixels is larger than this graphics device can draw; {} × {} of them are drawn",
+                size.width, size.height, configuration.width, configuration.height
+            );
+        }
         surface.configure(&gpu.device, &configuration);
         Ok(Self { window, surface, configuration })
     }
@@ -46,7 +54,7 @@ impl WindowSurface {
         if size.width == 0 || size.height == 0 {
             return false;
         }
-        (self.configuration.width, self.configuration.height) = (size.width, size.height);
+        [self.configuration.width, self.configuration.height] = drawable(gpu, size);
         self.surface.configure(&gpu.device, &self.configuration);
         true
     }
@@ -70,6 +78,11 @@ impl WindowSurface {
             Current::Timeout | Current::Occluded | Current::Validation => Acquired::Nothing,
         })
     }
+}
+
+/// Width and height of a window's contents that the device can draw, pixels.
+fn drawable(gpu: &Gpu, size: PhysicalSize<u32>) -> [u32; 2] {
+    [size.width, size.height].map(|side| side.clamp(1, largest_side(gpu)))
 }
 
 /// Answer of a window that is asked for its next texture.

@@ -30,8 +30,10 @@ fn a_display_with_a_flaw_is_named_with_its_line() {
             "[[screen]]\nname = \"s\"\nsize = [1, 1]\n",
             "a.toml, line 1, screen \"s\": it has a size or angles, but no centre",
         ),
-        ("b.pvx", "<pvx><Machine/></pvx>", "b.pvx: line 1, <Machine>: it has no LowerLeft"),
+        ("b.pvx", "<pvx><Machine UpperLeft='0 1 -1'/></pvx>", "b.pvx: line 1, <Machine>: it has no LowerLeft"),
         ("c.mpcdi", "PK", "c.mpcdi: it is no good zip"),
+        ("d.toml", "[package]\nname = \"d\"\n", "d.toml: it is no display; a display is a file (.toml, .pvx,"),
+        ("e.txt", "a room", "a display (.toml, .pvx, .mpcdi, .mpcdi.xml, .ndisplay)"),
     ] {
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();

@@ -58,7 +58,7 @@ fn riding_towards_a_model_shows_relativity_within_seconds() {
         let output = run(folder.path(), &ride);
         assert!(output.status.success(), "{}", told(&output));
         assert!(told(&output).contains("which suits the scene"), "{}", told(&output));
-        let replay = ["--replay", "r.mcap", "--seconds", "3.9"];
+        let replay = ["--replay", "r.mcap", "--seconds", "2"];
         let [with, without] =
             ["all", "none"].map(|effects| picture(folder.path(), &[&replay[..], &["--effects", effects]].concat()));
         let changed = with.pixels().zip(without.pixels()).filter(|(a, b)| differ(a, b)).count();

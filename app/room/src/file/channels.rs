@@ -6,13 +6,15 @@ use crate::channel::{Channel, ChannelPart};
 use crate::display::Screen;
 use crate::error::{DisplayError, FilePlace};
 use crate::gain_map::GainMap;
-use crate::maps::{self, MapError};
+use crate::maps::{MapError, MapShelf};
 use crate::projector::Projector;
 use crate::read;
 use crate::viewer::EyeSide;
-use crate::warp::{CornerWarp, Warp};
+use crate::warp::{CornerWarp, MeasuredWarp, Warp};
 use crate::window::WindowPlace;
 use glam::{DVec2, DVec4};
+use regular_file::Budget;
+use std::collections::HashMap;
 use std::path::Path;
 use toml::Spanned;
 
@@ -23,32 +25,48 @@ pub(super) struct ChannelResolver<'a> {
     pub projectors: &'a [Projector],
     pub windows: &'a [WindowPlace],
     pub folder: &'a Path,
+    /// Maps that channels have named so far.
+    pub maps: MapShelf<'a>,
 }
 
-impl ChannelResolver<'_> {
+/// Indices of screens, windows and projectors by their names.
+struct KnownNames<'a> {
+    screens: HashMap<&'a str, usize>,
+    windows: HashMap<&'a str, usize>,
+    projectors: HashMap<&'a str, usize>,
+}
+
+impl<'a> ChannelResolver<'a> {
     /// Channels of all `[[channel]]` tables, in the file's order.
-    pub fn resolve(&self, tables: &[Spanned<schema::ChannelTable>]) -> Result<Vec<Channel>, DisplayError> {
+    pub fn resolve(&mut self, tables: &[Spanned<schema::ChannelTable>]) -> Result<Vec<Channel>, DisplayError> {
         names::check(self.text, "channel", tables, |channel| &channel.name)?;
-        tables.iter().map(|table| self.channel(table)).collect()
+        let known = KnownNames {
+            screens: indices(self.screens.iter().map(|screen| screen.name.as_str())),
+            windows: indices(self.windows.iter().map(|window| window.name.as_str())),
+            projectors: indices(self.projectors.iter().map(|projector| projector.name.as_str())),
+        };
+        tables.iter().map(|table| self.channel(table, &known)).collect()
     }
 
-    fn channel(&self, table: &Spanned<schema::ChannelTable>) -> Result<Channel, DisplayError> {
-        let given = table.get_ref();
-        let at = |key: &str| self.text.at(table.span().start, &format!("channel {:?}", given.name), key);
+    fn channel(
+        &mut self,
+        table: &Spanned<schema::ChannelTable>,
+        known: &KnownNames<'a>,
+    ) -> Result<Channel, DisplayError> {
+        let (given, text) = (table.get_ref(), self.text);
+        let at = |key: &str| text.at(table.span().start, &format!("channel {:?}", given.name), key);
         let refuse = |key: &str, reason: String| DisplayError::Value { at: at(key), reason };
         if let Some(reason) = not_a_file_name(&given.name) {
             return Err(DisplayError::NotAName { at: at("name"), name: given.name.clone(), reason });
         }
-        let screen =
-            find(|| at("screen"), "screen", &given.screen, self.screens.iter().map(|screen| screen.name.as_str()))?;
-        let window =
-            find(|| at("window"), "window", &given.window, self.windows.iter().map(|window| window.name.as_str()))?;
-        let names = || self.projectors.iter().map(|projector| projector.name.as_str());
+        let screen = find(|| at("screen"), "screen", &given.screen, &known.screens)?;
+        let window = find(|| at("window"), "window", &given.window, &known.windows)?;
+        let projector = given.projector.as_ref();
         let projector =
-            given.projector.as_ref().map(|name| find(|| at("projector"), "projector", name, names())).transpose()?;
+            projector.map(|name| find(|| at("projector"), "projector", name, &known.projectors)).transpose()?;
         let eyes = [EyeSide::Left, EyeSide::Right, EyeSide::Centre];
-        let eye = eyes
-            [find(|| at("eye"), "eye", given.eye.as_deref().unwrap_or("centre"), eyes.map(EyeSide::name).into_iter())?];
+        let eye = given.eye.as_deref().unwrap_or("centre");
+        let eye = eyes[find(|| at("eye"), "eye", eye, &indices(eyes.map(EyeSide::name).into_iter()))?];
         let viewport = self.viewport(given, window, &at)?;
         let part = part(given, &at)?;
         if given.part.is_some() && projector.is_some() {
@@ -62,7 +80,7 @@ impl ChannelResolver<'_> {
         }
         let warp = match (&given.corners, &given.warp) {
             (Some(corners), _) => self.corners(corners, viewport, &at)?,
-            (None, Some(file)) => Some(Warp::Grid(self.read(file, maps::warp)?)),
+            (None, Some(file)) => Some(Warp::Grid(self.warp(file)?)),
             (None, None) => None,
         };
         Ok(Channel {
@@ -123,7 +141,7 @@ impl ChannelResolver<'_> {
     }
 
     fn map(
-        &self,
+        &mut self,
         file: &Option<String>,
         gamma: Option<f64>,
         at: impl Fn() -> Box<FilePlace>,
@@ -132,14 +150,23 @@ impl ChannelResolver<'_> {
         if !(gamma.is_finite() && gamma > 0.0) {
             return Err(DisplayError::Value { at: at(), reason: format!("{gamma} must be a number above 0") });
         }
-        file.as_ref().map(|file| self.read(file, |bytes| maps::gain(bytes, gamma))).transpose()
+        let Some(file) = file else { return Ok(None) };
+        let path = self.folder.join(file);
+        self.maps.gain(file, gamma, |budget| bytes(&path, budget), |error| unusable(&path, &error)).map(Some)
     }
 
-    fn read<T>(&self, file: &str, understand: impl Fn(&[u8]) -> Result<T, MapError>) -> Result<T, DisplayError> {
+    fn warp(&mut self, file: &str) -> Result<MeasuredWarp, DisplayError> {
         let path = self.folder.join(file);
-        let bytes = read::bytes(&path).map_err(|reason| DisplayError::Read { path: path.clone(), reason })?;
-        understand(&bytes).map_err(|error| DisplayError::Import { path, reason: error.to_string() })
+        self.maps.warp(file, |budget| bytes(&path, budget), |error| unusable(&path, &error))
     }
+}
+
+fn bytes(path: &Path, budget: &Budget) -> Result<Vec<u8>, DisplayError> {
+    read::bytes(path, budget).map_err(|reason| DisplayError::Read { path: path.to_owned(), reason })
+}
+
+fn unusable(path: &Path, error: &MapError) -> DisplayError {
+    DisplayError::Import { path: path.to_owned(), reason: error.to_string() }
 }
 
 fn part(given: &schema::ChannelTable, at: &dyn Fn(&str) -> Box<FilePlace>) -> Result<ChannelPart, DisplayError> {
@@ -155,18 +182,23 @@ fn part(given: &schema::ChannelTable, at: &dyn Fn(&str) -> Box<FilePlace>) -> Re
     }
 }
 
+/// Indices of names by the names.
+fn indices<'a>(names: impl Iterator<Item = &'a str>) -> HashMap<&'a str, usize> {
+    names.enumerate().map(|(index, name)| (name, index)).collect()
+}
+
 /// Index of `name` among the known names.
-fn find<'a>(
+fn find(
     at: impl Fn() -> Box<FilePlace>,
     kind: &'static str,
     name: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
+    known: &HashMap<&str, usize>,
 ) -> Result<usize, DisplayError> {
-    known.clone().position(|candidate| candidate == name).ok_or_else(|| DisplayError::Unknown {
-        at: at(),
-        kind,
-        name: name.to_owned(),
-        known: known.map(str::to_owned).collect(),
+    known.get(name).copied().ok_or_else(|| {
+        let mut names: Vec<_> = known.iter().collect();
+        names.sort_by_key(|(_, index)| **index);
+        let known = names.into_iter().map(|(name, _)| (*name).to_owned()).collect();
+        DisplayError::Unknown { at: at(), kind, name: name.to_owned(), known }
     })
 }
 

@@ -14,5 +14,5 @@ mod text;
 mod viewer;
 mod windows;
 
-pub use parse::parse;
+pub use parse::{parse, parse_within};
 pub use save::{NudgedCorners, SaveError, save, saved};

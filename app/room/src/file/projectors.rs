@@ -8,9 +8,13 @@ use crate::projector::Projector;
 use crate::turning::room_from_turned;
 use crate::{grid_file, read};
 use glam::DVec2;
+use regular_file::Budget;
 use std::path::Path;
 use toml::Spanned;
 use view::Tangents;
+
+/// Largest memory of a lens's table, in bytes of its text.
+const BYTES_OF_TEXT: u64 = 16;
 
 /// Names of the lenses in files.
 const LENSES: [&str; 3] = ["pinhole", "scan", "table"];
@@ -20,11 +24,14 @@ pub(super) fn resolve(
     text: &DisplayText<'_>,
     tables: &[Spanned<schema::ProjectorTable>],
     folder: &Path,
+    budget: &Budget,
 ) -> Result<Vec<Projector>, DisplayError> {
     names::check(text, "projector", tables, |projector| &projector.name)?;
     tables
         .iter()
-        .map(|table| ProjectorForm { text, start: table.span().start, given: table.get_ref(), folder }.projector())
+        .map(|table| {
+            ProjectorForm { text, start: table.span().start, given: table.get_ref(), folder, budget }.projector()
+        })
         .collect()
 }
 
@@ -34,6 +41,7 @@ struct ProjectorForm<'a> {
     start: usize,
     given: &'a schema::ProjectorTable,
     folder: &'a Path,
+    budget: &'a Budget,
 }
 
 impl ProjectorForm<'_> {
@@ -177,7 +185,8 @@ impl ProjectorForm<'_> {
         let Some(name) = &self.given.table else { return self.refuse("", "lens = \"table\" needs table, a CSV file") };
         let path = self.folder.join(name);
         let lens = || -> Result<ProjectorLens, String> {
-            let text = read::text(&path)?;
+            let text = read::text(&path, self.budget)?;
+            self.budget.take(BYTES_OF_TEXT * text.len() as u64).map_err(|error| error.to_string())?;
             let (columns, rows, angles) = grid_file::read::<2>(&text, "x, y, yaw, pitch")?;
             let angles = angles.iter().map(|angles| DVec2::from(*angles).map(f64::to_radians)).collect();
             Ok(ProjectorLens::Table(LensTable::new(columns, rows, angles)))

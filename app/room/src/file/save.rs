@@ -1,13 +1,14 @@
 //! Saving of nudged corners in the display file they came from. Everything else in the file stays as it is, to the
 //! letter.
 
-use super::parse::parse;
+use super::parse::parse_within;
 use crate::built_in;
 use crate::display_file::DisplayFile;
 use crate::error::DisplayError;
 use crate::format::DisplayFormat;
 
 use glam::DVec2;
+use regular_file::Budget;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml_edit::{Array, DocumentMut, Formatted, InlineTable, Item, TableLike, Value};
@@ -97,9 +98,11 @@ pub fn save(name: &str, corners: &[NudgedCorners<'_>]) -> Result<PathBuf, SaveEr
     if DisplayFormat::of(Path::new(name)).is_some_and(|format| format != DisplayFormat::Toml) {
         return Err(SaveError::Imported { path: name.into() });
     }
-    let file = DisplayFile::read(Path::new(name)).map_err(Box::new)?;
+    // The display is open already, so its files may take as much memory again.
+    let budget = Budget::new(u64::MAX);
+    let file = DisplayFile::read(Path::new(name), &budget).map_err(Box::new)?;
     let text = saved(file.text().map_err(Box::new)?, corners)?;
-    parse(&text, name, file.folder()).map_err(Box::new)?;
+    parse_within(&text, name, file.folder(), &budget).map_err(Box::new)?;
 
     // A link's target is written, not the link.
     let cannot = |error| SaveError::Write { path: name.into(), error };

@@ -12,6 +12,7 @@ use crate::surface::shape::ScreenSurface;
 use crate::surface::sphere::SphereSurface;
 use crate::surface::sweep::sweep;
 use glam::{DVec2, DVec3};
+use regular_file::Budget;
 use std::path::Path;
 use toml::Spanned;
 
@@ -20,12 +21,13 @@ pub(super) fn resolve(
     text: &DisplayText<'_>,
     tables: &[Spanned<schema::ScreenTable>],
     folder: &Path,
+    budget: &Budget,
 ) -> Result<Vec<Screen>, DisplayError> {
     names::check(text, "screen", tables, |screen| &screen.name)?;
     tables
         .iter()
         .map(|table| {
-            let form = ScreenForm { text, start: table.span().start, given: table.get_ref(), folder };
+            let form = ScreenForm { text, start: table.span().start, given: table.get_ref(), folder, budget };
             Ok(Screen { name: form.given.name.clone(), surface: form.surface()?, reflection: form.reflection()? })
         })
         .collect()
@@ -37,6 +39,7 @@ struct ScreenForm<'a> {
     start: usize,
     given: &'a schema::ScreenTable,
     folder: &'a Path,
+    budget: &'a Budget,
 }
 
 impl ScreenForm<'_> {
@@ -82,7 +85,7 @@ impl ScreenForm<'_> {
             self.sweep(sweep)
         } else {
             let path = self.folder.join(given.mesh.as_deref().unwrap_or_default());
-            mesh_file::load(&path)
+            mesh_file::load(&path, self.budget)
                 .map(|mesh| ScreenSurface::Mesh(Box::new(mesh)))
                 .map_err(|reason| DisplayError::Import { path, reason })
         }

@@ -18,6 +18,11 @@ pub(super) fn all<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<I
     node.descendants().filter(move |node| node.is_element() && node.tag_name().name().eq_ignore_ascii_case(name))
 }
 
+/// Elements called `name` directly below a node.
+pub(super) fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(move |node| node.is_element() && node.tag_name().name().eq_ignore_ascii_case(name))
+}
+
 /// First element called `name` below a node, at any depth.
 pub(super) fn first<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
     all(node, name).find(|found| *found != node)

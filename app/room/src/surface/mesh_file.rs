@@ -2,16 +2,24 @@
 
 use super::mesh::MeshSurface;
 use crate::{grid_file, read};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
+use regular_file::Budget;
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Largest number of triangles that is read.
 const MAX_TRIANGLES: usize = 4_000_000;
 
+/// Largest memory of a mesh, in bytes of its text.
+const BYTES_OF_TEXT: u64 = 10;
+
+/// Largest memory of a mesh without places, in bytes of its text.
+const LIT_BYTES_OF_TEXT: u64 = 20;
+
 /// Reads the `.obj` or `.csv` file `path`. Error texts are worded to follow the file's name.
-pub(crate) fn load(path: &Path) -> Result<MeshSurface, String> {
-    let text = read::text(path)?;
+pub(crate) fn load(path: &Path, budget: &Budget) -> Result<MeshSurface, String> {
+    let text = read::text(path, budget)?;
+    budget.take(BYTES_OF_TEXT * text.len() as u64).map_err(|error| error.to_string())?;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "obj" => obj(&text),
@@ -71,6 +79,55 @@ fn obj(text: &str) -> Result<MeshSurface, String> {
         return Err("it has no face (f)".into());
     }
     good(MeshSurface::new(points, uvs, &triangles))
+}
+
+/// Reads the points and faces of the `.obj` file `path`, without places: the mesh is only lit. Each triangle gets a
+/// place of its own, so that they can be counted. Error texts are worded to follow the file's name.
+pub(crate) fn shape(path: &Path, room_from_file: DMat3, budget: &Budget) -> Result<MeshSurface, String> {
+    let text = read::text(path, budget)?;
+    budget.take(LIT_BYTES_OF_TEXT * text.len() as u64).map_err(|error| error.to_string())?;
+    let mirrored = room_from_file.determinant() < 0.0;
+    let (mut positions, mut corners) = (Vec::new(), Vec::new());
+    for (index, line) in text.lines().enumerate() {
+        let wrong = |what: String| format!("line {}: {what}", index + 1);
+        let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let position = numbers::<3>(words).ok_or_else(|| wrong("v needs three finite numbers".into()))?;
+                positions.push(room_from_file * DVec3::from(position));
+            }
+            Some("f") => {
+                let vertex = |word: &str| {
+                    let number = word.split('/').next().unwrap_or_default();
+                    let index = nth(number, positions.len());
+                    index.ok_or_else(|| wrong(format!("{word:?} names no v that stands before it")))
+                };
+                let face = words.map(vertex).collect::<Result<Vec<usize>, String>>()?;
+                if face.len() < 3 {
+                    return Err(wrong("a face needs at least three corners".into()));
+                }
+                for pair in face.windows(2).skip(1) {
+                    let (second, third) = if mirrored { (pair[1], pair[0]) } else { (pair[0], pair[1]) };
+                    corners.extend([face[0], second, third]);
+                }
+                if corners.len() > 3 * MAX_TRIANGLES {
+                    return Err(wrong(format!("it has more than {MAX_TRIANGLES} triangles")));
+                }
+            }
+            _ => {}
+        }
+    }
+    if corners.is_empty() {
+        return Err("it has no face (f)".into());
+    }
+    let side = ((corners.len() / 3) as f64).sqrt().ceil();
+    let place = |corner: usize| {
+        let cell = DVec2::new(((corner / 3) as f64) % side, ((corner / 3) as f64 / side).floor());
+        (cell + [DVec2::ZERO, DVec2::X, DVec2::Y][corner % 3]) / side
+    };
+    let uvs = (0..corners.len()).map(place).collect();
+    let triangles: Vec<[u32; 3]> = (0..corners.len() as u32).step_by(3).map(|at| [at, at + 1, at + 2]).collect();
+    good(MeshSurface::new(corners.into_iter().map(|corner| positions[corner]).collect(), uvs, &triangles))
 }
 
 /// Index from an OBJ number, which counts from 1, or backwards from −1.

@@ -27,7 +27,7 @@ fn a_display_with_a_flaw_is_named_with_its_line() {
             "[[screen]]\nname = \"s\"\nsize = [1, 1]\n",
             "a.toml, line 1, screen \"s\": it has a size or angles, but no centre",
         ),
-        ("b.pvx", "<pvx><Machine/></pvx>", "b.pvx: line 1, <Machine>: it has no LowerLeft"),
+        ("b.pvx", "<pvx><Machine UpperLeft='0 1 -1'/></pvx>", "b.pvx: line 1, <Machine>: it has no LowerLeft"),
         ("c.mpcdi", "PK", "c.mpcdi: it is no good zip"),
     ] {
         let path = folder.path().join(name);
@@ -35,5 +35,56 @@ fn a_display_with_a_flaw_is_named_with_its_line() {
         assert!(room::is_display(&path), "{path:?}");
         let said = Display::load(&path).unwrap_err().to_string();
         assert!(said.contains(words), "{said:?} does not say {words:?}");
+    }
+}
+
+#[test]
+fn a_file_that_is_no_display_is_told_what_one_is() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        ("Cargo.toml", &b"[package]\nname = \"x\"\nversion = \"1.0.0\"\n"[..]),
+        ("empty.toml", b""),
+        ("photo.TOML", b"\xff\xd8\xff"),
+        ("notes.txt", b"# Notes\n\nNo room.\n"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        let said = Display::load(&path).unwrap_err().to_string();
+        for words in [name, "it is no display", ".pvx, .mpcdi, .mpcdi.xml, .ndisplay", "cave4"] {
+            assert!(said.contains(words), "{said:?} does not say {words:?}");
+        }
+    }
+    // A display with a mistake stays a display, and its mistake is named; so does one without an ending.
+    let text = "[[screen]]\nname = \"s\"\nsize = [1, 1]\n";
+    for name in ["a.toml", "room"] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+        let said = Display::load(&folder.path().join(name)).unwrap_err().to_string();
+        assert!(said.contains("no centre"), "{said}");
+    }
+    std::fs::write(folder.path().join("b.toml"), "[[screen]\n").unwrap();
+    assert!(Display::load(&folder.path().join("b.toml")).unwrap_err().to_string().contains("line 1"));
+}
+
+#[test]
+fn display_files_are_known_by_their_endings_in_any_case() {
+    for name in ["a.toml", "a.TOML", "a.Pvx", "a.MPCDI", "a.Mpcdi.XML", "mpcdi.xml", "a.nDisplay"] {
+        assert!(room::is_display(Path::new(name)), "{name}");
+    }
+    for name in ["toml", "a.xml", "a.mpcdi.zip", "a.json", ""] {
+        assert!(!room::is_display(Path::new(name)), "{name}");
+    }
+}
+
+#[test]
+fn a_window_beyond_the_device_keeps_all_of_its_channels() {
+    let mut display = Display::built_in("cave4").unwrap();
+    let whole = display.clone();
+    assert_eq!((display.shrink_to(2560).len(), &display), (0, &whole), "it fits");
+    let notices = display.shrink_to(1000);
+    assert_eq!(notices.len(), 2, "{notices:?}");
+    assert!(notices[0].contains("2560 × 640") && notices[0].contains("1000 × 640"), "{notices:?}");
+    let viewports: Vec<_> = display.channels.iter().map(|channel| channel.viewport).collect();
+    for (viewport, before) in viewports.iter().zip(&whole.channels) {
+        assert_eq!(*viewport, [before.viewport[0] * 1000 / 2560, 0, 250, 640]);
     }
 }

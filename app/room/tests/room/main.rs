@@ -2,8 +2,13 @@
 
 mod built_in;
 mod check;
+mod containers;
 mod dome;
 mod file;
+mod hostile;
 mod import;
+mod mpcdi_poses;
+mod ndisplay;
+mod paraview;
 mod projectors;
 mod surfaces;
