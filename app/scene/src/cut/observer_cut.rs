@@ -28,6 +28,10 @@ const LOG2_DOPPLER: f64 = 0.0035;
 /// may jump at a key.
 const DOPPLER_LENGTH: f64 = 8.0;
 
+/// Largest number of triangles that animated bodies are cut into, unless they have nearly as many. Each corner of them
+/// is sought on its worldline, which takes a thousand times as long as one at rest.
+const ANIMATED_TRIANGLES: usize = 100_000;
+
 /// Number of triangles that are cut together and share their new vertices.
 const BATCH: usize = 1024;
 
@@ -119,14 +123,20 @@ impl<'a> CutRule<'a> {
 
     /// Cuts all meshes; `None` if that makes more triangles than `limit`.
     fn cut(&self, scene: &Scene, limit: usize) -> Option<Cut> {
-        let total = AtomicUsize::new(0);
+        let (total, animated_total) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let animated = |mesh: &&Mesh| self.sight(mesh).body.is_some();
+        let animated_count: usize = scene.meshes.iter().filter(animated).map(|mesh| mesh.indices.len() / 3).sum();
+        let animated_limit = ANIMATED_TRIANGLES.max(2 * animated_count).min(limit);
         let mut split = HashSet::default();
         let mut meshes = Vec::with_capacity(scene.meshes.len());
         for mesh in &scene.meshes {
             let batches: Option<Vec<Batch>> = mesh
                 .indices
                 .par_chunks(3 * BATCH)
-                .map(|corners| self.cut_batch(mesh, corners, &total, limit))
+                .map(|corners| match animated(&mesh) {
+                    true => self.cut_batch(mesh, corners, &animated_total, animated_limit),
+                    false => self.cut_batch(mesh, corners, &total, limit),
+                })
                 .collect();
             let mut whole = CutMesh::default();
             for batch in batches? {
