@@ -1,9 +1,9 @@
 //! Room around the viewer: which surface shows which part of the world, for which eye, in which window.
 //!
 //! A [`Display`] is plain data. It comes from a TOML file ([`mod@file`]), is built in ([`built_in`]), or is imported
-//! (MPCDI, ParaView's `.pvx`, Unreal's `.ndisplay`: [`Display::load`]). It lists *screens* (surfaces in the room), *windows* (pixels of a
-//! monitor), *projectors* and *channels*. A channel shows one screen to one eye in a rectangle of a window. In
-//! essence it is a map
+//! (MPCDI, ParaView's `.pvx`, Unreal's `.ndisplay`: [`Display::load`]). It lists *screens* (surfaces in the room),
+//! *windows* (pixels of a monitor), *projectors* and *channels*. A channel shows one screen to one eye in a rectangle
+//! of a window. In essence it is a map
 //!
 //! ```text
 //! pixel ─ warp ─► place in the picture ─ lens, ray ─► point on the surface

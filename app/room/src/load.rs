@@ -90,8 +90,8 @@ impl Display {
     }
 }
 
-/// Text of a file of this program; `None` if it is something else. A faulty display with the ending `.toml` is a display:
-/// what is wrong with it is said when it is parsed.
+/// Text of a file of this program; `None` if it is something else. A faulty display with the ending `.toml` is a
+/// display: what is wrong with it is said when it is parsed.
 fn display_text<'a>(file: &'a DisplayFile<'_>) -> Option<&'a str> {
     let named = file.format.is_some();
     let Ok(text) = std::str::from_utf8(&file.bytes) else { return None };

@@ -199,3 +199,30 @@ impl TriangleNet {
         [low, high]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    //! Law: the entries of a net stay in proportion to its triangles, however they lie. A wrong program would take all
+    //! memory for a warp of noise.
+
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    #[test]
+    fn noise_takes_as_much_as_order() {
+        let grid = EvenGrid { columns: 150, rows: 150 };
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(11);
+        let noise = (0..150 * 150).map(|_| DVec2::new(random.random(), random.random())).collect::<Vec<_>>();
+        let even = (0..150 * 150).map(|sample| grid.place(sample)).collect::<Vec<_>>();
+        for places in [noise, even] {
+            let net = TriangleNet::new(places.clone(), &grid.triangles());
+            let count = net.triangles.len();
+            assert!(net.sorted.len() <= ENTRIES * count + net.side * net.side, "{} of {count}", net.sorted.len());
+            // The middle of each triangle is found, in it or in one that lies above it.
+            for corners in grid.triangles().iter().step_by(97) {
+                let middle = corners.iter().map(|corner| places[*corner as usize]).sum::<DVec2>() / 3.0;
+                assert!(net.find(middle).is_some_and(|found| (found.mix(&places) - middle).length() < 1e-9));
+            }
+        }
+    }
+}

@@ -1,9 +1,9 @@
 //! Directions and places of an MPCDI file: frusta, coordinate frames, units, origins.
 //!
-//! *Frames.* The file's angles turn a viewer who looks ahead: yaw to the right, pitch up, roll clockwise, in this order,
-//! each about the axes as the turns before have left them (MPCDI 2.0, 2.2 and table 2-1). A coordinate frame names the
-//! file's own axes by three unit vectors along an aeroplane's axes: pitch to the right, yaw down, roll ahead (figure
-//! 2-2). Without one, as in profile a3, y is up, x to the *left*, and z into the screen.
+//! *Frames.* The file's angles turn a viewer who looks ahead: yaw to the right, pitch up, roll clockwise, in this
+//! order, each about the axes as the turns before have left them (MPCDI 2.0, 2.2 and table 2-1). A coordinate frame
+//! names the file's own axes by three unit vectors along an aeroplane's axes: pitch to the right, yaw down, roll ahead
+//! (figure 2-2). Without one, as in profile a3, y is up, x to the *left*, and z into the screen.
 
 use super::xml;
 use crate::turning::room_from_turned;
