@@ -4,8 +4,8 @@ use glam::{Vec2, Vec3};
 
 /// Mesh of triangles that have one material.
 ///
-/// All vertex arrays have the same length, or none (`emissive_uvs`); `indices` has a multiple of three entries, each below that length.
-/// Front faces are counter-clockwise.
+/// All vertex arrays have the same length, or none (`emissive_uvs`); `indices` has a multiple of three entries, each
+/// below that length. Front faces are counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Name from the file's node and mesh, for messages.

@@ -1,5 +1,5 @@
-//! Law: what the program says of its files is true, a file is whole or not there, and work matters more than the notices
-//! about it.
+//! Law: what the program says of its files is true, a file is whole or not there, and work matters more than the
+//! notices about it.
 
 use crate::runner::{rapidity, told};
 use std::fs::{self, File};

@@ -38,8 +38,8 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     assert!(verified.status.success(), "{}", told(&verified));
 }
 
-/// A display server that ends takes the window with it, not the recording. Where Xlib sees it first, it ends the program
-/// at once with a sentence of its own, and the last half second of the recording is missing.
+/// A display server that ends takes the window with it, not the recording. Where Xlib sees it first, it ends the
+/// program at once with a sentence of its own, and the last half second of the recording is missing.
 #[test]
 fn a_display_that_goes_leaves_the_recording() {
     let folder = tempfile::tempdir().unwrap();

@@ -6,8 +6,8 @@ use crate::containers::load;
 use glam::{DVec2, DVec3};
 use room::{Display, EyeSide, ScreenSurface};
 
-/// Two walls of a room on two nodes, 3 m and 2 m wide, 2 m ahead and 1.5 m to the right of the head; the walls hang in a
-/// tree that is 1 m above the floor and turned.
+/// Two walls of a room on two nodes, 3 m and 2 m wide, 2 m ahead and 1.5 m to the right of the head; the walls hang in
+/// a tree that is 1 m above the floor and turned.
 const ROOM: &str = r#"{ "nDisplay": { "description": "two walls", "version": "5.00",
   "scene": {
     "xforms": {
