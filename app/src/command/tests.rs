@@ -225,7 +225,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("ride --latency none", ["--latency", "overlap"]),
         ("ride --integrator euler", ["--integrator", "dopri5"]),
         ("ride --transport bus", ["--transport", "gyroscopic"]),
-        ("ride --time-scale 0", ["--time-scale", "above 0"]),
+        ("ride --time-scale 0", ["--time-scale", "to 16"]),
         ("ride --out ride.png", ["--out", ".mp4"]),
         ("ride --out ride.exr", ["--out", ".mp4"]),
         ("town --out town.gltf", ["--out", ".glb"]),

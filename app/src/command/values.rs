@@ -169,27 +169,32 @@ pub(super) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
     extension.is_some_and(|extension| extensions.iter().any(|allowed| extension == *allowed))
 }
 
-/// Vector of three finite numbers.
+/// Place: three numbers whose squares can be added.
 pub(super) fn vector(text: &str) -> Result<DVec3, ValueError> {
-    let vector = numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)?;
+    let vector = finite(text)?;
     if vector.abs().max_element() <= FARTHEST { Ok(vector) } else { Err(ValueError::Farthest) }
+}
+
+/// Vector of three finite numbers.
+fn finite(text: &str) -> Result<DVec3, ValueError> {
+    numbers(text).map(DVec3::from_array).ok_or(ValueError::Vector)
 }
 
 /// Unit vector along a vector of any length but zero.
 pub(super) fn direction(text: &str) -> Result<DVec3, ValueError> {
-    let vector = vector(text)?;
+    let vector = finite(text)?;
     // The vector is scaled first, because its square may overflow or vanish.
     (vector / vector.abs().max_element()).try_normalize().ok_or(ValueError::Direction)
 }
 
 /// Velocity given as γβ.
 pub(super) fn celerity(text: &str) -> Result<Celerity, ValueError> {
-    Ok(Celerity::new(vector(text)?)?)
+    Ok(Celerity::new(finite(text)?)?)
 }
 
 /// Velocity given as v/c.
 pub(super) fn beta(text: &str) -> Result<Celerity, ValueError> {
-    Ok(Beta::new(vector(text)?)?.celerity())
+    Ok(Beta::new(finite(text)?)?.celerity())
 }
 
 /// Colour as linear red, green and blue, each 0 to 1.

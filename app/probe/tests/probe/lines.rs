@@ -220,7 +220,7 @@ fn a_bad_value_is_refused_with_its_key_and_what_was_expected() {
         (worldline(&format!("{from_rest}, {leg}, \"step\": 0")), "`step` is 0.0: expected a number above 0"),
         (worldline(&format!("{from_rest}, {leg}, \"step\": -1")), "`step` is -1.0: expected a number above 0"),
         (worldline(&format!("{from_rest}, {leg}, \"step\": 1e-10")), "`legs` take 10000000000 steps"),
-        (worldline(&format!("{from_rest}, {leg}, \"step\": 5e-324")), "expected at most 100000000"),
+        (worldline(&format!("{from_rest}, {leg}, \"step\": 5e-324")), "expected at most 10000000"),
         (
             worldline(&format!("{from_rest}, {leg}, \"step\": 1, \"integrator\": \"euler\"")),
             "\"rk4\", \"exact\" or \"dopri5\"",
