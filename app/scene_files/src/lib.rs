@@ -3,7 +3,6 @@
 pub mod check;
 pub mod export;
 pub mod gltf;
-pub mod panorama;
 mod read;
 
 pub use read::{SceneReadError, read};

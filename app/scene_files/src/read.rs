@@ -1,7 +1,7 @@
 //! Scene from a file of any kind.
 
 use crate::gltf::{self, GltfError, ReadRules};
-use crate::panorama::{self, PanoramaError};
+use panoramas::PanoramaError;
 use scene::Scene;
 use std::path::Path;
 
@@ -26,8 +26,8 @@ pub fn read(
     rules: ReadRules<'_>,
     progress: impl Fn(gltf::Progress) + Sync,
 ) -> Result<Scene, SceneReadError> {
-    if panorama::is_picture(path) {
-        Ok(panorama::load(path, rules.budget)?)
+    if panoramas::is_picture(path) {
+        Ok(panoramas::load(path, rules.budget)?)
     } else {
         Ok(gltf::load(path, rules, progress)?)
     }

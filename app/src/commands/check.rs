@@ -7,7 +7,6 @@ use crate::session::gaps::ShownTimes;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
 use scene_files::gltf::ReadRules;
-use scene_files::panorama;
 use serde_json::{Value, json};
 use std::io::Read;
 use std::path::Path;
@@ -61,7 +60,7 @@ fn report(path: &Path, reading: &ReadingOptions) -> Result<Good, Error> {
             let members = json!({ "notices": display.notices });
             Ok(Good { kind: "display", text: display.to_string(), members })
         }
-        _ if panorama::is_picture(path) => scene("panorama", path, rules),
+        _ if panoramas::is_picture(path) => scene("panorama", path, rules),
         _ if is_glb(path) => scene("scene", path, rules),
         _ => Err(Error::UnknownKind { path: path.to_owned() }),
     }

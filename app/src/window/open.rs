@@ -120,7 +120,7 @@ impl Open {
         let canvas = match display {
             Some(mut display) => {
                 let smaller = display.shrink_to(largest_side(&gpu));
-                smaller.iter().for_each(|notice| eprintln!("{}: {notice}", display.name));
+                smaller.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
                 let walls = Walls::new(&gpu, display, quality, screen_format);
                 if options.preview {

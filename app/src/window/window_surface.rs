@@ -35,10 +35,10 @@ impl WindowSurface {
         configuration.format = configuration.format.remove_srgb_suffix();
         [configuration.width, configuration.height] = drawable(gpu, size);
         if [configuration.width, configuration.height] != [size.width.max(1), size.height.max(1)] {
-            eprintln!(
+            tell(format_args!(
                 "a window of {} × {} pixels is larger than this graphics device can draw; {} × {} of them are drawn",
                 size.width, size.height, configuration.width, configuration.height
-            );
+            ));
         }
         surface.configure(&gpu.device, &configuration);
         Ok(Self { window, surface, configuration })

@@ -26,7 +26,7 @@ const SAMPLES: [u32; 3] = [1, 4, 16];
 /// Surroundings in black and white squares, at infinity.
 fn chequered_surroundings() -> Scene {
     let (width, height, square) = (512, 256, 8);
-    let code = |x: u32, y: u32| [f32::from(u8::from((x / square + y / square) % 2 == 0)); 3];
+    let code = |x: u32, y: u32| [f32::from(u8::from((x / square + y / square).is_multiple_of(2))); 3];
     let rgb = (0..height).flat_map(|y| (0..width).map(move |x| code(x, y)));
     Scene { panorama: Some(Panorama::new(width, height, rgb)), ..Scene::default() }
 }

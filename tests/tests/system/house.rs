@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 18] = [
+const PLAN: [(&str, &[&str]); 19] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -23,7 +23,8 @@ const PLAN: [(&str, &[&str]); 18] = [
     ("input", &["regular_file"]),
     ("view", &["physics"]),
     ("scene", &["physics", "view"]),
-    ("scene_files", &["decoders", "physics", "regular_file", "scene"]),
+    ("panoramas", &["physics", "regular_file", "scene"]),
+    ("scene_files", &["decoders", "panoramas", "physics", "regular_file", "scene"]),
     ("built_in", &["physics", "scene"]),
     ("room", &["regular_file", "view"]),
     ("trace", &["physics", "scene", "shaders", "view"]),
@@ -38,6 +39,7 @@ const PLAN: [(&str, &[&str]); 18] = [
             "built_in",
             "input",
             "measure",
+            "panoramas",
             "physics",
             "probe",
             "regular_file",

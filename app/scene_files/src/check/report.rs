@@ -9,7 +9,6 @@ use super::descriptions::{first_view, moving, spectra};
 use super::survey::Survey;
 use super::warnings::warnings;
 use crate::gltf::ReadRules;
-use crate::panorama;
 use crate::read::{SceneReadError, read};
 use serde_json::{Value, json};
 
@@ -78,8 +77,8 @@ pub struct Report {
 /// # Errors
 /// [`CheckError`] if the file gives no scene.
 pub fn check(path: &Path, rules: ReadRules<'_>) -> Result<Report, CheckError> {
-    if panorama::is_picture(path) {
-        let (scene, picture) = panorama::load_described(path, rules.budget).map_err(SceneReadError::from)?;
+    if panoramas::is_picture(path) {
+        let (scene, picture) = panoramas::load_described(path, rules.budget).map_err(SceneReadError::from)?;
         return Ok(Report { picture: Some(picture), ..Report::new(&scene)? });
     }
     Ok(Report::new(&read(path, rules, |_| {})?)?)

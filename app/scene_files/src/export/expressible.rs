@@ -1,7 +1,7 @@
 //! Check that glTF can express the values of a scene.
 
 use super::error::ExportError;
-use crate::panorama::is_equirectangular;
+use panoramas::is_equirectangular;
 use scene::{Alpha, Scene};
 
 /// Refuses values that glTF cannot express.

@@ -1,6 +1,6 @@
 //! Reasons why a file gives no scene.
 
-use crate::panorama::PanoramaError;
+use panoramas::PanoramaError;
 use regular_file::OverBudget;
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -24,7 +24,6 @@ use super::primitive::Primitive;
 use super::progress::{LoadStage, Progress};
 use super::spectrum::SpectrumReader;
 use super::{features, light, material, nodes, picture};
-use crate::panorama;
 
 /// Rules for reading a file.
 #[derive(Clone, Copy, Debug)]
@@ -230,7 +229,7 @@ fn around(
         (None, Some(view)) => (document.view(view, &place)?.0.to_vec(), document.path.clone()),
         (None, None) => return Err(document.damaged(&place, format!("expected the name of a picture, not {value}"))),
     };
-    let read = panorama::decode(&bytes, &path, document.budget)?;
+    let read = panoramas::decode(&bytes, &path, document.budget)?;
     read.notices.into_iter().for_each(|notice| notices.add(notice));
     Ok(Some(read.panorama))
 }

@@ -27,7 +27,7 @@ pub fn load(path: &Path, budget: &Budget) -> Result<Scene, PanoramaError> {
 }
 
 /// Scene of a picture, with a description of the file: its kind, and the layout of the picture.
-pub(crate) fn load_described(path: &Path, budget: &Budget) -> Result<(Scene, String), PanoramaError> {
+pub fn load_described(path: &Path, budget: &Budget) -> Result<(Scene, String), PanoramaError> {
     let fault = |fault| match fault {
         FileFault::System(error) => PanoramaError::Read { path: path.into(), error },
         FileFault::NotAFile => PanoramaError::Format { path: path.into() },

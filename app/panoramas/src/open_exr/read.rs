@@ -30,10 +30,7 @@ struct ChannelPlane<'a> {
 }
 
 /// Reads a picture; the result names its layout, too.
-pub(in super::super) fn read(
-    bytes: &[u8],
-    intake: &mut PictureIntake<'_>,
-) -> Result<(Panorama, &'static str), PanoramaError> {
+pub(crate) fn read(bytes: &[u8], intake: &mut PictureIntake<'_>) -> Result<(Panorama, &'static str), PanoramaError> {
     // Read the headers, and choose a part.
     let mut cursor = Cursor::new(bytes);
     let meta = MetaData::read_from_buffered(&mut cursor, false).map_err(|error| intake.damaged(error))?;

@@ -24,8 +24,8 @@ mod shape;
 mod tests;
 mod turn;
 
-pub(crate) use decode::decode;
+pub use decode::decode;
 pub use error::{MAX_WIDTH, PanoramaError};
-pub(crate) use load::load_described;
+pub use load::load_described;
 pub use load::{is_picture, load};
-pub(crate) use shape::is_equirectangular;
+pub use shape::is_equirectangular;
