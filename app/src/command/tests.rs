@@ -203,7 +203,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --out a.png --exposure 1e9", ["--exposure", "from -60 to 60"]),
         ("render --out a.png --tone soft", ["--tone", "reinhard, linear, exponential, filmic, histogram"]),
         ("render --out a.png --gamut wide", ["--gamut", "desaturate, white, clamp"]),
-        ("render --out a.png --edge 0", ["--edge", "above 0"]),
+        ("render --out a.png --edge 0", ["--edge", "from 0.00001"]),
         ("render --out a.png --threads 0", ["--threads", "1..=1024"]),
         ("render --out a.jpg", ["--out", ".exr"]),
         ("render --out walls-1.2", ["--out", ".exr"]),
