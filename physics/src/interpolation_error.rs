@@ -90,6 +90,11 @@ impl TriangleInterpolation {
         across + seen.along() * self.direction
     }
 
+    /// True if the observer is at rest, so that straight edges are seen as straight.
+    pub fn is_straight(&self) -> bool {
+        self.w == 0.0
+    }
+
     /// Doppler factor D at an angle from ahead in the world, radians.
     fn doppler(&self, angle: f64) -> f64 {
         let (sine, cosine) = (0.5 * angle).sin_cos();

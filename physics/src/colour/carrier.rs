@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::shares::shares;
+use super::shares::{far_white_xyz, shares};
 use super::spectrum::Spectrum;
 use super::{matching, srgb};
 
@@ -59,6 +59,16 @@ impl Carrier {
     /// Product of e^lift and [`xyz_from_weights`](Self::xyz_from_weights), and the lift, which is such that light too
     /// faint for any f64 keeps its colour.
     pub(super) fn lifted_xyz_from_weights(&self, doppler: f64) -> (DMat3, f64) {
+        if let (Spectrum::Gray, None) = (&self.light, &self.reflectance)
+            && let Some(xyz) = far_white_xyz(doppler)
+        {
+            return (xyz, 0.0);
+        }
+        self.integrated_xyz_from_weights(doppler)
+    }
+
+    /// As [`lifted_xyz_from_weights`](Self::lifted_xyz_from_weights), always integrated.
+    fn integrated_xyz_from_weights(&self, doppler: f64) -> (DMat3, f64) {
         // Thermal light beyond Wien's maximum is strongest at the red end.
         let red_end = doppler * matching::LONGEST_NM;
         let lifts =
@@ -92,5 +102,33 @@ impl Spectrum {
     /// where D⁵ L is beyond all numbers.
     pub fn xyz(&self, doppler: f64) -> DVec3 {
         Carrier::emitted(self.clone()).xyz_from_weights(doppler) * DVec3::splat(doppler.powi(4))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law under test: far from visible light white is a power law. A program that takes it for one where the bump or
+    //! the shares of colours can still be seen gets other colours.
+
+    use super::*;
+
+    /// Relative rounding error of sums of some hundred terms.
+    const ROUNDING: f64 = 1e-12;
+
+    #[test]
+    fn far_white_is_a_power_law() {
+        let white = Carrier::white();
+        let mut far = 0;
+        for node in -1400..=1400 {
+            let doppler = (f64::from(node) * 0.01).exp();
+            far += usize::from(far_white_xyz(doppler).is_some());
+            let (short, _) = white.lifted_xyz_from_weights(doppler);
+            let (whole, _) = white.integrated_xyz_from_weights(doppler);
+            for (short, whole) in short.to_cols_array().into_iter().zip(whole.to_cols_array()) {
+                assert!((short - whole).abs() <= ROUNDING * whole.abs(), "{short} instead of {whole} at D = {doppler}");
+            }
+        }
+        assert!(far > 2400, "integrated at all but {far} of 2801 Doppler factors");
+        assert!([0.4, 0.5, 1.0, 2.0].iter().all(|doppler| far_white_xyz(*doppler).is_none()));
     }
 }

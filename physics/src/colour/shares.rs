@@ -69,21 +69,52 @@ pub fn shares(wavelength_nm: f64) -> [f64; 3] {
     (*CORRECTION * stored_shares(wavelength_nm)).to_array()
 }
 
+/// Tristimulus values of white's shares at D = 1, as columns, if white were the power law alone, as it is far from
+/// visible light.
+static FAR_XYZ: LazyLock<DMat3> = LazyLock::new(|| {
+    let law = |nm: f64| *WHITE_SCALE * (WHITE_EXPONENT * (nm / BUMP_NM).ln()).exp();
+    matching::xyz(1.0, None, |nm| *CORRECTION * EVEN * law(nm))
+});
+
+/// Distance from the bump beyond which nothing of it is left in an f64, in standard deviations.
+const NO_BUMP: f64 = 9.0;
+
+/// Tristimulus values of white's shares for an observer with the Doppler factor D, as columns; `None` if D is not so
+/// far from 1 that all that is seen of white is a power law.
+///
+/// *Equation:* 683 ∫ Sᵢ W(λ) x̄(λ/D) dλ, where W(Dλ) = D^p W(λ).
+/// *Accuracy:* that of an f64 (`far_white_is_a_power_law`).
+pub(super) fn far_white_xyz(doppler: f64) -> Option<DMat3> {
+    let ends = [matching::SHORTEST_NM, matching::LONGEST_NM].map(|nm| doppler * nm);
+    let beside = |nm: f64| {
+        let from_bump = (nm / BUMP_NM).ln() / BUMP_WIDTH;
+        (from_bump.abs() > NO_BUMP && spline_place(nm).is_none()).then_some(from_bump.signum())
+    };
+    let [shortest, longest] = ends.map(beside);
+    (shortest.is_some() && shortest == longest).then(|| *FAR_XYZ * (doppler * doppler.powf(WHITE_EXPONENT)))
+}
+
 fn white_shape(nm: f64) -> f64 {
     let place = (nm / BUMP_NM).ln();
     let from_bump = place / BUMP_WIDTH;
     (WHITE_EXPONENT * place).exp() * (1.0 + BUMP * (-0.5 * from_bump * from_bump).exp())
 }
 
-fn stored_shares(nm: f64) -> DVec3 {
-    const EVEN: DVec3 = DVec3::splat(1.0 / 3.0);
+/// Stored shares where the spline has none: even ones.
+const EVEN: DVec3 = DVec3::splat(1.0 / 3.0);
+
+/// Place on the spline, in knots from its first; `None` where no coefficient counts.
+fn spline_place(nm: f64) -> Option<f64> {
     let (first, coefficients) = &*SPLINE;
     let place = (nm / KNOT_NM).ln() / KNOT_STEP - first;
     // A coefficient counts within two knots of its place.
+    (-2.0..coefficients.len() as f64 + 1.0).contains(&place).then_some(place)
+}
+
+fn stored_shares(nm: f64) -> DVec3 {
+    let Some(place) = spline_place(nm) else { return EVEN };
+    let coefficients = &SPLINE.1;
     let last = coefficients.len() as f64;
-    if !(-2.0..last + 1.0).contains(&place) {
-        return EVEN;
-    }
     let knot = place.floor();
     let coefficient = |offset: f64| {
         let index = knot + offset;
