@@ -5,7 +5,10 @@
 //! parts of a leaf do not bleed into its edge. An odd row of 2m + 1 pixels becomes m pixels that each cover 2 + 1/m
 //! of it, and every source pixel has the same weight: dropping the last one would shift the picture.
 //!
-//! Levels are averaged in f32 and rounded once each, so errors do not pile up along the chain.
+//! Levels are averaged in f32 and rounded once each, so errors do not pile up along the chain. Each is made from the
+//! rows of the one before as they come, so that no level is ever in memory as floats.
+
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
@@ -34,68 +37,229 @@ pub fn mipmap(texture: &Texture) -> Vec<Level> {
     if texture.width == 0 || texture.height == 0 {
         return Vec::new();
     }
-    let mut levels = vec![Level { width: texture.width, height: texture.height, rgba: texture.rgba.to_vec() }];
-    let mut picture = Linear::from_srgb(texture);
-    while picture.width > 1 || picture.height > 1 {
-        picture = picture.half();
-        levels.push(picture.to_srgb());
+    let whole = Level { width: texture.width, height: texture.height, rgba: texture.rgba.to_vec() };
+    std::iter::once(whole).chain(smaller_levels(texture)).collect()
+}
+
+/// Mipmap chain without the texture itself. In linear light there are only a few rows at a time.
+pub fn smaller_levels(texture: &Texture) -> Vec<Level> {
+    let (width, height) = (texture.width as usize, texture.height as usize);
+    if width.max(height) < 2 {
+        return Vec::new();
+    }
+    let mut first = Halving::new(width, height);
+    let linear = LinearCodes::new();
+    let codes = SrgbCodes::get();
+    let mut levels = Vec::new();
+    let mut below = first.next();
+    for start in (0..first.height).step_by(BAND) {
+        let end = (start + BAND).min(first.height);
+        let mut band = vec![[0.0; 4]; (end - start) * first.width];
+        let level = &mut first.rgba[4 * start * first.width..4 * end * first.width];
+        let rows = band.par_chunks_exact_mut(first.width).zip(level.par_chunks_exact_mut(4 * first.width));
+        rows.enumerate().for_each_init(
+            || [const { Vec::new() }; 3],
+            |sources, (row, (pixels, level))| {
+                let taps = taps(start + row, height, first.height);
+                for (source, (y, weight)) in sources.iter_mut().zip(taps) {
+                    if weight > 0.0 {
+                        linear.row(&texture.rgba[4 * y * width..4 * (y + 1) * width], source);
+                    }
+                }
+                halve(sources.each_ref().map(Vec::as_slice), taps.map(|(_, weight)| weight), width, pixels);
+                codes.row(pixels, level);
+            },
+        );
+        if let Some(below) = &mut below {
+            band.chunks_exact(first.width).for_each(|row| below.push(row, codes));
+        }
+    }
+    levels.push(first.level());
+    while let Some(halving) = below {
+        let (level, next) = (*halving).into_parts();
+        levels.push(level);
+        below = next;
     }
     levels
 }
 
-/// Picture in linear light; colours are multiplied by their weight, which is opacity + [`TRANSPARENT_WEIGHT`].
-struct Linear {
+/// Number of rows that are made at a time, on all cores.
+const BAND: usize = 64;
+
+/// One level that is made from the rows of the level before. Colours are in linear light, multiplied by their weight,
+/// which is opacity + [`TRANSPARENT_WEIGHT`].
+struct Halving {
+    source: [usize; 2],
     width: usize,
     height: usize,
-    pixels: Vec<[f32; 4]>,
+    /// The last three rows of the source, at their number modulo 3.
+    rows: [Vec<[f32; 4]>; 3],
+    /// Number of rows that came.
+    came: usize,
+    /// Number of rows that were made.
+    made: usize,
+    /// Row that is being made.
+    row: Vec<[f32; 4]>,
+    rgba: Vec<u8>,
+    below: Option<Box<Self>>,
 }
 
-impl Linear {
-    fn from_srgb(texture: &Texture) -> Self {
-        let linear: [f32; 256] = std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0));
-        let pixels = texture
-            .rgba
-            .par_chunks_exact(4)
-            .map(|pixel| {
-                let alpha = f32::from(pixel[3]) / 255.0;
-                let weight = alpha + TRANSPARENT_WEIGHT;
-                let [r, g, b] = [0, 1, 2].map(|channel| linear[usize::from(pixel[channel])] * weight);
-                [r, g, b, alpha]
-            })
-            .collect();
-        Self { width: texture.width as usize, height: texture.height as usize, pixels }
+impl Halving {
+    /// Level below a level of this size.
+    fn new(source_width: usize, source_height: usize) -> Self {
+        let (width, height) = ((source_width / 2).max(1), (source_height / 2).max(1));
+        Self {
+            source: [source_width, source_height],
+            width,
+            height,
+            rows: [const { Vec::new() }; 3],
+            came: 0,
+            made: 0,
+            row: vec![[0.0; 4]; width],
+            rgba: vec![0; 4 * width * height],
+            below: None,
+        }
     }
 
-    fn half(&self) -> Self {
-        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
-        let mut pixels = vec![[0.0; 4]; width * height];
-        pixels.par_chunks_exact_mut(width).enumerate().for_each(|(y, row)| {
-            let rows = taps(y, self.height, height);
-            for (x, pixel) in row.iter_mut().enumerate() {
-                for (source_x, weight_x) in taps(x, self.width, width) {
-                    for (source_y, weight_y) in rows {
-                        let source = self.pixels[source_y * self.width + source_x];
-                        for (sum, value) in pixel.iter_mut().zip(source) {
-                            *sum += weight_x * weight_y * value;
-                        }
+    /// Level below this one, with all further ones; `None` if this is the last.
+    fn next(&self) -> Option<Box<Self>> {
+        (self.width.max(self.height) > 1).then(|| {
+            let mut next = Self::new(self.width, self.height);
+            next.below = next.next();
+            Box::new(next)
+        })
+    }
+
+    /// Takes the next row of the source.
+    fn push(&mut self, row: &[[f32; 4]], codes: &SrgbCodes) {
+        let kept = &mut self.rows[self.came % 3];
+        kept.clear();
+        kept.extend_from_slice(row);
+        self.came += 1;
+        while self.made < self.height {
+            let taps = taps(self.made, self.source[1], self.height);
+            if taps.iter().any(|&(y, weight)| weight > 0.0 && y >= self.came) {
+                return;
+            }
+            let sources = taps.map(|(y, _)| self.rows[y % 3].as_slice());
+            halve(sources, taps.map(|(_, weight)| weight), self.source[0], &mut self.row);
+            let start = 4 * self.made * self.width;
+            codes.row(&self.row, &mut self.rgba[start..start + 4 * self.width]);
+            self.made += 1;
+            if let Some(below) = &mut self.below {
+                below.push(&self.row, codes);
+            }
+        }
+    }
+
+    fn into_parts(mut self) -> (Level, Option<Box<Self>>) {
+        let below = self.below.take();
+        (self.level(), below)
+    }
+
+    fn level(self) -> Level {
+        Level { width: self.width as u32, height: self.height as u32, rgba: self.rgba }
+    }
+}
+
+/// Means of pixels of up to three rows, for a row of half the width. Rows of weight 0 are not read.
+fn halve(rows: [&[[f32; 4]]; 3], weights: [f32; 3], source_width: usize, target: &mut [[f32; 4]]) {
+    let width = target.len();
+    if source_width == 2 * width && weights[2] == 0.0 && weights[1] > 0.0 {
+        // Four pixels of one weight.
+        let weight = 0.5 * weights[0];
+        let pairs = rows[0].as_chunks::<2>().0.iter().zip(rows[1].as_chunks::<2>().0);
+        for (pixel, ([a, c], [b, d])) in target.iter_mut().zip(pairs) {
+            *pixel = std::array::from_fn(|channel| {
+                weight * a[channel] + weight * b[channel] + weight * c[channel] + weight * d[channel]
+            });
+        }
+        return;
+    }
+    for (x, pixel) in target.iter_mut().enumerate() {
+        *pixel = [0.0; 4];
+        for (source_x, weight_x) in taps(x, source_width, width) {
+            for (row, weight_y) in rows.iter().zip(weights) {
+                let weight = weight_x * weight_y;
+                if weight > 0.0 {
+                    for (sum, value) in pixel.iter_mut().zip(row[source_x]) {
+                        *sum += weight * value;
                     }
                 }
             }
-        });
-        Self { width, height, pixels }
+        }
+    }
+}
+
+/// Linear values of all sRGB codes.
+struct LinearCodes([f32; 256]);
+
+impl LinearCodes {
+    fn new() -> Self {
+        Self(std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0)))
     }
 
-    fn to_srgb(&self) -> Level {
-        let rgba = self
-            .pixels
-            .par_iter()
-            .flat_map_iter(|&[r, g, b, alpha]| {
-                let weight = alpha + TRANSPARENT_WEIGHT;
-                let [r, g, b] = [r, g, b].map(|value| srgb_from_linear(value / weight));
-                [r, g, b, alpha].map(|value| (value * 255.0).round() as u8)
-            })
-            .collect();
-        Level { width: self.width as u32, height: self.height as u32, rgba }
+    /// Row of pixels in linear light.
+    fn row(&self, rgba: &[u8], row: &mut Vec<[f32; 4]>) {
+        row.clear();
+        row.extend(rgba.as_chunks::<4>().0.iter().map(|&[r, g, b, alpha]| {
+            let alpha = f32::from(alpha) / 255.0;
+            let weight = alpha + TRANSPARENT_WEIGHT;
+            let [r, g, b] = [r, g, b].map(|code| self.0[usize::from(code)] * weight);
+            [r, g, b, alpha]
+        }));
+    }
+}
+
+/// Table of the linear values at which the rounded sRGB code changes.
+struct SrgbCodes {
+    /// Least linear value of each code, and infinity.
+    least: [f32; 257],
+    /// Code of the beginning of each of as many equal parts of 0 to 1.
+    code: Vec<u8>,
+}
+
+impl SrgbCodes {
+    /// Number of parts: so many that a part has few codes even where the curve is steepest.
+    const PARTS: usize = 4096;
+
+    /// Table, computed once.
+    fn get() -> &'static Self {
+        static TABLE: OnceLock<SrgbCodes> = OnceLock::new();
+        TABLE.get_or_init(|| {
+            let rounded = |value: f32| (srgb_from_linear(value) * 255.0).round() as u8;
+            let mut least = [f32::INFINITY; 257];
+            least[0] = 0.0;
+            for code in 1..=255_u8 {
+                // Positive floats are in the order of their bits.
+                let (mut below, mut from) = (0.0_f32.to_bits(), 1.0_f32.to_bits());
+                while from - below > 1 {
+                    let middle = below + (from - below) / 2;
+                    if rounded(f32::from_bits(middle)) >= code { from = middle } else { below = middle }
+                }
+                least[usize::from(code)] = f32::from_bits(from);
+            }
+            let code = (0..Self::PARTS).map(|part| rounded(part as f32 / Self::PARTS as f32)).collect();
+            Self { least, code }
+        })
+    }
+
+    fn of(&self, value: f32) -> u8 {
+        let part = ((value * Self::PARTS as f32) as usize).min(Self::PARTS - 1);
+        let mut code = usize::from(self.code[part]);
+        while value >= self.least[code + 1] {
+            code += 1;
+        }
+        code as u8
+    }
+
+    /// Row of a level.
+    fn row(&self, pixels: &[[f32; 4]], rgba: &mut [u8]) {
+        for (&[r, g, b, alpha], rgba) in pixels.iter().zip(rgba.as_chunks_mut::<4>().0) {
+            let weight = alpha + TRANSPARENT_WEIGHT;
+            let [r, g, b] = [r, g, b].map(|value| self.of(value / weight));
+            *rgba = [r, g, b, (alpha * 255.0).round() as u8];
+        }
     }
 }
 
