@@ -11,7 +11,8 @@ use crate::triangles::{Triangle, TriangleTree};
 use glam::{DMat3, DVec3};
 use physics::{Boost, Celerity, Event, Observer};
 use scene::motion::{Motion, Uniform};
-use scene::{Alpha, Scene};
+use scene::{Alpha, Mesh, Scene};
+use std::sync::Arc;
 
 /// Distance from a surface at which a turned ray begins, relative to its coordinates. It is beyond the rounding error
 /// of a place on the surface.
@@ -20,8 +21,8 @@ const SKIN: f64 = 1e-10;
 /// Bodies of a scene, which rays can meet.
 pub struct Bodies {
     bodies: Vec<TracedBody>,
-    /// Triangles that cast shadows of the sun and of lamps.
-    casters: TriangleTree,
+    /// Meshes, all at rest, that cast shadows of the sun and of lamps.
+    casters: Vec<bool>,
     /// True if light goes through glass. Then glass has no shadow, and rays also meet its inner side.
     pub clear_glass: bool,
 }
@@ -36,7 +37,7 @@ struct TracedBody {
 
 impl Bodies {
     /// Sorts a scene's triangles. Triangles with a vertex that is not finite are left out.
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Arc<Scene>) -> Self {
         let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
         let body = |motion: Option<usize>| {
             let animated = motion.and_then(|motion| scene.motions[motion].animated());
@@ -46,11 +47,11 @@ impl Bodies {
             TracedBody { motion, tree, swept }
         };
         let bodies = motions.map(body).filter(|body| !body.tree.is_empty()).collect();
-        let casts = |mesh: usize| {
-            let material = &scene.materials[scene.meshes[mesh].material];
-            scene.meshes[mesh].motion.is_none() && !material.unlit && material.alpha != Alpha::Blend
+        let casts = |mesh: &Mesh| {
+            let material = &scene.materials[mesh.material];
+            scene.light.shadows && mesh.motion.is_none() && !material.unlit && material.alpha != Alpha::Blend
         };
-        let casters = TriangleTree::new(scene, 0.0, |mesh| scene.light.shadows && casts(mesh));
+        let casters = scene.meshes.iter().map(casts).collect();
         Self { bodies, casters, clear_glass: false }
     }
 
@@ -207,12 +208,16 @@ impl Bodies {
 
     fn is_free(&self, from: DVec3, direction: DVec3, until: f64) -> bool {
         let after = f64::from(shaders::SHADOW_BIAS_M);
+        let Some(resting) = self.bodies.iter().find(|body| body.motion.is_none()) else { return true };
         let meet = |triangle: &Triangle| {
+            if !self.casters[triangle.mesh] {
+                return None;
+            }
             let hit = triangle.meet(from, direction)?;
             let blocks = hit.distance > after && hit.distance < until && !(self.clear_glass && triangle.glass);
             blocks.then_some(hit)
         };
-        self.casters.nearest(from, direction, meet, |hit| hit.distance).is_none()
+        resting.tree.nearest(from, direction, meet, |hit| hit.distance).is_none()
     }
 
     fn uniform(&self, scene: &Scene, body: usize) -> Option<Uniform> {

@@ -15,6 +15,7 @@ use physics::Observer;
 use scene::Scene;
 use scene::carriers::SceneCarriers;
 use scene::irradiance::Irradiance;
+use std::sync::Arc;
 use view::Effects;
 
 /// Smallest share of a ray's light that is followed.
@@ -58,6 +59,7 @@ impl LitScene {
     /// Sorts the scene's triangles and computes its light; for the arguments see [`super::RayTracer::new`].
     pub fn new(scene: Scene, background: Option<[f32; 3]>, exact_light: bool) -> Self {
         let carriers = SceneCarriers::of(&scene);
+        let scene = Arc::new(scene);
         let bodies = Bodies::new(&scene);
         let light = LightShifts::new(&carriers, &scene, exact_light);
         Self { surfaces: LitSurfaces::new(scene, carriers), bodies, light, background }

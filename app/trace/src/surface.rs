@@ -17,11 +17,12 @@ use scene::mipmap::linear_from_srgb;
 use scene::motion::Motion;
 use scene::{Alpha, Lamp, Lamplight, Lighting, Mesh, Panorama, Scene, Texture, Wrap};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Light that a scene's surfaces and its sky emit.
 pub struct LitSurfaces {
     /// Scene as it was given.
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     carriers: SceneCarriers,
     /// Irradiance of the resting scene, and of each motion.
     irradiance: (Irradiance, Vec<Irradiance>),
@@ -31,7 +32,7 @@ pub struct LitSurfaces {
 
 impl LitSurfaces {
     /// Computes the irradiance of the resting scene and of its motions.
-    pub fn new(scene: Scene, carriers: SceneCarriers) -> Self {
+    pub fn new(scene: Arc<Scene>, carriers: SceneCarriers) -> Self {
         let sky = &carriers.carriers[carriers.sky];
         let on_moving = |motion: &Motion| match motion {
             Motion::Uniform(uniform) => Irradiance::on_moving(&scene.light, uniform.celerity, sky),
@@ -133,11 +134,11 @@ impl LitSurfaces {
     fn base(&self, hit: &RayHit) -> DVec4 {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material];
-        let [a, b, c] = hit.corners.map(|corner| Vec4::from_array(mesh.colours[corner]).as_dvec4());
+        let [a, b, c] = hit.corners.map(|corner| Vec4::from_array(mesh.colour(corner)).as_dvec4());
         let colour = a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2];
         Vec4::from_array(material.base_colour).as_dvec4()
             * colour
-            * self.look_up(material.base_colour_texture, hit, |mesh, vertex| mesh.uvs[vertex])
+            * self.look_up(material.base_colour_texture, hit, Mesh::uv)
     }
 
     /// Irradiance of a point, by its interpolated normal on the visible side.
