@@ -87,7 +87,7 @@ impl<'gpu> Bench<'gpu> {
         let format = Format::fast(1);
         Ok(Self {
             gpu,
-            renderer: SceneRenderer::new(gpu, scene, format, None, Dial::edge(EDGE_M), Occasion::Ride)?,
+            renderer: SceneRenderer::new(gpu, scene.clone(), format, None, Dial::edge(EDGE_M), Occasion::Ride)?,
             target: Radiance::new(gpu, SIZE, format),
             camera: Camera::looking(DVec3::NEG_Z, DVec3::Y, 70.0_f64.to_radians()),
             observer: Observer {

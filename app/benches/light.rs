@@ -128,7 +128,7 @@ impl<'gpu> Stage<'gpu> {
     fn new(gpu: &'gpu Gpu, scene: &Scene, dial: Dial) -> Result<Self, Box<dyn Error>> {
         let format = Format::fast(1);
         let eye = scene.start.position + DVec3::Y * EYE_HEIGHT_M;
-        let mut renderer = SceneRenderer::new(gpu, scene, format, None, dial, Occasion::Ride)?;
+        let mut renderer = SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?;
         // The photo-surface stays the same; the benchmark `frames` measures its cost.
         let celerity = Celerity::new(scene.start.look * 0.8 / 0.6)?;
         let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };

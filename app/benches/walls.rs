@@ -110,7 +110,7 @@ impl Row {
         let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
         Ok(Self {
             name: name.to_owned(),
-            renderer: SceneRenderer::new(gpu, scene, format, None, dial, Occasion::Ride)?,
+            renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
             occupant: Occupant { vehicle, head: RoomHead::at_rest(display.viewer.head_m) },
             walls: Walls::new(gpu, display, quality, SCREEN),
             screens,

@@ -38,33 +38,44 @@ override PLACES: bool = false;
 @group(1) @binding(3) var emissive_texture: texture_2d<f32>;
 @group(1) @binding(4) var emissive_sampler: sampler;
 
-struct Vertex {
+struct ApparentPosition {
     @location(0) x: f32,
     @location(1) y: f32,
     @location(2) z: f32,
+}
+
+struct Vertex {
     @location(3) world: vec3<f32>,
     @location(4) normal: vec3<f32>,
-    // Texture coordinates of the base colour, then of the emission.
-    @location(5) uv: vec4<f32>,
+    @location(5) uv: vec2<f32>,
     @location(6) colour: vec4<f32>,
+    @location(8) emissive_uv: vec2<f32>,
 }
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
+    // Texture coordinates of the base colour, then of the emission.
     @location(2) uv: vec4<f32>,
     @location(3) colour: vec4<f32>,
 }
 
 @vertex
-fn vertex(in: Vertex) -> Fragment {
-    var seen = vec3(in.x, in.y, in.z);
+fn vertex(at: ApparentPosition, in: Vertex) -> Fragment {
+    var seen = vec3(at.x, at.y, at.z);
     if (BENDS) {
-        seen = select(apparent_position(in.world), seen, in.x < NOT_BENT);
+        seen = select(apparent_position(in.world), seen, at.x < NOT_BENT);
     }
     let clip = view.clip_from_observer * vec4(seen, 1.0);
-    return Fragment(clip, in.world, in.normal, in.uv, in.colour);
+    return Fragment(clip, in.world, in.normal, vec4(in.uv, in.emissive_uv), in.colour);
+}
+
+// The plain world: places themselves are seen.
+@vertex
+fn vertex_plain(in: Vertex) -> Fragment {
+    let clip = view.clip_from_observer * vec4(in.world, 1.0);
+    return Fragment(clip, in.world, in.normal, vec4(in.uv, in.emissive_uv), in.colour);
 }
 
 // A fragment of an animated body: log2 D of each vertex comes in a stream of its own.
@@ -78,9 +89,9 @@ struct AnimatedFragment {
 }
 
 @vertex
-fn vertex_animated(in: Vertex, @location(7) log2_doppler: f32) -> AnimatedFragment {
-    let clip = view.clip_from_observer * vec4(in.x, in.y, in.z, 1.0);
-    return AnimatedFragment(clip, in.world, in.normal, in.uv, in.colour, log2_doppler);
+fn vertex_animated(at: ApparentPosition, in: Vertex, @location(7) log2_doppler: f32) -> AnimatedFragment {
+    let clip = view.clip_from_observer * vec4(at.x, at.y, at.z, 1.0);
+    return AnimatedFragment(clip, in.world, in.normal, vec4(in.uv, in.emissive_uv), in.colour, log2_doppler);
 }
 
 // Share of the sun that reaches a point: four filtered samples of the sun's depth map.

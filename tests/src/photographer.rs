@@ -67,7 +67,7 @@ impl Photographer {
             Source::Traced(Box::new(tracer))
         } else {
             let format = Studio::format(gpu());
-            let renderer = SceneRenderer::new(gpu(), scene, format, background, dial, Occasion::Still)
+            let renderer = SceneRenderer::new(gpu(), scene.clone(), format, background, dial, Occasion::Still)
                 .expect("scenes of tests have a finite origin");
             Source::Drawn(Box::new(renderer))
         };
@@ -77,7 +77,7 @@ impl Photographer {
     /// Prepares pictures by any renderer, with the half floats of a window.
     pub fn of_window(scene: &Scene, size: [u32; 2], dial: Dial) -> Self {
         let format = Format::fast(1);
-        let renderer = SceneRenderer::new(gpu(), scene, format, None, dial, Occasion::Ride)
+        let renderer = SceneRenderer::new(gpu(), scene.clone(), format, None, dial, Occasion::Ride)
             .expect("scenes of tests have a finite origin");
         let studio = Studio::with_format(gpu(), size, 1, format);
         Self { source: Source::Drawn(Box::new(renderer)), studio, size, samples: 1 }

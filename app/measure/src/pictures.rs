@@ -197,7 +197,7 @@ fn ready(measurement: &Measurement<'_>, dial: Dial, format: Format) -> Result<Ca
     let occasion = measurement.kind.occasion();
     let choice = Choice::of(measurement.scene.clone(), dial, occasion)?;
     let before = clock::device_bytes(gpu)?;
-    let renderer = SceneRenderer::new(gpu, &choice.scene, format, None, choice.dial, occasion)?;
+    let renderer = SceneRenderer::new(gpu, choice.scene, format, None, choice.dial, occasion)?;
     let after = clock::device_bytes(gpu)?;
     let bytes = before.zip(after).map(|(before, after)| (after - before, after - before));
     Ok(Candidate {

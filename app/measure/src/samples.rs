@@ -34,7 +34,7 @@ pub fn measure(
     let shot = &shots[shots.len() / 2];
     let reference = Reference::trace(tracer, shot, size, MANY, stop);
     let choice = Choice::of(scene.clone(), FINE, Occasion::Still)?;
-    let mut renderer = SceneRenderer::new(gpu, &choice.scene, Studio::format(gpu), None, choice.dial, Occasion::Still)?;
+    let mut renderer = SceneRenderer::new(gpu, choice.scene, Studio::format(gpu), None, choice.dial, Occasion::Still)?;
     let radiance = Radiance::new(gpu, size, Studio::format(gpu));
     let mut table = Markdown::new(&["samples a pixel", "", "ms", "ΔE2000", "99 %", "most", "FLIP"]);
     let mut lines = Vec::new();

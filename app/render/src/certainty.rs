@@ -97,9 +97,8 @@ impl Edges {
 
     /// Sample of the edges of a scene that was cut.
     pub fn of_cut(scene: &Scene, cut: &Cut) -> Self {
-        let motions = scene.meshes.iter().map(|mesh| mesh.motion);
-        let meshes = cut.meshes.iter().zip(motions).map(|(mesh, motion)| (mesh.indices.as_slice(), motion));
-        Self::sampled(meshes, |mesh, corner: u32| cut.meshes[mesh].vertices[corner as usize].place)
+        let meshes = cut.meshes.iter().zip(&scene.meshes).map(|(cut, mesh)| (cut.indices(mesh), mesh.motion));
+        Self::sampled(meshes, |mesh, corner: u32| cut.meshes[mesh].place(&scene.meshes[mesh], corner as usize))
     }
 
     /// Takes one edge of every n-th triangle, in turn its first, second and third.
@@ -109,13 +108,19 @@ impl Edges {
     ) -> Self {
         let count: usize = meshes.clone().map(|(indices, _)| indices.len() / 3).sum();
         let step = count.div_ceil(SAMPLES).max(1);
-        let triangles = meshes
-            .enumerate()
-            .flat_map(|(mesh, (indices, motion))| indices.chunks_exact(3).map(move |corners| (mesh, corners, motion)));
-        let ends = triangles.step_by(step).enumerate().map(|(number, (mesh, corners, motion))| {
-            ([number % 3, (number + 1) % 3].map(|corner| place(mesh, corners[corner])), motion)
-        });
-        Self { ends: ends.collect() }
+        let mut ends = Vec::with_capacity(SAMPLES);
+        // Number of the next triangle to be sampled, in the mesh that is at hand.
+        let mut next = 0;
+        for (mesh, (indices, motion)) in meshes.enumerate() {
+            let triangles = indices.as_chunks::<3>().0;
+            while let Some(corners) = triangles.get(next) {
+                let number = ends.len();
+                ends.push(([number % 3, (number + 1) % 3].map(|corner| place(mesh, corners[corner])), motion));
+                next += step;
+            }
+            next -= triangles.len();
+        }
+        Self { ends }
     }
 }
 

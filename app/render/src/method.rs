@@ -11,7 +11,7 @@ use crate::pending::{Pending, Transformed};
 use crate::stats::{CutStats, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
-use crate::world::{Draws, Mode, TargetPart, World};
+use crate::world::{Draws, Mode, TargetPart, VertexSource, World};
 use physics::Observer;
 use scene::cut::SeenFrom;
 use view::{Occasion, Shot};
@@ -113,7 +113,12 @@ impl Sample<'_> {
         bends: bool,
     ) {
         let mode = self.mode();
-        self.world.prepare(gpu, mode, bends, self.format);
+        let source = match streams {
+            None => VertexSource::Plain,
+            Some(_) if bends => VertexSource::Bent,
+            Some(_) => VertexSource::Streams,
+        };
+        self.world.prepare(gpu, mode, source, self.format);
         self.world.write_views(gpu, &self.views);
         let draws = Draws {
             streams,

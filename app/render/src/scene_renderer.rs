@@ -11,13 +11,14 @@ use crate::stats::{CutStats, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
-use crate::world::World;
+use crate::world::{Sorting, World};
 use glam::{DMat4, Vec4};
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
 use scene::cut::SeenFrom;
 use scene::motion::Motion;
+use std::sync::Arc;
 use std::time::Duration;
 use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Stored, Transform};
 
@@ -51,7 +52,8 @@ pub struct TransformReport {
 }
 
 impl SceneRenderer {
-    /// Uploads `scene`, to be drawn as `dial` says. `background`: linear radiance instead of the scene's sky.
+    /// Uploads `scene`, to be drawn as `dial` says. `background`: linear radiance instead of the scene's sky. What the
+    /// device holds is dropped from memory on the way.
     ///
     /// The dial must come from [`Choice`](crate::choice::Choice), or name its method: `Auto` is drawn by `polygon`. The
     /// scene is drawn as it is, even if the dial has an edge: cutting it once is the caller's.
@@ -60,17 +62,31 @@ impl SceneRenderer {
     /// [`PhotoSurfaceError::Origin`] if the scene's origin is not finite.
     pub fn new(
         gpu: &Gpu,
-        scene: &Scene,
+        mut scene: Scene,
         format: Format,
         background: Option<[f32; 3]>,
         dial: Dial,
         occasion: Occasion,
     ) -> Result<Self, PhotoSurfaceError> {
         let image = dial.renderer == RendererName::Image;
-        let method = method(gpu, scene, format, dial, occasion)?;
         // The map shows the resting scene; moving bodies have edges of their own there.
-        let edges = if image { Edges::of_resting(scene) } else { Edges::of(scene) };
-        let (world, motions) = (World::new(gpu, scene, background), scene.motions.clone());
+        let edges = if image { Edges::of_resting(&scene) } else { Edges::of(&scene) };
+        let motions = scene.motions.clone();
+        let method = fixed_method(gpu, &scene, format, dial, occasion)?;
+        let textures = std::mem::take(&mut scene.textures);
+        let (world, method) = match method {
+            Some(method) => {
+                let sorting = if image { Sorting::InGroups } else { Sorting::AsTheyCome };
+                (World::new(gpu, &scene, textures, background, sorting), method)
+            }
+            None => {
+                let scene = Arc::new(scene);
+                let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
+                let world = World::to_be_cut(gpu, &scene, textures, background);
+                let method: Box<dyn Method> = Box::new(Adaptive::new(scene, tolerance_px, occasion));
+                (world, method)
+            }
+        };
         Ok(Self { world, method, edges, motions, format, subject: Subject::Light })
     }
 
@@ -169,6 +185,8 @@ impl SceneRenderer {
         self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
         if shot.effects.geometry {
             self.method.prepare_eye(gpu, &mut self.world, shots);
+        } else {
+            self.world.complete(gpu);
         }
     }
 
@@ -220,17 +238,18 @@ impl SceneRenderer {
     }
 }
 
-/// Method that a dial names. A new method has its line here.
-fn method(
+/// Method that a dial names; `None` if it is the one that cuts the scene for every picture. A new method has its line
+/// here.
+fn fixed_method(
     gpu: &Gpu,
     scene: &Scene,
     format: Format,
     dial: Dial,
     occasion: Occasion,
-) -> Result<Box<dyn Method>, PhotoSurfaceError> {
+) -> Result<Option<Box<dyn Method>>, PhotoSurfaceError> {
     // Animated vertices are solved for on the CPU, and the others go with them.
     let animated = scene.motions.iter().any(|motion| motion.animated().is_some());
-    Ok(match (dial.renderer, dial.edge, dial.transform) {
+    let method: Box<dyn Method> = match (dial.renderer, dial.edge, dial.transform) {
         (RendererName::Image, ..) => {
             let texels_per_pixel = dial.map_scale.unwrap_or(USUAL_MAP_SCALE);
             let quality = MapQuality { texels_per_pixel, smooth: occasion == Occasion::Ride };
@@ -238,9 +257,7 @@ fn method(
         }
         (_, Some(_), Some(Transform::Gpu)) if !animated => Box::new(VertexStage::new(gpu, scene)?),
         (_, Some(_), _) => Box::new(PhotoSurface::new(gpu, scene)?),
-        (_, None, _) => {
-            let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
-            Box::new(Adaptive::new(scene, tolerance_px, occasion))
-        }
-    })
+        (_, None, _) => return Ok(None),
+    };
+    Ok(Some(method))
 }

@@ -84,7 +84,8 @@ impl Scene {
             if let Some(motion) = mesh.motion.filter(|&motion| motion >= self.motions.len()) {
                 return Some(format!("mesh \"{name}\" has motion {motion} of {}", self.motions.len()));
             }
-            if [mesh.normals.len(), mesh.uvs.len(), mesh.colours.len()] != [count; 3] {
+            let spared = [mesh.uvs.len(), mesh.colours.len()].into_iter().all(|length| [0, count].contains(&length));
+            if mesh.normals.len() != count || !spared {
                 return Some(format!("mesh \"{name}\" has vertex arrays of different lengths"));
             }
             if ![0, count].contains(&mesh.emissive_uvs.len()) {

@@ -70,7 +70,7 @@ impl<'gpu> Cameraman<'gpu> {
         spinner.finish_and_clear();
         tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
-        let renderer = SceneRenderer::new(gpu, &scene, Studio::format(gpu), options.background, dial, Occasion::Still)?;
+        let renderer = SceneRenderer::new(gpu, scene, Studio::format(gpu), options.background, dial, Occasion::Still)?;
         let studio = Studio::new(gpu, options.size, options.samples);
         gpu.wait()?;
         spinner.finish_and_clear();

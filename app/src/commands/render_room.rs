@@ -57,7 +57,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     spinner.finish_and_clear();
     tell(format_args!("{because}, on {}", gpu.description()));
     let spinner = progress::spinner("uploading");
-    let mut renderer = SceneRenderer::new(gpu, &scene, quality.format, picture.background, dial, Occasion::Still)?;
+    let mut renderer = SceneRenderer::new(gpu, scene, quality.format, picture.background, dial, Occasion::Still)?;
     let head = options.room.head(&display.viewer);
     let mut walls = Walls::new(gpu, display, quality, SCREEN_FORMAT);
     gpu.wait()?;

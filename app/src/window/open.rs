@@ -113,7 +113,7 @@ impl Open {
         spinner.finish_and_clear();
         tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
-        let renderer = SceneRenderer::new(&gpu, &scene, format, options.picture.background, dial, Occasion::Ride)?;
+        let renderer = SceneRenderer::new(&gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
         gpu.wait()?;
         spinner.finish_and_clear();
         let interface = Interface::new(&gpu, &surfaces[0].window, screen_format);

@@ -72,12 +72,12 @@ fn pixel(viewpoint: &CutViewpoint, seen: DVec3) -> Option<DVec2> {
 }
 
 /// Errors in pixels at random places of the cut whose exact or drawn position is in the picture.
-fn errors(cut: &Cut, viewpoint: &CutViewpoint, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn errors(scene: &Scene, cut: &Cut, viewpoint: &CutViewpoint, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut errors = Vec::new();
-    for mesh in &cut.meshes {
+    for (cut, mesh) in cut.meshes.iter().zip(&scene.meshes) {
         let image = |at| apparent::at_rest(&viewpoint.observer, at).position;
-        let images: Vec<DVec3> = mesh.vertices.iter().map(|vertex| image(vertex.place)).collect();
-        for corners in mesh.indices.chunks_exact(3) {
+        let images: Vec<DVec3> = cut.places(mesh).map(image).collect();
+        for corners in cut.indices(mesh).chunks_exact(3) {
             // Large triangles are few, and could reach into the picture from far beside it.
             let [a, b, c] = [0, 1, 2].map(|corner: usize| images[corners[corner] as usize].normalize());
             let size = a.distance(b).max(b.distance(c)).max(c.distance(a));
@@ -88,8 +88,7 @@ fn errors(cut: &Cut, viewpoint: &CutViewpoint, random: &mut ChaCha8Rng) -> Vec<f
                 let mean = |of: &dyn Fn(usize) -> DVec3| {
                     corners.iter().zip(shares).map(|(&corner, share)| of(corner as usize) * share).sum::<DVec3>()
                 };
-                let (drawn, seen) =
-                    (mean(&|corner| images[corner]), image(mean(&|corner| mesh.vertices[corner].place)));
+                let (drawn, seen) = (mean(&|corner| images[corner]), image(mean(&|corner| cut.place(mesh, corner))));
                 match (pixel(viewpoint, seen), pixel(viewpoint, drawn)) {
                     (Some(seen), Some(drawn)) => errors.push(seen.distance(drawn)),
                     (None, None) => {}
@@ -120,8 +119,8 @@ fn no_place_of_the_picture_is_further_off_than_the_tolerance() {
         let near = scene(vec![square(viewpoint.observer.event.position + distance * away, -away)]);
         for scene in [&boxes, &near] {
             let cut = Cut::new(scene, &viewpoint, FINENESS, None);
-            assert_eq!(cut.tolerance_px, TOLERANCE_PX, "{} triangles did not do", cut.triangle_count());
-            all.extend(errors(&cut, &viewpoint, &mut random));
+            assert_eq!(cut.tolerance_px, TOLERANCE_PX, "{} triangles did not do", cut.triangles);
+            all.extend(errors(scene, &cut, &viewpoint, &mut random));
         }
     }
     all.sort_by(f64::total_cmp);
@@ -155,9 +154,9 @@ fn a_closed_surface_stays_closed_across_meshes_too() {
         for scene in [&whole, &torn] {
             let cut = Cut::new(scene, &viewpoint, FINENESS, Some(&before));
             let mut edges = HashMap::<[[u64; 3]; 2], i64>::new();
-            for mesh in &cut.meshes {
-                let place = |corner: u32| mesh.vertices[corner as usize].place.to_array().map(f64::to_bits);
-                for corners in mesh.indices.chunks_exact(3) {
+            for (cut, mesh) in cut.meshes.iter().zip(&scene.meshes) {
+                let place = |corner: u32| cut.place(mesh, corner as usize).to_array().map(f64::to_bits);
+                for corners in cut.indices(mesh).chunks_exact(3) {
                     for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (place(corners[a]), place(corners[b]))) {
                         *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
                     }
@@ -208,19 +207,14 @@ fn too_many_triangles_make_the_cut_coarser_and_it_says_so() {
     let viewpoint = viewpoint(DVec3::new(0.3, 0.2, 0.5), Celerity::new(DVec3::Z * -5.0).unwrap(), DVec3::NEG_Z, 90.0);
     let few = CutFineness { tolerance_px: 0.02, triangles: 5000, ..FINENESS };
     let cut = Cut::new(&LATTICE.build(), &viewpoint, few, None);
-    assert!(
-        cut.triangle_count() <= 5000 && cut.tolerance_px > 0.02,
-        "{} for {}",
-        cut.triangle_count(),
-        cut.tolerance_px
-    );
+    assert!(cut.triangles <= 5000 && cut.tolerance_px > 0.02, "{} for {}", cut.triangles, cut.tolerance_px);
 }
 
 #[test]
 fn at_rest_nothing_is_cut() {
     let scene = LATTICE.build();
     let cut = Cut::new(&scene, &viewpoint(DVec3::splat(0.3), Celerity::ZERO, DVec3::X, 90.0), FINENESS, None);
-    assert_eq!(cut.triangle_count(), scene.triangle_count());
+    assert_eq!(cut.triangles, scene.triangle_count());
 }
 
 /// Linear colour, unlike the colour of any face.

@@ -230,12 +230,12 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
         let viewpoint = CutViewpoint::new(who, view.camera(), SIZE);
         let fineness = CutFineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 1_000_000 };
         let cut = Cut::new(&scene, &viewpoint, fineness, None);
-        assert!(cut.tolerance_px == 0.5 && cut.triangle_count() > 100, "{} triangles", cut.triangle_count());
+        assert!(cut.tolerance_px == 0.5 && cut.triangles > 100, "{} triangles", cut.triangles);
         let mut edges = HashMap::<[[u64; 3]; 2], u32>::new();
         let mut worst = 0.0_f64;
-        for mesh in &cut.meshes {
-            for corners in mesh.indices.chunks_exact(3) {
-                let corners = [0, 1, 2].map(|corner: usize| mesh.vertices[corners[corner] as usize].place);
+        for (cut, mesh) in cut.meshes.iter().zip(&scene.meshes) {
+            for corners in cut.indices(mesh).chunks_exact(3) {
+                let corners = [0, 1, 2].map(|corner: usize| cut.place(mesh, corners[corner] as usize));
                 // Inside the plate two triangles share an edge, on the rim an edge belongs to one.
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {
                     let mut ends = [corners[a], corners[b]].map(|end| end.to_array().map(f64::to_bits));
@@ -261,7 +261,7 @@ fn a_wheel_is_cut_until_it_bends_and_has_no_cracks() {
             let cracked = count != 2 && !ends.into_iter().all(on_rim);
             assert!(!cracked, "{count} triangles have the edge {:?}", ends.map(|end| end.map(f64::from_bits)));
         }
-        println!("wheel seen at {beta}: {} triangles, {worst:.2} pixels off", cut.triangle_count());
+        println!("wheel seen at {beta}: {} triangles, {worst:.2} pixels off", cut.triangles);
         assert!(worst < 0.5, "{worst} pixels off");
     }
 }

@@ -50,7 +50,7 @@ impl StereoWindow {
         let format = Studio::format(gpu());
         let quality = Quality { format, samples: 1, density: 1.0, smooth: false };
         let scene = rooms(head.place_m, colours);
-        let mut renderer = SceneRenderer::new(gpu(), &scene, format, None, AS_GIVEN, Occasion::Still).unwrap();
+        let mut renderer = SceneRenderer::new(gpu(), scene.clone(), format, None, AS_GIVEN, Occasion::Still).unwrap();
         let mut walls = Walls::new(gpu(), display, quality, wgpu::TextureFormat::Rgba32Float);
         let submitted = walls.submit(gpu(), &mut renderer, &Occupant { vehicle, head }, Effects::NONE).unwrap();
         walls.draw(gpu(), &mut renderer, submitted).unwrap();

@@ -77,7 +77,8 @@ fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant])
     let _turn = turn();
     let format = Studio::format(gpu());
     let quality = Quality { format, samples: 1, density: 3.0, smooth: false };
-    let mut renderer = SceneRenderer::new(gpu(), scene, format, Some(BACKGROUND), method, Occasion::Still).unwrap();
+    let mut renderer =
+        SceneRenderer::new(gpu(), scene.clone(), format, Some(BACKGROUND), method, Occasion::Still).unwrap();
     let mut walls = Walls::new(gpu(), display.clone(), quality, SCREEN_FORMAT);
     let development = Development { gamut: Gamut::Clamp, ..Default::default() };
     let mut pictures = Vec::new();

@@ -10,7 +10,7 @@ use crate::subject::Subject;
 use crate::target::{DEPTH_FORMAT, Format};
 use crate::textures::from_rows;
 use crate::view_matrix::NEAR_M;
-use crate::world::{Draws, Mode, TargetPart, World, bind_group, effect_constants, layout};
+use crate::world::{Draws, Mode, TargetPart, VertexSource, World, bind_group, effect_constants, layout};
 use bytemuck::{bytes_of, cast_slice};
 use glam::{DVec3, Vec4};
 use std::time::Instant;
@@ -123,7 +123,7 @@ impl MapRenderer {
             views.iter().map(move |(view, _)| shaders::ViewUniforms { layer, ..*view })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
-        world.prepare(gpu, mode, false, format);
+        world.prepare(gpu, mode, VertexSource::Plain, format);
 
         let atlas = match self.atlas.take() {
             Some(atlas) if atlas.holds(plan.size, layers) => atlas,

@@ -5,8 +5,9 @@ use crate::certainty::Edges;
 use crate::gpu::Gpu;
 use crate::method::Sample;
 use crate::polygon::Adaptive;
-use crate::world::{Draws, TargetPart, World};
+use crate::world::{Draws, TargetPart, VertexSource, World};
 use scene::{Mesh, Scene};
+use std::sync::Arc;
 use view::{Occasion, Shot};
 
 /// Tolerance of places, texels of the map: as much as the map's own error.
@@ -21,12 +22,15 @@ pub struct MovingParts {
 impl MovingParts {
     /// Moving part of a scene, to be drawn over a map of this quality; `None` if nothing moves in the scene.
     pub fn of(gpu: &Gpu, scene: &Scene, quality: MapQuality) -> Option<Self> {
-        let moving = moving_part(scene)?;
+        let mut moving = moving_part(scene)?;
         // Pictures that are kept use single texels, and wait for their cut. Windows interpolate texels, and do not
         // wait.
         let occasion = if quality.smooth { Occasion::Ride } else { Occasion::Still };
         let tolerance_px = TOLERANCE_TEXELS / quality.texels_per_pixel;
-        Some(Self { world: World::new(gpu, &moving, None), adaptive: Adaptive::new(&moving, tolerance_px, occasion) })
+        let textures = std::mem::take(&mut moving.textures);
+        let moving = Arc::new(moving);
+        let world = World::to_be_cut(gpu, &moving, textures, None);
+        Some(Self { world, adaptive: Adaptive::new(moving, tolerance_px, occasion) })
     }
 
     /// Cuts the moving part for all pictures of one eye, and computes the light that falls on it then.
@@ -43,7 +47,7 @@ impl MovingParts {
 
     /// Prepares the drawing of a sample.
     pub fn prepare(&mut self, gpu: &Gpu, sample: &Sample<'_>) {
-        self.world.prepare(gpu, sample.mode(), false, sample.format);
+        self.world.prepare(gpu, sample.mode(), VertexSource::Streams, sample.format);
         self.world.write_views(gpu, &sample.views);
     }
 

@@ -5,17 +5,18 @@
 //! late. So it is a little finer than promised and wider than the picture, and edges close to the limit stay as they
 //! were, so that nothing flickers.
 //!
-//! A cut has few vertices, kept in f64. They are transformed here, not by the kernel, and are accurate at every
-//! speed.
+//! A mesh of which nothing is cut is drawn from the scene's own arrays. What is added is kept in f64. All vertices are
+//! transformed here in f64, not by the kernel, and are accurate at every speed.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded};
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use scene::Scene;
-use scene::cut::{Cut, CutFineness, CutViewpoint, SeenFrom};
+use scene::cut::{Cut, CutFineness, CutVertex, CutViewpoint, SeenFrom};
 use view::{Occasion, Shot};
 
 use crate::certainty::{Certainty, Edges, EdgesDrawn};
@@ -23,7 +24,7 @@ use crate::gpu::Gpu;
 use crate::method::{Method, Sample};
 use crate::moving_objects::Axes;
 use crate::stats::CutStats;
-use crate::world::{Prepared, World, stream_count, stream_stride};
+use crate::world::{World, hand_over, stream_count, stream_stride};
 
 /// Largest number of triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;
@@ -44,6 +45,9 @@ const REST: u32 = 2;
 
 /// Number of vertices that a thread transforms at a time.
 const CHUNK: usize = 4096;
+
+/// Number of vertices that are written to the device at a time.
+const PIECE: usize = 1 << 20;
 
 /// Accuracy and timing of a scene's cuts.
 #[derive(Clone, Copy, Debug)]
@@ -76,22 +80,14 @@ struct Shown {
 /// A cut that is ready to be uploaded.
 struct Made {
     cut: Arc<Cut>,
-    prepared: Prepared,
     stats: CutStats,
 }
 
 impl Adaptive {
     /// Adaptive cuts of `scene`, whose surfaces must be those that the world shows. `tolerance_px` is the largest
     /// distance of anything drawn from its exact place, pixels.
-    pub fn new(scene: &Scene, tolerance_px: f64, occasion: Occasion) -> Self {
+    pub fn new(scene: Arc<Scene>, tolerance_px: f64, occasion: Occasion) -> Self {
         let tolerance = Tolerance { pixels: tolerance_px, occasion };
-        let scene = Arc::new(Scene {
-            origin: scene.origin,
-            materials: scene.materials.clone(),
-            meshes: scene.meshes.clone(),
-            motions: scene.motions.clone(),
-            ..Scene::default()
-        });
         let cutter = (occasion == Occasion::Ride).then(|| Cutter::start(Arc::clone(&scene), tolerance));
         Self { scene, tolerance, shown: None, cutter }
     }
@@ -105,11 +101,11 @@ impl Adaptive {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
         };
-        if let Some(Made { cut, prepared, stats }) = made {
-            world.replace(gpu, prepared);
+        if let Some(Made { cut, stats }) = made {
+            world.replace(gpu, &self.scene, &cut);
             let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("photo-surface of a cut"),
-                size: stream_count(&self.scene.motions) * stream_stride(cut.vertex_count()),
+                size: stream_count(&self.scene.motions) * stream_stride(cut.vertices),
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
@@ -117,8 +113,7 @@ impl Adaptive {
             self.shown = Some(Shown { cut, stats, edges, streams });
         }
         if let Some(shown) = &self.shown {
-            let streams = apparent(&self.scene, &shown.cut, &viewpoint);
-            gpu.queue.write_buffer(&shown.streams, 0, bytemuck::cast_slice(&streams));
+            write_apparent(gpu, &self.scene, &shown.cut, &viewpoint, &shown.streams);
         }
     }
 
@@ -183,47 +178,90 @@ fn make(scene: &Scene, viewpoint: &CutViewpoint, tolerance: Tolerance, before: O
         },
     };
     let cut = Cut::new(scene, viewpoint, fineness, before);
-    let prepared = Prepared::of_cut(scene, &cut);
     let kept = cut.tolerance_px / fineness.tolerance_px * tolerance.pixels;
-    let stats = CutStats { tolerance_px: kept, triangles: cut.triangle_count(), duration: started.elapsed() };
-    Made { cut: Arc::new(cut), prepared, stats }
+    let stats = CutStats { tolerance_px: kept, triangles: cut.triangles, duration: started.elapsed() };
+    Made { cut: Arc::new(cut), stats }
 }
 
-/// Apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated. Vertices
-/// without an apparent position are put at the eye.
-fn apparent(scene: &Scene, cut: &Cut, viewpoint: &CutViewpoint) -> Vec<f32> {
-    let stride = stream_stride(cut.vertex_count()) as usize / 4;
-    let mut streams = vec![0.0_f32; stream_count(&scene.motions) as usize * stride];
-    let (mut x, rest) = streams.split_at_mut(stride);
-    let (mut y, rest) = rest.split_at_mut(stride);
-    let (mut z, mut log2_doppler) = rest.split_at_mut(stride);
+/// Writes the apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated.
+/// Vertices without an apparent position are put at the eye.
+fn write_apparent(gpu: &Gpu, scene: &Scene, cut: &Cut, viewpoint: &CutViewpoint, buffer: &wgpu::Buffer) {
+    let stride = stream_stride(cut.vertices);
     let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
     let sights: Vec<SeenFrom> = motions.map(|motion| SeenFrom::new(scene, &viewpoint.observer, motion)).collect();
-    let mut jobs = Vec::new();
-    for (mesh, source) in cut.meshes.iter().zip(&scene.meshes) {
-        let sight = &sights[source.motion.map_or(0, |motion| 1 + motion)];
-        for vertices in mesh.vertices.chunks(CHUNK) {
-            let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..vertices.len()));
-            let log2_doppler = log2_doppler.split_off_mut(..vertices.len()).unwrap_or_default();
-            jobs.push((sight, vertices, streams, log2_doppler));
+    let count = stream_count(&scene.motions) as usize;
+    let mut piece = vec![0.0_f32; count * cut.vertices.min(PIECE)];
+    let mut parts = scene.meshes.iter().zip(&cut.meshes).flat_map(|(mesh, cut)| {
+        let sight = &sights[mesh.motion.map_or(0, |motion| 1 + motion)];
+        let own = mesh.positions.chunks(CHUNK).map(VertexRun::Own);
+        own.chain(cut.added.chunks(CHUNK).map(VertexRun::Added)).map(move |run| (sight, run))
+    });
+    let mut next = parts.next();
+    let mut first = 0;
+    while next.is_some() {
+        // Share as many vertices among the threads as there is room for.
+        let room = piece.len() / count;
+        let mut streams = piece.chunks_exact_mut(room);
+        let [mut x, mut y, mut z, mut log2_doppler] = [(); 4].map(|()| streams.next().unwrap_or_default());
+        let mut jobs = Vec::new();
+        let mut taken = 0;
+        while let Some((sight, run)) = next.take_if(|(_, run)| taken + run.len() <= room) {
+            let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..run.len()));
+            let log2_doppler = log2_doppler.split_off_mut(..run.len()).unwrap_or_default();
+            taken += run.len();
+            jobs.push((sight, run, streams, log2_doppler));
+            next = parts.next();
+        }
+        jobs.into_par_iter().for_each(|(sight, run, [x, y, z], log2_doppler)| {
+            let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
+            for index in 0..run.len() {
+                let place = run.place(index);
+                let seen = match &sight.body {
+                    None => sight.apparent(place),
+                    Some(body) => {
+                        let seen = body.seen(place);
+                        log2_doppler[index] = seen.map_or(0.0, |seen| seen.doppler.log2()) as f32;
+                        seen.map_or(DVec3::ZERO, |seen| seen.apparent)
+                    }
+                };
+                let seen = seen.as_vec3();
+                let seen = if seen.is_finite() { seen } else { Vec3::ZERO };
+                (x[index], y[index], z[index]) = (seen.x, seen.y, seen.z);
+            }
+        });
+        for (number, stream) in (0..).zip(piece.chunks_exact(room)) {
+            let offset = number * stride + 4 * first as u64;
+            gpu.queue.write_buffer(buffer, offset, bytemuck::cast_slice(&stream[..taken]));
+        }
+        first += taken;
+        if next.is_some() {
+            hand_over(gpu);
         }
     }
-    jobs.into_par_iter().for_each(|(sight, vertices, [x, y, z], log2_doppler)| {
-        let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
-        for (place, vertex) in vertices.iter().enumerate() {
-            let seen = match &sight.body {
-                None => sight.apparent(vertex.place),
-                Some(body) => body.seen(vertex.place).map_or(glam::DVec3::ZERO, |seen| {
-                    log2_doppler[place] = seen.doppler.log2() as f32;
-                    seen.apparent
-                }),
-            };
-            let seen = seen.as_vec3();
-            let seen = if seen.is_finite() { seen } else { glam::Vec3::ZERO };
-            (x[place], y[place], z[place]) = (seen.x, seen.y, seen.z);
+}
+
+/// Successive vertices of a cut.
+enum VertexRun<'a> {
+    /// Vertices of the mesh.
+    Own(&'a [Vec3]),
+    /// Vertices that the cut added.
+    Added(&'a [CutVertex]),
+}
+
+impl VertexRun<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Own(positions) => positions.len(),
+            Self::Added(vertices) => vertices.len(),
         }
-    });
-    streams
+    }
+
+    fn place(&self, index: usize) -> DVec3 {
+        match self {
+            Self::Own(positions) => positions[index].as_dvec3(),
+            Self::Added(vertices) => vertices[index].place,
+        }
+    }
 }
 
 /// Thread that cuts while others draw, with its channels.

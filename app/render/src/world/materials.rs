@@ -1,13 +1,13 @@
 //! Materials on the GPU: a uniform and two textures for each.
 
+use super::buffer_fill::hand_over;
 use crate::gpu::Gpu;
 use bytemuck::bytes_of;
 use glam::Vec4;
-use rayon::prelude::*;
 use scene::carriers::{SceneCarriers, WHITE};
-use scene::mipmap::mipmap;
+use scene::mipmap::smaller_levels;
 use scene::{Alpha, Material, Scene, Texture, Wrap};
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use wgpu::util::DeviceExt;
 
 /// Number of samples along the longer side of a stretched footprint.
 const ANISOTROPY: u16 = 8;
@@ -24,8 +24,8 @@ pub struct Materials {
 }
 
 impl Materials {
-    /// Uploads textures with all their mip levels, and the uniforms.
-    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &SceneCarriers) -> Self {
+    /// Uploads textures with all their mip levels, and the uniforms. Each texture is dropped when it is uploaded.
+    pub fn new(gpu: &Gpu, scene: &Scene, textures: Vec<Texture>, spectra: &SceneCarriers) -> Self {
         let layout = layout(gpu);
         let white = Texture {
             name: "white".to_owned(),
@@ -35,22 +35,15 @@ impl Materials {
             wrap: [Wrap::Repeat; 2],
             nearest: false,
         };
-        let pictures: Vec<&Texture> = scene.textures.iter().chain([&white]).collect();
-        let chains: Vec<Vec<u8>> = pictures
-            .par_iter()
-            .map(|texture| mipmap(texture).into_iter().flat_map(|level| level.rgba).collect())
-            .collect();
-        let textures: Vec<_> = pictures
-            .iter()
-            .zip(&chains)
-            .map(|(texture, chain)| (upload(gpu, texture, chain), sampler(gpu, texture)))
-            .collect();
+        let none = textures.len();
+        let pictures = textures.into_iter().chain([white]);
+        let textures: Vec<_> = pictures.map(|texture| (upload(gpu, &texture), sampler(gpu, &texture))).collect();
         let bind_groups = scene
             .materials
             .iter()
             .zip(&spectra.materials)
             .map(|(material, &carrier)| {
-                let texture = |index: Option<usize>| &textures[index.unwrap_or(scene.textures.len())];
+                let texture = |index: Option<usize>| &textures[index.unwrap_or(none)];
                 let (base, emissive) = (texture(material.base_colour_texture), texture(material.emissive_texture));
                 let carriers = [carrier, WHITE].map(|carrier| (carrier as f32, spectra.factor(carrier)));
                 bind(gpu, &layout, material, carriers, base, emissive)
@@ -115,20 +108,45 @@ fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-fn upload(gpu: &Gpu, texture: &Texture, chain: &[u8]) -> wgpu::TextureView {
-    let descriptor = wgpu::TextureDescriptor {
+/// Bytes that are written to the device at a time.
+const PIECE: usize = 8 << 20;
+
+fn upload(gpu: &Gpu, texture: &Texture) -> wgpu::TextureView {
+    let uploaded = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(&texture.name),
         size: wgpu::Extent3d { width: texture.width, height: texture.height, depth_or_array_layers: 1 },
         mip_level_count: texture.width.max(texture.height).ilog2() + 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: wgpu::TextureFormat::Rgba8UnormSrgb,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    };
-    gpu.device
-        .create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, chain)
-        .create_view(&wgpu::TextureViewDescriptor::default())
+    });
+    write_level(gpu, &uploaded, 0, texture.width, &texture.rgba);
+    for (level, smaller) in (1..).zip(smaller_levels(texture)) {
+        write_level(gpu, &uploaded, level, smaller.width, &smaller.rgba);
+    }
+    uploaded.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Writes a mip level, a few rows at a time: the memory through which they go is freed in between.
+fn write_level(gpu: &Gpu, texture: &wgpu::Texture, mip_level: u32, width: u32, rgba: &[u8]) {
+    let row = 4 * width as usize;
+    let most = (PIECE / row).max(1);
+    for (number, rows) in rgba.chunks(most * row).enumerate() {
+        let place = wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level,
+            origin: wgpu::Origin3d { x: 0, y: (number * most) as u32, z: 0 },
+            aspect: wgpu::TextureAspect::All,
+        };
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+        let height = (rows.len() / row) as u32;
+        gpu.queue.write_texture(place, rows, layout, wgpu::Extent3d { width, height, depth_or_array_layers: 1 });
+        if rows.len() == most * row {
+            hand_over(gpu);
+        }
+    }
 }
 
 fn sampler(gpu: &Gpu, texture: &Texture) -> wgpu::Sampler {

@@ -3,6 +3,8 @@
 //! The renderers share it. Each renderer decides which positions are drawn, and for which eye: [`World::draw`] draws
 //! views of the photo-surface or of the plain world, as the light that an observer sees or as weights for a map.
 
+mod buffer_fill;
+mod draw_list;
 mod geometry;
 mod materials;
 mod panorama;
@@ -11,6 +13,7 @@ mod scene_world;
 mod shadow_and_light;
 pub mod shift_table;
 
-pub use geometry::{Prepared, stream_count, stream_stride};
-pub use pipelines::{Mode, effect_constants, layout};
+pub use buffer_fill::hand_over;
+pub use geometry::{Sorting, stream_count, stream_stride};
+pub use pipelines::{Mode, VertexSource, effect_constants, layout};
 pub use scene_world::{Draws, TargetPart, World, bind_group};

@@ -3,7 +3,7 @@
 //! Features that a material does not have, and effects that are off, are left out of the shaders, so that they cost
 //! nothing. So there is a set of pipelines for each [`Mode`], compiled when it is first asked for.
 
-use super::geometry::Attributes;
+use super::geometry::{OwnAttributes, VertexSurface};
 use super::materials::Materials;
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, Format};
@@ -24,10 +24,21 @@ pub enum Mode {
     Places,
 }
 
+/// Origin of the positions at which vertices are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VertexSource {
+    /// The scene's own positions, relative to its origin.
+    Plain,
+    /// Streams of apparent positions.
+    Streams,
+    /// Streams for some vertices; the vertex stage bends the others.
+    Bent,
+}
+
 /// Pipelines for every material and the sky, in one mode, for targets of one format.
 pub struct ModePipelines {
     mode: Mode,
-    bends: bool,
+    source: VertexSource,
     format: Format,
     /// Pipelines of the materials, in the scene's order. Materials that look alike share one.
     pub surface: Vec<wgpu::RenderPipeline>,
@@ -49,6 +60,8 @@ pub struct Pipelines {
     shadows: bool,
     /// True if anything is animated.
     animates: bool,
+    /// Attributes that each vertex has; all vertices share the others.
+    own: OwnAttributes,
     made: Vec<ModePipelines>,
     /// Pipeline of the sun's depth map.
     pub shadow: wgpu::RenderPipeline,
@@ -61,7 +74,7 @@ pub struct Pipelines {
 impl Pipelines {
     /// Loads the shaders for the scene's materials. If `background` is true, one radiance is shown instead of the
     /// sky.
-    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &SceneCarriers, background: bool) -> Self {
+    pub fn new(gpu: &Gpu, scene: &Scene, own: OwnAttributes, spectra: &SceneCarriers, background: bool) -> Self {
         let light_layout = light_layout(gpu);
         let module = |module: shaders::Module| {
             gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -94,6 +107,7 @@ impl Pipelines {
             background,
             shadows: scene.light.shadows,
             animates: scene.motions.iter().any(|motion| motion.animated().is_some()),
+            own,
             made: Vec::new(),
             shadow,
             view_layout: view_layout(gpu),
@@ -101,14 +115,15 @@ impl Pipelines {
         }
     }
 
-    /// Compiles the pipelines of a mode if that has not been done before. `bends` is true if the vertex stage bends.
-    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, bends: bool, format: Format) {
-        if self.get(mode, bends, format).is_some() {
+    /// Compiles the pipelines of a mode if that has not been done before.
+    pub fn prepare(&mut self, gpu: &Gpu, materials: &Materials, mode: Mode, source: VertexSource, format: Format) {
+        if self.get(mode, source, format).is_some() {
             return;
         }
-        let surface = self.surfaces(gpu, materials, mode, format, [false, bends]);
-        let shifted = matches!(mode, Mode::Light(effects) if effects.geometry && effects.shift_light());
-        let animated = (self.animates && shifted).then(|| self.surfaces(gpu, materials, mode, format, [true, false]));
+        let surface = self.surfaces(gpu, materials, mode, format, (false, source));
+        let shifted = source == VertexSource::Streams
+            && matches!(mode, Mode::Light(effects) if effects.geometry && effects.shift_light());
+        let animated = (self.animates && shifted).then(|| self.surfaces(gpu, materials, mode, format, (true, source)));
         let sky = Description {
             label: "sky",
             module: &self.sky_module,
@@ -127,22 +142,32 @@ impl Pipelines {
             .concat(),
         }
         .build(gpu);
-        self.made.push(ModePipelines { mode, bends, format, surface, animated, sky });
+        self.made.push(ModePipelines { mode, source, format, surface, animated, sky });
     }
 
-    /// Pipelines of the materials. `animated` is true for vertices with their own Doppler factors, `bends` for
-    /// vertices that the vertex stage bends.
+    /// Pipelines of the materials. `animated` is true for vertices with their own Doppler factors.
     fn surfaces(
         &self,
         gpu: &Gpu,
         materials: &Materials,
         mode: Mode,
         format: Format,
-        [animated, bends]: [bool; 2],
+        (animated, source): (bool, VertexSource),
     ) -> Vec<wgpu::RenderPipeline> {
         let mut made: Vec<(Look, wgpu::RenderPipeline)> = Vec::new();
         let mut surface = Vec::with_capacity(self.looks.len());
-        let buffers = surface_buffers();
+        let mut buffers = surface_buffers(self.own);
+        if !animated {
+            buffers[4] = None;
+        }
+        let entry_points = match source {
+            _ if animated => ANIMATED,
+            VertexSource::Plain => PLAIN,
+            VertexSource::Streams | VertexSource::Bent => USUAL,
+        };
+        if source == VertexSource::Plain {
+            buffers[..3].fill(None);
+        }
         for &look in &self.looks {
             let pipeline = match made.iter().find(|(known, _)| *known == look) {
                 Some((_, pipeline)) => pipeline.clone(),
@@ -150,14 +175,14 @@ impl Pipelines {
                     let description = Description {
                         label: "surface",
                         module: &self.surface_module,
-                        entry_points: if animated { ANIMATED } else { USUAL },
+                        entry_points,
                         groups: &[Some(&self.view_layout), Some(&materials.layout)],
-                        buffers: if animated { &buffers } else { &buffers[..4] },
+                        buffers: &buffers,
                         cull: !look.double_sided,
                         depth_write: !look.blended,
                         depth_compare: wgpu::CompareFunction::Greater,
                         target: Some((format, look.blended.then(|| blending(mode)))),
-                        vertex_constants: &[("BENDS", flag(bends))],
+                        vertex_constants: &[("BENDS", flag(source == VertexSource::Bent))],
                         constants: &[
                             look.constants(self.shadows).as_slice(),
                             &[("ANIMATED", flag(animated))],
@@ -176,8 +201,8 @@ impl Pipelines {
     }
 
     /// Pipelines of a mode that was prepared.
-    pub fn get(&self, mode: Mode, bends: bool, format: Format) -> Option<&ModePipelines> {
-        self.made.iter().find(|made| (made.mode, made.bends, made.format) == (mode, bends, format))
+    pub fn get(&self, mode: Mode, source: VertexSource, format: Format) -> Option<&ModePipelines> {
+        self.made.iter().find(|made| (made.mode, made.source, made.format) == (mode, source, format))
     }
 }
 
@@ -187,6 +212,7 @@ type Constant = (&'static str, f64);
 type EntryPoints = [&'static str; 2];
 
 const USUAL: EntryPoints = ["vertex", "fragment"];
+const PLAIN: EntryPoints = ["vertex_plain", "fragment"];
 const ANIMATED: EntryPoints = ["vertex_animated", "fragment_animated"];
 
 impl Mode {
@@ -353,36 +379,42 @@ const POSITION: [[wgpu::VertexAttribute; 1]; 3] = [
     wgpu::vertex_attr_array![2 => Float32],
 ];
 const LOG2_DOPPLER: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32];
-const ATTRIBUTES: [wgpu::VertexAttribute; 4] = [
-    attribute(3, offset_of!(Attributes, world), wgpu::VertexFormat::Float32x3),
-    attribute(4, offset_of!(Attributes, normal), wgpu::VertexFormat::Float32x3),
-    // Both pairs of texture coordinates, which lie side by side.
-    attribute(5, offset_of!(Attributes, uv), wgpu::VertexFormat::Float32x4),
-    attribute(6, offset_of!(Attributes, colour), wgpu::VertexFormat::Float32x4),
+const SURFACE: [wgpu::VertexAttribute; 2] = [
+    attribute(3, offset_of!(VertexSurface, world), wgpu::VertexFormat::Float32x3),
+    attribute(4, offset_of!(VertexSurface, normal), wgpu::VertexFormat::Float32x3),
 ];
+const UV: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![5 => Float32x2];
+const COLOUR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Float32x4];
+const EMISSIVE_UV: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![8 => Float32x2];
 
 const fn attribute(shader_location: u32, offset: usize, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
     wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
-/// Vertex buffers: three streams of positions, the attributes, and a stream of log2 D for the vertices that have it.
-fn surface_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 5] {
-    let stream = |attributes| {
-        Some(wgpu::VertexBufferLayout { array_stride: 4, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+/// Vertex buffers: three streams of positions, the surfaces, a stream of log2 D for the vertices that have it, texture
+/// coordinates, those of emissive textures, and colours. A stride of 0 gives all vertices the same value.
+fn surface_buffers(own: OwnAttributes) -> [Option<wgpu::VertexBufferLayout<'static>>; 8] {
+    let buffer = |array_stride, attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
     };
     let [x, y, z] = &POSITION;
-    [stream(x), stream(y), stream(z), Some(with_attributes(&ATTRIBUTES)), stream(&LOG2_DOPPLER)]
+    [
+        buffer(4, x),
+        buffer(4, y),
+        buffer(4, z),
+        buffer(size_of::<VertexSurface>() as u64, &SURFACE),
+        buffer(4, &LOG2_DOPPLER),
+        buffer(if own.uvs { 8 } else { 0 }, &UV),
+        buffer(if own.uvs { 8 } else { 0 }, &EMISSIVE_UV),
+        buffer(if own.colours { 16 } else { 0 }, &COLOUR),
+    ]
 }
 
 fn world_only() -> wgpu::VertexBufferLayout<'static> {
-    with_attributes(&ATTRIBUTES[..1])
-}
-
-fn with_attributes(attributes: &'static [wgpu::VertexAttribute]) -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
-        array_stride: size_of::<Attributes>() as u64,
+        array_stride: size_of::<VertexSurface>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes,
+        attributes: &SURFACE[..1],
     }
 }
 

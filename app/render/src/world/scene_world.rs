@@ -1,9 +1,10 @@
 //! A scene's buffers, textures and pipelines, and draws of its views.
 
-use super::geometry::{Draw, Geometry, Group, Prepared};
+use super::draw_list::{Draw, Group};
+use super::geometry::{Geometry, OwnAttributes, Sorting};
 use super::materials::Materials;
-use super::pipelines::{Mode, Pipelines};
-use super::shadow_and_light::{Light, with_falling};
+use super::pipelines::{Mode, Pipelines, VertexSource};
+use super::shadow_and_light::{Light, casters, draw_map, with_falling};
 use super::{panorama, shift_table};
 use crate::gpu::Gpu;
 use crate::target::Format;
@@ -11,10 +12,10 @@ use bytemuck::bytes_of;
 use glam::DVec3;
 use physics::Observer;
 use scene::carriers::SceneCarriers;
-use scene::cut::SeenFrom;
+use scene::cut::{Cut, SeenFrom};
 use scene::irradiance::Irradiance;
 use scene::motion::Animated;
-use scene::{Lighting, Scene};
+use scene::{Lighting, Scene, Texture};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -23,7 +24,13 @@ const VIEWS: u64 = 64;
 
 /// A scene that is ready to be drawn.
 pub struct World {
-    geometry: Geometry,
+    /// Geometry drawn now; `None` until it is first needed.
+    geometry: Option<Geometry>,
+    /// Scene whose geometry may be needed as a whole; `None` if it is there for good.
+    scene: Option<Arc<Scene>>,
+    own: OwnAttributes,
+    /// Materials that cast shadows, until the sun's depth map is drawn.
+    undrawn_casters: Option<Vec<bool>>,
     materials: Materials,
     pipelines: Pipelines,
     /// Carriers of the scene, to which the weights belong.
@@ -86,14 +93,35 @@ impl TargetPart {
 }
 
 impl World {
-    /// Uploads `scene`. `background` is a linear radiance that replaces the scene's sky.
-    pub fn new(gpu: &Gpu, scene: &Scene, background: Option<[f32; 3]>) -> Self {
+    /// Uploads `scene` with its textures, which are dropped one by one. `background` is a linear radiance that replaces
+    /// the scene's sky.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        textures: Vec<Texture>,
+        background: Option<[f32; 3]>,
+        sorting: Sorting,
+    ) -> Self {
+        let mut world = Self::without_geometry(gpu, scene, textures, background);
+        world.geometry = Some(Geometry::of(gpu, scene, world.own, sorting));
+        world.draw_shadows(gpu);
+        world
+    }
+
+    /// Uploads all but the geometry of a scene, which is to be cut; the whole is uploaded only if it is needed.
+    pub fn to_be_cut(gpu: &Gpu, scene: &Arc<Scene>, textures: Vec<Texture>, background: Option<[f32; 3]>) -> Self {
+        let mut world = Self::without_geometry(gpu, scene, textures, background);
+        world.scene = Some(Arc::clone(scene));
+        world
+    }
+
+    fn without_geometry(gpu: &Gpu, scene: &Scene, textures: Vec<Texture>, background: Option<[f32; 3]>) -> Self {
         let spectra = SceneCarriers::of(scene);
-        let geometry = Geometry::new(gpu, scene);
-        let materials = Materials::new(gpu, scene, &spectra);
-        let pipelines = Pipelines::new(gpu, scene, &spectra, background.is_some());
+        let own = OwnAttributes::of(scene);
+        let materials = Materials::new(gpu, scene, textures, &spectra);
+        let pipelines = Pipelines::new(gpu, scene, own, &spectra, background.is_some());
         let Light { at_rest: lit_at_rest, uniforms: lightings, map, sampler } =
-            Light::new(gpu, scene, &geometry, &pipelines, &spectra, background);
+            Light::new(gpu, scene, &spectra, background);
         let bindings = Bindings {
             shadow_map: map,
             shadow_sampler: sampler,
@@ -104,7 +132,10 @@ impl World {
         let view_groups = bindings.groups(gpu, &pipelines.view_layout, &views, &lightings);
         let animated = scene.motions.iter().map(|motion| motion.animated().map(Arc::clone)).collect();
         Self {
-            geometry,
+            geometry: None,
+            scene: None,
+            own,
+            undrawn_casters: casters(scene),
             materials,
             pipelines,
             spectra,
@@ -121,13 +152,32 @@ impl World {
 
     /// Number of triangles of a draw of the whole scene.
     pub fn triangle_count(&self) -> u64 {
-        let draws = self.geometry.opaque.iter().chain(&self.geometry.blended);
-        draws.map(|draw| draw.indices.len() as u64 / 3).sum()
+        let whole = || self.scene.as_ref().map_or(0, |scene| scene.triangle_count() as u64);
+        self.geometry.as_ref().map_or_else(whole, |geometry| {
+            let draws = geometry.opaque.iter().chain(&geometry.blended);
+            draws.map(|draw| draw.indices.len() as u64 / 3).sum()
+        })
     }
 
-    /// Replaces the triangles by another cut of the same surfaces.
-    pub fn replace(&mut self, gpu: &Gpu, prepared: Prepared) {
-        self.geometry = Geometry::upload(gpu, prepared);
+    /// Replaces the triangles by those of a cut of the same scene.
+    pub fn replace(&mut self, gpu: &Gpu, scene: &Scene, cut: &Cut) {
+        self.geometry = Some(Geometry::of_cut(gpu, scene, self.own, cut));
+        self.draw_shadows(gpu);
+    }
+
+    /// Uploads the whole scene, if nothing of it is there.
+    pub fn complete(&mut self, gpu: &Gpu) {
+        if let (None, Some(scene)) = (&self.geometry, &self.scene) {
+            self.geometry = Some(Geometry::of(gpu, scene, self.own, Sorting::AsTheyCome));
+            self.draw_shadows(gpu);
+        }
+    }
+
+    /// Draws the sun's depth map, unless it is drawn.
+    fn draw_shadows(&mut self, gpu: &Gpu) {
+        if let (Some(geometry), Some(casters)) = (&self.geometry, self.undrawn_casters.take()) {
+            draw_map(gpu, (&self.bindings.shadow_map, &self.lightings[0]), &casters, geometry, &self.pipelines);
+        }
     }
 
     /// Writes the light that falls on animated bodies, for the pictures of the next submissions. `delayed` is true if
@@ -150,8 +200,8 @@ impl World {
     }
 
     /// Compiles the pipelines of a mode. A draw in a mode that was not prepared shows nothing.
-    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, bends: bool, format: Format) {
-        self.pipelines.prepare(gpu, &self.materials, mode, bends, format);
+    pub fn prepare(&mut self, gpu: &Gpu, mode: Mode, source: VertexSource, format: Format) {
+        self.pipelines.prepare(gpu, &self.materials, mode, source, format);
     }
 
     /// Writes the views of the next submission, numbered in order. A submission sees only one writing.
@@ -178,9 +228,15 @@ impl World {
 
     /// Draws surfaces and sky into each part of a target.
     pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[TargetPart]) {
-        let Some(pipelines) = self.pipelines.get(draws.mode, draws.bends, draws.format) else { return };
+        let source = match draws.streams {
+            None => VertexSource::Plain,
+            Some(_) if draws.bends => VertexSource::Bent,
+            Some(_) => VertexSource::Streams,
+        };
+        let Some(pipelines) = self.pipelines.get(draws.mode, source, draws.format) else { return };
+        let Some(geometry) = &self.geometry else { return };
         let drawn = |draw: &&Draw| draw.motion.is_none_or(|motion| motion < draws.moving.len());
-        let mut blended: Vec<&Draw> = self.geometry.blended.iter().filter(drawn).collect();
+        let mut blended: Vec<&Draw> = geometry.blended.iter().filter(drawn).collect();
         // Moving bodies are sorted by their apparent distance; resting ones by their own place, like everything in a
         // scene at rest.
         let distance = |draw: &Draw| match draw.motion.map(|motion| &draws.moving[motion]) {
@@ -189,16 +245,21 @@ impl World {
         };
         blended.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
 
-        pass.set_index_buffer(self.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let streams = draws.streams.unwrap_or(&self.geometry.plain);
-        for axis in 0..3 {
-            let start = self.geometry.stream_stride * u64::from(axis);
-            pass.set_vertex_buffer(axis, streams.slice(start..start + self.geometry.stream_stride));
-        }
-        pass.set_vertex_buffer(3, self.geometry.attributes.slice(..));
+        pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let is_animated = |motion: usize| self.animated[motion].is_some();
-        if draws.streams.is_some() && (0..draws.moving.len()).any(is_animated) {
-            pass.set_vertex_buffer(4, streams.slice(3 * self.geometry.stream_stride..));
+        let stride = geometry.stream_stride;
+        if let Some(streams) = draws.streams {
+            for axis in 0..3 {
+                let start = stride * u64::from(axis);
+                pass.set_vertex_buffer(axis, streams.slice(start..start + stride));
+            }
+            if (0..draws.moving.len()).any(is_animated) {
+                pass.set_vertex_buffer(4, streams.slice(3 * stride..));
+            }
+        }
+        let attributes = [&geometry.uvs, &geometry.emissive_uvs, &geometry.colours];
+        for (slot, buffer) in [(3, &geometry.surface)].into_iter().chain((5..).zip(attributes)) {
+            pass.set_vertex_buffer(slot, buffer.slice(..));
         }
 
         // Draw each material for all parts in turn: a change of part is cheap, a change of material is not.
@@ -219,7 +280,7 @@ impl World {
                 ranges.into_iter().for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
             }
         };
-        self.geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
+        geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
         if draws.sky {
             pass.set_pipeline(&pipelines.sky);
             for part in parts {

@@ -1,12 +1,13 @@
 //! The sun's depth map, which tells the surfaces that the sun reaches.
 //!
 //! Sun and scene are at rest relative to each other. So the pattern of light and shadow in the world frame does not
-//! change, and one map, drawn when the scene is loaded, serves every observer at every speed (W 5.1.3).
+//! change, and one map, drawn with the first picture, serves every observer at every speed (W 5.1.3).
 //!
 //! Moving bodies have their own light, by their own frame. They are left out of the map: they neither cast shadows
 //! nor receive any.
 
-use super::geometry::{Draw, Geometry};
+use super::draw_list::Draw;
+use super::geometry::Geometry;
 use super::pipelines::Pipelines;
 use crate::gpu::Gpu;
 use crate::target::{DEPTH_FORMAT, texture};
@@ -28,24 +29,17 @@ pub struct Light {
     pub at_rest: shaders::LightingUniforms,
     /// Uniforms [`shaders::LightingUniforms`]: one for the resting scene, then one for each of its motions.
     pub uniforms: Vec<wgpu::Buffer>,
-    /// Reversed depth, seen from the sun.
+    /// Reversed depth, seen from the sun; to be drawn.
     pub map: wgpu::TextureView,
     /// Sampler that compares and filters.
     pub sampler: wgpu::Sampler,
 }
 
 impl Light {
-    /// Uploads the light of `scene` and, if the sun casts shadows, draws its map.
+    /// Uploads the light of `scene`.
     ///
     /// `background` is a linear radiance that replaces the sky.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        geometry: &Geometry,
-        pipelines: &Pipelines,
-        spectra: &SceneCarriers,
-        background: Option<[f32; 3]>,
-    ) -> Self {
+    pub fn new(gpu: &Gpu, scene: &Scene, spectra: &SceneCarriers, background: Option<[f32; 3]>) -> Self {
         let moving = scene.motions.iter().map(|motion| match motion {
             Motion::Uniform(uniform) => {
                 Irradiance::on_moving(&scene.light, uniform.celerity, &spectra.carriers[spectra.sky])
@@ -73,51 +67,59 @@ impl Light {
             compare: Some(wgpu::CompareFunction::GreaterEqual),
             ..Default::default()
         });
-        let light = Self { at_rest, uniforms, map, sampler };
-        light.draw_map(gpu, scene, geometry, pipelines);
-        light
+        Self { at_rest, uniforms, map, sampler }
     }
+}
 
-    fn draw_map(&self, gpu: &Gpu, scene: &Scene, geometry: &Geometry, pipelines: &Pipelines) {
-        // The layout needs a view as well; the shadow shader does not read it.
-        let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("unused view"),
-            size: size_of::<shaders::ViewUniforms>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM,
-            mapped_at_creation: false,
+/// Materials whose surfaces cast shadows of the sun, by index; `None` if there are no shadows.
+pub fn casters(scene: &Scene) -> Option<Vec<bool>> {
+    scene.light.shadows.then(|| scene.materials.iter().map(|material| !material.unlit).collect())
+}
+
+/// Draws the sun's depth map of a scene's geometry. `lighting` is the light of the resting scene.
+pub fn draw_map(
+    gpu: &Gpu,
+    (map, lighting): (&wgpu::TextureView, &wgpu::Buffer),
+    casters: &[bool],
+    geometry: &Geometry,
+    pipelines: &Pipelines,
+) {
+    // The layout needs a view as well; the shadow shader does not read it.
+    let view = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("unused view"),
+        size: size_of::<shaders::ViewUniforms>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM,
+        mapped_at_creation: false,
+    });
+    let bind = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("light"),
+        layout: &pipelines.light_layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: lighting.as_entire_binding() },
+        ],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("sun's depth map"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: map,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
         });
-        let bind = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("light"),
-            layout: &pipelines.light_layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: self.uniforms[0].as_entire_binding() },
-            ],
-        });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("sun's depth map"),
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &self.map,
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-                    stencil_ops: None,
-                }),
-                ..Default::default()
-            });
-            if scene.light.shadows {
-                pass.set_pipeline(&pipelines.shadow);
-                pass.set_bind_group(0, &bind, &[]);
-                pass.set_vertex_buffer(0, geometry.attributes.slice(..));
-                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                let casts = |draw: &&Draw| draw.motion.is_none() && !scene.materials[draw.material].unlit;
-                for draw in geometry.opaque.iter().filter(casts) {
-                    pass.draw_indexed(draw.indices.clone(), 0, 0..1);
-                }
-            }
+        pass.set_pipeline(&pipelines.shadow);
+        pass.set_bind_group(0, &bind, &[]);
+        pass.set_vertex_buffer(0, geometry.surface.slice(..));
+        pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let casts = |draw: &&Draw| draw.motion.is_none() && casters[draw.material];
+        for draw in geometry.opaque.iter().filter(casts) {
+            pass.draw_indexed(draw.indices.clone(), 0, 0..1);
         }
-        gpu.queue.submit([encoder.finish()]);
     }
+    gpu.queue.submit([encoder.finish()]);
 }
 
 /// Light of a scene for the shaders, falling as `falling` says. `shadowed` is true if surfaces between it and the sun

@@ -5,7 +5,9 @@ use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
 
 use glam::{DVec3, Vec2, Vec3};
 
-/// Vertex of a cut.
+use crate::mesh::Mesh;
+
+/// Vertex that a cut adds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CutVertex {
     /// Position, metres, relative to the scene's origin.
@@ -27,34 +29,49 @@ pub struct Cut {
     pub meshes: Vec<CutMesh>,
     /// Tolerance that was kept, pixels: the requested one, unless that would have made too many triangles.
     pub tolerance_px: f64,
+    /// Number of triangles of all meshes.
+    pub triangles: usize,
+    /// Number of vertices of all meshes, those that no triangle uses as well.
+    pub vertices: usize,
     /// Edges that were cut, by their keys. The next cut keeps them cut until their error is below half the allowed
     /// one.
     pub split: HashSet<u64, FixedHasher>,
 }
 
-/// Cut triangles of a mesh.
+/// Cut triangles of a mesh. The vertices are the mesh's own, then those that were added.
+///
+/// A triangle with a corner that is not finite is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CutMesh {
-    /// Vertices that triangles use.
-    pub vertices: Vec<CutVertex>,
-    /// Indices of vertices, three per triangle.
-    pub indices: Vec<u32>,
+    /// Added vertices, numbered after the mesh's own.
+    pub added: Vec<CutVertex>,
+    /// Indices of vertices, three per triangle; `None` if they are the mesh's own, since nothing of it was cut.
+    pub changed: Option<Vec<u32>>,
+}
+
+impl CutMesh {
+    /// Indices of vertices, three per triangle. `mesh` is the mesh that was cut.
+    pub fn indices<'a>(&'a self, mesh: &'a Mesh) -> &'a [u32] {
+        self.changed.as_deref().unwrap_or(&mesh.indices)
+    }
+
+    /// Position of a vertex, metres, relative to the scene's origin. `mesh` is the mesh that was cut.
+    pub fn place(&self, mesh: &Mesh, vertex: usize) -> DVec3 {
+        match mesh.positions.get(vertex) {
+            Some(position) => position.as_dvec3(),
+            None => self.added[vertex - mesh.positions.len()].place,
+        }
+    }
+
+    /// Positions of all vertices, metres, relative to the scene's origin. `mesh` is the mesh that was cut.
+    pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = DVec3> + use<'a> {
+        let own = mesh.positions.iter().map(|position| position.as_dvec3());
+        own.chain(self.added.iter().map(|vertex| vertex.place))
+    }
 }
 
 /// Hasher without a random seed: a key has the same hash in every run.
 pub type FixedHasher = BuildHasherDefault<DefaultHasher>;
-
-impl Cut {
-    /// Number of triangles of all meshes.
-    pub fn triangle_count(&self) -> usize {
-        self.meshes.iter().map(|mesh| mesh.indices.len() / 3).sum()
-    }
-
-    /// Number of vertices of all meshes.
-    pub fn vertex_count(&self) -> usize {
-        self.meshes.iter().map(|mesh| mesh.vertices.len()).sum()
-    }
-}
 
 /// Key of an edge, the same from either end.
 pub fn edge_key(a: DVec3, b: DVec3) -> u64 {

@@ -1,10 +1,10 @@
 //! Cutting of a scene's edges one by one, until none is drawn further from its exact place than the pictures allow.
 
 use std::cell::RefCell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use physics::interpolation_error::InterpolationBound;
 use rayon::prelude::*;
 
@@ -27,6 +27,9 @@ const LOG2_DOPPLER: f64 = 0.0035;
 /// Chords no longer than this many times the allowed error are not cut for the sake of their Doppler factor, which
 /// may jump at a key.
 const DOPPLER_LENGTH: f64 = 8.0;
+
+/// Factor above one that is larger than the rounding of a length in f32.
+const ROUNDED_UP: f64 = 1.0 + 1e-5;
 
 /// Largest number of triangles that animated bodies are cut into, unless they have nearly as many. Each corner of them
 /// is sought on its worldline, which takes a thousand times as long as one at rest.
@@ -55,23 +58,22 @@ struct CutRule<'a> {
     /// Visible part of the sky, for each picture.
     skies: Vec<ShownSky>,
     fineness: CutFineness,
+    /// Smallest allowed error over all pictures, radians.
+    least_allowed: f64,
     before: Option<&'a Cut>,
 }
 
 impl<'a> CutRule<'a> {
     fn new(scene: &Scene, viewpoint: &CutViewpoint, fineness: CutFineness, before: Option<&'a Cut>) -> Self {
         let sight = |motion| SeenFrom::new(scene, &viewpoint.observer, motion);
+        let skies: Vec<_> = viewpoint.pictures.iter().map(|(camera, size)| ShownSky::new(camera, *size)).collect();
         Self {
             sights: (0..scene.motions.len()).map(Some).chain([None]).map(sight).collect(),
-            skies: viewpoint.pictures.iter().map(|(camera, size)| ShownSky::new(camera, *size)).collect(),
+            least_allowed: skies.iter().map(|sky| sky.least_allowed(&fineness)).fold(f64::INFINITY, f64::min),
+            skies,
             fineness,
             before,
         }
-    }
-
-    /// Smallest allowed error over all pictures, radians.
-    fn least_allowed(&self) -> f64 {
-        self.skies.iter().map(|sky| sky.least_allowed(&self.fineness)).fold(f64::INFINITY, f64::min)
     }
 
     /// Smallest allowed error of things within a cone over all pictures, radians.
@@ -95,9 +97,8 @@ impl<'a> CutRule<'a> {
         if let Some(body) = &sight.body {
             return self.is_cut(body, known, [a, b]).then_some(middle);
         }
-        // Most edges are so small beside their distance that this quick bound is enough.
         let seen = middle - sight.place;
-        if sight.bend.bound_anywhere(seen.length(), length) <= self.least_allowed() {
+        if self.is_short(sight, seen.length(), length) {
             return None;
         }
         let InterpolationBound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
@@ -109,10 +110,44 @@ impl<'a> CutRule<'a> {
         (error_rad > allowed || error_rad > 0.5 * allowed && stays()).then_some(middle)
     }
 
+    /// True if a quick bound shows that no edge is to be cut whose middle is at least this far and which is at most
+    /// this long, metres. Most edges are so small beside their distance.
+    fn is_short(&self, sight: &SeenFrom, distance: f64, length: f64) -> bool {
+        sight.body.is_none() && sight.bend.bound_anywhere(distance, length) <= self.least_allowed
+    }
+
+    /// True if no edge of these triangles is to be cut, and all their corners are finite.
+    fn is_whole(&self, mesh: &Mesh, corners: &[u32]) -> bool {
+        let sight = self.sight(mesh);
+        if sight.body.is_some() {
+            return false;
+        }
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut longest = 0.0_f32;
+        let mut sum = Vec3::ZERO;
+        for triangle in corners.as_chunks::<3>().0 {
+            let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
+            (low, high) = (low.min(a).min(b).min(c), high.max(a).max(b).max(c));
+            let edges = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
+            longest = edges.into_iter().fold(longest, f32::max);
+            sum += a + b + c;
+        }
+        // Minimum and maximum pass over what is not a number, the sum does not.
+        if !(sum.is_finite() && longest.is_finite()) {
+            return false;
+        }
+        if sight.bend.is_straight() {
+            return true;
+        }
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let nearest = (sight.place - sight.place.clamp(low, high)).length();
+        self.is_short(sight, nearest, f64::from(longest).sqrt() * ROUNDED_UP)
+    }
+
     /// True if an edge of an animated body is to be cut.
     fn is_cut(&self, body: &ObservedBody, known: &SeenCache, ends: [DVec3; 2]) -> bool {
         let seen = |place| known.seen(body, place);
-        let Some(chord) = EdgeChord::of(seen, ends, self.least_allowed()) else { return false };
+        let Some(chord) = EdgeChord::of(seen, ends, self.least_allowed) else { return false };
         let allowed = self.allowed(chord.direction, chord.radius_rad);
         let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;
         let error =
@@ -127,8 +162,7 @@ impl<'a> CutRule<'a> {
         let animated = |mesh: &&Mesh| self.sight(mesh).body.is_some();
         let animated_count: usize = scene.meshes.iter().filter(animated).map(|mesh| mesh.indices.len() / 3).sum();
         let animated_limit = ANIMATED_TRIANGLES.max(2 * animated_count).min(limit);
-        let mut split = HashSet::default();
-        let mut meshes = Vec::with_capacity(scene.meshes.len());
+        let mut cut = Cut { tolerance_px: self.fineness.tolerance_px, ..Cut::default() };
         for mesh in &scene.meshes {
             let batches: Option<Vec<Batch>> = mesh
                 .indices
@@ -138,57 +172,88 @@ impl<'a> CutRule<'a> {
                     false => self.cut_batch(mesh, corners, &total, limit),
                 })
                 .collect();
+            let batches = batches?;
+            let own = mesh.positions.len() as u32;
             let mut whole = CutMesh::default();
-            for batch in batches? {
-                let first = whole.vertices.len() as u32;
-                whole.vertices.extend(batch.mesh.vertices);
-                whole.indices.extend(batch.mesh.indices.into_iter().map(|index| first + index));
-                split.extend(batch.split);
+            if batches.iter().any(|batch| batch.cut.is_some()) {
+                let length = |(batch, corners): (&Batch, &[u32])| batch.cut.as_ref().map_or(corners.len(), Vec::len);
+                let length = batches.iter().zip(mesh.indices.chunks(3 * BATCH)).map(length).sum();
+                let mut changed = Vec::with_capacity(length);
+                for (batch, corners) in batches.into_iter().zip(mesh.indices.chunks(3 * BATCH)) {
+                    let first = whole.added.len() as u32;
+                    let shifted = |index: u32| if index < own { index } else { index + first };
+                    match batch.cut {
+                        None => changed.extend_from_slice(corners),
+                        Some(indices) => changed.extend(indices.into_iter().map(shifted)),
+                    }
+                    whole.added.extend(batch.added);
+                    cut.split.extend(batch.split);
+                }
+                whole.changed = Some(changed);
             }
-            meshes.push(whole);
+            cut.triangles += whole.indices(mesh).len() / 3;
+            cut.vertices += mesh.positions.len() + whole.added.len();
+            cut.meshes.push(whole);
         }
-        Some(Cut { meshes, tolerance_px: self.fineness.tolerance_px, split })
+        Some(cut)
     }
 
-    /// Cuts a few triangles, which share their vertices; `None` if the limit is exceeded.
+    /// Cuts a few triangles, which share their new vertices; `None` if the limit is exceeded.
     fn cut_batch(&self, mesh: &Mesh, corners: &[u32], total: &AtomicUsize, limit: usize) -> Option<Batch> {
         let sight = self.sight(mesh);
         let mut batch = Batch::default();
+        let count = |made: usize| total.fetch_add(made, Ordering::Relaxed) + made <= limit;
+        if self.is_whole(mesh, corners) {
+            return count(corners.len() / 3).then_some(batch);
+        }
+        let mut indices = Vec::with_capacity(corners.len());
         let known = SeenCache::default();
-        let mut vertex_of_mesh = HashMap::<u32, u32>::new();
         // None: the edge is not cut.
-        let mut middles = HashMap::<(u32, u32), Option<u32>>::new();
+        let mut middles = HashMap::<(u32, u32), Option<u32>, FixedHasher>::default();
         let mut stack = Vec::new();
-        for corners in corners.chunks_exact(3) {
-            let before = batch.mesh.indices.len();
-            stack.push([0, 1, 2].map(|corner: usize| {
-                let index = corners[corner];
-                *vertex_of_mesh.entry(index).or_insert_with(|| batch.push(vertex(mesh, index as usize)))
-            }));
+        for corners in corners.as_chunks::<3>().0 {
+            // A corner without a finite place would be drawn at the eye.
+            if !corners.iter().all(|&corner| mesh.positions[corner as usize].is_finite()) {
+                continue;
+            }
+            let before = indices.len();
+            stack.push(*corners);
             while let Some([a, b, c]) = stack.pop() {
+                let [at_a, at_b, at_c] = [a, b, c].map(|corner| batch.place(mesh, corner));
+                let short = |from: DVec3, to: DVec3| {
+                    self.is_short(sight, (0.5 * from + 0.5 * to - sight.place).length(), from.distance(to))
+                };
+                if short(at_a, at_b) && short(at_b, at_c) && short(at_c, at_a) {
+                    indices.extend([a, b, c]);
+                    continue;
+                }
                 let midpoints = [(a, b), (b, c), (c, a)].map(|(a, b)| {
                     *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                        let [from, to] = [a, b].map(|end| batch.mesh.vertices[end as usize]);
+                        let [from, to] = [a, b].map(|end| batch.vertex(mesh, end));
                         let middle = self.middle(sight, &known, from.place, to.place)?;
                         batch.split.push(edge_key(from.place, to.place));
-                        Some(batch.push(between(&from, &to, middle)))
+                        batch.added.push(between(&from, &to, middle));
+                        Some((mesh.positions.len() + batch.added.len() - 1) as u32)
                     })
                 });
                 if midpoints == [None; 3] {
-                    batch.mesh.indices.extend([a, b, c]);
+                    indices.extend([a, b, c]);
                 } else {
-                    let place = |vertex: u32| batch.mesh.vertices[vertex as usize].place;
+                    let place = |vertex: u32| batch.place(mesh, vertex);
                     let distance = |a, b| place(a).distance_squared(place(b));
                     divide([a, b, c], midpoints, distance, |child| stack.push(child));
                 }
-                if batch.mesh.indices.len() / 3 + stack.len() > limit {
+                if indices.len() / 3 + stack.len() > limit {
                     return None;
                 }
             }
-            let made = (batch.mesh.indices.len() - before) / 3;
-            if total.fetch_add(made, Ordering::Relaxed) + made > limit {
+            if !count((indices.len() - before) / 3) {
                 return None;
             }
+        }
+        // Nothing is kept of triangles that are as they were.
+        if indices != corners {
+            batch.cut = Some(indices);
         }
         Some(batch)
     }
@@ -208,24 +273,32 @@ impl SeenCache {
 /// Cut part of a mesh.
 #[derive(Default)]
 struct Batch {
-    mesh: CutMesh,
+    /// Added vertices, numbered after the mesh's own.
+    added: Vec<CutVertex>,
+    /// Indices of vertices, three per triangle; `None` if they are the mesh's own.
+    cut: Option<Vec<u32>>,
     split: Vec<u64>,
 }
 
 impl Batch {
-    fn push(&mut self, vertex: CutVertex) -> u32 {
-        self.mesh.vertices.push(vertex);
-        self.mesh.vertices.len() as u32 - 1
+    fn place(&self, mesh: &Mesh, index: u32) -> DVec3 {
+        let index = index as usize;
+        match mesh.positions.get(index) {
+            Some(position) => position.as_dvec3(),
+            None => self.added[index - mesh.positions.len()].place,
+        }
     }
-}
 
-fn vertex(mesh: &Mesh, index: usize) -> CutVertex {
-    CutVertex {
-        place: mesh.positions[index].as_dvec3(),
-        normal: mesh.normals[index],
-        uv: mesh.uvs[index],
-        emissive_uv: mesh.emissive_uv(index),
-        colour: mesh.colours[index],
+    fn vertex(&self, mesh: &Mesh, index: u32) -> CutVertex {
+        let index = index as usize;
+        let Some(position) = mesh.positions.get(index) else { return self.added[index - mesh.positions.len()] };
+        CutVertex {
+            place: position.as_dvec3(),
+            normal: mesh.normals[index],
+            uv: mesh.uv(index),
+            emissive_uv: mesh.emissive_uv(index),
+            colour: mesh.colour(index),
+        }
     }
 }
 

@@ -113,11 +113,15 @@ fn add_midpoint(mesh: &mut Mesh, a: u32, b: u32) -> u32 {
     let [a, b] = [a as usize, b as usize];
     mesh.positions.push(midpoint(mesh.positions[a], mesh.positions[b]));
     mesh.normals.push((mesh.normals[a] + mesh.normals[b]).normalize_or(mesh.normals[a]));
-    mesh.uvs.push(mesh.uvs[a].midpoint(mesh.uvs[b]));
+    if !mesh.uvs.is_empty() {
+        mesh.uvs.push(mesh.uvs[a].midpoint(mesh.uvs[b]));
+    }
     if !mesh.emissive_uvs.is_empty() {
         mesh.emissive_uvs.push(mesh.emissive_uvs[a].midpoint(mesh.emissive_uvs[b]));
     }
-    mesh.colours.push(std::array::from_fn(|channel| 0.5 * (mesh.colours[a][channel] + mesh.colours[b][channel])));
+    if !mesh.colours.is_empty() {
+        mesh.colours.push(std::array::from_fn(|channel| 0.5 * (mesh.colours[a][channel] + mesh.colours[b][channel])));
+    }
     middle
 }
 

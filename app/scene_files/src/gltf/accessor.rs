@@ -6,6 +6,7 @@
 use ::gltf::json;
 use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::validation::Checked;
+use bytemuck::Pod;
 
 use super::container::range;
 use super::document::Document;
@@ -141,6 +142,32 @@ pub(super) fn read<T: Copy>(
     Ok(AccessorNumbers { values, width })
 }
 
+/// Elements of an accessor that lie in the file as they lie in memory, with this type; `None` if they have to be
+/// converted one by one, or are faulty.
+pub(super) fn as_stored<T: Pod>(
+    document: &Document<'_>,
+    index: usize,
+    (element, component): (Type, ComponentType),
+) -> Option<Vec<T>> {
+    let accessor = document.json.accessors.get(index)?;
+    let known = matches!(accessor.component_type, Checked::Valid(stored) if stored.0 == component)
+        && matches!(accessor.type_, Checked::Valid(stored) if stored == element);
+    let converted = accessor.sparse.is_some() || accessor.normalized || cfg!(target_endian = "big");
+    if !known || converted || size_of::<T>() != element.multiplicity() * component.size() {
+        return None;
+    }
+    let place = format!("accessors[{index}]");
+    let count = count(document, index, &place).ok()?;
+    let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+    let layout = Layout { offset, count, size: size_of::<T>() };
+    let (bytes, stride) = layout.range(document, accessor.buffer_view?.value(), &place).ok()?;
+    Some(if stride == size_of::<T>() {
+        bytemuck::pod_collect_to_vec(&bytes[..count * stride])
+    } else {
+        (0..count).map(|index| bytemuck::pod_read_unaligned(&bytes[index * stride..][..size_of::<T>()])).collect()
+    })
+}
+
 /// Layout of elements in a buffer view.
 struct Layout {
     offset: u64,
@@ -157,6 +184,13 @@ impl Layout {
         view: usize,
         place: &str,
     ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, GltfError> {
+        let (bytes, stride) = self.range(document, view, place)?;
+        let (count, size) = (self.count, self.size);
+        Ok((0..count).map(move |index| &bytes[index * stride..][..size]))
+    }
+
+    /// Bytes of all elements, and the number of bytes from one to the next.
+    fn range<'a>(&self, document: &'a Document<'_>, view: usize, place: &str) -> Result<(&'a [u8], usize), GltfError> {
         let (bytes, stride) = document.view(view, &format!("{place}.bufferView"))?;
         let (count, size) = (self.count, self.size);
         let stride = stride.unwrap_or(size);
@@ -171,7 +205,7 @@ impl Layout {
             let (offset, there) = (self.offset, bytes.len());
             document.damaged(place, format!("{count} elements from byte {offset} on, in a view of {there} bytes"))
         })?;
-        Ok((0..count).map(move |index| &bytes[index * stride..][..size]))
+        Ok((bytes, stride))
     }
 }
 

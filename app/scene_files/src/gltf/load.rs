@@ -75,13 +75,13 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
             let deformation = instance.deformation.map(|index| &instances.deformations[index]);
             match Primitive::read(&document, instance.primitive, deformation, &channels, &mut notices) {
                 Ok(primitive) => {
-                    vacant.insert(primitive);
+                    vacant.insert(Arc::new(primitive));
                 }
                 Err(error) => {
                     let (mesh, primitive) = instance.primitive;
                     let place = format!("meshes[{mesh}].primitives[{primitive}]");
                     notices.left_out(Part::Mesh, &place, &error.part_fault()?);
-                    vacant.insert(Primitive::default());
+                    vacant.insert(Arc::default());
                 }
             }
         }
@@ -94,6 +94,11 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
     let panorama = around(&document, scene_index, &extras, &mut notices)?;
     let textures = picture::textures(&document, &mut materials, &mut notices, &progress)?;
 
+    let name = document.scene_name(scene_index);
+    let cameras = cameras(&document, &placed.placements, &mut notices);
+    // The file itself is no longer needed.
+    drop(document);
+
     // Choose the origin, then place the primitives relative to it.
     let mut bounds = Bounds::default();
     for instance in &instances.list {
@@ -101,17 +106,18 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
     }
     let origin = extras.origin.map_or_else(|| bounds.origin(), DVec3::from_array);
     let (done, total) = (AtomicUsize::new(0), instances.list.len());
-    let placed_meshes: Vec<(Mesh, usize)> = instances
-        .list
-        .par_iter()
-        .map(|instance| {
-            let primitive = &primitives[&(instance.primitive, instance.deformation)];
-            let placed = place(instance, primitive, origin);
+    let primitive_of = |instance: &Instance<'_>| Arc::clone(&primitives[&(instance.primitive, instance.deformation)]);
+    let wanted: Vec<_> = instances.list.iter().map(|instance| (instance, primitive_of(instance))).collect();
+    drop(primitives);
+    let placed_meshes: Vec<(Mesh, usize)> = wanted
+        .into_par_iter()
+        .map(|(instance, primitive)| {
+            // The last instance takes the arrays as they are.
+            let placed = place(instance, Arc::unwrap_or_clone(primitive), origin);
             progress(Progress { stage: LoadStage::Meshes, done: done.fetch_add(1, Ordering::Relaxed) + 1, total });
             placed
         })
         .collect();
-    drop(primitives);
     let (mut meshes, mut motions) = (Vec::with_capacity(placed_meshes.len()), MotionList::default());
     for ((mut mesh, not_finite), instance) in placed_meshes.into_iter().zip(&instances.list) {
         if not_finite > 0 {
@@ -130,11 +136,10 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
             "none of its {} triangles has finite corners at different places",
             meshes.iter().map(|mesh| mesh.indices.len() / 3).sum::<usize>()
         );
-        return Err(GltfError::Nothing { path: document.path, found: "triangles", fault: Some(fault) });
+        return Err(GltfError::Nothing { path: path.into(), found: "triangles", fault: Some(fault) });
     }
-    let cameras = cameras(&document, &placed.placements, &mut notices);
     let mut scene = Scene {
-        name: document.scene_name(scene_index),
+        name,
         origin,
         textures,
         materials,
@@ -198,7 +203,7 @@ fn has_extent(mesh: &Mesh) -> bool {
 }
 
 /// Mesh of an instance, relative to `origin`, and the number of its vertices that are not finite.
-fn place(instance: &Instance<'_>, primitive: &Primitive, origin: DVec3) -> (Mesh, usize) {
+fn place(instance: &Instance<'_>, primitive: Primitive, origin: DVec3) -> (Mesh, usize) {
     match &instance.placement.motion {
         Some(NodeMotion::Animated { animated, body_from_node }) if !instance.skinned => {
             let (mut mesh, not_finite) = primitive.place(instance.name.clone(), *body_from_node, DVec3::ZERO);

@@ -23,8 +23,9 @@ use scene::{Material, Texture, Wrap};
 /// Extensions of a texture that name another picture, which is preferred.
 const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
-/// Memory of a pixel in a texture's copy for drawing, with its mipmaps, in thirds of a byte.
-const DRAWN_THIRDS: u64 = 16;
+/// Memory of a pixel's mipmaps for drawing, in thirds of a byte. The pixel itself leaves memory when it is on
+/// the device.
+const MIPMAP_THIRDS: u64 = 4;
 
 /// Place of a picture's bytes; pictures with the same place are one.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -110,7 +111,7 @@ pub(super) fn textures(
             Some(at) => *at,
             None => {
                 let ([width, height], rgba) = pictures[&key].clone();
-                document.take(u64::from(width) * u64::from(height) * DRAWN_THIRDS / 3, &place)?;
+                document.take(u64::from(width) * u64::from(height) * MIPMAP_THIRDS / 3, &place)?;
                 let TextureLook { wrap, nearest, name, .. } = look;
                 let name = if name.is_empty() { format!("picture {image}") } else { name };
                 textures.push(Texture { name, width, height, rgba, wrap, nearest });

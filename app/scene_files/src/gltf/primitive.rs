@@ -4,10 +4,12 @@
 //! default, and a triangle with a corner that does not exist is left out alone.
 
 use ::gltf::json;
-use ::gltf::json::accessor::Type;
+use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::mesh::{Mode, Semantic};
 use ::gltf::json::validation::Checked;
+use bytemuck::Pod;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::accessor::{self, Purpose};
 use super::attribute::attribute;
@@ -16,16 +18,19 @@ use super::document::Document;
 use super::draco::DracoData;
 use super::error::GltfError;
 use super::extras::COLOURS;
-use super::material::SurfaceUvs;
+use super::material::{SurfaceUvs, UvChannel};
 use super::notices::{Notices, Part};
 use scene::Mesh;
+
+/// Number of vertices that a thread places at least.
+const FEW: usize = 8192;
 
 /// Tolerance of a normal's squared length, for f32 rounding; beyond it the normal is normalised.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
-/// Triangles in the frame of their node. All vertex arrays have the same length, except for `emissive_uvs`, which may
-/// be empty.
-#[derive(Default)]
+/// Triangles in the frame of their node. All vertex arrays have the same length, except for those with a default, which
+/// may be empty, as in a [`Mesh`].
+#[derive(Clone, Default)]
 pub(super) struct Primitive {
     pub(super) positions: Vec<Vec3>,
     pub(super) indices: Vec<u32>,
@@ -113,18 +118,39 @@ impl Source<'_> {
         Ok(Some((numbers.values, numbers.width)))
     }
 
-    /// Components of an attribute that has a default: one that cannot be read, or has another number of elements
+    /// Vectors of an attribute; `None` if the primitive has no such attribute.
+    fn vectors<T: Pod>(&self, semantic: Semantic, name: &str, element: Type) -> Result<Option<Vec<T>>, GltfError> {
+        let index = attribute(self.primitive, semantic.clone()).filter(|_| self.draco.is_none());
+        let stored = index.and_then(|index| accessor::as_stored(self.document, index, (element, ComponentType::F32)));
+        if stored.is_some() {
+            return Ok(stored);
+        }
+        let found = self.attribute(semantic, name, Purpose::Vectors(element))?;
+        Ok(found.map(|(values, _)| bytemuck::pod_collect_to_vec(&values)))
+    }
+
+    /// Colours of the vertices; `None` if the primitive has none.
+    fn colours(&self, semantic: Semantic, name: &str) -> Result<Option<Vec<[f32; 4]>>, GltfError> {
+        let found = self.attribute(semantic, name, Purpose::Colours)?;
+        Ok(found.map(|(values, width)| {
+            let colour = |c: &[f32]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)];
+            values.chunks_exact(width).map(colour).collect()
+        }))
+    }
+
+    /// Elements of an attribute that has a default: one that could not be read, or has another number of elements
     /// than there are vertices, is `None`, and named.
-    fn optional(
+    fn optional<T>(
         &self,
-        (semantic, name, purpose): (Semantic, &str, Purpose),
+        name: &str,
+        found: Result<Option<Vec<T>>, GltfError>,
         vertices: usize,
         notices: &mut Notices,
-    ) -> Result<Option<(Vec<f32>, usize)>, GltfError> {
+    ) -> Result<Option<Vec<T>>, GltfError> {
         let place = format!("{}.attributes.{name}", self.place);
-        match self.attribute(semantic, name, purpose) {
-            Ok(Some((values, width))) if values.len() != width * vertices => {
-                let fault = format!("{} entries for {vertices} positions", values.len() / width);
+        match found {
+            Ok(Some(values)) if values.len() != vertices => {
+                let fault = format!("{} entries for {vertices} positions", values.len());
                 notices.left_out(Part::Mesh, &place, &fault);
                 Ok(None)
             }
@@ -136,16 +162,19 @@ impl Source<'_> {
         }
     }
 
-    fn uvs(&self, set: u32, vertices: usize, notices: &mut Notices) -> Result<Option<Vec<Vec2>>, GltfError> {
-        let name = format!("TEXCOORD_{set}");
-        let purpose = Purpose::Vectors(Type::Vec2);
-        let found = self.optional((Semantic::TexCoords(set), &name, purpose), vertices, notices)?;
-        Ok(found.map(|(values, _)| values.as_chunks().0.iter().copied().map(Vec2::from_array).collect()))
+    /// Texture coordinates of a set as a surface takes them; empty if they are 0, for want of others.
+    fn uvs(&self, of: UvChannel, vertices: usize, notices: &mut Notices) -> Result<Vec<Vec2>, GltfError> {
+        let name = format!("TEXCOORD_{}", of.set);
+        let found = self.vectors(Semantic::TexCoords(of.set), &name, Type::Vec2);
+        Ok(match self.optional(&name, found, vertices, notices)? {
+            Some(mut uvs) => {
+                uvs.iter_mut().for_each(|uv| *uv = of.apply(*uv));
+                uvs
+            }
+            None if of.apply(Vec2::ZERO) == Vec2::ZERO => Vec::new(),
+            None => vec![of.apply(Vec2::ZERO); vertices],
+        })
     }
-}
-
-fn vectors(values: &[f32]) -> Vec<Vec3> {
-    values.as_chunks().0.iter().copied().map(Vec3::from_array).collect()
 }
 
 impl Primitive {
@@ -171,36 +200,28 @@ impl Primitive {
             Source { document, primitive, place: &place, draco: DracoData::read(document, primitive, &place)? };
 
         // Read the attributes.
-        let purpose = Purpose::Vectors(Type::Vec3);
-        let positions = source.attribute(Semantic::Positions, "POSITION", purpose)?;
-        let (positions, _) =
+        let positions = source.vectors::<Vec3>(Semantic::Positions, "POSITION", Type::Vec3)?;
+        let mut positions =
             positions.ok_or_else(|| document.damaged(&format!("{place}.attributes"), "POSITION is missing"))?;
-        let mut positions = vectors(&positions);
         let count = positions.len();
-        let normals = source.optional((Semantic::Normals, "NORMAL", purpose), count, notices)?;
-        let mut normals = normals.map(|(values, _)| vectors(&values));
-        let uvs = source.uvs(channel.base.set, count, notices)?;
+        let normals = source.vectors::<Vec3>(Semantic::Normals, "NORMAL", Type::Vec3);
+        let mut normals = source.optional("NORMAL", normals, count, notices)?;
+        let uvs = source.uvs(channel.base, count, notices)?;
         let emissive_uvs = match channel.emissive {
             None => Vec::new(),
             Some(emissive) => {
-                let uvs = source.uvs(emissive.set, count, notices)?.unwrap_or_else(|| vec![Vec2::ZERO; count]);
-                uvs.into_iter().map(|uv| emissive.apply(uv)).collect()
+                let read = source.uvs(emissive, count, notices)?;
+                // Coordinates of 0 have to be kept beside others.
+                if read.is_empty() && !uvs.is_empty() { vec![Vec2::ZERO; count] } else { read }
             }
         };
-        let uvs = uvs.unwrap_or_else(|| vec![Vec2::ZERO; count]).into_iter().map(|uv| channel.base.apply(uv));
-        let uvs = uvs.collect();
         let unclamped = Semantic::Extras(COLOURS.into());
         let semantic = match attribute(primitive, unclamped.clone()) {
-            Some(_) => (unclamped, COLOURS, Purpose::Colours),
-            None => (Semantic::Colors(0), "COLOR_0", Purpose::Colours),
+            Some(_) => (unclamped, COLOURS),
+            None => (Semantic::Colors(0), "COLOR_0"),
         };
-        let colours = match source.optional(semantic, count, notices)? {
-            Some((values, width)) => {
-                let colour = |c: &[f32]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)];
-                values.chunks_exact(width).map(colour).collect()
-            }
-            None => vec![[1.0; 4]; count],
-        };
+        let colours = source.optional(semantic.1, source.colours(semantic.0, semantic.1), count, notices)?;
+        let colours = colours.unwrap_or_default();
         let mirrored = match deformation {
             Some(deformation) => {
                 let read = |semantic, name: &str, purpose| source.attribute(semantic, name, purpose);
@@ -213,8 +234,16 @@ impl Primitive {
         let corners = match (&source.draco, primitive.indices) {
             (Some(draco), _) => draco.indices(),
             (None, Some(index)) => {
-                let place = format!("{place}.indices");
-                accessor::read(document, index.value(), &place, Purpose::Indices, |value| value as u32)?.values
+                let scalar = |component| (Type::Scalar, component);
+                let index = index.value();
+                if let Some(stored) = accessor::as_stored::<u32>(document, index, scalar(ComponentType::U32)) {
+                    stored
+                } else if let Some(stored) = accessor::as_stored::<u16>(document, index, scalar(ComponentType::U16)) {
+                    stored.into_iter().map(u32::from).collect()
+                } else {
+                    let place = format!("{place}.indices");
+                    accessor::read(document, index, &place, Purpose::Indices, |value| value as u32)?.values
+                }
             }
             (None, None) => (0..count as u32).collect(),
         };
@@ -254,13 +283,13 @@ impl Primitive {
     /// Gives each triangle its own vertices and its own normal, as glTF demands for a file without normals.
     fn flatten(&mut self) {
         fn spread<T: Copy>(values: &mut Vec<T>, indices: &[u32]) {
-            *values = indices.iter().map(|&index| values[index as usize]).collect();
+            if !values.is_empty() {
+                *values = indices.iter().map(|&index| values[index as usize]).collect();
+            }
         }
         spread(&mut self.positions, &self.indices);
         spread(&mut self.uvs, &self.indices);
-        if !self.emissive_uvs.is_empty() {
-            spread(&mut self.emissive_uvs, &self.indices);
-        }
+        spread(&mut self.emissive_uvs, &self.indices);
         spread(&mut self.colours, &self.indices);
         self.indices = (0..self.indices.len() as u32).collect();
         let normal = |&[a, b, c]: &[Vec3; 3]| {
@@ -275,32 +304,32 @@ impl Primitive {
     /// A mirroring transform reverses the winding of triangles, so it is reversed again. Normals transform by the
     /// inverse transpose, which is the cofactor matrix but for length and the determinant's sign, and exists for flat
     /// transforms too.
-    pub(super) fn place(&self, name: String, mut transform: DAffine3, origin: DVec3) -> (Mesh, usize) {
+    pub(super) fn place(mut self, name: String, mut transform: DAffine3, origin: DVec3) -> (Mesh, usize) {
         transform.translation -= origin;
         let linear = transform.matrix3;
         let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis].map(|axis| axis / largest(linear));
         let mirror = x.dot(y.cross(z)) < 0.0;
         let sign = if mirror { -1.0 } else { 1.0 };
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-        let positions: Vec<Vec3> =
-            self.positions.iter().map(|position| transform.transform_point3(position.as_dvec3()).as_vec3()).collect();
-        let normals = self.normals.iter().map(|normal| unit(cofactors * normal.as_dvec3())).collect();
-        let mut indices = self.indices.clone();
+        self.positions.par_iter_mut().with_min_len(FEW).for_each(|position| {
+            *position = transform.transform_point3(position.as_dvec3()).as_vec3();
+        });
+        self.normals.par_iter_mut().with_min_len(FEW).for_each(|normal| *normal = unit(cofactors * normal.as_dvec3()));
+        let Self { positions, indices: mut corners, normals, uvs, emissive_uvs, colours, material } = self;
         if mirror {
-            indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            corners.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
         let not_finite = positions.iter().filter(|position| !position.is_finite()).count();
-        let (uvs, emissive_uvs, colours) = (self.uvs.clone(), self.emissive_uvs.clone(), self.colours.clone());
         (
             Mesh {
                 name,
-                material: self.material,
+                material,
                 positions,
                 normals,
                 uvs,
                 emissive_uvs,
                 colours,
-                indices,
+                indices: corners,
                 solid: true,
                 motion: None,
             },
