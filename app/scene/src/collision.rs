@@ -1,14 +1,16 @@
 //! Collision: the floors that a vehicle stands on and the walls that it bumps into.
 //!
-//! The solid meshes' triangles are sorted once, into floors that a wheel can roll on and steep walls. A bounding
-//! volume hierarchy over each finds the few that matter in microseconds, as it is queried in every step of the
-//! worldline.
+//! The solid meshes' triangles are sorted once, at the first question, into floors that a wheel can roll on and steep
+//! walls. A bounding volume hierarchy over each finds the few that matter in microseconds, as it is queried in every
+//! step of the worldline.
 //!
 //! A kerb of up to [`STEP`] is climbed: the ground is sought from that height above the wheel, and walls below it do
 //! not count. Triangles that share an edge agree on which side of it a point lies, to the last bit, so that nothing
 //! falls through a seam.
 
-use glam::{DVec2, DVec3};
+use std::sync::LazyLock;
+
+use glam::{DVec2, DVec3, Vec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -27,29 +29,48 @@ pub const BODY: f64 = 1.8;
 /// Least upward or downward component of a floor's unit normal. Triangles with less are walls: steeper than 60°.
 const STEEP: f64 = 0.5;
 
-/// Solid part of a scene, ready for queries. Positions are world metres.
+/// Solid part of a scene. Positions are world metres.
 pub struct Collision {
     origin: DVec3,
+    sorted: LazyLock<SortedTriangles, Box<dyn FnOnce() -> SortedTriangles + Send>>,
+}
+
+/// Floors and walls.
+struct SortedTriangles {
     floors: SolidTree,
     walls: SolidTree,
 }
 
-impl Collision {
-    /// Sorts a scene's solid triangles. Triangles without area or with a non-finite vertex are left out.
-    ///
-    /// # Errors
-    /// [`SceneFault`] if the scene breaks a promise of its types.
-    pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
-        scene.validate()?;
+impl SortedTriangles {
+    /// Sorts triangles. Those without area or with a non-finite vertex are left out.
+    fn of(triangles: Vec<[Vec3; 3]>) -> Self {
         let (mut floors, mut walls) = (Vec::new(), Vec::new());
-        for triangle in solid_triangles(scene) {
-            match normal(triangle) {
+        for triangle in triangles {
+            match normal(triangle.map(|corner| corner.as_dvec3())) {
                 Some(normal) if normal.y.abs() < STEEP => walls.push(triangle),
                 Some(_) => floors.push(triangle),
                 None => {}
             }
         }
-        Ok(Self { origin: scene.origin, floors: SolidTree::new(floors), walls: SolidTree::new(walls) })
+        Self { floors: SolidTree::new(floors), walls: SolidTree::new(walls) }
+    }
+}
+
+impl Collision {
+    /// Collects a scene's solid triangles.
+    ///
+    /// # Errors
+    /// [`SceneFault`] if the scene breaks a promise of its types.
+    pub fn new(scene: &Scene) -> Result<Self, SceneFault> {
+        scene.validate()?;
+        let triangles: Vec<[Vec3; 3]> = solid_triangles(scene).collect();
+        let sorted: Box<dyn FnOnce() -> SortedTriangles + Send> = Box::new(move || SortedTriangles::of(triangles));
+        Ok(Self { origin: scene.origin, sorted: LazyLock::new(sorted) })
+    }
+
+    /// Sorts the triangles now instead of at the first question: about a microsecond for each.
+    pub fn prepare(&self) {
+        LazyLock::force(&self.sorted);
     }
 }
 
@@ -57,14 +78,14 @@ impl Surroundings for Collision {
     /// Highest floor that is not more than [`STEP`] above a point, or `None` if there is none below.
     fn height_below(&self, position: DVec3) -> Option<Ground> {
         let from = above(position, self.origin);
-        if self.floors.triangles.is_empty() || !from.is_finite() {
+        let floors = &self.sorted.floors;
+        if floors.triangles.is_empty() || !from.is_finite() {
             return None;
         }
         let ray = Ray::new(vector(from), vector(DVec3::NEG_Y));
-        let floor = |index: u32| self.floors.triangles[index as usize];
-        let (index, depth) =
-            self.floors.hierarchy.cast_ray(&ray, f64::MAX, |index, _| depth_below(floor(index), from))?;
-        ground(position, floor(index), depth)
+        let depth = |index, _| depth_below(floors.triangle(index), from);
+        let (index, depth) = floors.hierarchy.cast_ray(&ray, f64::MAX, depth)?;
+        ground(position, floors.triangle(index), depth)
     }
 
     /// Nearest wall within `radius` metres of a point on the ground, between [`STEP`] and [`BODY`] above it.
@@ -74,20 +95,21 @@ impl Surroundings for Collision {
     fn nearest_wall(&self, position: DVec3, radius: f64) -> Option<Wall> {
         let foot = position - self.origin;
         let (lowest, highest) = (foot.y + STEP, foot.y + BODY);
-        if self.walls.triangles.is_empty() || !foot.is_finite() || radius.is_nan() {
+        let walls = &self.sorted.walls;
+        if walls.triangles.is_empty() || !foot.is_finite() || radius.is_nan() {
             return None;
         }
         let corner = DVec3::new(foot.x - radius, lowest, foot.z - radius);
         let opposite = DVec3::new(foot.x + radius, highest, foot.z + radius);
         let reach = Aabb::new(vector(corner), vector(opposite));
-        let nearest = self.walls.hierarchy.intersect_aabb(&reach).filter_map(|index| {
-            let slab = between(self.walls.triangles[index as usize], lowest, highest);
+        let nearest = walls.hierarchy.intersect_aabb(&reach).filter_map(|index| {
+            let slab = between(walls.triangle(index), lowest, highest);
             let point = nearest_in_plan(&slab, plan(foot))?;
             Some((point.distance(plan(foot)), index, point))
         });
         let (distance, index, point) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         let away = (plan(foot) - point).try_normalize().or_else(|| {
-            let normal = normal(self.walls.triangles[index as usize])?;
+            let normal = normal(walls.triangle(index))?;
             plan(normal).try_normalize()
         })?;
         (distance <= radius).then_some(Wall { distance, normal: DVec3::new(away.x, 0.0, away.y) })
@@ -108,16 +130,17 @@ pub fn ground_below(scene: &Scene, position: DVec3) -> Result<Option<Ground>, Sc
     let floor = |triangle: &[DVec3; 3]| normal(*triangle).is_some_and(|normal| normal.y.abs() >= STEEP);
     let below = |triangle| Some((depth_below(triangle, from)?, triangle));
     // The plan is looked at first: hardly any triangle is below the point, and normals cost a root.
-    let nearest = solid_triangles(scene).filter_map(below).filter(|(_, triangle)| floor(triangle));
+    let triangles = solid_triangles(scene).map(|triangle| triangle.map(|corner| corner.as_dvec3()));
+    let nearest = triangles.filter_map(below).filter(|(_, triangle)| floor(triangle));
     let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
     Ok(nearest.and_then(|(depth, triangle)| ground(position, triangle, depth)))
 }
 
 /// Triangles of the solid meshes, metres relative to the scene's origin.
-fn solid_triangles(scene: &Scene) -> impl Iterator<Item = [DVec3; 3]> {
+fn solid_triangles(scene: &Scene) -> impl Iterator<Item = [Vec3; 3]> {
     scene.meshes.iter().filter(|mesh| mesh.solid).flat_map(|mesh| {
         let triangles = mesh.indices.as_chunks::<3>().0.iter();
-        triangles.map(|corners| corners.map(|corner| mesh.positions[corner as usize].as_dvec3()))
+        triangles.map(|corners| corners.map(|corner| mesh.positions[corner as usize]))
     })
 }
 
@@ -140,15 +163,22 @@ fn ground(position: DVec3, floor: [DVec3; 3], depth: f64) -> Option<Ground> {
 
 /// Triangles, relative to the scene's origin, with the hierarchy that finds them.
 struct SolidTree {
-    triangles: Vec<[DVec3; 3]>,
+    triangles: Vec<[Vec3; 3]>,
     hierarchy: Bvh,
 }
 
 impl SolidTree {
-    fn new(triangles: Vec<[DVec3; 3]>) -> Self {
-        let boxes: Vec<Aabb> =
-            triangles.iter().map(|&[a, b, c]| Aabb::new(vector(a.min(b).min(c)), vector(a.max(b).max(c)))).collect();
+    fn new(triangles: Vec<[Vec3; 3]>) -> Self {
+        let bounds = |&[a, b, c]: &[Vec3; 3]| {
+            let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+            Aabb::new(vector(least.as_dvec3()), vector(most.as_dvec3()))
+        };
+        let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
         Self { hierarchy: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), triangles }
+    }
+
+    fn triangle(&self, index: u32) -> [DVec3; 3] {
+        self.triangles[index as usize].map(|corner| corner.as_dvec3())
     }
 }
 
@@ -229,7 +259,6 @@ mod tests {
     //! A street 10 m wide between two houses, with kerbs, a ramp and a step too high to climb. A wrong program falls
     //! through seams, stops at kerbs, stands on walls, or pushes a rider into the house.
 
-    use glam::Vec3;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -431,7 +460,9 @@ mod tests {
         let mut hits = 0;
         for _ in 0..1000 {
             let point = (DVec3::from_array(random.random()) - 0.5) * 20.0;
-            let heights = collision.floors.triangles.iter().filter_map(|&triangle| height(triangle, plan(point)));
+            let floors = &collision.sorted.floors;
+            let triangles = (0..floors.triangles.len() as u32).map(|index| floors.triangle(index));
+            let heights = triangles.filter_map(|triangle| height(triangle, plan(point)));
             let highest = heights.filter(|&height| height <= point.y + STEP).reduce(f64::max);
             let found = collision.height_below(point).map(|ground| ground.height);
             hits += usize::from(found.is_some());

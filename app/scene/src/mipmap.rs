@@ -61,6 +61,12 @@ pub fn smaller_levels(texture: &Texture) -> Vec<Level> {
             || [const { Vec::new() }; 3],
             |sources, (row, (pixels, level))| {
                 let taps = taps(start + row, height, first.height);
+                if width == 2 * first.width && height == 2 * first.height {
+                    let row_of = |tap: usize| &texture.rgba[4 * width * taps[tap].0..][..4 * width];
+                    linear.halve([row_of(0), row_of(1)], pixels);
+                    codes.row(pixels, level);
+                    return;
+                }
                 for (source, (y, weight)) in sources.iter_mut().zip(taps) {
                     if weight > 0.0 {
                         linear.row(&texture.rgba[4 * y * width..4 * (y + 1) * width], source);
@@ -194,33 +200,61 @@ fn halve(rows: [&[[f32; 4]]; 3], weights: [f32; 3], source_width: usize, target:
 /// Linear values of all sRGB codes.
 struct LinearCodes([f32; 256]);
 
+/// Weight of an opaque pixel.
+const OPAQUE_WEIGHT: f32 = 1.0 + TRANSPARENT_WEIGHT;
+
 impl LinearCodes {
     fn new() -> Self {
         Self(std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0)))
     }
 
+    /// Row of half the width from two rows of sRGB pixels: as [`halve`] makes it of their linear light.
+    fn halve(&self, [upper, lower]: [&[u8]; 2], target: &mut [[f32; 4]]) {
+        let pairs = upper.as_chunks::<8>().0.iter().zip(lower.as_chunks::<8>().0);
+        for (pixel, (a, b)) in target.iter_mut().zip(pairs) {
+            if [a[3], a[7], b[3], b[7]] == [255; 4] {
+                let mean = |channel: usize| {
+                    let of = |code: u8| self.0[usize::from(code)];
+                    let sum = of(a[channel]) + of(b[channel]) + of(a[channel + 4]) + of(b[channel + 4]);
+                    0.25 * OPAQUE_WEIGHT * sum
+                };
+                *pixel = [mean(0), mean(1), mean(2), 1.0];
+            } else {
+                let mut sum = [0.0; 4];
+                for source in [a, b].into_iter().flat_map(|pair| pair.as_chunks::<4>().0) {
+                    for (sum, value) in sum.iter_mut().zip(self.pixel(*source)) {
+                        *sum += 0.25 * value;
+                    }
+                }
+                *pixel = sum;
+            }
+        }
+    }
+
+    /// Pixel in linear light.
+    fn pixel(&self, [r, g, b, alpha]: [u8; 4]) -> [f32; 4] {
+        let alpha = f32::from(alpha) / 255.0;
+        let weight = alpha + TRANSPARENT_WEIGHT;
+        let [r, g, b] = [r, g, b].map(|code| self.0[usize::from(code)] * weight);
+        [r, g, b, alpha]
+    }
+
     /// Row of pixels in linear light.
     fn row(&self, rgba: &[u8], row: &mut Vec<[f32; 4]>) {
         row.clear();
-        row.extend(rgba.as_chunks::<4>().0.iter().map(|&[r, g, b, alpha]| {
-            let alpha = f32::from(alpha) / 255.0;
-            let weight = alpha + TRANSPARENT_WEIGHT;
-            let [r, g, b] = [r, g, b].map(|code| self.0[usize::from(code)] * weight);
-            [r, g, b, alpha]
-        }));
+        row.extend(rgba.as_chunks::<4>().0.iter().map(|&pixel| self.pixel(pixel)));
     }
 }
 
 /// Table of the linear values at which the rounded sRGB code changes.
 struct SrgbCodes {
-    /// Least linear value of each code, and infinity.
-    least: [f32; 257],
-    /// Code of the beginning of each of as many equal parts of 0 to 1.
-    code: Vec<u8>,
+    /// For each of as many equal parts of 0 to 1: the code of its beginning, and the least linear value of the next
+    /// code. A part has two codes at most.
+    parts: Vec<(f32, u8)>,
 }
 
 impl SrgbCodes {
-    /// Number of parts: so many that a part has few codes even where the curve is steepest.
+    /// Number of parts: a part is shorter than the shortest range of a code, 1/(12.92 × 255).
     const PARTS: usize = 4096;
 
     /// Table, computed once.
@@ -228,37 +262,31 @@ impl SrgbCodes {
         static TABLE: OnceLock<SrgbCodes> = OnceLock::new();
         TABLE.get_or_init(|| {
             let rounded = |value: f32| (srgb_from_linear(value) * 255.0).round() as u8;
-            let mut least = [f32::INFINITY; 257];
-            least[0] = 0.0;
-            for code in 1..=255_u8 {
+            let least = |code: u8| {
                 // Positive floats are in the order of their bits.
                 let (mut below, mut from) = (0.0_f32.to_bits(), 1.0_f32.to_bits());
                 while from - below > 1 {
                     let middle = below + (from - below) / 2;
                     if rounded(f32::from_bits(middle)) >= code { from = middle } else { below = middle }
                 }
-                least[usize::from(code)] = f32::from_bits(from);
-            }
-            let code = (0..Self::PARTS).map(|part| rounded(part as f32 / Self::PARTS as f32)).collect();
-            Self { least, code }
+                f32::from_bits(from)
+            };
+            let least_of_next: Vec<f32> = (1..=255).map(least).chain([f32::INFINITY]).collect();
+            let codes = (0..Self::PARTS).map(|part| rounded(part as f32 / Self::PARTS as f32));
+            Self { parts: codes.map(|code| (least_of_next[usize::from(code)], code)).collect() }
         })
     }
 
     fn of(&self, value: f32) -> u8 {
-        let part = ((value * Self::PARTS as f32) as usize).min(Self::PARTS - 1);
-        let mut code = usize::from(self.code[part]);
-        while value >= self.least[code + 1] {
-            code += 1;
-        }
-        code as u8
+        let (next, code) = self.parts[((value * Self::PARTS as f32) as usize).min(Self::PARTS - 1)];
+        code + u8::from(value >= next)
     }
 
     /// Row of a level.
     fn row(&self, pixels: &[[f32; 4]], rgba: &mut [u8]) {
         for (&[r, g, b, alpha], rgba) in pixels.iter().zip(rgba.as_chunks_mut::<4>().0) {
-            let weight = alpha + TRANSPARENT_WEIGHT;
-            let [r, g, b] = [r, g, b].map(|value| self.of(value / weight));
-            *rgba = [r, g, b, (alpha * 255.0).round() as u8];
+            let share = 1.0 / (alpha + TRANSPARENT_WEIGHT);
+            *rgba = [self.of(r * share), self.of(g * share), self.of(b * share), (alpha * 255.0 + 0.5) as u8];
         }
     }
 }

@@ -12,8 +12,8 @@ use input::recording::Recording;
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use room::Display;
+use scene::Scene;
 use scene::collision::Collision;
-use scene::{Scene, Surroundings};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -88,8 +88,8 @@ pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), 
             choice.name()
         ));
     }
-    let surroundings = surroundings(&scene)?;
-    Ok((scene, Replay::new(recording, surroundings)?))
+    let collision = Arc::new(Collision::new(&scene)?);
+    Ok((scene, Replay::new(recording, collision)?))
 }
 
 /// Simulation at its beginning, and an empty log for it.
@@ -105,7 +105,14 @@ pub fn prepared(
     let setup = setup(options, world, head)?;
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
-    Ok((Simulation::new(setup, surroundings(scene)?)?, RideLog::new(header)))
+    let collision = Arc::new(Collision::new(scene)?);
+    // What flies asks for no ground.
+    if setup.kind != VehicleKind::Fly {
+        let spinner = progress::spinner("finding ground and walls");
+        collision.prepare();
+        spinner.finish_and_clear();
+    }
+    Ok((Simulation::new(setup, collision)?, RideLog::new(header)))
 }
 
 /// True if there is a graphical session to open a window in.
@@ -114,14 +121,6 @@ pub fn has_display() -> bool {
         || ["DISPLAY", "WAYLAND_DISPLAY"]
             .iter()
             .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
-}
-
-/// Ground and walls of the scene.
-fn surroundings(scene: &Scene) -> Result<Arc<dyn Surroundings>, Error> {
-    let spinner = progress::spinner("finding ground and walls");
-    let collision = Collision::new(scene)?;
-    spinner.finish_and_clear();
-    Ok(Arc::new(collision))
 }
 
 fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Result<Setup, Error> {

@@ -61,6 +61,40 @@ impl Purpose {
     }
 }
 
+/// Elements of an accessor that are read.
+#[derive(Clone, Copy)]
+pub(super) enum Elements<'a> {
+    All,
+    /// Elements with these indices, in rising order, each below the number of elements.
+    Chosen(&'a [u32]),
+}
+
+impl Elements<'_> {
+    /// Number of them in an accessor of `count` elements.
+    fn number(self, count: usize) -> usize {
+        match self {
+            Self::All => count,
+            Self::Chosen(chosen) => chosen.len(),
+        }
+    }
+
+    /// Index of the element that is read as number `number`.
+    fn index(self, number: usize) -> usize {
+        match self {
+            Self::All => number,
+            Self::Chosen(chosen) => chosen[number] as usize,
+        }
+    }
+
+    /// Number at which the element `index` is read; `None` if it is not.
+    fn place(self, index: usize) -> Option<usize> {
+        match self {
+            Self::All => Some(index),
+            Self::Chosen(chosen) => chosen.binary_search(&u32::try_from(index).ok()?).ok(),
+        }
+    }
+}
+
 /// Number of elements that an accessor claims to have, at most as many as any scene may have.
 pub(super) fn count(document: &Document<'_>, index: usize, place: &str) -> Result<usize, GltfError> {
     let count = document.item(&document.json.accessors, index, place)?.count.0;
@@ -71,10 +105,10 @@ pub(super) fn count(document: &Document<'_>, index: usize, place: &str) -> Resul
         .ok_or_else(|| document.too_large(&format!("accessors[{index}]"), format!("{count} elements, above {limit}")))
 }
 
-/// Reads the components of an accessor's elements.
+/// Reads the components of an accessor's elements. Time and memory are in proportion to those that are read.
 pub(super) fn read<T: Copy>(
     document: &Document<'_>,
-    index: usize,
+    (index, elements): (usize, Elements<'_>),
     place: &str,
     purpose: Purpose,
     convert: impl Fn(f64) -> T,
@@ -103,15 +137,16 @@ pub(super) fn read<T: Copy>(
         Some(view) => {
             let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
             let layout = Layout { offset, count, size: width * component.size() };
-            let mut values = Vec::with_capacity(count * width);
-            for element in layout.elements(document, view.value(), &place)? {
+            let mut values = Vec::with_capacity(elements.number(count) * width);
+            for element in layout.elements(document, view.value(), &place, elements)? {
                 values.extend(element.chunks_exact(component.size()).map(&decode));
             }
             values
         }
         None => {
-            document.take((count * width * size_of::<T>()) as u64, &place)?;
-            vec![convert(0.0); count * width]
+            let number = elements.number(count) * width;
+            document.take((number * size_of::<T>()) as u64, &place)?;
+            vec![convert(0.0); number]
         }
     };
 
@@ -125,16 +160,16 @@ pub(super) fn read<T: Copy>(
         };
         let indices = Layout { offset: sparse.indices.byte_offset.0, count: replaced, size: number.size() };
         let with = Layout { offset: sparse.values.byte_offset.0, count: replaced, size: width * component.size() };
-        let indices = indices.elements(document, sparse.indices.buffer_view.value(), &place)?;
-        let with = with.elements(document, sparse.values.buffer_view.value(), &place)?;
+        let indices = indices.elements(document, sparse.indices.buffer_view.value(), &place, Elements::All)?;
+        let with = with.elements(document, sparse.values.buffer_view.value(), &place, Elements::All)?;
         for (index, element) in indices.zip(with) {
             let index = self::decode(index, number, false) as usize;
             if index >= count {
                 return Err(document.damaged(&place, format!("it replaces element {index} of {count}")));
             }
-            for (value, bytes) in
-                values[index * width..][..width].iter_mut().zip(element.chunks_exact(component.size()))
-            {
+            let Some(number) = elements.place(index) else { continue };
+            let values = &mut values[number * width..][..width];
+            for (value, bytes) in values.iter_mut().zip(element.chunks_exact(component.size())) {
                 *value = decode(bytes);
             }
         }
@@ -146,7 +181,7 @@ pub(super) fn read<T: Copy>(
 /// converted one by one, or are faulty.
 pub(super) fn as_stored<T: Pod>(
     document: &Document<'_>,
-    index: usize,
+    (index, elements): (usize, Elements<'_>),
     (element, component): (Type, ComponentType),
 ) -> Option<Vec<T>> {
     let accessor = document.json.accessors.get(index)?;
@@ -161,10 +196,10 @@ pub(super) fn as_stored<T: Pod>(
     let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
     let layout = Layout { offset, count, size: size_of::<T>() };
     let (bytes, stride) = layout.range(document, accessor.buffer_view?.value(), &place).ok()?;
-    Some(if stride == size_of::<T>() {
-        bytemuck::pod_collect_to_vec(&bytes[..count * stride])
-    } else {
-        (0..count).map(|index| bytemuck::pod_read_unaligned(&bytes[index * stride..][..size_of::<T>()])).collect()
+    let element = |number| bytemuck::pod_read_unaligned(&bytes[elements.index(number) * stride..][..size_of::<T>()]);
+    Some(match elements {
+        Elements::All if stride == size_of::<T>() => bytemuck::pod_collect_to_vec(&bytes[..count * stride]),
+        _ => (0..elements.number(count)).map(element).collect(),
     })
 }
 
@@ -177,16 +212,17 @@ struct Layout {
 }
 
 impl Layout {
-    /// Bytes of each element; all of them exist.
+    /// Bytes of each element that is read; all of them exist.
     fn elements<'a>(
         &self,
         document: &'a Document<'_>,
         view: usize,
         place: &str,
+        elements: Elements<'a>,
     ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, GltfError> {
         let (bytes, stride) = self.range(document, view, place)?;
-        let (count, size) = (self.count, self.size);
-        Ok((0..count).map(move |index| &bytes[index * stride..][..size]))
+        let size = self.size;
+        Ok((0..elements.number(self.count)).map(move |number| &bytes[elements.index(number) * stride..][..size]))
     }
 
     /// Bytes of all elements, and the number of bytes from one to the next.

@@ -11,7 +11,7 @@ use ::gltf::json::animation::{Animation, Channel, Interpolation, Property};
 use ::gltf::json::validation::Checked;
 use glam::{DQuat, DVec3};
 
-use super::accessor::{self, Purpose};
+use super::accessor::{self, Elements, Purpose};
 use super::document::Document;
 use super::error::GltfError;
 use super::notices::{Notices, Part};
@@ -166,7 +166,9 @@ impl<V: Copy> KeyList<V> {
         notices: &mut Notices,
     ) -> Result<Self, GltfError> {
         let sampler = &animation.samplers[channel.sampler.value()];
-        let numbers = |index: usize, of| accessor::read(document, index, place, Purpose::Vectors(of), |value| value);
+        let numbers = |index: usize, of| {
+            accessor::read(document, (index, Elements::All), place, Purpose::Vectors(of), |value| value)
+        };
         let times = numbers(sampler.input.value(), Type::Scalar)?.values;
         let values = numbers(sampler.output.value(), of)?.values;
         let mut values: Vec<V> = values.as_chunks::<WIDTH>().0.iter().copied().map(from).collect();

@@ -10,17 +10,15 @@ use ::gltf::json::accessor::Type;
 use ::gltf::json::mesh::Semantic;
 use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
 
-use super::accessor::{self, Purpose};
+use super::accessor::{self, Elements, Purpose};
 use super::document::Document;
 use super::error::GltfError;
 use super::file_json::NodeJson;
 use super::notices::{Notices, Part};
+use super::source::Source;
 
 /// Sum of a vertex's weights below which it has no joint.
 const NO_WEIGHT: f64 = 1e-12;
-
-/// Function that reads an attribute by its semantic and its name: its components, and their number in an element.
-type ReadAttribute<'a> = dyn Fn(Semantic, &str, Purpose) -> Result<Option<(Vec<f32>, usize)>, GltfError> + 'a;
 
 /// Deformation of one node's mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,7 +53,8 @@ impl PosedSkin {
             Some(matrices) => {
                 let place = format!("{place}.inverseBindMatrices");
                 let purpose = Purpose::Vectors(Type::Mat4);
-                let numbers = accessor::read(document, matrices.value(), &place, purpose, |value| value)?;
+                let numbers =
+                    accessor::read(document, (matrices.value(), Elements::All), &place, purpose, |value| value)?;
                 let matrices = numbers.values.as_chunks::<16>().0.iter();
                 matrices.map(|matrix| DAffine3::from_mat4(DMat4::from_cols_array(matrix))).collect()
             }
@@ -100,29 +99,26 @@ impl Deformation {
         Ok((deformation != Self::default()).then_some(deformation))
     }
 
-    /// Applies the deformation to the vertices of a primitive, given with the place of it in the file; `read` gives
-    /// the values of an attribute. True if the skin mirrors the primitive.
+    /// Applies the deformation to vertices of the primitive that `source` reads. True if the skin mirrors the
+    /// primitive.
     pub(super) fn apply(
         &self,
-        document: &Document<'_>,
-        (primitive, place): (&json::mesh::Primitive, &str),
-        read: &ReadAttribute<'_>,
+        source: &Source<'_>,
         positions: &mut [Vec3],
         mut normals: Option<&mut Vec<Vec3>>,
         notices: &mut Notices,
     ) -> Result<bool, GltfError> {
+        let document = source.document;
         for &(number, weight) in &self.weights {
-            let Some(target) = primitive.targets.as_ref().and_then(|targets| targets.get(number)) else { continue };
-            let place = format!("{place}.targets[{number}]");
+            let Some(target) = source.primitive.targets.as_ref().and_then(|targets| targets.get(number)) else {
+                continue;
+            };
+            let place = format!("{}.targets[{number}]", source.place);
             let add = |index: Option<usize>, values: &mut [Vec3]| -> Result<(), GltfError> {
                 let Some(index) = index else { return Ok(()) };
-                let purpose = Purpose::Vectors(Type::Vec3);
-                let moved = accessor::read(document, index, &place, purpose, |value| value as f32)?.values;
-                if moved.len() != 3 * values.len() {
-                    return Err(
-                        document.damaged(&place, format!("{} values for {} vertices", moved.len() / 3, values.len()))
-                    );
-                }
+                source.check_count(&place, accessor::count(document, index, &place)?)?;
+                let (elements, purpose) = ((index, source.elements()), Purpose::Vectors(Type::Vec3));
+                let moved = accessor::read(document, elements, &place, purpose, |value| value as f32)?.values;
                 for (value, moved) in values.iter_mut().zip(moved.as_chunks::<3>().0) {
                     *value += weight * Vec3::from_array(*moved);
                 }
@@ -137,10 +133,10 @@ impl Deformation {
             }
         }
         let Some(skin) = &self.skin else { return Ok(false) };
-        match Influences::read(document, place, read, positions.len(), skin.joints.len()) {
+        match Influences::read(source, skin.joints.len()) {
             Ok(influences) => Ok(influences.apply(skin, positions, normals)),
             Err(error) => {
-                notices.left_out(Part::Skin, place, &error.part_fault()?);
+                notices.left_out(Part::Skin, source.place, &error.part_fault()?);
                 Ok(false)
             }
         }
@@ -153,23 +149,15 @@ struct Influences {
 }
 
 impl Influences {
-    fn read(
-        document: &Document<'_>,
-        place: &str,
-        read: &ReadAttribute<'_>,
-        vertices: usize,
-        joint_count: usize,
-    ) -> Result<Self, GltfError> {
+    fn read(source: &Source<'_>, joint_count: usize) -> Result<Self, GltfError> {
+        let (document, place) = (source.document, source.place);
         let mut sets = Vec::new();
         for set in 0.. {
-            let joints = read(Semantic::Joints(set), &format!("JOINTS_{set}"), Purpose::Joints)?;
+            let joints = source.attribute(Semantic::Joints(set), &format!("JOINTS_{set}"), Purpose::Joints)?;
             let purpose = Purpose::Vectors(Type::Vec4);
-            let weights = read(Semantic::Weights(set), &format!("WEIGHTS_{set}"), purpose)?;
+            let weights = source.attribute(Semantic::Weights(set), &format!("WEIGHTS_{set}"), purpose)?;
             let (Some((joints, _)), Some((shares, _))) = (joints, weights) else { break };
             let place = format!("{place}.attributes.JOINTS_{set}");
-            if joints.len() != 4 * vertices || shares.len() != 4 * vertices {
-                return Err(document.damaged(&place, format!("{} values for {vertices} vertices", joints.len() / 4)));
-            }
             let found: Vec<usize> = joints.into_iter().map(|joint| joint as usize).collect();
             let shares: Vec<f64> = shares.into_iter().map(f64::from).collect();
             let beyond = found.iter().zip(&shares).find(|(joint, share)| **joint >= joint_count && **share != 0.0);

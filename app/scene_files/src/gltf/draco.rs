@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ::gltf::json;
 use ::gltf::json::accessor::{ComponentType, GenericComponentType};
 use ::gltf::json::validation::Checked;
-use decoders::draco::{DracoMesh, decode};
+use decoders::draco::{Attribute, DracoMesh, decode};
 use serde_json::Value;
 
 use super::document::Document;
@@ -53,10 +53,22 @@ impl DracoData {
         }
     }
 
-    /// Components of an attribute, and their number in an element.
-    pub(super) fn attribute(&self, name: &str) -> Option<(Vec<f32>, usize)> {
+    /// Number of vertices; `None` if they have no positions.
+    pub(super) fn count(&self) -> Option<usize> {
+        let (positions, _) = self.stored("POSITION")?;
+        Some(positions.values.len() / positions.components.max(1))
+    }
+
+    /// Attribute as it was decoded, and the value that stands for 1 in it.
+    fn stored(&self, name: &str) -> Option<(&Attribute, f32)> {
         let (id, one) = *self.ids.get(name)?;
         let found = self.mesh.attributes.iter().find(|attribute| u64::from(attribute.unique_id) == id)?;
+        Some((found, one))
+    }
+
+    /// Components of an attribute, and their number in an element.
+    pub(super) fn attribute(&self, name: &str) -> Option<(Vec<f32>, usize)> {
+        let (found, one) = self.stored(name)?;
         // Some encoders leave it to the accessor that integers are fractions.
         let whole = one > 1.0 && found.values.iter().any(|value| *value > 1.0);
         let one = if whole { one } else { 1.0 };

@@ -4,7 +4,7 @@ use ::gltf::json::accessor::Type;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde_json::Value;
 
-use super::accessor::{self, Purpose};
+use super::accessor::{self, Elements, Purpose};
 use super::document::Document;
 use super::error::GltfError;
 use super::file_json::NodeJson;
@@ -27,7 +27,8 @@ pub(super) fn instances(
         index.and_then(Value::as_u64).and_then(|index| usize::try_from(index).ok())
     };
     let numbers = |name: &str, element: Type| {
-        let read = |index| accessor::read(document, index, &place, Purpose::Vectors(element), |value| value);
+        let purpose = Purpose::Vectors(element);
+        let read = |index| accessor::read(document, (index, Elements::All), &place, purpose, |value| value);
         attribute(name).map(read).transpose()
     };
     let translations = numbers("TRANSLATION", Type::Vec3)?;

@@ -38,6 +38,7 @@ mod picture;
 mod primitive;
 mod progress;
 mod repair;
+mod source;
 pub(crate) mod spectrum;
 
 pub use error::{GltfError, SpectrumFault};

@@ -1,25 +1,21 @@
-//! Primitives: triangles, from accessors or Draco data to arrays, and from a node's frame into the world.
-//!
-//! Positions decide: without them a primitive is left out. Any other attribute that cannot be read is replaced by its
-//! default, and a triangle with a corner that does not exist is left out alone.
+//! Primitives: triangles in the frame of a node, and from there into the world.
 
 use ::gltf::json;
-use ::gltf::json::accessor::{ComponentType, Type};
+use ::gltf::json::accessor::Type;
 use ::gltf::json::mesh::{Mode, Semantic};
 use ::gltf::json::validation::Checked;
-use bytemuck::Pod;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::accessor::{self, Purpose};
+use super::accessor;
 use super::attribute::attribute;
 use super::deform::Deformation;
 use super::document::Document;
-use super::draco::DracoData;
 use super::error::GltfError;
 use super::extras::COLOURS;
-use super::material::{SurfaceUvs, UvChannel};
+use super::material::SurfaceUvs;
 use super::notices::{Notices, Part};
+use super::source::Source;
 use scene::Mesh;
 
 /// Number of vertices that a thread places at least.
@@ -82,99 +78,9 @@ pub(super) fn extent(
         return Ok(None);
     }
     let corners = if strip { 3 * entries } else { entries };
-    // Without normals of its own, each triangle gets its own vertices.
+    // Without normals of its own, each triangle gets its own vertices; vertices of no triangle are left out.
     let flat = attribute(primitive, Semantic::Normals).is_none();
-    Ok(Some(Extent { vertices: if flat { corners } else { vertices }, corners }))
-}
-
-/// Data of a primitive that is being read: in accessors, or in Draco's form.
-struct Source<'a> {
-    document: &'a Document<'a>,
-    primitive: &'a json::mesh::Primitive,
-    place: &'a str,
-    draco: Option<DracoData>,
-}
-
-impl Source<'_> {
-    /// Components of an attribute and their number in an element; `None` if the primitive has no such attribute.
-    fn attribute(
-        &self,
-        semantic: Semantic,
-        name: &str,
-        purpose: Purpose,
-    ) -> Result<Option<(Vec<f32>, usize)>, GltfError> {
-        let place = format!("{}.attributes.{name}", self.place);
-        if let Some(found) = self.draco.as_ref().and_then(|draco| draco.attribute(name)) {
-            let (values, width) = found;
-            return match purpose.width() {
-                Some(expected) if expected != width => {
-                    Err(self.document.damaged(&place, format!("{width} components instead of {expected}")))
-                }
-                _ => Ok(Some((values, width))),
-            };
-        }
-        let Some(index) = attribute(self.primitive, semantic) else { return Ok(None) };
-        let numbers = accessor::read(self.document, index, &place, purpose, |value| value as f32)?;
-        Ok(Some((numbers.values, numbers.width)))
-    }
-
-    /// Vectors of an attribute; `None` if the primitive has no such attribute.
-    fn vectors<T: Pod>(&self, semantic: Semantic, name: &str, element: Type) -> Result<Option<Vec<T>>, GltfError> {
-        let index = attribute(self.primitive, semantic.clone()).filter(|_| self.draco.is_none());
-        let stored = index.and_then(|index| accessor::as_stored(self.document, index, (element, ComponentType::F32)));
-        if stored.is_some() {
-            return Ok(stored);
-        }
-        let found = self.attribute(semantic, name, Purpose::Vectors(element))?;
-        Ok(found.map(|(values, _)| bytemuck::pod_collect_to_vec(&values)))
-    }
-
-    /// Colours of the vertices; `None` if the primitive has none.
-    fn colours(&self, semantic: Semantic, name: &str) -> Result<Option<Vec<[f32; 4]>>, GltfError> {
-        let found = self.attribute(semantic, name, Purpose::Colours)?;
-        Ok(found.map(|(values, width)| {
-            let colour = |c: &[f32]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)];
-            values.chunks_exact(width).map(colour).collect()
-        }))
-    }
-
-    /// Elements of an attribute that has a default: one that could not be read, or has another number of elements
-    /// than there are vertices, is `None`, and named.
-    fn optional<T>(
-        &self,
-        name: &str,
-        found: Result<Option<Vec<T>>, GltfError>,
-        vertices: usize,
-        notices: &mut Notices,
-    ) -> Result<Option<Vec<T>>, GltfError> {
-        let place = format!("{}.attributes.{name}", self.place);
-        match found {
-            Ok(Some(values)) if values.len() != vertices => {
-                let fault = format!("{} entries for {vertices} positions", values.len());
-                notices.left_out(Part::Mesh, &place, &fault);
-                Ok(None)
-            }
-            Ok(found) => Ok(found),
-            Err(error) => {
-                notices.left_out(Part::Mesh, &place, &error.part_fault()?);
-                Ok(None)
-            }
-        }
-    }
-
-    /// Texture coordinates of a set as a surface takes them; empty if they are 0, for want of others.
-    fn uvs(&self, of: UvChannel, vertices: usize, notices: &mut Notices) -> Result<Vec<Vec2>, GltfError> {
-        let name = format!("TEXCOORD_{}", of.set);
-        let found = self.vectors(Semantic::TexCoords(of.set), &name, Type::Vec2);
-        Ok(match self.optional(&name, found, vertices, notices)? {
-            Some(mut uvs) => {
-                uvs.iter_mut().for_each(|uv| *uv = of.apply(*uv));
-                uvs
-            }
-            None if of.apply(Vec2::ZERO) == Vec2::ZERO => Vec::new(),
-            None => vec![of.apply(Vec2::ZERO); vertices],
-        })
-    }
+    Ok(Some(Extent { vertices: if flat { corners } else { vertices.min(corners) }, corners }))
 }
 
 impl Primitive {
@@ -196,23 +102,22 @@ impl Primitive {
         }
         let material = material.map_or(default, |material| material.min(default));
         let channel = channels[material];
-        let source =
-            Source { document, primitive, place: &place, draco: DracoData::read(document, primitive, &place)? };
+        let source = &mut Source::new(document, primitive, &place)?;
+        let indices = source.triangles(notices)?;
 
         // Read the attributes.
         let positions = source.vectors::<Vec3>(Semantic::Positions, "POSITION", Type::Vec3)?;
         let mut positions =
             positions.ok_or_else(|| document.damaged(&format!("{place}.attributes"), "POSITION is missing"))?;
-        let count = positions.len();
         let normals = source.vectors::<Vec3>(Semantic::Normals, "NORMAL", Type::Vec3);
-        let mut normals = source.optional("NORMAL", normals, count, notices)?;
-        let uvs = source.uvs(channel.base, count, notices)?;
+        let mut normals = source.optional("NORMAL", normals, notices)?;
+        let uvs = source.uvs(channel.base, notices)?;
         let emissive_uvs = match channel.emissive {
             None => Vec::new(),
             Some(emissive) => {
-                let read = source.uvs(emissive, count, notices)?;
+                let read = source.uvs(emissive, notices)?;
                 // Coordinates of 0 have to be kept beside others.
-                if read.is_empty() && !uvs.is_empty() { vec![Vec2::ZERO; count] } else { read }
+                if read.is_empty() && !uvs.is_empty() { vec![Vec2::ZERO; positions.len()] } else { read }
             }
         };
         let unclamped = Semantic::Extras(COLOURS.into());
@@ -220,44 +125,13 @@ impl Primitive {
             Some(_) => (unclamped, COLOURS),
             None => (Semantic::Colors(0), "COLOR_0"),
         };
-        let colours = source.optional(semantic.1, source.colours(semantic.0, semantic.1), count, notices)?;
+        let colours = source.optional(semantic.1, source.colours(semantic.0, semantic.1), notices)?;
         let colours = colours.unwrap_or_default();
         let mirrored = match deformation {
-            Some(deformation) => {
-                let read = |semantic, name: &str, purpose| source.attribute(semantic, name, purpose);
-                deformation.apply(document, (primitive, &place), &read, &mut positions, normals.as_mut(), notices)?
-            }
+            Some(deformation) => deformation.apply(source, &mut positions, normals.as_mut(), notices)?,
             None => false,
         };
-
-        // Read the triangles.
-        let corners = match (&source.draco, primitive.indices) {
-            (Some(draco), _) => draco.indices(),
-            (None, Some(index)) => {
-                let scalar = |component| (Type::Scalar, component);
-                let index = index.value();
-                if let Some(stored) = accessor::as_stored::<u32>(document, index, scalar(ComponentType::U32)) {
-                    stored
-                } else if let Some(stored) = accessor::as_stored::<u16>(document, index, scalar(ComponentType::U16)) {
-                    stored.into_iter().map(u32::from).collect()
-                } else {
-                    let place = format!("{place}.indices");
-                    accessor::read(document, index, &place, Purpose::Indices, |value| value as u32)?.values
-                }
-            }
-            (None, None) => (0..count as u32).collect(),
-        };
-        let indices = match primitive.mode {
-            Checked::Valid(Mode::TriangleStrip) if source.draco.is_none() => strip(&corners),
-            Checked::Valid(Mode::TriangleFan) if source.draco.is_none() => fan(&corners),
-            _ => corners,
-        };
         let mut read = Self { positions, indices, normals: Vec::new(), uvs, emissive_uvs, colours, material };
-        if !read.indices.len().is_multiple_of(3) {
-            notices.add(format!("{place} ends in an incomplete triangle, which is left out"));
-            read.indices.truncate(read.indices.len() / 3 * 3);
-        }
-        read.keep_whole_triangles(&place, notices);
         if mirrored {
             read.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
@@ -266,18 +140,6 @@ impl Primitive {
             None => read.flatten(),
         }
         Ok(read)
-    }
-
-    /// Leaves out the triangles with a corner that does not exist.
-    fn keep_whole_triangles(&mut self, place: &str, notices: &mut Notices) {
-        let count = self.positions.len();
-        let Some(beyond) = self.indices.iter().copied().find(|&corner| corner as usize >= count) else { return };
-        let before = self.indices.len() / 3;
-        let whole = |corners: &&[u32; 3]| corners.iter().all(|&corner| (corner as usize) < count);
-        let kept: Vec<[u32; 3]> = self.indices.as_chunks::<3>().0.iter().filter(whole).copied().collect();
-        let fault = format!("vertex {beyond} of {count}; {} of {before} triangles", before - kept.len());
-        notices.left_out(Part::Mesh, &format!("{place}.indices"), &fault);
-        self.indices = kept.into_flattened();
     }
 
     /// Gives each triangle its own vertices and its own normal, as glTF demands for a file without normals.
@@ -352,18 +214,4 @@ fn unit(normal: DVec3) -> Vec3 {
     } else {
         normal.try_normalize().unwrap_or(DVec3::Y).as_vec3()
     }
-}
-
-/// Triangles of a strip: each vertex with the two before it; every other triangle is reversed.
-fn strip(corners: &[u32]) -> Vec<u32> {
-    let triangle = |(index, corner): (usize, &[u32])| {
-        if index % 2 == 0 { [corner[0], corner[1], corner[2]] } else { [corner[0], corner[2], corner[1]] }
-    };
-    corners.windows(3).enumerate().flat_map(triangle).collect()
-}
-
-/// Triangles of a fan: each vertex with the one before it and the first (glTF 2.0, 3.7.2.1: the first comes last).
-fn fan(corners: &[u32]) -> Vec<u32> {
-    let first = corners.first().copied().unwrap_or_default();
-    corners.get(1..).unwrap_or_default().windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
 }

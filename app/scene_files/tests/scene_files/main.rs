@@ -5,6 +5,7 @@ mod export;
 mod gltf;
 mod gltf_broken;
 mod kinds;
+mod shared;
 mod spectra;
 mod support;
 mod town_file;
