@@ -148,7 +148,7 @@ impl Desk {
         .max_by(|a, b| a.abs().total_cmp(&b.abs()));
 
         let speed = wheel_speed.unwrap_or(0.0);
-        let leaning_rad = (rider.lateral_m_s2 * rider.wheelbase_m).atan2(speed * speed);
+        let leaning_rad = libm::atan2(rider.lateral_m_s2 * rider.wheelbase_m, speed * speed);
         let pretended = (self.keyboard.steer(at) + self.gamepad.steer()).clamp(-1.0, 1.0);
         let steer_rad = self.bicycle.steer_rad() + pretended * rider.steer_rad.min(leaning_rad);
 

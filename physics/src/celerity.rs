@@ -60,7 +60,7 @@ impl Celerity {
     /// The direction is zero or not finite, or sinh η is not finite or beyond [`Celerity::LIMIT`].
     pub fn from_rapidity(direction: DVec3, rapidity: f64) -> Result<Self, CelerityError> {
         let unit = unit_vector(direction).ok_or(CelerityError::NoDirection { vector: direction })?;
-        Self::new(unit * rapidity.sinh())
+        Self::new(unit * libm::sinh(rapidity))
     }
 
     /// A celerity known by construction to be finite and within the limit's square.
@@ -94,7 +94,7 @@ impl Celerity {
 
     /// Rapidity η = asinh |u|, the proper acceleration summed along a straight start from rest.
     pub fn rapidity(self) -> f64 {
-        self.magnitude().asinh()
+        libm::asinh(self.magnitude())
     }
 
     /// The unit vector of the motion; `None` at rest.
@@ -115,7 +115,7 @@ impl Celerity {
     ///
     /// A vehicle calls this after each step, and compares, to tell the rider that the limit is reached.
     pub fn capped(self, limit: f64) -> Self {
-        let (magnitude, largest) = (self.magnitude(), limit.sinh());
+        let (magnitude, largest) = (self.magnitude(), libm::sinh(limit));
         if magnitude <= largest { self } else { Self(self.0 * (largest / magnitude)) }
     }
 }

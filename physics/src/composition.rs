@@ -65,7 +65,7 @@ pub fn compose(vehicle: Celerity, head: Celerity) -> Composition {
         (along, w1 * w2 * deviation + w1 * rest2 + w2 * rest1 + rest1 * rest2)
     };
     let vector = normal * (w1 * w2);
-    let length = scalar.hypot(vector.length());
+    let length = libm::hypot(scalar, vector.length());
     Composition {
         celerity: Celerity::from_finite(first.direction.high * along + across * w2),
         wigner: unit_quaternion(vector / length, scalar / length),

@@ -89,7 +89,7 @@ mod tests {
     fn circle(radius: f64) -> Route {
         let corners: Vec<DVec3> = (0..720)
             .map(|n| {
-                let (sine, cosine) = (f64::from(n) / 2.0).to_radians().sin_cos();
+                let (sine, cosine) = libm::sincos((f64::from(n) / 2.0).to_radians());
                 DVec3::new(radius * sine, f64::from(n), radius * cosine)
             })
             .collect();

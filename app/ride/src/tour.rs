@@ -106,7 +106,7 @@ impl Tour {
         let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
         let aim = self.route.point(self.along_m + AIM_M.max(AIM_S * speed));
         let (ahead, left) = in_plane(state.orientation, aim - state.position);
-        let steer_rad = (2.0 * wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE)).atan();
+        let steer_rad = libm::atan(2.0 * wheelbase_m * left / (ahead * ahead + left * left).max(f64::MIN_POSITIVE));
         // A point behind is turned to as sharply as possible.
         let steer_rad = if ahead > 0.0 { steer_rad } else { FARTHEST_STEER_RAD.copysign(left) };
 
@@ -114,7 +114,7 @@ impl Tour {
         let looks = (0..).map(|n| f64::from(n) * OUTLOOK_SPACING_M).take_while(|&distance| distance < OUTLOOK_M);
         let wanted_m_s = looks.fold(Self::CRUISE_M_S, |slowest, distance| {
             let bend_m_s = BEND_RAD_S / self.route.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
-            slowest.min(bend_m_s.hypot((2.0 * FORESIGHT_M_S2 * distance).sqrt()))
+            slowest.min(libm::hypot(bend_m_s, (2.0 * FORESIGHT_M_S2 * distance).sqrt()))
         });
         let brake = (LEVER_PER_M_S * (speed - wanted_m_s)).clamp(0.0, FARTHEST_LEVER);
         (steer_rad.clamp(-FARTHEST_STEER_RAD, FARTHEST_STEER_RAD), brake, wanted_m_s)

@@ -48,7 +48,7 @@ impl Glide {
     /// Place, metres, and velocity, m/s, at the time `at`.
     fn at(&self, at: Nanos) -> (DVec3, DVec3) {
         let time_s = seconds_between(self.since, at);
-        let decay = (-EAGERNESS * time_s).exp();
+        let decay = libm::exp(-EAGERNESS * time_s);
         let away = self.from - self.goal;
         let drift = self.velocity + EAGERNESS * away;
         let position = self.goal + (away + drift * time_s) * decay;

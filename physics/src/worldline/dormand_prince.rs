@@ -94,7 +94,7 @@ impl Integrator for DormandPrince {
             };
             // Choose the next trial: the error grows with the fifth power of the step. Aim a little lower, and change
             // by no more than five times.
-            trial *= (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
+            trial *= (0.9 * libm::pow(error, -0.2)).clamp(0.2, 5.0);
             if trial.abs() >= remaining.abs() {
                 trial = remaining;
             } else if trial.abs() < f64::EPSILON * step.abs() {

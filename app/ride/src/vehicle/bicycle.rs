@@ -65,7 +65,7 @@ impl<'a> BicycleControl<'a> {
 
     /// Forward proper acceleration at the forward celerity `u`, as rapidity per second of own time.
     fn forward_per_s(&self, u: f64) -> f64 {
-        let gamma = u.hypot(1.0);
+        let gamma = libm::hypot(u, 1.0);
         let lever = self.controls.brake;
         // Pedals have no effect during the brake's second stage.
         let pedals = self.pedals_per_s(u) * (1.0 - 2.0 * lever).max(0.0);
@@ -86,7 +86,7 @@ impl<'a> BicycleControl<'a> {
         let wheel = self.controls.wheel_speed_m_s;
         // A rider who stands against a wall lifts the front wheel round.
         let speed = if self.blocked && wheel.abs() > speed.abs() { wheel.clamp(-WALK_M_S, WALK_M_S) } else { speed };
-        let rate = speed * self.controls.steer_rad.tan() / self.settings.wheelbase_m;
+        let rate = speed * libm::tan(self.controls.steer_rad) / self.settings.wheelbase_m;
         rate.clamp(-FASTEST_YAW_RAD_S, FASTEST_YAW_RAD_S)
     }
 
@@ -99,7 +99,8 @@ impl<'a> BicycleControl<'a> {
         /// Acceleration that is felt as a full load, m/s².
         const HEAVY_M_S2: f64 = 8.0;
         let lever = brake_m_s2(self.settings, self.controls.brake) / self.settings.stop_m_s2;
-        let inertia = self.light_speed.metres_per_own_second(self.pedals_per_s(u) / u.hypot(1.0)).abs() / HEAVY_M_S2;
+        let inertia =
+            self.light_speed.metres_per_own_second(self.pedals_per_s(u) / libm::hypot(u, 1.0)).abs() / HEAVY_M_S2;
         let pedalled = if self.controls.wheel_speed_m_s.abs() > self.light_speed.metres_per_own_second(u).abs() {
             if self.blocked { WALL } else { inertia.min(WALL) }
         } else {
@@ -114,7 +115,7 @@ impl Control for BicycleControl<'_> {
         let nose = state.orientation * DVec3::NEG_Z;
         let u = state.orientation.inverse() * state.celerity.vector();
         let speed = self.light_speed.metres_per_own_second(u.z.abs());
-        let pitch = self.course.pitch_rate_rad_s(nose.y.clamp(-1.0, 1.0).asin(), speed);
+        let pitch = self.course.pitch_rate_rad_s(libm::asin(nose.y.clamp(-1.0, 1.0)), speed);
         let turn = DVec3::new(pitch, self.yaw_rad_s(-u.z), 0.0);
         // The motion is turned with the frame, about the same axis and by the same celerity. Otherwise the two would
         // drift apart at large γ.

@@ -53,14 +53,14 @@ impl<'a> FlightControl<'a> {
     fn rudder_per_s(&self, rudder: DVec3, u: DVec3) -> DVec3 {
         let full = self.settings.thrust_per_s;
         let wanted = rudder.cross(u);
-        wanted * (full / full.hypot(wanted.length()))
+        wanted * (full / libm::hypot(full, wanted.length()))
     }
 
     /// Acceleration that keeps a driven vehicle on the ground, world axes, per second of own time.
     fn ground_per_s(&self, course: &GroundCourse, state: &WorldlineState) -> DVec3 {
         let Some(direction) = state.celerity.direction() else { return DVec3::ZERO };
         let u = state.celerity.magnitude();
-        let slope = direction.y.clamp(-1.0, 1.0).asin();
+        let slope = libm::asin(direction.y.clamp(-1.0, 1.0));
         let rate = course.pitch_rate_rad_s(slope, self.light_speed.metres_per_own_second(u));
         (DVec3::Y - direction * direction.y) * (rate * u)
     }
@@ -103,7 +103,7 @@ pub(super) fn level(state: &mut WorldlineState) {
     /// Largest tilt that rounding makes; a smaller one is left alone.
     const ROUNDING: f64 = 1e-14;
     let up = state.orientation * DVec3::Y;
-    if up.x.hypot(up.z) > ROUNDING {
+    if libm::hypot(up.x, up.z) > ROUNDING {
         state.orientation = upright(heading(state.orientation));
     }
 }

@@ -35,9 +35,9 @@ impl GroundCourse {
     pub(super) fn ahead(surroundings: &dyn Surroundings, position: DVec3, direction: DVec3, distance_m: f64) -> Self {
         let look_m = LOOK_M.max(LOOK_PER_STEP * distance_m);
         // The look goes along the present slope, so that a hill is not taken for a step.
-        let ahead = position + direction * (look_m / direction.x.hypot(direction.z));
+        let ahead = position + direction * (look_m / libm::hypot(direction.x, direction.z));
         let height = surroundings.height_below(ahead).map(|ground| ground.height);
-        let slope_rad = height.map_or(0.0, |height| (height - position.y).atan2(look_m));
+        let slope_rad = height.map_or(0.0, |height| libm::atan2(height - position.y, look_m));
         Self { slope_rad: slope_rad.clamp(-STEEPEST_RAD, STEEPEST_RAD), look_m }
     }
 

@@ -304,5 +304,5 @@ fn turned_towards(from: DVec3, to: DVec3, angle_rad: f64) -> DVec3 {
     let Some(to) = to.try_normalize() else { return from };
     let Some(across) = (to - from * from.dot(to)).try_normalize() else { return from };
     let angle_rad = angle_rad.min(from.angle_between(to));
-    from * angle_rad.cos() + across * angle_rad.sin()
+    from * libm::cos(angle_rad) + across * libm::sin(angle_rad)
 }

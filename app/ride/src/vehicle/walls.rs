@@ -93,5 +93,5 @@ pub(super) fn settled(
 
 /// Celerity with which at most `distance_m` metres are covered in `own_s` seconds.
 pub(super) fn slowed(celerity: Celerity, distance_m: f64, own_s: f64, light_speed: LightSpeed) -> Celerity {
-    celerity.capped(light_speed.celerity(distance_m / own_s).asinh())
+    celerity.capped(libm::asinh(light_speed.celerity(distance_m / own_s)))
 }
