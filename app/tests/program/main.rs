@@ -9,6 +9,8 @@ mod measure;
 mod models;
 #[cfg(target_os = "linux")]
 mod outputs;
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+mod portable;
 mod probe;
 mod recording;
 #[cfg(unix)]

@@ -1,0 +1,104 @@
+//! Law: a recording replays to the bit on every processor. The C library computes sin, exp and their kin in other
+//! instructions, to other bits, where there is no fused multiplication. A ride that asks it for one of them anywhere on
+//! its way differs after some frames.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::runner::{rapidity, said, told};
+use glam::DVec3;
+use input::head::{MouseButton, MouseEvent};
+use input::{Action, DeskConfig, HeadConfig, KeyboardKey, SECOND, Sample, SampleSource, VehicleKind};
+use ride::{LightSpeed, RideLog, RideStart, Setup, Simulation, VehicleSettings};
+use scene::collision::Collision;
+
+/// Setting that makes glibc take the processor for one without fused multiplication.
+const WITHOUT_FMA: (&str, &str) = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F");
+
+/// Number of frames of a ride: six seconds.
+const FRAMES: u64 = 360;
+
+/// Samples of a ride by keys, with a handlebar and a head that never rest.
+fn samples() -> Vec<Sample> {
+    let tenth = |n: u64| n * SECOND / 10;
+    let mut samples = vec![
+        Sample::key(tenth(1), KeyboardKey::W, true),
+        Sample::key(tenth(9), KeyboardKey::A, true),
+        Sample::key(tenth(20), KeyboardKey::A, false),
+        Sample::key(tenth(21), KeyboardKey::D, true),
+        Sample::key(tenth(24), KeyboardKey::R, true),
+        Sample::key(tenth(29), KeyboardKey::Q, true),
+        Sample::key(tenth(33), KeyboardKey::D, false),
+        Sample::action(tenth(35), &Action::TimeScale(0.7)),
+        Sample::key(tenth(40), KeyboardKey::R, false),
+        Sample::action(tenth(50), &Action::SpeedOfLight(3.0)),
+        Sample::mouse(0, MouseEvent::Button { button: MouseButton::Left, pressed: true }),
+    ];
+    for n in 0..FRAMES {
+        let at = n * SECOND / 60;
+        let turn = (n % 37) as f32 - 17.0;
+        samples.push(Sample::mouse(at, MouseEvent::Moved { right: turn, down: 0.3 * turn }));
+        if n % 50 == 20 {
+            samples.push(Sample::mouse(at, MouseEvent::Button { button: MouseButton::Right, pressed: n % 100 == 20 }));
+        }
+    }
+    samples.sort_by_key(|sample| sample.at);
+    samples
+}
+
+/// Records a ride in the lattice, on this processor as it is.
+fn record(path: &Path, kind: VehicleKind, bicycle: bool) {
+    let head = HeadConfig::new("mouse".parse().unwrap());
+    let setup = Setup {
+        light_speed: LightSpeed::OLD_TOWN,
+        kind,
+        start: RideStart::at_rest(DVec3::new(3.0, 0.0, -2.0), DVec3::new(1.0, 0.0, -1.3), DVec3::Y),
+        vehicle: VehicleSettings::default(),
+        desk: DeskConfig { head: Some(head), ..DeskConfig::default() },
+    };
+    let lattice = Collision::new(&built_in::lattice::Lattice::default().build()).unwrap();
+    let mut log = RideLog::new(setup.header("0.1.0 (test)", "lattice"));
+    log.record(path).unwrap();
+    let mut simulation = Simulation::new(setup, Arc::new(lattice)).unwrap();
+    let mut waiting = samples().into_iter().peekable();
+    for n in 0..FRAMES {
+        let at = n * SECOND / 60 + n * 7919 % 2_000_000;
+        let mut due = Vec::new();
+        while let Some(sample) = waiting.next_if(|sample| sample.at <= at) {
+            due.push(sample);
+        }
+        if bicycle {
+            // A turn of the wheel every eight lines, and a handlebar that never rests.
+            let line = format!("B1,{n},{},{},{},0,0,{},0", n * 16_667, n / 8, n / 8 * 8 * 16_667, 480 + n % 61);
+            let sum = line.bytes().fold(0, |sum, byte| sum ^ byte);
+            due.push(Sample::bytes(at, SampleSource::Bicycle, format!("{line}*{sum:02X}\r\n").into_bytes()));
+        }
+        let frame = simulation.frame(at, &due);
+        log.frame(&due, &frame).unwrap();
+    }
+    let end = simulation.vehicle().state();
+    assert!(end.celerity.magnitude() > 0.1 && end.orientation.w.abs() < 0.95, "a ride that turns: {end:?}");
+    log.finish().unwrap();
+}
+
+#[test]
+fn a_steered_ride_has_the_same_bits_without_fused_multiplication() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, kind, bicycle) in [
+        ("keys.mcap", VehicleKind::Bicycle, false),
+        ("bicycle.mcap", VehicleKind::Bicycle, true),
+        ("drive.mcap", VehicleKind::Drive, false),
+        ("fly.mcap", VehicleKind::Fly, false),
+    ] {
+        record(&folder.path().join(name), kind, bicycle);
+        for plain in [true, false] {
+            let mut command = rapidity(folder.path(), &["ride", "--replay", name, "--verify"]);
+            if !plain {
+                command.env(WITHOUT_FMA.0, WITHOUT_FMA.1);
+            }
+            let verified = command.output().unwrap();
+            let text = said(&verified);
+            assert!(text.contains(&format!("{FRAMES} frames, identical to the bit")), "{name}: {text}{}", told(&verified));
+        }
+    }
+}
