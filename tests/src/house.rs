@@ -11,6 +11,12 @@ const OPENERS: [&str; 7] = ["What", "Who", "Whether", "Of", "As", "How", "Where"
 /// Largest width of a comment line, columns.
 pub const WIDTH: usize = 120;
 
+/// Functions of the C library whose last bits differ between processors and versions.
+const ELEMENTARY: [&str; 25] = [
+    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
+    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt", "hypot",
+];
+
 /// One source file of a crate, tests excluded.
 pub struct SourceFile {
     /// Path below the root of the house.
@@ -27,6 +33,34 @@ pub struct Room {
     pub name: String,
     /// Sources below `src`.
     pub files: Vec<SourceFile>,
+}
+
+/// Calls of functions whose last bits differ between processors.
+struct ElementaryCalls(Vec<String>);
+
+impl<'ast> Visit<'ast> for ElementaryCalls {
+    fn visit_item_mod(&mut self, module: &'ast ItemMod) {
+        if !is_test(&module.attrs) {
+            visit::visit_item_mod(self, module);
+        }
+    }
+
+    fn visit_expr_method_call(&mut self, call: &'ast syn::ExprMethodCall) {
+        if ELEMENTARY.contains(&call.method.to_string().as_str()) {
+            self.0.push(call.method.to_string());
+        }
+        visit::visit_expr_method_call(self, call);
+    }
+}
+
+impl SourceFile {
+    /// Functions that the file, its tests excluded, asks the C library for and whose last bits differ between
+    /// processors.
+    pub fn elementary_calls(&self) -> Vec<String> {
+        let mut calls = ElementaryCalls(Vec::new());
+        calls.visit_file(&self.items);
+        calls.0
+    }
 }
 
 /// Figures of a house.

@@ -150,6 +150,22 @@ fn the_figures_of_the_house_are_kept() {
     assert!(measures.printing.is_empty(), "{:?}: libraries return, the program reports", measures.printing);
 }
 
+/// Parts of `physics` that no ride depends on: light and pictures.
+const BESIDE_THE_RIDE: [&str; 3] = ["colour/", "photo_surface/", "interpolation_error.rs"];
+
+#[test]
+fn a_ride_asks_the_c_library_for_no_elementary_function() {
+    let of_ride = |room: &&Room| ["physics", "input", "ride"].contains(&room.name.as_str());
+    for room in rooms().iter().filter(of_ride) {
+        for file in &room.files {
+            let path = file.path.to_string_lossy();
+            let beside = room.name == "physics" && BESIDE_THE_RIDE.iter().any(|part| path.contains(part));
+            let calls = file.elementary_calls();
+            assert!(beside || calls.is_empty(), "{path}: {calls:?}; take them from libm, which is the same everywhere");
+        }
+    }
+}
+
 #[test]
 fn each_crate_has_one_test_binary() {
     // The memory of a process is measured in a process of its own.
