@@ -10,7 +10,7 @@ mod support;
 
 use built_in::town;
 use glam::{DQuat, DVec3};
-use physics::worldline::WorldlineState;
+use physics::worldline::{Thrust, WorldlineState};
 use physics::{Beta, Event};
 use render::display::Development;
 use render::target::{Format, texture};
@@ -111,7 +111,7 @@ impl Row {
         Ok(Self {
             name: name.to_owned(),
             renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
-            occupant: Occupant { vehicle, head: RoomHead::at_rest(display.viewer.head_m) },
+            occupant: Occupant { vehicle, thrust: Thrust::default(), head: RoomHead::at_rest(display.viewer.head_m) },
             walls: Walls::new(gpu, display, quality, SCREEN),
             screens,
             frames: Vec::new(),

@@ -63,6 +63,8 @@ pub struct Watcher {
     pub gaze: Gaze,
     /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
     pub vehicle: physics::worldline::WorldlineState,
+    /// Acceleration and turn of the vehicle.
+    pub thrust: physics::worldline::Thrust,
     /// Head in the vehicle's room, if one is tracked.
     pub head: Option<walls::RoomHead>,
 }
@@ -123,7 +125,7 @@ impl Canvas {
             return Ok(Submitted::Picture { shot, pending });
         };
         let head = watcher.head.unwrap_or(walls::RoomHead::at_rest(walls.display.viewer.head_m));
-        let occupant = Occupant { vehicle: watcher.vehicle, head };
+        let occupant = Occupant { vehicle: watcher.vehicle, thrust: watcher.thrust, head };
         Ok(Submitted::Room(walls.submit(gpu, renderer, &occupant, effects)?))
     }
 

@@ -5,7 +5,10 @@
 //! A [`Simulation`] owns the desk and the vehicle. Every frame hands it the samples that have come since the frame
 //! before, and asks for the present observer. It works through the ticks that have become due, 240 per second of real
 //! time. In each it feeds the desk all samples up to the tick, performs the actions that were pressed, and moves the
-//! vehicle by a step of own time, which is real time × time scale (B 5.6.1: proper time is the user's time). A frame
+//! vehicle by a step of own time. Real time × time scale is the own time of the user, who is the observer (B 5.6.1,
+//! W 6.3): of the vehicle as long as no head is tracked in it, else of the head. While a tracked head moves in the
+//! vehicle, the vehicle's clock runs γ times as fast as the user's, of which both the head's tracked velocity and the
+//! vehicle's steps are taken ([`Vehicle::time_ratio`](crate::Vehicle::time_ratio)). A frame
 //! shows a copy of the vehicle, moved on by the rest of a tick, so a film is as smooth as its frame times.
 //!
 //! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
@@ -101,7 +104,7 @@ impl Simulation {
 
         let mut shown = self.vehicle.clone();
         if !self.paused {
-            shown.step(self.step_s() * self.ticks.fraction(at), &self.controls, &*self.surroundings);
+            shown.step(self.own_s() * self.ticks.fraction(at), &self.controls, &*self.surroundings);
         }
         let record = record(self.frames, at, steps, &shown);
         self.frames += 1;
@@ -137,7 +140,7 @@ impl Simulation {
         }
         let steps = if self.paused { single_steps } else { 1 };
         for _ in 0..steps {
-            self.vehicle.step(self.step_s(), &self.controls, &*self.surroundings);
+            self.vehicle.step(self.own_s(), &self.controls, &*self.surroundings);
             for &notice in self.vehicle.notices() {
                 tell(notices, notice);
             }
@@ -145,9 +148,13 @@ impl Simulation {
         steps
     }
 
-    /// Own time per tick, seconds.
-    fn step_s(&self) -> f64 {
-        self.time_scale / f64::from(TICKS_PER_SECOND)
+    /// Own time of the vehicle per tick, seconds.
+    fn own_s(&self) -> f64 {
+        let of_user_s = self.time_scale / f64::from(TICKS_PER_SECOND);
+        match (&self.controls.head, &self.setup.desk.head) {
+            (Some(head), Some(config)) if config.counts_turn_and_clock() => of_user_s * self.vehicle.time_ratio(head),
+            _ => of_user_s,
+        }
     }
 
     /// Performs an action that concerns the ride; other actions are left to the program.

@@ -52,6 +52,7 @@ impl RoomOptions {
             place_m: self.head.unwrap_or(viewer.head_m),
             room_from_head: room_from_turned(turn(self.head_yaw), turn(self.head_pitch), turn(self.head_roll)),
             celerity: self.head_celerity.unwrap_or_default(),
+            turn_rate: glam::DVec3::ZERO,
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::output::say::tell;
 use crate::session::scenes;
 use glam::DVec3;
 use physics::Event;
-use physics::worldline::WorldlineState;
+use physics::worldline::{Thrust, WorldlineState};
 use render::choice::Choice;
 use render::picture::{SCREEN_FORMAT, Studio, largest_side};
 use render::{Gpu, SceneRenderer};
@@ -65,7 +65,7 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
 
     let count = walls.display.channels.len();
     let spinner = progress::spinner("drawing");
-    let occupant = Occupant { vehicle, head };
+    let occupant = Occupant { vehicle, thrust: Thrust::default(), head };
     let submitted = walls.submit(gpu, &mut renderer, &occupant, picture.effects)?;
     let drawn = walls.draw(gpu, &mut renderer, submitted)?;
     if let Some((channel, behind)) = drawn.behind.first() {

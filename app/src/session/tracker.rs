@@ -1,7 +1,7 @@
 //! Tracker of the head: from the display's `[tracker]` table, or from the command line instead.
 
-use glam::DMat3;
-use input::head::TrackingMode;
+use glam::{DMat3, DVec3};
+use input::head::{HEAD_EDITION, TrackingMode};
 use input::{ConfigError, HeadConfig, HeadState, TrackerUrl};
 use physics::Celerity;
 use room::Display;
@@ -42,6 +42,9 @@ pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option
         Some(table) => {
             let mut config = HeadConfig::deserialize(table.clone())
                 .map_err(|error| TrackerError::Table { display: name(), reason: one_line(&error.to_string()) })?;
+            if table.get("edition").is_none() {
+                config.edition = HEAD_EDITION;
+            }
             if table.get("home").is_none() {
                 config.home = home;
             }
@@ -61,12 +64,14 @@ pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option
 
 /// Head as a tracker reports it, in a world whose speed of light is `speed_of_light` m/s.
 ///
-/// A velocity that is not finite counts as zero.
+/// A velocity or a turn that is not finite counts as zero.
 pub fn head(state: &HeadState, speed_of_light: f64) -> RoomHead {
+    let turn_rate = state.turn_rad_s / speed_of_light;
     RoomHead {
         place_m: state.position_m,
         room_from_head: DMat3::from_quat(state.orientation),
         celerity: Celerity::new(state.velocity_m_s / speed_of_light).unwrap_or_default(),
+        turn_rate: if turn_rate.is_finite() { turn_rate } else { DVec3::ZERO },
     }
 }
 
@@ -82,7 +87,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
-    use glam::{DQuat, DVec3};
+    use glam::DQuat;
     use input::head::Tracking;
 
     fn display(table: &str) -> Display {
@@ -118,10 +123,11 @@ mod tests {
             position_m: DVec3::new(0.1, 1.7, 0.2),
             orientation: DQuat::from_rotation_y(0.3),
             velocity_m_s: DVec3::new(0.0, 0.0, -6.25),
+            turn_rad_s: DVec3::new(0.0, 2.5, 0.0),
             tracked: Tracking::Tracked,
         };
         let head = head(&state, 25.0 / 3.0);
         assert_eq!(head.celerity.vector(), DVec3::new(0.0, 0.0, -0.75)); // β = 0.6
-        assert_eq!(head.place_m, state.position_m);
+        assert_eq!((head.place_m, head.turn_rate), (state.position_m, DVec3::new(0.0, 0.3, 0.0)));
     }
 }

@@ -1,7 +1,7 @@
 //! Head that stands or walks in the vehicle, and its eyes.
 
 use glam::{DMat3, DQuat, DVec3};
-use physics::worldline::WorldlineState;
+use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Observer};
 use room::{EyeSide, Viewer};
 
@@ -12,14 +12,16 @@ pub struct RoomHead {
     pub place_m: DVec3,
     /// Rotation from the head's axes (x right, y up, −z ahead) to the room's.
     pub room_from_head: DMat3,
-    /// Celerity of the head, room axes.
+    /// Celerity of the head, metres of the room for each metre of its own time, room axes.
     pub celerity: Celerity,
+    /// Turn of the head against the room, radians for each metre of its own time, room axes.
+    pub turn_rate: DVec3,
 }
 
 impl RoomHead {
     /// Head at rest that faces −z.
     pub fn at_rest(place_m: DVec3) -> Self {
-        Self { place_m, room_from_head: DMat3::IDENTITY, celerity: Celerity::ZERO }
+        Self { place_m, room_from_head: DMat3::IDENTITY, celerity: Celerity::ZERO, turn_rate: DVec3::ZERO }
     }
 }
 
@@ -28,6 +30,8 @@ impl RoomHead {
 pub struct Occupant {
     /// State of the vehicle in the world.
     pub vehicle: WorldlineState,
+    /// Acceleration and turn of the vehicle, which carry the room along.
+    pub thrust: Thrust,
     /// Head of the observer in the room.
     pub head: RoomHead,
 }
@@ -52,11 +56,15 @@ impl Occupant {
     ///
     /// *Equation:* the head's event is simultaneous with the vehicle's reference point in the vehicle's frame; the
     /// eyes' events are simultaneous with the head's in the head's frame (B 5.2, W 6.3). Each is a step along the
-    /// simultaneity of its own frame, [`WorldlineState::aboard`].
+    /// simultaneity of its own frame, [`WorldlineState::aboard`]. The vehicle's turn carries the head along, and both
+    /// turns carry the eyes (B 3.4.3); Thomas precession of the head in the vehicle, of the order of the turn times the
+    /// square of the head's β, is left out.
     pub fn eye(&self, viewer: &Viewer, eye: EyeSide) -> OccupantEye {
-        let RoomHead { place_m, room_from_head, celerity } = self.head;
-        let middle = self.vehicle.aboard(place_m, celerity);
-        let seen_from = middle.aboard(room_from_head * viewer.world_offset_m(eye), Celerity::ZERO);
+        let RoomHead { place_m, room_from_head, celerity, turn_rate } = self.head;
+        let middle = self.vehicle.aboard(place_m, celerity, &self.thrust);
+        let turn_rate = turn_rate + self.thrust.turn_rate * self.thrust.time_ratio(place_m, celerity);
+        let turn = Thrust { turn_rate, ..Thrust::default() };
+        let seen_from = middle.aboard(room_from_head * viewer.world_offset_m(eye), Celerity::ZERO, &turn);
         OccupantEye {
             observer: seen_from.observer(),
             observer_from_room: seen_from.orientation,

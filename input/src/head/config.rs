@@ -52,6 +52,17 @@ pub struct HeadConfig {
     /// Place of the head until the tracker has seen it, metres; start of a head that the mouse moves.
     #[serde(default = "home")]
     pub home: [f64; 3],
+    /// Edition of the rules by which the motion of the head counts: since edition 2 its turn moves the eyes, and real
+    /// time is the head's own. Recordings without it are of edition 1.
+    #[serde(default = "first_edition")]
+    pub edition: u32,
+}
+
+/// Present edition of the rules by which the motion of the head counts.
+pub const HEAD_EDITION: u32 = 2;
+
+fn first_edition() -> u32 {
+    1
 }
 
 fn fade_s() -> f64 {
@@ -81,7 +92,9 @@ impl TrackingMode {
     pub fn of(self, state: HeadState) -> Option<HeadState> {
         match self {
             Self::PositionAndVelocity => Some(state),
-            Self::Position => Some(HeadState { velocity_m_s: DVec3::ZERO, ..state }),
+            Self::Position => {
+                Some(HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..state })
+            }
             Self::None => None,
         }
     }
@@ -208,7 +221,13 @@ impl HeadConfig {
             velocity: VelocityFilter::default(),
             fade_s: fade_s(),
             home: home(),
+            edition: HEAD_EDITION,
         }
+    }
+
+    /// True if the turn of the head moves the eyes, and real time is the head's own.
+    pub fn counts_turn_and_clock(&self) -> bool {
+        self.edition >= HEAD_EDITION
     }
 
     /// Checks every setting.

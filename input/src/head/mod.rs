@@ -28,7 +28,7 @@ pub(crate) mod tracked_pose;
 pub(crate) mod url;
 mod velocity;
 
-pub use config::{HeadConfig, TrackingMode, VelocityFilter};
+pub use config::{HEAD_EDITION, HeadConfig, TrackingMode, VelocityFilter};
 pub use mouse::MouseDecoder;
 pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::AxesPlacement;

@@ -90,8 +90,9 @@ impl MouseDecoder {
     /// Head at the time `at`.
     pub fn state(&self, at: Nanos) -> HeadState {
         let (position_m, velocity_m_s) = self.place.at(at);
+        // A mouse turns the head in leaps, which are no motion.
         let orientation = DQuat::from_euler(EulerRot::YXZ, self.yaw, self.pitch, 0.0);
-        HeadState { position_m, orientation, velocity_m_s, tracked: Tracking::Tracked }
+        HeadState { position_m, orientation, velocity_m_s, turn_rad_s: DVec3::ZERO, tracked: Tracking::Tracked }
     }
 
     fn event(&mut self, at: Nanos, event: MouseEvent) {

@@ -30,6 +30,13 @@ pub struct HeadState {
     /// Velocity in the room, metres per second of the user's own clock. Distance in the vehicle's frame over proper
     /// time is c times the celerity; the crate that knows c divides by it.
     pub velocity_m_s: DVec3,
+    /// Turn in the room, radians per second of the user's own clock, right-handed; 0 in recordings of edition 1.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub turn_rad_s: DVec3,
     /// Reliability of this state.
     pub tracked: Tracking,
+}
+
+fn is_zero(turn: &DVec3) -> bool {
+    *turn == DVec3::ZERO
 }

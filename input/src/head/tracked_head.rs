@@ -17,6 +17,7 @@ use crate::faults::Faults;
 const GRACE_S: f64 = 0.05;
 /// Age of a pose at which its velocity begins to fade, in intervals of a slow tracker; the larger of both counts.
 const GRACE_FRAMES: f64 = 1.5;
+
 /// Tracked head. Poses are fed in the order in which they came, and the state is read once a frame.
 #[derive(Debug)]
 pub struct TrackedHead {
@@ -27,6 +28,9 @@ pub struct TrackedHead {
     /// Pose that leapt away, which the next one may confirm.
     leapt: Option<SeenPose>,
     velocity: TrackVelocity,
+    /// Velocity of the sum of all small turns, a vector along their axes, radians.
+    turn: TrackVelocity,
+    turned_rad: DVec3,
     /// Last interval between poses of one track, seconds.
     rhythm_s: f64,
     /// Time at which the tracker went.
@@ -47,6 +51,8 @@ impl TrackedHead {
             last: None,
             leapt: None,
             velocity: TrackVelocity::new(config.velocity),
+            turn: TrackVelocity::new(config.velocity),
+            turned_rad: DVec3::ZERO,
             rhythm_s: 0.0,
             gone: None,
             rejected: Faults::default(),
@@ -82,7 +88,7 @@ impl TrackedHead {
     fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {
         let mut seen = self.sound(pose)?;
         let Some(last) = self.last else {
-            self.velocity.restart(seen.room_from_head.position, DVec3::ZERO);
+            self.restart(&seen, 0.0);
             return self.see(seen);
         };
 
@@ -106,21 +112,29 @@ impl TrackedHead {
                 return Err(leap);
             }
             // The leap itself is no motion.
-            self.velocity.restart(seen.room_from_head.position, self.velocity.value());
+            self.restart(&seen, 1.0);
             return self.see(seen);
         }
 
         match interval {
             PoseInterval::Steady(interval_s) => {
                 self.velocity.push(interval_s, seen.room_from_head.position);
+                self.turned_rad += turn(last.room_from_head.orientation, seen.room_from_head.orientation);
+                self.turn.push(interval_s, self.turned_rad);
                 self.rhythm_s = interval_s;
             }
             PoseInterval::Gap(_) => {
                 let (_, share) = self.belief(&last, seen.at);
-                self.velocity.restart(seen.room_from_head.position, self.velocity.value() * share);
+                self.restart(&seen, share);
             }
         }
         self.see(seen)
+    }
+
+    /// Begins new tracks of place and turn, which keep a share of their velocities at first.
+    fn restart(&mut self, seen: &SeenPose, share: f64) {
+        self.velocity.restart(seen.room_from_head.position, self.velocity.value() * share);
+        self.turn.restart(self.turned_rad, self.turn.value() * share);
     }
 
     fn see(&mut self, seen: SeenPose) -> Result<(), PoseError> {
@@ -164,11 +178,22 @@ impl TrackedHead {
                 position_m: DVec3::from_array(self.config.home),
                 orientation: DQuat::IDENTITY,
                 velocity_m_s: DVec3::ZERO,
+                turn_rad_s: DVec3::ZERO,
                 tracked: Tracking::Never,
             };
         };
         let (tracked, share) = self.belief(last, at);
         let Rigid { position, orientation } = last.room_from_head;
-        HeadState { position_m: position, orientation, velocity_m_s: self.velocity.value() * share, tracked }
+        let turn = if self.config.counts_turn_and_clock() { self.turn.value() * share } else { DVec3::ZERO };
+        let velocity_m_s = self.velocity.value() * share;
+        HeadState { position_m: position, orientation, velocity_m_s, turn_rad_s: turn, tracked }
     }
+}
+
+/// Turn from one orientation to the next in the room's axes, radians along its axis; their signs agree.
+fn turn(from: DQuat, to: DQuat) -> DVec3 {
+    let between = to * from.conjugate();
+    let sine = DVec3::new(between.x, between.y, between.z);
+    let length = sine.length();
+    if length == 0.0 { DVec3::ZERO } else { sine * (2.0 * libm::atan2(length, between.w) / length) }
 }

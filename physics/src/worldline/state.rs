@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3, DVec4};
 
 use super::error::WorldlineError;
 use super::rotation::Rotation;
+use super::thrust::Thrust;
 use crate::celerity::Celerity;
 use crate::composition::{Composition, compose};
 use crate::double_double::{DoubleDouble, DoubleDoubleVec3};
@@ -82,13 +83,19 @@ impl WorldlineState {
     }
 
     /// The state of a head that moves within the vehicle, at the same time for the vehicle (W 6.3). A head at rest
-    /// there is [`WorldlineState::observer_at`] with the vehicle's orientation.
+    /// in a vehicle that does not turn is [`WorldlineState::observer_at`] with the vehicle's orientation.
     ///
     /// *Frames, units:* `place` from the vehicle's reference point, in metres, and `celerity`, both measured in the
-    /// vehicle and in the pilot's axes. The orientation turns the axes of the head, which in the vehicle are the
-    /// pilot's, into those of the one pure boost from the world to the head: Wigner's rotation is in it.
-    pub fn aboard(&self, place: DVec3, celerity: Celerity) -> Self {
+    /// vehicle and in the pilot's axes, which turn as `thrust` says ([`Thrust::carried`]). The orientation turns the
+    /// axes of the head, which in the vehicle are the pilot's, into those of the one pure boost from the world to the
+    /// head: Wigner's rotation is in it.
+    pub fn aboard(&self, place: DVec3, celerity: Celerity, thrust: &Thrust) -> Self {
         let Event { ct, position } = self.observer_at(place).event;
+        let celerity = thrust.carried(place, celerity);
+        if celerity == Celerity::ZERO {
+            let remainder = Remainder { rest: LowParts::default(), ..self.remainder };
+            return Self { ct, position, remainder, ..*self };
+        }
         let head = Celerity::from_finite(self.orientation * celerity.vector());
         let Composition { celerity, wigner } = compose(self.celerity, head);
         let orientation = wigner.inverse() * self.orientation;

@@ -434,7 +434,7 @@ fn head_aboard_has_the_tetrad_of_both_boosts() {
         let event = Event { ct: 3.0, position: vector(&mut random, 0.0..1.0) };
         let vehicle = WorldlineState::new(event, celerity(&mut random, -2.0..2.0), orientation(&mut random));
         let head = celerity(&mut random, -2.0..1.0);
-        let aboard = vehicle.aboard(DVec3::ZERO, head);
+        let aboard = vehicle.aboard(DVec3::ZERO, head, &Thrust::default());
         assert_eq!(aboard.event(), event);
         let input = FourVector { t: 1.0, r: direction(&mut random) };
         let world_from = |state: &WorldlineState, vector: FourVector| {
@@ -454,7 +454,7 @@ fn head_ahead_in_the_vehicle_is_further_on_and_later_in_the_world() {
     let celerity = Celerity::new(DVec3::new(-0.75, 0.0, 0.0)).unwrap();
     // The nose, −z, turned onto the motion, −x.
     let vehicle = WorldlineState::new(Event::default(), celerity, DQuat::from_rotation_y(quarter));
-    let head = vehicle.aboard(DVec3::new(0.0, 0.0, -4.0), Celerity::ZERO);
+    let head = vehicle.aboard(DVec3::new(0.0, 0.0, -4.0), Celerity::ZERO, &Thrust::default());
     assert!(head.position.distance(DVec3::new(-5.0, 0.0, 0.0)) < 8.0 * EPSILON);
     assert!((head.ct - 3.0).abs() < 8.0 * EPSILON);
     assert_eq!((head.celerity, head.orientation), (vehicle.celerity, vehicle.orientation));
@@ -472,7 +472,7 @@ fn eye_at_rest_aboard_is_at_the_bits_that_recordings_were_made_with() {
         let displacement = world_from_vehicle.apply(FourVector { t: 0.0, r: vehicle.orientation * place });
         let expected = Observer { event: event + displacement, celerity: vehicle.celerity };
         assert_eq!(vehicle.observer_at(place), expected);
-        let aboard = vehicle.aboard(place, Celerity::ZERO);
+        let aboard = vehicle.aboard(place, Celerity::ZERO, &Thrust::default());
         assert_eq!((aboard.observer(), aboard.orientation), (expected, vehicle.orientation));
     }
 }

@@ -1,9 +1,9 @@
 //! Bicycle, car or spaceship, at the present end of its worldline.
 
 use glam::DVec3;
-use input::{Controls, VehicleKind};
+use input::{Controls, HeadState, VehicleKind};
 use physics::Celerity;
-use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, WorldlineState};
+use physics::worldline::{Control, DormandPrince, Exact, Integrator, Rk4, Thrust, WorldlineState};
 use scene::{Surroundings, Wall};
 use view::Gaze;
 
@@ -37,6 +37,8 @@ pub struct Vehicle {
     /// True if a wall blocks the way ahead.
     blocked: bool,
     resistance: f64,
+    /// Acceleration and turn at the end of the last step.
+    thrust: Thrust,
     notices: Vec<Notice>,
 }
 
@@ -53,7 +55,17 @@ impl Vehicle {
     ) -> Result<Self, SettingsError> {
         settings.check()?;
         let odometer = Odometer::default();
-        Ok(Self { light_speed, kind, settings, state, odometer, blocked: false, resistance: 0.0, notices: Vec::new() })
+        Ok(Self {
+            light_speed,
+            kind,
+            settings,
+            state,
+            odometer,
+            blocked: false,
+            resistance: 0.0,
+            thrust: Thrust::default(),
+            notices: Vec::new(),
+        })
     }
 
     /// State of the reference point in spacetime. A bicycle's and a car's is on the ground; in flight it is the pilot's
@@ -82,6 +94,17 @@ impl Vehicle {
         &self.odometer
     }
 
+    /// Acceleration and turn at the end of the last step, which carry the room along.
+    pub fn thrust(&self) -> &Thrust {
+        &self.thrust
+    }
+
+    /// Own time of the vehicle for each unit of own time of a head in it.
+    pub fn time_ratio(&self, head: &HeadState) -> f64 {
+        let celerity = Celerity::new(head.velocity_m_s / self.light_speed.speed_of_light_m_s()).unwrap_or_default();
+        self.thrust.time_ratio(head.position_m, celerity)
+    }
+
     /// Notices for the rider about the last step.
     pub fn notices(&self) -> &[Notice] {
         &self.notices
@@ -92,10 +115,10 @@ impl Vehicle {
         self.resistance
     }
 
-    /// View of the rider, driver or pilot, whose eye rests in the vehicle and looks along the nose.
+    /// View of the rider, driver or pilot, whose eye rests in the vehicle, turns with it, and looks along the nose.
     pub fn gaze(&self) -> Gaze {
-        let observer = self.state.observer_at(self.eye_offset());
-        Gaze { observer, observer_from_eye: self.state.orientation }
+        let eye = self.state.aboard(self.eye_offset(), Celerity::ZERO, &self.thrust);
+        Gaze { observer: eye.observer(), observer_from_eye: eye.orientation }
     }
 
     /// Changes the speed of light. Celerity and place stay unchanged.
@@ -113,7 +136,7 @@ impl Vehicle {
             let event = self.gaze().observer.event;
             (self.state.ct, self.state.position) = (event.ct, event.position);
         }
-        self.kind = kind;
+        (self.kind, self.thrust) = (kind, Thrust::default());
         self.settle(surroundings);
     }
 
@@ -231,6 +254,7 @@ impl Vehicle {
             Ok(state) => self.state = state,
             Err(_) => return self.tell(Notice::NotIntegrated),
         }
+        self.thrust = control.thrust(&self.state);
         let capped = self.state.celerity.capped(RAPIDITY_CAP);
         if capped != self.state.celerity {
             self.state.celerity = capped;
