@@ -29,6 +29,7 @@ pub(super) fn part(xmp: &[u8], [width, height]: [u32; 2]) -> Option<SpherePart> 
     let text = std::str::from_utf8(xmp.get(..MAX_XMP.min(xmp.len()))?).ok()?;
     // Packets end with padding, and some writers end them with zeros.
     let text = text.trim_matches(|character: char| character == '\0' || character.is_whitespace());
+    regular_file::check_xml(text).ok()?;
     let options = ParsingOptions { nodes_limit: 100_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).ok()?;
     let value = |name: &str| {

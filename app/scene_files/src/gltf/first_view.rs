@@ -103,17 +103,19 @@ fn with_paths(scene: &Scene, [least, most]: [DVec3; 2]) -> [DVec3; 2] {
     /// Largest size of a path, as a multiple of the scene's own, that the first view takes in.
     const LARGEST: f64 = 10.0;
     let size = (most - least).length();
-    let paths = (0..scene.motions.len()).filter_map(|motion| scene.path_bounds(motion));
+    let meshes = scene.moving_meshes();
+    let paths = meshes.iter().enumerate().filter_map(|(motion, meshes)| scene.path_bounds(motion, meshes));
     let near = paths.filter(|[from, to]| size > 0.0 && (*to - *from).length() <= LARGEST * size);
     near.fold([least, most], |[least, most], [from, to]| [least.min(from), most.max(to)])
 }
 
 /// Largest speed of what is animated, m/s.
 fn fastest_m_s(scene: &Scene) -> f64 {
-    let speed = |number: usize| {
-        scene.motions[number].animated().map(|body| scene.fastest(number).beta * body.speed_of_light_m_s())
+    let meshes = scene.moving_meshes();
+    let speed = |(number, meshes): (usize, &Vec<usize>)| {
+        scene.motions[number].animated().map(|body| scene.fastest(number, meshes).beta * body.speed_of_light_m_s())
     };
-    (0..scene.motions.len()).filter_map(speed).fold(0.0, f64::max)
+    meshes.iter().enumerate().filter_map(speed).fold(0.0, f64::max)
 }
 
 /// Mean direction in which the single-sided triangles of a scene face, weighted by their areas: a unit vector if all
