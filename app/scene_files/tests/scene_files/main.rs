@@ -8,3 +8,4 @@ mod kinds;
 mod spectra;
 mod support;
 mod town_file;
+mod unusual;
