@@ -15,6 +15,7 @@ use super::extras::SceneExtras;
 use super::floor;
 use super::nodes::NodePlacement;
 use super::notices::{Notices, Part};
+use super::start_pose::at_start;
 
 /// Time in which light crosses a scene by default, seconds.
 const CROSSING_S: f64 = 5.0;
@@ -65,11 +66,12 @@ pub(super) fn cameras(document: &Document<'_>, placements: &[NodePlacement], not
             notices.add(format!("the camera \"{name}\" is not perspective: only its place and direction are used"));
         }
         let fov = perspective.map(|perspective| f64::from(perspective.yfov));
-        let axes = placement.transform.matrix3;
+        let transform = at_start(placement);
+        let axes = transform.matrix3;
         found.push(ViewCamera {
             name: name.clone(),
             start: Start {
-                position: placement.transform.translation,
+                position: transform.translation,
                 look: (axes * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z),
                 up: (axes * DVec3::Y).normalize_or(DVec3::Y),
                 eye_height_m: 0.0,
