@@ -8,7 +8,6 @@ use crate::session::tracker::TrackerError;
 use measure::MeasureError;
 use measure::choice::ChoiceError;
 use measure::extremes::ExtremesError;
-use measure::plot::PlotError;
 use physics::photo_surface::PhotoSurfaceError;
 use render::GpuError;
 use ride::{LightSpeedError, LogError, ReplayError, SetupError};
@@ -26,9 +25,6 @@ pub enum Error {
     /// A graphics device that is missing or lost.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A plot that cannot be drawn.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
     /// A goal that no setting reaches.
     #[error(transparent)]
     Choice(#[from] ChoiceError),

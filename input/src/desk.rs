@@ -229,7 +229,7 @@ mod tests {
         desk.feed(&Sample::key(0, KeyboardKey::W, true));
         desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"3.6\n"));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));
-        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"36\n"));
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"36\n36\n36\n"));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(10.0));
         desk.feed(&Sample::closed(SECOND, SampleSource::Bicycle));
         assert_eq!(desk.controls(SECOND).wheel_speed, Some(2.0));

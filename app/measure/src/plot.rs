@@ -50,11 +50,8 @@ const KINDS: [Kind; 4] = [
 
 /// Failure to draw or write a plot.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot plot {path}: {reason}")]
-pub struct PlotError {
-    path: std::path::PathBuf,
-    reason: String,
-}
+#[error("it cannot be plotted: {0}")]
+pub struct PlotError(String);
 
 /// Draws the rows into an .svg or .png file.
 ///
@@ -65,13 +62,12 @@ pub struct PlotError {
 /// # Errors
 /// [`PlotError`] if the file cannot be written.
 pub fn plot(rows: &[Row], title: &str, pixel_arcmin: f64, path: &Path) -> Result<(), PlotError> {
-    let fault = |reason: String| PlotError { path: path.to_owned(), reason };
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| fault("its font is damaged".to_owned()))?;
+        .map_err(|_| PlotError("its font is damaged".to_owned()))?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
-        draw(&SVGBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, " ").map_err(fault)
+        draw(&SVGBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, " ").map_err(PlotError)
     } else {
-        draw(&BitMapBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, "  ").map_err(fault)
+        draw(&BitMapBackend::new(path, SIZE).into_drawing_area(), rows, title, pixel_arcmin, "  ").map_err(PlotError)
     }
 }
 

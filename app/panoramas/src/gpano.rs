@@ -29,6 +29,7 @@ pub(super) fn part(xmp: &[u8], [width, height]: [u32; 2]) -> Option<SpherePart> 
     let text = std::str::from_utf8(xmp.get(..MAX_XMP.min(xmp.len()))?).ok()?;
     // Packets end with padding, and some writers end them with zeros.
     let text = text.trim_matches(|character: char| character == '\0' || character.is_whitespace());
+    regular_file::check_xml(text).ok()?;
     let options = ParsingOptions { nodes_limit: 100_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).ok()?;
     let value = |name: &str| {
@@ -59,5 +60,9 @@ pub(super) fn part(xmp: &[u8], [width, height]: [u32; 2]) -> Option<SpherePart> 
     let whole = if super::shape::is_equirectangular(whole[0], whole[1]) { whole } else { [whole[0], whole[0] / 2] };
     let fits = whole.iter().all(|side| *side > 0) && left.abs() < 1e9 && top.abs() < 1e9;
     let degrees = [360.0 * part_width / whole_width, 180.0 * f64::from(height) / f64::from(whole[1])];
-    fits.then_some(SpherePart { whole, place: [left.round() as i64, top.round() as i64 + poles], degrees })
+    let place = [left.round() as i64, top.round() as i64 + poles];
+    // A picture beside the sphere would not be seen at all.
+    let overlaps =
+        (0..2).all(|axis| place[axis] < whole[axis].into() && place[axis] + i64::from([width, height][axis]) > 0);
+    (fits && overlaps).then_some(SpherePart { whole, place, degrees })
 }

@@ -2,8 +2,10 @@
 //! reading one of these would never end.
 
 mod budget;
+mod xml_bounds;
 
 pub use budget::{Budget, OverBudget};
+pub use xml_bounds::{ExcessiveXml, check_xml};
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read};

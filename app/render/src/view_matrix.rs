@@ -5,8 +5,8 @@ use physics::Celerity;
 use view::{Camera, PixelSample};
 
 /// Distance in front of the eye, at rest, within which nothing is drawn, metres. Reversed depth has the same relative
-/// precision whatever it is, so it is small enough for jewels.
-pub const NEAR_M: f64 = 1e-5;
+/// precision whatever it is, so it is small enough for molecules; what is 1e28 m away has a depth that f32 holds, still.
+pub const NEAR_M: f64 = 1e-10;
 
 /// View uniforms of one picture, for the shaders.
 ///

@@ -16,7 +16,7 @@
 //! every sample is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a
 //! longer frame the world waits ([`RideFrame::dropped_ticks`]).
 
-use std::collections::VecDeque;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use input::recording::FrameRecord;
@@ -37,8 +37,10 @@ pub struct Simulation {
     setup: Setup,
     surroundings: Arc<dyn Surroundings>,
     desk: Desk,
-    /// Samples that are not yet due, ordered by time.
-    waiting: VecDeque<Sample>,
+    /// Samples that are not yet due, by their times; those of one time by their numbers, as they came.
+    waiting: BTreeMap<(Nanos, u64), Sample>,
+    /// Number of samples that came so far.
+    arrived: u64,
     ticks: Ticks,
     /// Vehicle at the beginning of the ride.
     first: Vehicle,
@@ -63,7 +65,8 @@ impl Simulation {
             setup,
             surroundings,
             desk,
-            waiting: VecDeque::new(),
+            waiting: BTreeMap::new(),
+            arrived: 0,
             ticks: Ticks::default(),
             first: vehicle.clone(),
             vehicle,
@@ -122,14 +125,14 @@ impl Simulation {
 
     /// Queues a sample by its time, after those of the same time.
     fn wait(&mut self, sample: &Sample) {
-        let place = self.waiting.iter().rposition(|earlier| earlier.at <= sample.at).map_or(0, |last| last + 1);
-        self.waiting.insert(place, sample.clone());
+        self.waiting.insert((sample.at, self.arrived), sample.clone());
+        self.arrived += 1;
     }
 
     /// Simulates one tick. Returns the number of steps that the vehicle made.
     fn tick(&mut self, at: Nanos, notices: &mut Vec<Notice>) -> u64 {
-        while let Some(sample) = self.waiting.pop_front_if(|sample| sample.at <= at) {
-            self.desk.feed(&sample);
+        while let Some(first) = self.waiting.first_entry().filter(|first| first.key().0 <= at) {
+            self.desk.feed(&first.remove());
         }
         self.controls = self.desk.controls(at);
         let mut single_steps = 0;

@@ -53,8 +53,8 @@ impl Scene {
     /// # Errors
     /// [`TooFast`], with the node, the time and the speed.
     pub fn set_speed_of_light(&mut self, speed_of_light_m_s: f64) -> Result<(), TooFast> {
-        for number in 0..self.motions.len() {
-            let places = self.outermost(number);
+        for (number, meshes) in self.moving_meshes().into_iter().enumerate() {
+            let places = self.outermost(&meshes);
             let Motion::Animated(animated) = &mut self.motions[number] else { continue };
             let animated = Arc::make_mut(animated);
             animated.speed_of_light_m_s = speed_of_light_m_s;
@@ -69,23 +69,34 @@ impl Scene {
         Ok(())
     }
 
-    /// Largest speed of one of the scene's motions.
-    pub fn fastest(&self, motion: usize) -> Fastest {
+    /// Indices of the meshes with each motion. Found for all motions at once, since both may be many.
+    pub fn moving_meshes(&self) -> Vec<Vec<usize>> {
+        let mut meshes = vec![Vec::new(); self.motions.len()];
+        for (index, mesh) in self.meshes.iter().enumerate() {
+            if let Some(of_motion) = mesh.motion.and_then(|motion| meshes.get_mut(motion)) {
+                of_motion.push(index);
+            }
+        }
+        meshes
+    }
+
+    /// Largest speed of one of the scene's motions; `meshes`: those with this motion.
+    pub fn fastest(&self, motion: usize, meshes: &[usize]) -> Fastest {
         match &self.motions[motion] {
             Motion::Uniform(Uniform { celerity, anchor: _ }) => {
                 Fastest { beta: celerity.beta().vector().length(), time_s: 0.0 }
             }
-            Motion::Animated(animated) => animated.fastest(&self.outermost(motion)),
+            Motion::Animated(animated) => animated.fastest(&self.outermost(meshes)),
         }
     }
 
     /// Box that an animated body passes through, world metres: the places of its outermost points at sampled times.
-    /// `None` for other motions.
-    pub fn path_bounds(&self, motion: usize) -> Option<[DVec3; 2]> {
+    /// `None` for other motions. `meshes`: those with this motion.
+    pub fn path_bounds(&self, motion: usize, meshes: &[usize]) -> Option<[DVec3; 2]> {
         /// Number of times that are looked at.
         const TIMES: usize = 48;
         let animated = self.motions[motion].animated()?;
-        let (places, looks) = (self.outermost(motion), animated.looks());
+        let (places, looks) = (self.outermost(meshes), animated.looks());
         let mut bounds: Option<[DVec3; 2]> = None;
         for time_s in looks.iter().step_by(looks.len().div_ceil(TIMES).max(1)) {
             let pose = animated.at(time_s * animated.speed_of_light_m_s);
@@ -97,9 +108,9 @@ impl Scene {
         bounds
     }
 
-    /// Outermost vertices of the meshes with this motion, in the body's own frame.
-    fn outermost(&self, motion: usize) -> Vec<DVec3> {
-        let meshes = self.meshes.iter().filter(|mesh| mesh.motion == Some(motion));
+    /// Outermost vertices of these meshes, which have one motion, in the body's own frame.
+    fn outermost(&self, meshes: &[usize]) -> Vec<DVec3> {
+        let meshes = meshes.iter().map(|&index| &self.meshes[index]);
         let places: Vec<DVec3> = meshes
             .flat_map(|mesh| mesh.positions.iter().filter(|place| place.is_finite()).map(|place| place.as_dvec3()))
             .collect();

@@ -15,6 +15,7 @@
 mod dial;
 mod line;
 mod measure;
+mod passed_over;
 mod picture;
 mod rays;
 mod render;

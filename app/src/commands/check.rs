@@ -24,6 +24,7 @@ struct Good {
 /// # Errors
 /// [`Error::Checked`] if a file is not good. All files are checked first.
 pub fn check(options: &CheckOptions) -> Result<(), Error> {
+    options.passed_over().iter().for_each(tell);
     let mut bad = 0;
     for path in &options.files {
         let found = report(path, &options.reading);

@@ -1,7 +1,7 @@
 //! `rapidity measure` without the extremes: pictures by each renderer's dials, the other dials, and the output of the
 //! results.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::sync::atomic::Ordering;
 
 use measure::choice::{self, Goal};
@@ -19,7 +19,7 @@ use view::Gaze;
 
 use crate::command::MeasureOptions;
 use crate::error::Error;
-use crate::output::files::{WriteError, writable};
+use crate::output::files::{WriteError, whole, writable};
 use crate::output::progress;
 use crate::output::say::{say, tell};
 use crate::session::interrupt::interrupted;
@@ -44,6 +44,7 @@ const LONGEST_FRAME_S: f64 = 1.0 / 15.0;
 /// # Errors
 /// Any fault that keeps it from being measured or written, and errors of the physics beyond what it promises.
 pub fn measure(options: &MeasureOptions) -> Result<(), Error> {
+    options.passed_over().iter().for_each(tell);
     if options.extremes { accuracy() } else { dials(options) }
 }
 
@@ -142,11 +143,15 @@ fn dials(options: &MeasureOptions) -> Result<(), Error> {
 /// Writes the files that the options name.
 fn write(options: &MeasureOptions, rows: &[Row], lines: &[Line], title: &str, pixel_arcmin: f64) -> Result<(), Error> {
     if let Some(out) = &options.out {
-        table::write_csv(lines, out).map_err(|error| WriteError::new(out, error))?;
+        whole(out, |temporary| table::write_csv(lines, temporary)).map_err(|error| WriteError::new(out, error))?;
         tell(format_args!("wrote {}", out.display()));
     }
+    if let Some(path) = options.plot.as_ref().filter(|_| rows.is_empty()) {
+        tell(format_args!("{} was not written: there is nothing to plot", path.display()));
+    }
     if let Some(path) = options.plot.as_ref().filter(|_| !rows.is_empty()) {
-        plot(rows, title, pixel_arcmin, path)?;
+        whole(path, |temporary| plot(rows, title, pixel_arcmin, temporary).map_err(io::Error::other))
+            .map_err(|error| WriteError::new(path, error))?;
         tell(format_args!("wrote {}", path.display()));
     }
     Ok(())
@@ -200,4 +205,47 @@ fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result
     ));
     tell(format_args!("wrote {}: `rapidity ride` draws so from now on; delete the file to undo that", path.display()));
     Ok(())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    //! Law: a table or a plot takes the place of an older one when it is whole. A program that writes into the older
+    //! file changes what a second name of it holds.
+    #![allow(clippy::unwrap_used, reason = "a folder that cannot be read is a failed test")]
+
+    use super::*;
+    use crate::command::{Command, parse_from};
+    use view::Dial;
+
+    #[test]
+    fn tables_and_plots_are_whole_or_not_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        for name in ["t.csv", "p.svg", "q.png"] {
+            std::fs::write(place(name), "old").unwrap();
+            std::fs::hard_link(place(name), place(name).with_extension("old")).unwrap();
+        }
+        let row = Row {
+            dial: Dial::edge(0.5),
+            ms: [1.0, 2.0],
+            stages_ms: [[0.5; 2]; 3],
+            bytes: None,
+            pixels: 10,
+            arcmin: [1.0, 2.0, 3.0],
+            above_one: 0.5,
+            colour: None,
+            best: true,
+        };
+        for plot in ["p.svg", "q.png"] {
+            let words = ["rapidity", "measure", "--out"].map(Into::into).into_iter();
+            let paths = [place("t.csv").into_os_string(), "--plot".into(), place(plot).into_os_string()];
+            let Ok(Command::Measure(options)) = parse_from(words.chain(paths)) else { panic!() };
+            write(&options, std::slice::from_ref(&row), &[Line::from(&row)], "a scene", 4.0).unwrap();
+        }
+        for name in ["t.csv", "p.svg", "q.png"] {
+            assert!(std::fs::read(place(name)).unwrap().len() > 20, "{name}");
+            assert_eq!(std::fs::read_to_string(place(name).with_extension("old")).unwrap(), "old", "{name}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6, "something is left");
+    }
 }

@@ -8,6 +8,7 @@ use crate::commands::cameraman::{Cameraman, dial_of_stills};
 use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::files::writable;
+use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
 use crate::session::reel::{self, Moment, Ridden};
 use crate::session::scenes::{self, World};
@@ -25,6 +26,7 @@ const FILM_SECONDS: f64 = 10.0;
 /// # Errors
 /// Any fault that keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
+    options.passed_over().iter().for_each(tell);
     // Only the ray tracer can be interrupted, and its interruption counts from the beginning.
     if options.dial.renderer == RendererName::Raytrace {
         interrupted();

@@ -24,11 +24,13 @@ const FILM: &str = "ride.mp4";
 /// # Errors
 /// Any fault that keeps the ride from beginning, or ends it.
 pub fn ride(options: &RideOptions) -> Result<(), Error> {
+    let films = options.out.is_some() || !has_display();
+    options.passed_over(films).iter().for_each(tell);
     if options.verify {
         return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
     }
     let options = &preferences::applied(options)?;
-    if options.out.is_none() && has_display() {
+    if !films {
         let room = RideRoom::of(options)?;
         let (scene, begin) = begin(options, room.head.clone())?;
         return window::run(options, scene, room, begin);

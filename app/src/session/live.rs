@@ -165,8 +165,10 @@ impl Live {
                 .into_iter()
                 .map(|status| match status.state {
                     DeviceState::Open => {
-                        let bad = simulation.desk().faults(status.source).number();
-                        format!("{}: {} at {:.0} Hz, {bad} bad", status.source, status.name, status.rate_hz)
+                        let faults = simulation.desk().faults(status.source);
+                        let last = faults.last().map_or_else(String::new, |last| format!(", the last: {last}"));
+                        let bad = faults.number();
+                        format!("{}: {} at {:.0} Hz, {bad} bad{last}", status.source, status.name, status.rate_hz)
                     }
                     DeviceState::Absent(why) => format!("{}: {why}", status.source),
                 })

@@ -13,13 +13,18 @@ use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use regular_file::FileFault;
 use view::{Dial, RendererName, Transform};
 
 use crate::command::{DialOptions, RideOptions};
+use crate::output::files::whole;
 use crate::output::say::tell;
 
 /// Name of the file.
 const FILE: &str = "rapidity.toml";
+
+/// Largest size of the file, bytes.
+const LONGEST: u64 = 1 << 20;
 
 /// Contents of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -65,14 +70,16 @@ impl Preferences {
     /// [`PreferencesError::Unreadable`].
     pub fn load() -> Result<Option<(Self, PathBuf)>, PreferencesError> {
         let Some(path) = Self::path() else { return Ok(None) };
-        let text = match std::fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(PreferencesError::Unreadable { path, reason: error.to_string() }),
-        };
-        match Self::from_toml(&text) {
-            Ok(preferences) => Ok(Some((preferences, path))),
-            Err(reason) => Err(PreferencesError::Unreadable { path, reason }),
+        Ok(Self::read(&path)?.map(|preferences| (preferences, path)))
+    }
+
+    /// Contents of the file; `None` if there is no file.
+    fn read(path: &Path) -> Result<Option<Self>, PreferencesError> {
+        let unreadable = |reason: String| PreferencesError::Unreadable { path: path.to_owned(), reason };
+        match regular_file::read(path, LONGEST) {
+            Ok(bytes) => Self::from_toml(&String::from_utf8_lossy(&bytes)).map(Some).map_err(unreadable),
+            Err(FileFault::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(unreadable(error.to_string())),
         }
     }
 
@@ -88,7 +95,7 @@ impl Preferences {
                 format!("# {note}\n# Delete this file to have `rapidity ride` choose by itself again.\n\n{text}");
             let folder = path.parent().unwrap_or(Path::new("."));
             std::fs::create_dir_all(folder)
-                .and_then(|()| std::fs::write(&path, text))
+                .and_then(|()| whole(&path, |temporary| std::fs::write(temporary, &text)))
                 .map_err(|error| error.to_string())
         });
         match written {
@@ -166,6 +173,19 @@ mod tests {
             let text = toml::to_string(&preferences).unwrap();
             assert_eq!(Preferences::from_toml(&text), Ok(preferences), "{text}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_and_an_endless_file_are_refused_and_not_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
+        assert!(Preferences::read(&path).unwrap().is_none());
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+        assert!(Preferences::read(&path).unwrap_err().to_string().contains("it is no file"));
+        std::fs::remove_file(&path).unwrap();
+        std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
+        assert!(Preferences::read(&path).unwrap_err().to_string().contains("larger than"));
     }
 
     #[test]

@@ -5,11 +5,14 @@
 use crate::runner::{run, said, told};
 use std::io::Write;
 use std::net::TcpListener;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use input::head::Tracking;
 use input::recording::{Recording, RecordingEntry};
 use input::vrpn::{POSE, wire};
+use input::{Sample, Signal};
 
 /// Rate of poses, hertz.
 const RATE_HZ: u32 = 100;
@@ -102,4 +105,61 @@ fn a_wrong_place_is_told_in_a_sentence() {
     assert_eq!(refused.status.code(), Some(2));
     let text = told(&refused);
     assert!(text.contains("names no device of the server") && text.lines().count() == 1, "{text}");
+}
+
+/// Starts a server that sends poses of "Head" to every client as fast as it takes them; returns its address, and the
+/// number of poses that were sent.
+fn flood() -> (String, Arc<AtomicU64>) {
+    /// Number of poses that are sent together.
+    const TOGETHER: u32 = 2000;
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let place = listener.local_addr().unwrap();
+    let sent = Arc::new(AtomicU64::new(0));
+    let count = Arc::clone(&sent);
+    std::thread::spawn(move || {
+        for client in listener.incoming() {
+            let mut client = client.unwrap();
+            let names = [
+                wire::COOKIE.to_vec(),
+                wire::description(wire::DESCRIBES_SENDER, 1, "Head"),
+                wire::description(wire::DESCRIBES_TYPE, 4, POSE),
+            ];
+            let poses: Vec<u8> = (0..TOGETHER).flat_map(|n| pose(Duration::from_micros(u64::from(n)))).collect();
+            let mut outcome = client.write_all(&names.concat());
+            while outcome.is_ok() {
+                outcome = client.write_all(&poses);
+                count.fetch_add(u64::from(TOGETHER), Ordering::Relaxed);
+            }
+        }
+    });
+    (format!("vrpn://{place}/Head"), sent)
+}
+
+#[test]
+fn a_flood_of_poses_leaves_the_ride_its_frames_and_the_recording_its_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let (tracker, sent) = flood();
+    let arguments = ["ride", "--scene", "lattice", "--realtime", "--seconds", "3", "--record", "r.mcap"];
+    let picture = ["--size", "64x36", "--samples", "1", "--out", "r.mp4", "--tracker", &tracker];
+    let ridden = run(folder.path(), &[&arguments[..], &picture].concat());
+    assert!(ridden.status.success(), "{}", told(&ridden));
+
+    let (path, sent) = (folder.path().join("r.mcap"), sent.load(Ordering::Relaxed));
+    let bytes = std::fs::metadata(&path).unwrap().len();
+    let (mut frames, mut poses) = (0_u64, 0_u64);
+    for entry in Recording::open(&path).unwrap() {
+        match entry.unwrap() {
+            RecordingEntry::Frame(_) => frames += 1,
+            RecordingEntry::Sample(Sample { signal: Signal::Bytes(bytes), .. }) => {
+                poses += (bytes.len() / pose(Duration::ZERO).len()) as u64;
+            }
+            RecordingEntry::Sample(_) | RecordingEntry::Controls(_) => {}
+        }
+    }
+    println!("{sent} poses sent in 3 s, {poses} at most recorded, {frames} frames, {bytes} bytes");
+    assert!(sent > 300_000, "{sent} poses are no flood");
+    assert!(poses < 60_000, "{poses} poses were recorded");
+    assert!(bytes < 10_000_000, "the recording has {bytes} bytes");
+    // Sixty a second, on a machine whose other core sends.
+    assert!(frames > 90, "{frames} frames in 3 s");
 }

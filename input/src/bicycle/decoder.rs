@@ -1,5 +1,6 @@
 //! Decoder of the bicycle's lines.
 
+use super::belief::SpeedBelief;
 use super::config::{BareNumber, BicycleConfig};
 use super::protocol::{BicycleLine, PulseCount};
 use crate::clock::{Nanos, seconds_between};
@@ -77,6 +78,7 @@ pub struct BicycleDecoder {
     wheel: PulseCounter,
     crank: PulseCounter,
     has_crank: bool,
+    belief: SpeedBelief,
     speed: WheelSpeed,
     steer_rad: f64,
     brake: f64,
@@ -94,6 +96,7 @@ impl BicycleDecoder {
             wheel,
             crank,
             has_crank: false,
+            belief: SpeedBelief::default(),
             speed: WheelSpeed::Unknown,
             steer_rad: 0.0,
             brake: 0.0,
@@ -164,10 +167,18 @@ impl BicycleDecoder {
                     BareNumber::WheelTurnsPerMinute => number / 60.0 * self.config.wheel_circumference_m,
                 };
                 if !(0.0..=self.config.fastest_m_s).contains(&metres_per_second) {
+                    self.belief.noise();
                     return Err(LineError::Field {
                         field: "speed",
                         text: number.to_string(),
                         expected: "a speed from 0 to the fastest that can be ridden",
+                    });
+                }
+                if !self.belief.believes(metres_per_second, at) {
+                    return Err(LineError::Field {
+                        field: "speed",
+                        text: number.to_string(),
+                        expected: "a speed that a rider reaches from the one before, or the same again in three lines",
                     });
                 }
                 self.speed = WheelSpeed::Bare { metres_per_second, at };
@@ -192,6 +203,7 @@ impl Decoder for BicycleDecoder {
         self.wheel.reset();
         self.crank.reset();
         self.has_crank = false;
+        self.belief = SpeedBelief::default();
         self.speed = WheelSpeed::Unknown;
         self.steer_rad = 0.0;
         self.brake = 0.0;
@@ -200,8 +212,8 @@ impl Decoder for BicycleDecoder {
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
         let mut lines = std::mem::take(&mut self.lines);
         lines.push(bytes, |line| {
-            let outcome = line.and_then(BicycleLine::parse).and_then(|line| self.line(at, line));
-            if let Err(error) = outcome {
+            let parsed = line.and_then(BicycleLine::parse).inspect_err(|_| self.belief.noise());
+            if let Err(error) = parsed.and_then(|line| self.line(at, line)) {
                 self.faults.count(error.to_string());
             }
         });
@@ -355,6 +367,20 @@ mod tests {
         assert_eq!(bicycle.wheel_speed(3 * SECOND / 2), Some(10.0));
         assert!((bicycle.wheel_speed(9 * SECOND / 4).unwrap() - 5.0).abs() < ROUNDING);
         assert_eq!(bicycle.wheel_speed(3 * SECOND), Some(0.0));
+    }
+
+    #[test]
+    fn noise_among_bare_numbers_is_counted_and_is_no_speed() {
+        let mut bicycle = bicycle();
+        for n in 0..40_u64 {
+            let at = n * SECOND / 20;
+            feed(&mut bicycle, at, "18\n");
+            // Digits by chance, of a speed that could be ridden, and others.
+            feed(&mut bicycle, at, ["9\n", "~x\n", "77\n", "1,2\n", "3\n"][n as usize % 5]);
+            assert_eq!(bicycle.wheel_speed(at), Some(5.0), "after line {n}");
+        }
+        assert_eq!(bicycle.faults().number(), 40);
+        assert!(bicycle.faults().last().is_some_and(|last| last.contains("a rider reaches")));
     }
 
     #[test]

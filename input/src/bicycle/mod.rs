@@ -13,9 +13,10 @@
 //! checksum. Four fields give the last interval, the time since its end, steering from −1 to 1 and the brake.
 //!
 //! Counts and microseconds are 32 bits and wrap. Counts are cumulative, so a lost line loses nothing. A line that
-//! cannot be understood is counted and skipped; the state before it stands. In silence the wheel slows down and
-//! stops.
+//! cannot be understood is counted and skipped; the state before it stands. So is a bare number that nobody reaches
+//! from the speed before it, until three lines in a row say it. In silence the wheel slows down and stops.
 
+mod belief;
 pub(crate) mod config;
 pub(crate) mod decoder;
 mod protocol;

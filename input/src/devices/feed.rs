@@ -39,6 +39,11 @@ pub(super) trait DeviceConnection {
     /// A device that is gone.
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()>;
 
+    /// Number of messages that were passed over for newer ones since the last call.
+    fn passed_over(&mut self) -> u64 {
+        0
+    }
+
     /// Asks for a full report: samples had to be dropped, and this device may report only changes.
     fn report_all(&mut self) {}
 }
@@ -67,7 +72,7 @@ pub struct DeviceStatus {
     pub rate_hz: f64,
     /// Number of samples so far.
     pub samples: u64,
-    /// Number of samples that were dropped because the queue was full.
+    /// Number of samples or messages that were dropped, because the queue was full or they came too fast.
     pub dropped: u64,
     /// Bytes of the last sample.
     pub last: Vec<u8>,
@@ -166,6 +171,10 @@ impl DeviceFeed {
             bytes.clear();
             if let Err(error) = connection.read(&mut bytes) {
                 return format!("it has gone ({error}); it will be used again when it is back");
+            }
+            let passed_over = connection.passed_over();
+            if passed_over > 0 {
+                lock(&self.live).status.dropped += passed_over;
             }
             if !bytes.is_empty() && self.bytes(source, &bytes) {
                 connection.report_all();

@@ -2,7 +2,8 @@
 //!
 //! A thread looks for its device, opens it, reads it until it goes, and looks again, at first quickly and then every
 //! two seconds; so devices may be plugged and unplugged at any time. The bytes go, stamped with the ride's clock,
-//! into a bounded queue that the frame loop drains ([`Devices::drain`]). If the loop stalls, a full queue drops its
+//! into a bounded queue that the frame loop drains ([`Devices::drain`]). Of a tracker that sends too fast, the newest
+//! messages alone pass (`flood_gate`). If the loop stalls, a full queue drops its
 //! *oldest* sample: no thread ever waits, the newest state is never lost, and dropped samples are counted. Each
 //! device has its own queue, so a flood of one harms no other.
 //!
@@ -12,6 +13,7 @@
 mod config;
 mod dtrack;
 mod feed;
+mod flood_gate;
 mod lanes;
 #[cfg(target_os = "linux")]
 mod pad;

@@ -10,6 +10,7 @@ use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
 use crate::sample::SampleSource;
 use crate::vrpn::numbers::VrpnNumbers;
@@ -88,6 +89,7 @@ struct VrpnLink {
     descriptions: Vec<Vec<u8>>,
     /// Bytes that the next sample begins with.
     first: Vec<u8>,
+    gate: FloodGate,
     last_ping: Option<Instant>,
     last_heard: Instant,
 }
@@ -100,13 +102,7 @@ impl VrpnLink {
         stream.set_read_timeout(Some(CONNECT_WAIT))?;
         stream.write_all(&COOKIE)?;
 
-        let mut cookie = [0; COOKIE_LENGTH];
-        stream.read_exact(&mut cookie).map_err(|error| match error.kind() {
-            ErrorKind::TimedOut | ErrorKind::WouldBlock => {
-                io::Error::new(error.kind(), "it says nothing; is it a VRPN server?")
-            }
-            _ => error,
-        })?;
+        let cookie = cookie_of(&mut stream)?;
         let mut pieces = VrpnPieces::default();
         let mut outcome = Ok(());
         pieces.push(&cookie, |piece| outcome = piece.map(|_| ()));
@@ -125,6 +121,7 @@ impl VrpnLink {
             numbers: VrpnNumbers::new(device),
             descriptions: vec![cookie.to_vec()],
             first: cookie.to_vec(),
+            gate: FloodGate::new(Instant::now()),
             last_ping: None,
             last_heard: Instant::now(),
         })
@@ -156,13 +153,14 @@ impl VrpnLink {
     fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut outcome = Ok(());
         let mut asked = false;
-        let (numbers, descriptions) = (&mut self.numbers, &mut self.descriptions);
+        let (numbers, descriptions, gate) = (&mut self.numbers, &mut self.descriptions, &mut self.gate);
+        let now = Instant::now();
         self.pieces.push(received, |piece| match piece {
             Ok(VrpnPiece::Cookie(_)) if outcome.is_ok() => {
                 outcome = Err(invalid(VrpnError::NotVrpn("a second cookie".to_owned())));
             }
             Ok(VrpnPiece::Message(message, raw)) if outcome.is_ok() => {
-                bytes.extend_from_slice(raw);
+                gate.take(now, kind_of(&message), raw, bytes);
                 // The decoder counts descriptions that cannot be read.
                 if numbers.describe(&message) == Ok(true) {
                     keep(descriptions, raw);
@@ -177,6 +175,45 @@ impl VrpnLink {
         }
         outcome
     }
+}
+
+/// Cookie of the server, which must come as a whole before the wait is over, in whatever pieces.
+fn cookie_of(stream: &mut TcpStream) -> io::Result<[u8; COOKIE_LENGTH]> {
+    let silent = || io::Error::new(ErrorKind::TimedOut, "it says nothing; is it a VRPN server?");
+    let deadline = Instant::now() + CONNECT_WAIT;
+    let mut cookie = [0; COOKIE_LENGTH];
+    let mut length = 0;
+    while length < COOKIE_LENGTH {
+        let left = deadline.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(silent());
+        }
+        stream.set_read_timeout(Some(left))?;
+        match stream.read(&mut cookie[length..]) {
+            Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+            Ok(more) => length += more,
+            Err(error) => match error.kind() {
+                ErrorKind::TimedOut | ErrorKind::WouldBlock => return Err(silent()),
+                ErrorKind::Interrupted => {}
+                _ => return Err(error),
+            },
+        }
+    }
+    Ok(cookie)
+}
+
+/// Kind of a message: its sender and type, and the number of the sensor, with which messages of trackers begin.
+fn kind_of(message: &VrpnMessage<'_>) -> MessageKind {
+    let mut kind = MessageKind::default();
+    kind[..4].copy_from_slice(&message.sender.to_be_bytes());
+    kind[4..8].copy_from_slice(&message.kind.to_be_bytes());
+    let sensor = message.payload.len().min(4);
+    kind[8..8 + sensor].copy_from_slice(&message.payload[..sensor]);
+    // Of descriptions the sender is what is described, and the payload its name.
+    if matches!(message.kind, DESCRIBES_SENDER | DESCRIBES_TYPE) {
+        kind[8..].fill(0);
+    }
+    kind
 }
 
 /// Keeps a description, in place of an earlier one of the same number.
@@ -199,20 +236,28 @@ impl DeviceConnection for VrpnLink {
     fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         self.ping()?;
         let mut buffer = [0; BUFFER];
-        let length = match self.stream.read(&mut buffer) {
-            Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
-            Ok(length) => length,
-            Err(error) => return passing(Err(error)),
-        };
-        self.last_heard = Instant::now();
         let mut messages = Vec::new();
-        self.take(&buffer[..length], &mut messages)?;
+        match self.stream.read(&mut buffer) {
+            Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+            Ok(length) => {
+                self.last_heard = Instant::now();
+                self.take(&buffer[..length], &mut messages)?;
+            }
+            Err(error) => {
+                passing(Err(error))?;
+                self.gate.release(Instant::now(), &mut messages);
+            }
+        }
         // They are no sample of their own: in a flood that would drop another one, and so on.
         if !messages.is_empty() {
             bytes.append(&mut self.first);
             bytes.append(&mut messages);
         }
         Ok(())
+    }
+
+    fn passed_over(&mut self) -> u64 {
+        self.gate.passed_over()
     }
 
     /// Repeats the descriptions, since a dropped sample may have held some.
@@ -277,6 +322,26 @@ mod tests {
             link.read(&mut bytes).unwrap();
         }
         assert_eq!(bytes, [COOKIE.to_vec(), later, golden::bytes(golden::TYPE), pose].concat());
+    }
+
+    #[test]
+    fn a_cookie_that_dribbles_is_waited_for_no_longer_than_a_silent_server() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let mut server = listener.accept().unwrap().0;
+        let dribble = std::thread::spawn(move || {
+            for byte in COOKIE {
+                std::thread::sleep(Duration::from_millis(300));
+                if server.write_all(&[byte]).is_err() {
+                    return;
+                }
+            }
+        });
+        let began = Instant::now();
+        let told = VrpnLink::begin(stream, "Head").err().unwrap().to_string();
+        assert!(told.contains("it says nothing"), "{told}");
+        assert!(began.elapsed() < 3 * CONNECT_WAIT, "{:?}", began.elapsed());
+        dribble.join().unwrap();
     }
 
     #[test]

@@ -43,8 +43,11 @@ impl Recording {
     /// before the header.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let mut records = OuterRecords::open(path)?;
-        check_profile(&mut records)?;
-        let (record, metadata, is_first) = find_header(&mut records)?;
+        let named = has_profile(&mut records)?;
+        let (record, metadata, is_first) = find_header(&mut records).map_err(|error| {
+            // A copy without the name is known by the description alone.
+            if named { error } else { records.foreign(String::new()) }
+        })?;
         let (version, header_text) = check_header(&records, &record, metadata)?;
         let header = serde_json::from_str(&header_text)
             .map_err(|error| records.damaged(record.offset, format!("`{KEY_HEADER}`: {error}")))?;
@@ -96,11 +99,13 @@ impl Recording {
     }
 }
 
-/// Checks that the file is MCAP and of this program.
-fn check_profile(records: &mut OuterRecords) -> Result<(), RecordingError> {
+/// Checks that the file is MCAP and not of another program. True if it is of this one by its name; copies may have lost
+/// the name.
+fn has_profile(records: &mut OuterRecords) -> Result<bool, RecordingError> {
     let record = records.next()?;
     match parsed(record.opcode, &record.body) {
-        Some(Record::Header(header)) if header.profile == PROFILE => Ok(()),
+        Some(Record::Header(header)) if header.profile == PROFILE => Ok(true),
+        Some(Record::Header(header)) if header.profile.is_empty() => Ok(false),
         Some(Record::Header(header)) => Err(records.foreign(header.profile)),
         _ => Err(records.damaged(record.offset, "the MCAP header cannot be read")),
     }

@@ -192,6 +192,8 @@ fn a_recording_copied_by_another_program_is_the_same() {
         options().repeat_channels(false).emit_statistics(false).emit_message_indexes(false),
         options().compression(Some(mcap::Compression::Zstd)),
         options().compression(Some(mcap::Compression::Lz4)),
+        // The name of the program lost.
+        mcap::WriteOptions::new(),
     ] {
         let (found, error) = read_bytes(&copied(&bytes, options));
         assert!(error.is_none(), "{error:?}");
@@ -664,6 +666,10 @@ fn other_files_are_told_from_recordings() {
     let mut foreign = mcap::WriteOptions::new().profile("ros2").create(std::io::Cursor::new(Vec::new())).unwrap();
     foreign.finish().unwrap();
     assert!(said(&foreign.into_inner().into_inner()).contains("of another program (profile \"ros2\""));
+
+    let mut other = mcap::WriteOptions::new().create(std::io::Cursor::new(Vec::new())).unwrap();
+    other.finish().unwrap();
+    assert!(said(&other.into_inner().into_inner()).contains("of another program (profile \"\""));
 
     let nameless = mcap::WriteOptions::new().profile("rapidity").create(std::io::Cursor::new(Vec::new()));
     let mut nameless = nameless.unwrap();

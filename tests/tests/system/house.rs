@@ -14,17 +14,18 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 19] = [
+const PLAN: [(&str, &[&str]); 20] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
     ("regular_file", &[]),
     ("decoders", &["regular_file"]),
+    ("gltf_text", &[]),
     ("input", &["regular_file"]),
     ("view", &["physics"]),
     ("scene", &["physics", "view"]),
     ("panoramas", &["physics", "regular_file", "scene"]),
-    ("scene_files", &["decoders", "panoramas", "physics", "regular_file", "scene"]),
+    ("scene_files", &["decoders", "gltf_text", "panoramas", "physics", "regular_file", "scene"]),
     ("built_in", &["physics", "scene"]),
     ("room", &["regular_file", "view"]),
     ("trace", &["physics", "scene", "shaders", "view"]),

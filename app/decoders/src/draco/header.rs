@@ -34,11 +34,12 @@ impl DracoHeader {
         else {
             return Err(DecodeError::Damaged("they do not begin as Draco does".to_owned()));
         };
-        if (major, minor) != (2, 2) {
-            return Err(DecodeError::Unsupported(format!("Draco of version {major}.{minor}, where 2.2 is known")));
-        }
+        // Clouds of points have versions of their own.
         if geometry != 1 {
             return Err(DecodeError::Unsupported("Draco without triangles".to_owned()));
+        }
+        if (major, minor) != (2, 2) {
+            return Err(DecodeError::Unsupported(format!("Draco of version {major}.{minor}, where 2.2 is known")));
         }
         let mut reader = Reader { bytes: rest };
         if flags & METADATA != 0 {

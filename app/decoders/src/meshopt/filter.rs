@@ -7,7 +7,7 @@ use crate::DecodeError;
 pub(super) fn check(filter: Filter, mode: Codec, stride: usize) -> Result<(), DecodeError> {
     let fits = match filter {
         Filter::None => return Ok(()),
-        Filter::Octahedral => stride == 4 || stride == 8,
+        Filter::Octahedral | Filter::Colour => stride == 4 || stride == 8,
         Filter::Quaternion => stride == 8,
         Filter::Exponential => stride.is_multiple_of(4),
     };
@@ -40,6 +40,23 @@ pub(super) fn apply(filter: Filter, stride: usize, decoded: &mut [u8]) {
                 }
             }
         }
+        Filter::Colour if stride == 4 => {
+            for vertex in decoded.as_chunks_mut::<4>().0 {
+                let [y, _, _, a] = vertex.map(i32::from);
+                let [_, co, cg, _] = vertex.map(|byte| i32::from(byte as i8));
+                *vertex = colour([y, co, cg, a], f32::from(u8::MAX)).map(|value| value as u8);
+            }
+        }
+        Filter::Colour => {
+            for vertex in decoded.as_chunks_mut::<8>().0 {
+                let [y, co, cg, a] = shorts(vertex);
+                let [y, a] = [y, a].map(|number| i32::from(number as u16));
+                let rgba = colour([y, co.into(), cg.into(), a], f32::from(u16::MAX));
+                for (place, value) in vertex.as_chunks_mut::<2>().0.iter_mut().zip(rgba) {
+                    *place = (value as u16).to_le_bytes();
+                }
+            }
+        }
         Filter::Quaternion => {
             for vertex in decoded.as_chunks_mut::<8>().0 {
                 let unit = quaternion(shorts(vertex));
@@ -56,6 +73,15 @@ pub(super) fn apply(filter: Filter, stride: usize, decoded: &mut [u8]) {
             }
         }
     }
+}
+
+/// Red, green, blue and opacity in parts of `largest`, from brightness, two differences, and an opacity whose highest
+/// bit tells the number of bits.
+fn colour([y, co, cg, a]: [i32; 4], largest: f32) -> [f32; 4] {
+    let all = [1, 2, 4, 8].iter().fold(a, |bits, shift| bits | bits >> shift);
+    let one = all.max(1) as f32;
+    let opacity = a << 1 & all | a & 1;
+    [y + co - cg, y + cg, y - co - cg, opacity].map(|value| (value as f32 * (largest / one) + 0.5).clamp(0.0, largest))
 }
 
 fn shorts(bytes: &[u8; 8]) -> [i16; 4] {

@@ -22,4 +22,6 @@ pub enum Filter {
     Quaternion,
     /// Floats of few digits with a common exponent, multiples of 4 bytes: `EXPONENTIAL`.
     Exponential,
+    /// Colours as brightness and two differences, with opacity, 4 or 8 bytes each: `COLOR`.
+    Colour,
 }

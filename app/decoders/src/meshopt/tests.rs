@@ -49,6 +49,14 @@ const FLOATS: &str = "\
     00d505013c00000008a80108000000013c00000083fe0000000000000000000000000000000000000000002000f3000000f2\
     00d8fff4";
 
+/// Colours of 8 bits.
+const COLOURS_8: &str = "\
+    a1ff007d668000fe6a9b0084648000007d3f000000000000000000000000000000000000007f007fff00";
+/// Colours of 12 bits.
+const COLOURS_12: &str = "\
+    a1ffff000266000005060800016a64000e1716000464000015060800000200000005030000000000000000000000000000ff\
+    070000ff07ff0f0000";
+
 fn decoded(text: &str, count: usize, stride: usize, mode: Mode, filter: Filter) -> Vec<u8> {
     decode(&hex(text), count, stride, mode, filter, &Budget::default()).unwrap()
 }
@@ -150,6 +158,16 @@ fn filters_give_back_what_was_rounded() {
 }
 
 #[test]
+fn colours_come_out_to_their_precision() {
+    let wanted = [0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.2, 0.4, 0.8, 0.5, 0.9, 0.9, 0.1, 0.25];
+    let bytes = decoded(COLOURS_8, 4, 4, Mode::Attributes, Filter::Colour);
+    assert_near(&bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect::<Vec<_>>(), &wanted, 0.006);
+    let bytes = decoded(COLOURS_12, 4, 8, Mode::Attributes, Filter::Colour);
+    let shorts = bytes.as_chunks::<2>().0.iter().map(|pair| f32::from(u16::from_le_bytes(*pair)) / 65535.0);
+    assert_near(&shorts.collect::<Vec<_>>(), &wanted, 0.0004);
+}
+
+#[test]
 fn claims_that_do_not_fit_are_refused() {
     let budget = Budget::new(1000);
     let said = |count, stride, mode, filter| {
@@ -192,6 +210,8 @@ fn mutated_data_end_in_bytes_or_a_sentence() {
         (UNIT_8, 6, 4, Mode::Attributes, Filter::Octahedral),
         (UNIT_16, 6, 8, Mode::Attributes, Filter::Octahedral),
         (QUATERNIONS, 5, 8, Mode::Attributes, Filter::Quaternion),
+        (COLOURS_8, 4, 4, Mode::Attributes, Filter::Colour),
+        (COLOURS_12, 4, 8, Mode::Attributes, Filter::Colour),
     ];
     for (text, count, stride, mode, filter) in inputs {
         for bytes in mutations(&hex(text), 500) {

@@ -109,7 +109,7 @@ fn places_follow_a_picture_that_was_scaled() {
 #[test]
 fn senseless_places_are_no_places() {
     let mut values = MIDDLE;
-    for (name, value) in [(0, 0), (0, 16), (0, u32::MAX), (2, 0), (3, u32::MAX)] {
+    for (name, value) in [(0, 0), (0, 16), (0, u32::MAX), (2, 0), (3, u32::MAX), (4, 64), (5, 90)] {
         values[name].1 = value;
         let place = part(xmp(&values, true).as_bytes(), [32, 16]);
         assert!(place.is_none(), "{value} as {}: {place:?}", values[name].0);

@@ -331,3 +331,25 @@ fn a_ride_replays_from_its_file() {
     let told = verify().unwrap_err().to_string();
     assert!(told.starts_with("all 541 frames that can be read are identical to the bit, but"), "{told}");
 }
+
+#[test]
+fn samples_in_falling_order_are_taken_in_the_order_of_their_times_and_soon() {
+    let count = 300_000;
+    // Keys that are pressed and released in turn, all within the first second.
+    let mut samples: Vec<Sample> = (0..count)
+        .map(|n| Sample::key(n * SECOND / count, if n % 6 < 3 { KeyboardKey::W } else { KeyboardKey::A }, n % 2 == 0))
+        .collect();
+    let ride = |samples: &[Sample]| {
+        let mut simulation = simulation(VehicleKind::Bicycle);
+        let first = simulation.frame(0, samples);
+        let rest = times(2).map(|at| simulation.frame(at, &[]));
+        records(&std::iter::once(first).chain(rest).collect::<Vec<_>>())
+    };
+    let rising = ride(&samples);
+    samples.reverse();
+    let started = std::time::Instant::now();
+    assert_same(&rising, &ride(&samples));
+    // A search among all that wait, for each sample, takes a minute.
+    assert!(started.elapsed().as_secs() < 15, "{:?}", started.elapsed());
+    assert!(rising.last().unwrap().rapidity > 0.0, "the keys did nothing");
+}

@@ -2,6 +2,7 @@
 
 mod blank;
 mod file_name;
+mod letters;
 pub(crate) mod mpcdi;
 mod mpcdi_files;
 mod mpcdi_frame;

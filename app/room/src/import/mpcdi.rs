@@ -12,6 +12,7 @@
 
 use super::blank::blank;
 use super::file_name::TakenNames;
+use super::letters;
 use super::mpcdi_files::MpcdiFiles;
 use super::mpcdi_frame::{frustum, metres, position, room_from_file};
 use super::xml;
@@ -51,9 +52,9 @@ const BYTES_OF_TEXT: u64 = 30;
 pub(crate) fn parse(bytes: Vec<u8>, folder: &Path, stem: &str, budget: &Budget) -> Result<Display, String> {
     let mut files = MpcdiFiles::open(bytes, folder)?;
     let xml = files.description(budget)?;
-    let text = std::str::from_utf8(&xml).map_err(|_| "its description is not UTF-8 text".to_owned())?;
+    let text = letters::text(&xml);
     budget.take(BYTES_OF_TEXT * text.len() as u64).map_err(|error| format!("its description: {error}"))?;
-    let document = xml::document(text, "MPCDI")?;
+    let document = xml::document(&text, "MPCDI")?;
     let root = document.root_element();
     let profile = xml::attribute(root, "profile").unwrap_or_default().to_ascii_lowercase();
     let profile = match profile.as_str() {
@@ -222,8 +223,9 @@ impl<'a> MpcdiImport<'a> {
         region: Node<'a, 'a>,
         fileset: Option<Node<'a, 'a>>,
     ) -> Result<RegionView, String> {
-        let screen = self.picture(buffer)?;
-        Ok(RegionView { part: part(region)?, warp: self.warp(fileset, "geometryWarpFile")?, ..RegionView::of(screen) })
+        let part = part(region)?;
+        let screen = self.picture(buffer, region, part)?;
+        Ok(RegionView { part, warp: self.warp(fileset, "geometryWarpFile")?, ..RegionView::of(screen) })
     }
 
     /// Flat picture by its angles, seen from the room's origin.
@@ -368,12 +370,18 @@ impl<'a> MpcdiImport<'a> {
     }
 
     /// Index of the flat screen that a 2d buffer's regions are parts of; it is added for the first of them.
-    fn picture(&mut self, buffer: Node<'a, 'a>) -> Result<usize, String> {
+    fn picture(&mut self, buffer: Node<'a, 'a>, region: Node<'a, 'a>, part: ChannelPart) -> Result<usize, String> {
         let name = xml::attribute(buffer, "id").unwrap_or("buffer").to_owned();
         if let Some(known) = self.pictures.get(&name) {
             return Ok(*known);
         }
-        let (width, height) = (xml::number(buffer, "xResolution")?, xml::number(buffer, "yResolution")?);
+        // The resolution of the whole is optional; that of the part says it, too.
+        let whole = part.to - part.from;
+        let side = |name: &str, share: f64| match xml::attribute(buffer, name) {
+            Some(_) => xml::number(buffer, name),
+            None => Ok(xml::number(region, name)? / share),
+        };
+        let (width, height) = (side("xResolution", whole.x)?, side("yResolution", whole.y)?);
         let size = DVec2::new(FLAT_WIDTH_M, FLAT_WIDTH_M * height / width);
         let centre = self.display.viewer.head_m - DVec3::Z * FLAT_DISTANCE_M;
         let flat =

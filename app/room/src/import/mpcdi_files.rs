@@ -36,7 +36,7 @@ impl<'a> MpcdiFiles<'a> {
         let mut positions = HashMap::new();
         for (position, name) in archive.file_names().enumerate() {
             if let Ok(name) = name {
-                positions.entry(name.to_lowercase()).or_insert(position);
+                positions.entry(plain(&name)).or_insert(position);
             }
         }
         Ok(Self::Zip { archive: Box::new(archive), positions })
@@ -50,7 +50,7 @@ impl<'a> MpcdiFiles<'a> {
         }
     }
 
-    /// Contents of a file by its name, in upper or lower case. The budget pays for them before they are unpacked.
+    /// Contents of a file by its name, in upper or lower case, with slashes of any system. The budget pays for them before they are unpacked.
     pub fn read(&mut self, name: &str, budget: &Budget) -> Result<Vec<u8>, String> {
         match self {
             Self::Bare { folder, .. } => {
@@ -61,7 +61,7 @@ impl<'a> MpcdiFiles<'a> {
                 read::bytes(&folder.join(name), budget).map_err(|reason| format!("{name:?} {reason}"))
             }
             Self::Zip { archive, positions } => {
-                let position = positions.get(&name.to_lowercase());
+                let position = positions.get(&plain(name));
                 let position = *position.ok_or_else(|| format!("there is no {name:?} in it"))?;
                 let wrong = |error: &dyn std::fmt::Display| format!("{name:?} cannot be unpacked: {error}");
                 let file = archive.by_index(position).map_err(|error| wrong(&error))?;
@@ -76,4 +76,10 @@ impl<'a> MpcdiFiles<'a> {
             }
         }
     }
+}
+
+/// Name of a file in a container, in lower case and with the slashes of a zip.
+fn plain(name: &str) -> String {
+    let name = name.to_lowercase().replace('\\', "/");
+    name.strip_prefix("./").unwrap_or(&name).to_owned()
 }

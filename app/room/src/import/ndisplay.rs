@@ -6,6 +6,7 @@
 
 use super::blank::blank;
 use super::file_name::TakenNames;
+use super::letters;
 use super::ndisplay_scene::{NDisplayScene, NDisplayScreen};
 use crate::channel::{Channel, ChannelPart};
 use crate::display::{Display, Screen};
@@ -34,9 +35,8 @@ struct PixelRectangle {
 
 /// Reads a file. An error's text is worded to follow the file's name.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Display, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
-    let value: Value =
-        serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| format!("it is no JSON: {error}"))?;
+    let text = letters::text(bytes);
+    let value: Value = serde_json::from_str(&text).map_err(|error| format!("it is no JSON: {error}"))?;
     let root = member(&value, "nDisplay").unwrap_or(&value);
     let nodes = member(root, "cluster").and_then(|cluster| member(cluster, "nodes")).and_then(Value::as_object);
     let nodes = nodes.ok_or("it has no nDisplay.cluster.nodes, so there is no window")?;

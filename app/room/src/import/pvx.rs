@@ -3,6 +3,7 @@
 
 use super::blank::blank;
 use super::file_name::TakenNames;
+use super::letters;
 use super::xml;
 use crate::channel::{Channel, ChannelPart};
 use crate::display::{Display, Screen};
@@ -31,8 +32,8 @@ const CORNERS: [&str; 4] = ["LowerLeft", "LowerRight", "UpperRight", "UpperLeft"
 
 /// Reads a file. An error's text is worded to follow the file's name.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Display, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
-    let document = xml::document(text, "pvx")?;
+    let text = letters::text(bytes);
+    let document = xml::document(&text, "pvx")?;
     let root = document.root_element();
     let separation = xml::first(root, "EyeSeparation").map(|node| xml::number(node, "Value")).transpose()?;
     let mut display = blank(DVec3::ZERO);

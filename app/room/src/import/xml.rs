@@ -4,7 +4,7 @@ use roxmltree::{Document, Node};
 
 /// Parses a document whose root is called `root`.
 pub(super) fn document<'a>(text: &'a str, root: &str) -> Result<Document<'a>, String> {
-    let text = text.trim_start_matches('\u{feff}');
+    regular_file::check_xml(text).map_err(|excess| excess.to_string())?;
     let document = Document::parse(text).map_err(|error| format!("it is no XML: {error}"))?;
     let name = document.root_element().tag_name().name();
     if !name.eq_ignore_ascii_case(root) {

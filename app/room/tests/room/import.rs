@@ -21,7 +21,7 @@ const SOLID: &str = r#"<?xml version="1.0" encoding="utf-8"?>
   <files>
     <fileset region="left">
       <geometryWarpFile>
-        <path>left.pfm</path><interpolation>linear</interpolation>
+        <path>.\maps\left.pfm</path><interpolation>linear</interpolation>
         <geometricUnit>cm</geometricUnit><originOf3DData>idealEyePoint</originOf3DData>
       </geometryWarpFile>
       <alphaMap><path>left.png</path><componentDepth>1</componentDepth><bitDepth>8</bitDepth><gammaEmbedded>2.0</gammaEmbedded></alphaMap>
@@ -52,7 +52,7 @@ fn solid(little: bool) -> Vec<u8> {
     ];
     zip(&[
         ("mpcdi.xml", SOLID.as_bytes()),
-        ("LEFT.PFM", &pfm(&LEFT.each_ref().map(|row| row.as_slice()), little)),
+        ("maps/LEFT.PFM", &pfm(&LEFT.each_ref().map(|row| row.as_slice()), little)),
         ("right.pfm", &pfm(&right.each_ref().map(|row| row.as_slice()), little)),
         ("left.png", &png(2, 1, &[255, 128])),
         ("beta.png", &png(1, 1, &[51])),
@@ -121,6 +121,11 @@ fn profile_2d_warps_its_part_of_a_flat_picture() {
     assert_eq!(point(0.0, 0.0), None, "beyond the picture is black");
     let above = point(0.5, 0.0).unwrap();
     assert!(above.distance(DVec3::new(1.0, 1.0, -2.0)) < SINGLE, "{above}");
+    // Without a resolution of the whole, that of the part tells its shape: 4 × 4 pixels are a quarter.
+    let bare = FLAT.replace(" Xresolution=\"2000\" Yresolution=\"1000\"", "");
+    let display = load("flat.mpcdi", &zip(&[("mpcdi.xml", bare.as_bytes()), ("w.pfm", &warp)])).unwrap();
+    let ScreenSurface::Flat(flat) = display.screens[0].surface else { panic!("not flat") };
+    assert_eq!(flat.size_m(), DVec2::new(4.0, 4.0));
 }
 
 #[test]
@@ -145,7 +150,7 @@ fn containers_with_flaws_are_refused_with_the_reason() {
     let cases: [(Result<Display, DisplayError>, &str); 16] = [
         (load("x.mpcdi", b"PK\x03\x04 and nothing"), "no good zip"),
         (load("x.mpcdi", &zip(&[("other.xml", b"")])), "no \"mpcdi.xml\" in it"),
-        (load("x.mpcdi", b"\xff\xfe"), "UTF-8"),
+        (load("x.mpcdi", b"\xff\xfe"), "no XML"),
         (load("x.mpcdi", b"<a/>"), "its root is <a>"),
         (load("x.mpcdi", b"<MPCDI profile='2d'>"), "no XML"),
         (load("x.mpcdi", b"<MPCDI profile='2d'/>"), "no <region>"),

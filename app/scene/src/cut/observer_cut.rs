@@ -38,17 +38,41 @@ const ANIMATED_TRIANGLES: usize = 100_000;
 /// Number of triangles that are cut together and share their new vertices.
 const BATCH: usize = 1024;
 
+/// Number of triangles that a batch makes between two looks at the total of all batches.
+const COUNTED_TOGETHER: usize = 1024;
+
+/// Number of tries after which the tolerance grows faster than twofold, since little is left of the accuracy.
+const PATIENT_TRIES: u32 = 6;
+
+/// Number of tries after which nothing is cut.
+const MOST_TRIES: u32 = 16;
+
+/// Length over distance above which edges without a claimed error are cut in the second try; it grows with the
+/// tolerance.
+const FIRST_UNCLAIMED: f64 = 1e-3;
+
 impl Cut {
     /// Cuts the scene for its pictures. `before`: the preceding cut, so that edges near the limit stay as they were.
+    ///
+    /// The work is bounded for every scene. Where the eye is on a triangle or close to its plane, no error is claimed
+    /// for edges that are long beside their distance, however coarse the picture may be. If cutting them all makes too
+    /// many triangles, those are cut to a share of their distance that grows with the tolerance, and what remains is
+    /// drawn as it is. In the end nothing is cut, and the tolerance is infinite.
     pub fn new(scene: &Scene, viewpoint: &CutViewpoint, fineness: CutFineness, before: Option<&Self>) -> Self {
-        let mut tolerance_px = fineness.tolerance_px;
-        loop {
-            let rule = CutRule::new(scene, viewpoint, CutFineness { tolerance_px, ..fineness }, before);
-            if let Some(cut) = rule.cut(scene, fineness.triangles.max(scene.triangle_count())) {
+        let limit = fineness.triangles.max(scene.triangle_count());
+        let mut growth = 1.0;
+        for tries in 0..MOST_TRIES {
+            let tolerance_px = growth * fineness.tolerance_px;
+            let unclaimed = if tries == 0 { 0.0 } else { growth * FIRST_UNCLAIMED };
+            let rule = CutRule::new(scene, viewpoint, CutFineness { tolerance_px, ..fineness }, unclaimed, before);
+            if let Some(cut) = rule.cut(scene, limit) {
                 return cut;
             }
-            tolerance_px *= 2.0;
+            growth *= if tries < PATIENT_TRIES { 2.0 } else { 8.0 };
         }
+        let anything = CutFineness { tolerance_px: f64::INFINITY, ..fineness };
+        let rule = CutRule::new(scene, viewpoint, anything, f64::INFINITY, before);
+        rule.cut(scene, usize::MAX).expect("no number is above the largest")
     }
 }
 
@@ -60,11 +84,19 @@ struct CutRule<'a> {
     fineness: CutFineness,
     /// Smallest allowed error over all pictures, radians.
     least_allowed: f64,
+    /// Length over distance up to which an edge stays for which no error is claimed.
+    unclaimed: f64,
     before: Option<&'a Cut>,
 }
 
 impl<'a> CutRule<'a> {
-    fn new(scene: &Scene, viewpoint: &CutViewpoint, fineness: CutFineness, before: Option<&'a Cut>) -> Self {
+    fn new(
+        scene: &Scene,
+        viewpoint: &CutViewpoint,
+        fineness: CutFineness,
+        unclaimed: f64,
+        before: Option<&'a Cut>,
+    ) -> Self {
         let sight = |motion| SeenFrom::new(scene, &viewpoint.observer, motion);
         let skies: Vec<_> = viewpoint.pictures.iter().map(|(camera, size)| ShownSky::new(camera, *size)).collect();
         Self {
@@ -72,6 +104,7 @@ impl<'a> CutRule<'a> {
             least_allowed: skies.iter().map(|sky| sky.least_allowed(&fineness)).fold(f64::INFINITY, f64::min),
             skies,
             fineness,
+            unclaimed,
             before,
         }
     }
@@ -102,7 +135,8 @@ impl<'a> CutRule<'a> {
             return None;
         }
         let InterpolationBound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
-        if error_rad == 0.0 {
+        let stays_unclaimed = || self.unclaimed == f64::INFINITY || length <= self.unclaimed * seen.length();
+        if error_rad == 0.0 || error_rad == f64::INFINITY && stays_unclaimed() {
             return None;
         }
         let allowed = self.allowed(sight.observer_from_group * direction, radius_rad);
@@ -211,12 +245,13 @@ impl<'a> CutRule<'a> {
         // None: the edge is not cut.
         let mut middles = HashMap::<(u32, u32), Option<u32>, FixedHasher>::default();
         let mut stack = Vec::new();
+        // Triangles that the total has.
+        let mut counted = 0;
         for corners in corners.as_chunks::<3>().0 {
             // A corner without a finite place would be drawn at the eye.
             if !corners.iter().all(|&corner| mesh.positions[corner as usize].is_finite()) {
                 continue;
             }
-            let before = indices.len();
             stack.push(*corners);
             while let Some([a, b, c]) = stack.pop() {
                 let [at_a, at_b, at_c] = [a, b, c].map(|corner| batch.place(mesh, corner));
@@ -243,13 +278,17 @@ impl<'a> CutRule<'a> {
                     let distance = |a, b| place(a).distance_squared(place(b));
                     divide([a, b, c], midpoints, distance, |child| stack.push(child));
                 }
-                if indices.len() / 3 + stack.len() > limit {
-                    return None;
+                let made = indices.len() / 3 + stack.len() - counted;
+                if made >= COUNTED_TOGETHER {
+                    counted += made;
+                    if !count(made) {
+                        return None;
+                    }
                 }
             }
-            if !count((indices.len() - before) / 3) {
-                return None;
-            }
+        }
+        if !count((indices.len() / 3).saturating_sub(counted)) {
+            return None;
         }
         // Nothing is kept of triangles that are as they were.
         if indices != corners {
@@ -312,3 +351,7 @@ fn between(a: &CutVertex, b: &CutVertex, place: DVec3) -> CutVertex {
         colour: std::array::from_fn(|channel| 0.5 * (a.colour[channel] + b.colour[channel])),
     }
 }
+
+#[cfg(test)]
+#[path = "near_triangle_tests.rs"]
+mod tests;

@@ -49,10 +49,15 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         }
     }
     let limit = limit.max(scene.triangle_count());
-    if rule.count(scene, limit).is_none() {
+    // Counting takes as long as splitting does, so it is left to the few lengths that estimates do not decide.
+    let estimate = rule.estimate(scene);
+    if estimate > limit as f64 && rule.count(scene, limit).is_none() {
         let triangles = rule.at_least(scene).max(limit as u64 + 1);
+        // Twice as long an edge makes a quarter of the triangles at best; the steps are powers of two.
+        let least = 0.5 * f64::from(edge) * (estimate / limit as f64).sqrt();
         let enough = round_lengths_above(edge)
-            .find(|&length| SplitRule::new(f64::from(length), &circuit).count(scene, limit).is_some())
+            .filter(|&length| f64::from(length) >= least)
+            .find(|&length| SplitRule::new(f64::from(length), &circuit).estimate(scene) <= limit as f64)
             .expect("a length above all edges splits none");
         return Err(RefineError::TooMany { scene: scene.name.clone(), edge, triangles, limit, enough });
     }
@@ -80,8 +85,9 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
 fn refine_mesh(mesh: &Mesh, rule: SplitRule<'_>) -> Mesh {
     let mut refined = Mesh { indices: Vec::new(), ..mesh.clone() };
     let mut midpoint_of_edge = HashMap::new();
-    let mut stack = Vec::new();
+    let (mut stack, mut near) = (Vec::new(), Vec::new());
     for corners in mesh.indices.chunks_exact(3) {
+        let rule = rule.within([0, 1, 2].map(|corner| mesh.positions[corners[corner] as usize]), &mut near);
         stack.push([corners[0], corners[1], corners[2]]);
         while let Some(corners) = stack.pop() {
             let [a, b, c] = corners;

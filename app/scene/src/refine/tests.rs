@@ -242,7 +242,62 @@ fn too_many_triangles_are_refused_with_a_length_that_works() {
 #[test]
 fn a_whole_town_at_a_micrometre_is_refused_at_once() {
     let error = refine(&scene(vec![cuboid(Vec3::splat(1.0))]), 1e-5).unwrap_err().to_string();
-    assert!(error.contains("--edge 0.001 or more"), "{error}");
+    assert!(error.contains("--edge 0.002 or more"), "{error}");
+}
+
+#[test]
+fn the_estimate_is_an_upper_limit_for_triangles_of_any_shape() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    for shape in 0..400 {
+        // From slivers to wide triangles, of a few edges to a hundred.
+        let flat = 10.0_f32.powi(-(shape % 5));
+        let corner =
+            |random: &mut ChaCha8Rng| Vec3::from_array(random.random::<[f32; 3]>()) * Vec3::new(1.0, flat, 0.0);
+        let positions = vec![corner(&mut random), corner(&mut random), corner(&mut random)];
+        let before = scene(vec![mesh(positions, vec![0, 1, 2])]);
+        let rule = SplitRule::new(10.0_f64.powf(random.random_range(-2.0..0.0)), &[]);
+        let (count, estimate) = (rule.count(&before, MAX_TRIANGLES).unwrap() as f64, rule.estimate(&before));
+        assert!((count..=100.0 * count).contains(&estimate), "shape {shape}: {estimate} for {count} triangles");
+    }
+}
+
+#[test]
+fn the_corners_of_the_circuit_that_are_kept_for_a_triangle_decide_like_all() {
+    let mut random = ChaCha8Rng::seed_from_u64(10);
+    let mut place = || Vec3::from_array(random.random::<[f32; 3]>()) * 90.0;
+    let circuit: Vec<DVec3> = (0..50).map(|_| place().as_dvec3()).collect();
+    let (mut near, mut fewest) = (Vec::new(), circuit.len());
+    for _ in 0..300 {
+        let (at, size) = (place(), place().x / 90.0 * 20.0);
+        let triangle = [at, at + place() / 90.0 * size, at + place() / 90.0 * size];
+        let rule = SplitRule::new(0.7, &circuit);
+        let before = scene(vec![mesh(triangle.to_vec(), vec![0, 1, 2])]);
+        let counted = rule.within(triangle, &mut near).count(&before, MAX_TRIANGLES);
+        // Counted without leaving any corner out.
+        let mut stack = vec![triangle];
+        let mut count = 0;
+        while let Some([a, b, c]) = stack.pop() {
+            let middles = [(a, b), (b, c), (c, a)].map(|(a, b)| rule.splits(a, b).then(|| midpoint(a, b)));
+            match middles {
+                [None, None, None] => count += 1,
+                _ => divide([a, b, c], middles, distance_squared, |child| stack.push(child)),
+            }
+        }
+        assert_eq!(counted, Some(count));
+        fewest = fewest.min(near.len());
+    }
+    assert!(fewest < 5, "{fewest} corners were kept at least");
+}
+
+#[test]
+fn a_length_that_is_too_short_is_refused_at_once_beside_a_long_circuit() {
+    // Counting 50 million triangles beside a thousand corners takes minutes.
+    let mut before = scene(vec![cuboid(Vec3::splat(300.0))]);
+    before.circuit = (0..1000).map(|n| DVec3::new(f64::from(n) * 0.3, 0.0, 150.0)).collect();
+    let started = std::time::Instant::now();
+    let error = refine(&before, 1e-3).unwrap_err();
+    assert!(matches!(error, RefineError::TooMany { .. }), "{error}");
+    assert!(started.elapsed().as_secs() < 5, "{:?}", started.elapsed());
 }
 
 #[test]

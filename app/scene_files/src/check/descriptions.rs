@@ -19,12 +19,12 @@ pub fn first_view(scene: &Scene) -> String {
 
 /// Descriptions of the moving bodies, in the order of the scene's motions.
 pub fn moving(scene: &Scene) -> Vec<String> {
+    let meshes = scene.moving_meshes();
     let said = |(number, motion): (usize, &Motion)| {
-        let beta = scene.fastest(number).beta;
+        let beta = scene.fastest(number, &meshes[number]).beta;
         match motion {
             Motion::Uniform(uniform) => {
-                let mesh = scene.meshes.iter().find(|mesh| mesh.motion == Some(number));
-                let name = mesh.map_or("nothing", |mesh| mesh.name.as_str());
+                let name = meshes[number].first().map_or("nothing", |&mesh| scene.meshes[mesh].name.as_str());
                 format!("\"{name}\" at {beta:.6} c, a celerity of {:.6}", uniform.celerity.magnitude())
             }
             Motion::Animated(animated) => {

@@ -1,8 +1,8 @@
 //! Animations: the nodes that keys move, and their keys (glTF 2.0, 3.11).
 //!
 //! All animations of a file run together, on the world's clock. Smooth translations, rotations and scalings move a
-//! node; a channel that holds one value is a pose. A jump is faster than light, and stands still, as does a change of
-//! shape; a notice names them. Keys at equal times, and values that no time belongs to, are passed over.
+//! node; a channel that holds one value is a pose, of a shape as well. A jump is faster than light, and stands still, as
+//! does a change of shape; a notice names them. Keys at equal times, and values that no time belongs to, are passed over.
 
 use std::collections::BTreeMap;
 
@@ -50,6 +50,53 @@ impl NodeKeys {
         self.scale = self.scale.take().or(other.scale);
         twice
     }
+}
+
+/// Gives nodes whose shape an animation holds the weights of that shape.
+pub(super) fn hold_shapes(document: &mut Document<'_>) {
+    let mut held = BTreeMap::new();
+    for (number, animation) in document.json.animations.iter().enumerate() {
+        for (index, channel) in animation.channels.iter().enumerate() {
+            let place = format!("animations[{number}].channels[{index}]");
+            // Faults are told where the motions are read.
+            if channel.target.path == Checked::Valid(Property::MorphTargetWeights)
+                && let Ok(Some(weights)) = held_weights(document, animation, channel, &place)
+            {
+                held.entry(channel.target.node.value()).or_insert(weights);
+            }
+        }
+    }
+    for (node, weights) in held {
+        document.json.nodes[node].weights = Some(weights);
+    }
+}
+
+/// Weights of morph targets that all keys of a channel hold, if they do.
+fn held_weights(
+    document: &Document<'_>,
+    animation: &Animation,
+    channel: &Channel,
+    place: &str,
+) -> Result<Option<Vec<f32>>, GltfError> {
+    document.item(&document.json.nodes, channel.target.node.value(), &format!("{place}.target.node"))?;
+    let sampler = document.item(&animation.samplers, channel.sampler.value(), &format!("{place}.sampler"))?;
+    let keys = accessor::count(document, sampler.input.value(), place)?;
+    let scalars = Purpose::Vectors(Type::Scalar);
+    let values =
+        accessor::read(document, (sampler.output.value(), Elements::All), place, scalars, |value| value as f32)?.values;
+    let cubic = sampler.interpolation == Checked::Valid(Interpolation::CubicSpline);
+    let targets = values.len().checked_div(if cubic { 3 * keys } else { keys }).unwrap_or(0);
+    if targets == 0 {
+        return Ok(None);
+    }
+    // Cubic keys have a list of slopes before and behind their list of values.
+    let lists: Vec<&[f32]> = values.chunks_exact(targets).collect();
+    let level = |slopes: &[f32]| keys == 1 || slopes.iter().all(|slope| *slope == 0.0);
+    let (first, held) = match cubic {
+        true => (lists[1], lists.as_chunks().0.iter().all(|[a, value, b]| *value == lists[1] && level(a) && level(b))),
+        false => (lists[0], lists[..keys].iter().all(|value| *value == lists[0])),
+    };
+    Ok(held.then(|| first.to_vec()))
 }
 
 /// Keys of every animated node, by the node's index.
@@ -107,11 +154,16 @@ fn channel(
     let fault = |fault: KeyFault| document.damaged(place, fault.to_string());
     let mut keys = NodeKeys::default();
     match path {
-        Property::MorphTargetWeights => return stands_still("it changes a shape (morph targets)"),
+        Property::MorphTargetWeights => {
+            return match held_weights(document, animation, channel, place)? {
+                Some(_) => Ok((node, keys)),
+                None => stands_still("it changes a shape (morph targets)"),
+            };
+        }
         Property::Rotation => {
             let read = KeyList::read(document, animation, (channel, place), Type::Vec4, DQuat::from_array, notices)?;
             let jumps = interpolation == Interpolation::Step;
-            keys.rotation = Some(match read.held(|a, b| a == b) {
+            keys.rotation = Some(match read.held(DQuat::from_array([0.0; 4])) {
                 Some(value) if value.length().is_normal() => Track::Fixed(value.normalize()),
                 _ if jumps => return stands_still("it jumps (STEP), which is faster than light"),
                 _ => Track::Keyed(
@@ -126,7 +178,7 @@ fn channel(
         Property::Translation | Property::Scale => {
             let read = KeyList::read(document, animation, (channel, place), Type::Vec3, DVec3::from_array, notices)?;
             let jumps = interpolation == Interpolation::Step;
-            let track = match read.held(|a, b| a == b) {
+            let track = match read.held(DVec3::ZERO) {
                 Some(value) if value.is_finite() => Track::Fixed(value),
                 _ if jumps => return stands_still("it jumps (STEP), which is faster than light"),
                 _ => Track::Keyed(
@@ -154,7 +206,7 @@ struct KeyList<V> {
     tangents: Option<Vec<[V; 2]>>,
 }
 
-impl<V: Copy> KeyList<V> {
+impl<V: Copy + PartialEq> KeyList<V> {
     /// Keys with values of `WIDTH` components. Of keys at one time the later counts, and surplus values are passed
     /// over, because exporters share lists.
     fn read<const WIDTH: usize>(
@@ -205,14 +257,16 @@ impl<V: Copy> KeyList<V> {
         }
     }
 
-    /// Value that all keys hold, if there is one and no slope leads away from it.
-    fn held(&self, same: impl Fn(&V, &V) -> bool) -> Option<V> {
+    /// Value that all keys hold, if there is one and no slope, other than `none`, leads away from it.
+    fn held(&self, none: V) -> Option<V> {
         let first = self.values.first()?;
-        let alike = self.times.len() == self.values.len() && self.values.iter().all(|value| same(first, value));
-        let level = self.values.len() == 1 || self.tangents.is_none();
+        let alike = self.times.len() == self.values.len() && self.values.iter().all(|value| first == value);
+        let mut slopes = self.tangents.iter().flatten().flatten();
+        let level = self.values.len() == 1 || slopes.all(|slope| *slope == none);
         (alike && level).then_some(*first)
     }
 }
+
 /// Separates triples (slope into a key, its value, slope out of it) into values and slopes.
 fn thirds<V: Copy>(values: Vec<V>) -> (Vec<V>, Vec<[V; 2]>) {
     values.as_chunks::<3>().0.iter().map(|[into, value, out]| (*value, [*into, *out])).unzip()

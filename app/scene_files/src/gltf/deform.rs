@@ -36,6 +36,8 @@ pub(super) struct PosedSkin {
     pub(super) anchor: DVec3,
     /// Transform of each joint from the mesh's frame to the file's, relative to the anchor.
     joints: Vec<DAffine3>,
+    /// Transform of the mesh's own node, relative to the anchor, for vertices without joints.
+    unposed: DAffine3,
 }
 
 impl PosedSkin {
@@ -44,7 +46,7 @@ impl PosedSkin {
         document: &Document<'_>,
         index: usize,
         placed: &BTreeMap<usize, DAffine3>,
-        place: &str,
+        (node, place): (usize, &str),
     ) -> Result<Self, GltfError> {
         let skin = document.item(&document.json.skins, index, place)?;
         let place = format!("skins[{index}]");
@@ -69,7 +71,9 @@ impl PosedSkin {
         let first = skin.joints.first().ok_or_else(|| document.damaged(&place, "it has no joints"))?;
         let anchor = placed[&first.value()].translation;
         joints.iter_mut().for_each(|joint| joint.translation -= anchor);
-        Ok(Self { anchor, joints })
+        let mut unposed = placed.get(&node).copied().unwrap_or(DAffine3::IDENTITY);
+        unposed.translation -= anchor;
+        Ok(Self { anchor, joints, unposed })
     }
 }
 
@@ -77,7 +81,7 @@ impl Deformation {
     /// Deformation of a node's mesh; `None` if there is none.
     pub(super) fn of(
         document: &Document<'_>,
-        node: &NodeJson,
+        (index, node): (usize, &NodeJson),
         mesh: &json::Mesh,
         placed: &BTreeMap<usize, DAffine3>,
         place: &str,
@@ -87,7 +91,7 @@ impl Deformation {
         let weights = weights.filter(|(_, weight)| *weight != 0.0 && weight.is_finite()).collect();
         let skin = match node.skin {
             None => None,
-            Some(skin) => match PosedSkin::of(document, skin.value(), placed, &format!("{place}.skin")) {
+            Some(skin) => match PosedSkin::of(document, skin.value(), placed, (index, &format!("{place}.skin"))) {
                 Ok(skin) => Some(skin),
                 Err(error) => {
                     notices.left_out(Part::Skin, place, &error.part_fault()?);
@@ -133,13 +137,14 @@ impl Deformation {
             }
         }
         let Some(skin) = &self.skin else { return Ok(false) };
-        match Influences::read(source, skin.joints.len()) {
-            Ok(influences) => Ok(influences.apply(skin, positions, normals)),
+        let influences = match Influences::read(source, skin.joints.len()) {
+            Ok(influences) => influences,
             Err(error) => {
                 notices.left_out(Part::Skin, source.place, &error.part_fault()?);
-                Ok(false)
+                Influences { sets: Vec::new() }
             }
-        }
+        };
+        Ok(influences.apply(skin, positions, normals))
     }
 }
 
@@ -172,7 +177,7 @@ impl Influences {
         Ok(Self { sets })
     }
 
-    /// Applies a skin; true if it mirrors most of the vertices.
+    /// Applies a skin; true if it mirrors most of the vertices. Without any joints, they are where their node is.
     fn apply(&self, skin: &PosedSkin, positions: &mut [Vec3], mut normals: Option<&mut Vec<Vec3>>) -> bool {
         let mut mirrored = 0;
         for (vertex, position) in positions.iter_mut().enumerate() {
@@ -187,7 +192,9 @@ impl Influences {
                 }
             }
             // A vertex that no joint holds follows the first.
-            let whole = if sum > NO_WEIGHT {
+            let whole = if self.sets.is_empty() {
+                skin.unposed
+            } else if sum > NO_WEIGHT {
                 DAffine3 { matrix3: matrix * (1.0 / sum), translation: translation / sum }
             } else {
                 skin.joints.first().copied().unwrap_or(DAffine3::IDENTITY)

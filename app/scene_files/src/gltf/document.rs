@@ -9,17 +9,17 @@ use std::sync::{Arc, OnceLock};
 
 use ::gltf::json;
 use decoders::meshopt;
+use gltf_text::address::{Address, address};
+use gltf_text::repair::{may_wrap, repaired};
 use regular_file::{Budget, FileFault};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::address::{Address, address};
 use super::container::{chunks, range};
 use super::error::GltfError;
 use super::extras::SceneExtras;
 use super::file_json::GltfJson;
 use super::notices::{Notices, Part};
-use super::repair::{may_wrap, repaired};
 
 /// Largest size of a file that is read, bytes: a `.glb` cannot count further.
 const MAX_FILE: u64 = u32::MAX as u64;
@@ -179,12 +179,16 @@ impl<'a> Document<'a> {
         let view = self.item(&self.json.buffer_views, index, place)?;
         let place = format!("bufferViews[{index}]");
         let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
-        let packed = view.extensions.as_ref().and_then(|extensions| {
-            MESHOPT.iter().find_map(|name| extensions.others.get(*name)).and_then(PackedView::read)
-        });
+        let packed = view
+            .extensions
+            .as_ref()
+            .and_then(|extensions| MESHOPT.iter().find_map(|name| extensions.others.get(*name)).map(PackedView::read));
         if let Some(packed) = packed {
-            let unpacked = self.unpacked[index].get_or_init(|| self.unpack(&packed, &place));
-            if let Ok(bytes) = unpacked {
+            let unpacked = self.unpacked[index].get_or_init(|| match &packed {
+                Ok(packed) => self.unpack(packed, &place),
+                Err(fault) => Err(self.damaged(&place, fault)),
+            });
+            if let (Ok(packed), Ok(bytes)) = (packed, unpacked) {
                 return Ok((bytes, Some(packed.stride)));
             }
             let plain = self.plain_view(view, &place).map(|bytes| (bytes, stride));
@@ -198,7 +202,11 @@ impl<'a> Document<'a> {
 
     fn plain_view(&self, view: &json::buffer::View, place: &str) -> Result<&[u8], GltfError> {
         let offset = view.byte_offset.map_or(0, |offset| offset.0);
-        self.part(view.buffer.value(), offset, view.byte_length.0, place)
+        let buffer = self.item(&self.buffers, view.buffer.value(), place)?.bytes();
+        // What is missing at the end may be nothing that is needed.
+        let length = view.byte_length.0.min((buffer.len() as u64).saturating_sub(offset));
+        let length = if length == 0 { view.byte_length.0 } else { length };
+        self.part(view.buffer.value(), offset, length, place)
     }
 
     fn part(&self, buffer: usize, offset: u64, length: u64, place: &str) -> Result<&[u8], GltfError> {
@@ -282,26 +290,38 @@ struct PackedView {
 }
 
 impl PackedView {
-    fn read(extension: &Value) -> Option<Self> {
-        let number = |key: &str| extension.get(key).map_or(Some(0), Value::as_u64);
-        Some(Self {
-            buffer: usize::try_from(number("buffer")?).ok()?,
+    /// Reads a description, or says what of it is unknown.
+    fn read(extension: &Value) -> Result<Self, String> {
+        let number = |key: &str| match extension.get(key) {
+            None => Ok(0),
+            Some(value) => value.as_u64().ok_or_else(|| format!("{key} of its compression is {value}")),
+        };
+        let size =
+            |key: &str| number(key).and_then(|number| usize::try_from(number).map_err(|error| error.to_string()));
+        Ok(Self {
+            buffer: size("buffer")?,
             offset: number("byteOffset")?,
             length: number("byteLength")?,
-            count: usize::try_from(number("count")?).ok()?,
-            stride: usize::try_from(number("byteStride")?).ok()?,
-            mode: match extension.get("mode")?.as_str()? {
-                "ATTRIBUTES" => meshopt::Mode::Attributes,
-                "TRIANGLES" => meshopt::Mode::Triangles,
-                "INDICES" => meshopt::Mode::Indices,
-                _ => return None,
+            count: size("count")?,
+            stride: size("byteStride")?,
+            mode: match extension.get("mode").and_then(Value::as_str) {
+                Some("ATTRIBUTES") => meshopt::Mode::Attributes,
+                Some("TRIANGLES") => meshopt::Mode::Triangles,
+                Some("INDICES") => meshopt::Mode::Indices,
+                other => {
+                    return Err(format!(
+                        "the mode {} of its compression is unknown",
+                        other.unwrap_or("without a name")
+                    ));
+                }
             },
             filter: match extension.get("filter").and_then(Value::as_str) {
                 None | Some("NONE") => meshopt::Filter::None,
                 Some("OCTAHEDRAL") => meshopt::Filter::Octahedral,
                 Some("QUATERNION") => meshopt::Filter::Quaternion,
                 Some("EXPONENTIAL") => meshopt::Filter::Exponential,
-                Some(_) => return None,
+                Some("COLOR") => meshopt::Filter::Colour,
+                Some(other) => return Err(format!("the filter {other} of its compression is unknown")),
             },
         })
     }
@@ -310,7 +330,7 @@ impl PackedView {
 /// Refusal of a file's version, if it is not 2.0 or compatible.
 fn version_fault(asset: &json::Asset) -> Option<String> {
     let needed = asset.min_version.as_deref().unwrap_or("2.0");
-    let good = asset.version.starts_with("2.") && needed == "2.0";
+    let good = (asset.version.starts_with("2.") || asset.version == "2") && ["2.0", "2"].contains(&needed);
     (!good).then(|| format!("its version is {} (at least {needed})", asset.version))
 }
 

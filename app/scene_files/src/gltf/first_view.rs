@@ -15,6 +15,7 @@ use super::extras::SceneExtras;
 use super::floor;
 use super::nodes::NodePlacement;
 use super::notices::{Notices, Part};
+use super::start_pose::at_start;
 
 /// Time in which light crosses a scene by default, seconds.
 const CROSSING_S: f64 = 5.0;
@@ -65,11 +66,12 @@ pub(super) fn cameras(document: &Document<'_>, placements: &[NodePlacement], not
             notices.add(format!("the camera \"{name}\" is not perspective: only its place and direction are used"));
         }
         let fov = perspective.map(|perspective| f64::from(perspective.yfov));
-        let axes = placement.transform.matrix3;
+        let transform = at_start(placement);
+        let axes = transform.matrix3;
         found.push(ViewCamera {
             name: name.clone(),
             start: Start {
-                position: placement.transform.translation,
+                position: transform.translation,
                 look: (axes * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z),
                 up: (axes * DVec3::Y).normalize_or(DVec3::Y),
                 eye_height_m: 0.0,
@@ -103,17 +105,19 @@ fn with_paths(scene: &Scene, [least, most]: [DVec3; 2]) -> [DVec3; 2] {
     /// Largest size of a path, as a multiple of the scene's own, that the first view takes in.
     const LARGEST: f64 = 10.0;
     let size = (most - least).length();
-    let paths = (0..scene.motions.len()).filter_map(|motion| scene.path_bounds(motion));
+    let meshes = scene.moving_meshes();
+    let paths = meshes.iter().enumerate().filter_map(|(motion, meshes)| scene.path_bounds(motion, meshes));
     let near = paths.filter(|[from, to]| size > 0.0 && (*to - *from).length() <= LARGEST * size);
     near.fold([least, most], |[least, most], [from, to]| [least.min(from), most.max(to)])
 }
 
 /// Largest speed of what is animated, m/s.
 fn fastest_m_s(scene: &Scene) -> f64 {
-    let speed = |number: usize| {
-        scene.motions[number].animated().map(|body| scene.fastest(number).beta * body.speed_of_light_m_s())
+    let meshes = scene.moving_meshes();
+    let speed = |(number, meshes): (usize, &Vec<usize>)| {
+        scene.motions[number].animated().map(|body| scene.fastest(number, meshes).beta * body.speed_of_light_m_s())
     };
-    (0..scene.motions.len()).filter_map(speed).fold(0.0, f64::max)
+    meshes.iter().enumerate().filter_map(speed).fold(0.0, f64::max)
 }
 
 /// Mean direction in which the single-sided triangles of a scene face, weighted by their areas: a unit vector if all

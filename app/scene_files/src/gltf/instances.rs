@@ -62,7 +62,14 @@ impl<'a> Instances<'a> {
                 Some(known) => *known,
                 None => {
                     let node = &document.json.nodes[placement.node];
-                    let of_node = Deformation::of(document, node, mesh, &placed.transforms, &node_place, notices)?;
+                    let of_node = Deformation::of(
+                        document,
+                        (placement.node, node),
+                        mesh,
+                        &placed.transforms,
+                        &node_place,
+                        notices,
+                    )?;
                     let index = of_node.map(|of_node| found.number(of_node));
                     deformation_of_node.insert(placement.node, index);
                     index
@@ -106,6 +113,20 @@ impl<'a> Instances<'a> {
             }
         }
         Ok(found)
+    }
+
+    /// Name of what the scene has, if no triangles.
+    pub(super) fn found_instead(&self, document: &Document<'_>, placed: &Placed) -> &'static str {
+        let bears_mesh = |node: &usize| document.json.nodes[*node].mesh.is_some();
+        if document.json.meshes.is_empty() {
+            "nodes"
+        } else if placed.placements.iter().any(|placement| placement.mesh.is_some()) {
+            "points and lines"
+        } else if placed.transforms.keys().any(bears_mesh) {
+            "hidden nodes (KHR_node_visibility)"
+        } else {
+            "nodes without meshes"
+        }
     }
 
     /// Index of a deformation, which is added if it is new.

@@ -18,6 +18,7 @@ use super::extras::{OwnExtras, SceneExtras};
 use super::nodes::NodePlacement;
 use super::notices::{Notices, Part};
 use super::spectrum::SpectrumReader;
+use super::start_pose::at_start;
 use scene::{Lamp, Lighting, Spot};
 
 /// Light of a scene.
@@ -82,7 +83,7 @@ fn source(
         return Err(document.damaged(&place, "its colour times its intensity is negative or beyond all numbers"));
     }
     let direction = || {
-        let direction = (placement.transform.matrix3 * DVec3::Z).try_normalize();
+        let direction = (at_start(placement).matrix3 * DVec3::Z).try_normalize();
         direction.ok_or_else(|| document.damaged(&format!("nodes[{}]", placement.node), "its light has no direction"))
     };
     if kind == Type::Directional {

@@ -23,7 +23,7 @@ use super::notices::{Notices, Part};
 use super::primitive::Primitive;
 use super::progress::{LoadStage, Progress};
 use super::spectrum::SpectrumReader;
-use super::{features, light, material, nodes, picture};
+use super::{animation, features, light, material, nodes, picture};
 
 /// Rules for reading a file.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,8 @@ pub struct ReadRules<'a> {
 /// that is faulty is left out, and a notice names it.
 pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Sync) -> Result<Scene, GltfError> {
     let mut notices = Notices::default();
-    let document = Document::open(path, rules.budget, rules.trust, &mut notices)?;
+    let mut document = Document::open(path, rules.budget, rules.trust, &mut notices)?;
+    animation::hold_shapes(&mut document);
     features::note_undrawn(&document, &mut notices);
 
     // Find the placements, and refuse a scene that is too large before any of it is unpacked.
@@ -87,7 +88,7 @@ pub fn load(path: &Path, rules: ReadRules<'_>, progress: impl Fn(Progress) + Syn
         }
     }
     if primitives.values().all(|primitive| primitive.indices.is_empty()) {
-        let found = if document.json.meshes.is_empty() { "nodes" } else { "points and lines" };
+        let found = instances.found_instead(&document, &placed);
         let fault = notices.first_fault().map(str::to_owned);
         return Err(GltfError::Nothing { path: document.path, found, fault });
     }

@@ -10,6 +10,7 @@ use glam::{Mat2, Vec2};
 use super::document::Document;
 use super::notices::{Notices, Part};
 use super::spectrum::SpectrumReader;
+use super::specular::SpecularSurface;
 use scene::{Alpha, Material};
 
 /// Attenuation distance, metres, from which on a volume absorbs no light. glTF's default is infinity, which JSON cannot
@@ -95,10 +96,6 @@ fn read(
     let surface = &material.pbr_metallic_roughness;
     // Specular-glossiness, where a file has it, is what the surface was made with; the rest is a fallback.
     let specular = material.extensions.as_ref().and_then(|extensions| extensions.pbr_specular_glossiness.as_ref());
-    let base_texture = match specular {
-        Some(specular) => &specular.diffuse_texture,
-        None => &surface.base_color_texture,
-    };
     let extensions = material.extensions.as_ref();
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
@@ -109,6 +106,8 @@ fn read(
             AlphaMode::Opaque
         }
     };
+    let specular = specular.map(|specular| SpecularSurface::of(specular, mode == AlphaMode::Opaque, notices));
+    let base_texture = specular.map_or(surface.base_color_texture.as_ref(), |specular| specular.texture);
     let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
     let rough = surface.metallic_roughness_texture.is_some();
     let factor = |factor: f32| if factor.is_finite() { factor.clamp(0.0, 1.0) } else { 0.0 };
@@ -121,19 +120,16 @@ fn read(
     let mut read = Material {
         spectrum: spectra.of_extras(&material.extras, &format!("{place} \"{name}\"")),
         name,
-        base_colour: specular.map_or(surface.base_color_factor.0, |specular| specular.diffuse_factor.0),
-        base_colour_texture: base_texture.as_ref().map(|texture| texture.index.value()),
+        base_colour: specular.map_or(surface.base_color_factor.0, |specular| specular.base),
+        base_colour_texture: base_texture.map(|texture| texture.index.value()),
         emissive: material.emissive_factor.0.map(|factor| factor * strength),
         emissive_texture: material.emissive_texture.as_ref().map(|texture| texture.index.value()),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         double_sided: material.double_sided,
-        metallic: if specular.is_some() { 0.0 } else { factor(surface.metallic_factor.0) },
+        metallic: specular.map_or_else(|| factor(surface.metallic_factor.0), |specular| specular.metallic),
         // A roughness map gives the smooth places, but it is not drawn, so no part of the surface is a mirror.
         roughness: match specular {
-            Some(specular) if specular.specular_glossiness_texture.is_none() => {
-                1.0 - factor(specular.glossiness_factor.0)
-            }
-            Some(_) => 1.0,
+            Some(specular) => specular.roughness,
             None if rough => 1.0,
             None => factor(surface.roughness_factor.0),
         },
@@ -152,8 +148,7 @@ fn read(
         notices.left_out(Part::Material, &place, "its colours are beyond all numbers");
         (read.base_colour, read.emissive) = ([1.0; 4], [0.0; 3]);
     }
-    let [base, emissive] =
-        [base_texture, &material.emissive_texture].map(|texture| texture.as_ref().map(UvChannel::of));
+    let [base, emissive] = [base_texture, material.emissive_texture.as_ref()].map(|texture| texture.map(UvChannel::of));
     let uvs = SurfaceUvs {
         base: base.or(emissive).unwrap_or(UvChannel::FIRST),
         emissive: emissive.filter(|emissive| base.is_some_and(|base| base != *emissive)),

@@ -1,7 +1,7 @@
 //! Scenes from glTF 2.0 files, `.gltf` and `.glb`.
 //!
-//! Reading a file has several steps, each in a module of its own: `container` (its chunks), `document` (the file and
-//! its buffers, at `address`es), `file_json` (its JSON, with `repair`), `accessor` and `draco` (numbers), `animation`
+//! Reading a file has several steps, each in a module of its own: `document` (the file and its buffers; its text
+//! is the crate `gltf_text`'s), `accessor` and `draco` (numbers), `animation`
 //! (keys), `nodes` and `instancing` (placements), `primitive` and `deform` (triangles), `picture`, `material`, `light`,
 //! `spectrum` and `first_view`. The `gltf` crate gives the types of the JSON only. Every index, offset and length in
 //! it is checked here before it is used: a file may come from anywhere, and none may bring the program down or make
@@ -13,18 +13,15 @@
 //! [`scene::Scene::origin`] becomes f32: a street 1000 km from the file's origin keeps its millimetres.
 
 mod accessor;
-mod address;
 mod animation;
 mod attribute;
 mod bounds;
-mod container;
 mod deform;
 mod document;
 mod draco;
 mod error;
 pub(crate) mod extras;
 mod features;
-pub(crate) mod file_json;
 mod first_view;
 mod floor;
 mod instances;
@@ -33,13 +30,16 @@ mod light;
 mod load;
 pub(crate) mod material;
 mod nodes;
-mod notices;
 mod picture;
 mod primitive;
 mod progress;
-mod repair;
 mod source;
 pub(crate) mod spectrum;
+mod specular;
+mod start_pose;
+
+pub(crate) use gltf_text::file_json;
+use gltf_text::{container, notices};
 
 pub use error::{GltfError, SpectrumFault};
 pub use load::{ReadRules, load};

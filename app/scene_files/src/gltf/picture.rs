@@ -217,7 +217,7 @@ impl TextureLook {
             match decoded.get_mut(&key) {
                 Some(Ok(picture)) => {
                     if let Some(notice) = picture.notice.take() {
-                        notices.add(format!("the picture images[{image}] is {notice}"));
+                        notices.add(format!("of the picture images[{image}]: {notice}"));
                     }
                     let rgba = Arc::new(std::mem::take(&mut picture.rgba));
                     pictures.insert(key.clone(), ([picture.width, picture.height], rgba));

@@ -9,3 +9,4 @@ mod shared;
 mod spectra;
 mod support;
 mod town_file;
+mod unusual;

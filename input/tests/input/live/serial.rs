@@ -173,7 +173,7 @@ fn a_flood_does_not_stop_the_ride() {
             rest = &rest[plug.box_side().write(rest).unwrap_or(0)..];
         }
     }
-    plug.say("\n36\n");
+    plug.say("\n36\n36\n36\n");
     ride.until("the good line", |it| wheel_speed(it).is_some_and(|speed| speed > 9.0));
     assert!(ride.desk.faults(SampleSource::Bicycle).number() > 0);
 }

@@ -233,7 +233,7 @@ fn of_a_flood_the_newest_pose_survives() {
     let mut tracking = Loop::track(&server.url());
     let mut client = server.greet();
     client.write_all(&descriptions()).unwrap();
-    // The stream of 20 MB is not drained, many times what the queue holds; cookie and descriptions are long lost.
+    // The stream of 20 MB is not drained.
     let many: Vec<u8> = (0..1000).flat_map(|number| pose(number, 0.0)).collect();
     for _ in 0..230 {
         client.write_all(&many).unwrap();

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Address as it stands in a file, understood.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Address {
+pub enum Address {
     /// Bytes that stand in the address.
     Data(Vec<u8>),
     /// Names of a file, relative to the scene's folder; the first that exists is meant.
@@ -19,11 +19,12 @@ pub(super) enum Address {
 ///
 /// # Errors
 /// Fault of the address, in words.
-pub(super) fn address(uri: &str, trust: bool) -> Result<Address, String> {
-    if let Some(scheme) = uri.get(..5)
+pub fn address(uri: &str, trust: bool) -> Result<Address, String> {
+    let trimmed = uri.trim_start();
+    if let Some(scheme) = trimmed.get(..5)
         && scheme.eq_ignore_ascii_case("data:")
     {
-        return data(&uri[5..]).map(Address::Data);
+        return data(&trimmed[5..]).map(Address::Data);
     }
     if let Some((scheme, _)) = uri.split_once("://") {
         return Err(format!("an address that begins with {scheme}: is not fetched; put the file beside the scene"));
@@ -31,11 +32,18 @@ pub(super) fn address(uri: &str, trust: bool) -> Result<Address, String> {
     // A name may be written raw or percent-encoded, and with the backslashes of another system.
     let decoded = urlencoding::decode(uri).unwrap_or(Cow::Borrowed(uri)).into_owned();
     let mut names: Vec<PathBuf> = Vec::new();
-    for name in [decoded.clone(), uri.to_owned(), decoded.replace('\\', "/"), uri.replace('\\', "/")] {
-        let name = PathBuf::from(name);
+    let mut add = |name: &str| {
+        let name = without_detours(Path::new(name));
         if !names.contains(&name) {
             names.push(name);
         }
+    };
+    for name in [&*decoded, uri, &decoded.replace('\\', "/"), &uri.replace('\\', "/")] {
+        add(name);
+    }
+    // What a server would be asked, or a place within the file.
+    if let Some(end) = uri.find(['?', '#']).filter(|&end| end > 0) {
+        add(&urlencoding::decode(&uri[..end]).unwrap_or(Cow::Borrowed(&uri[..end])));
     }
     if !trust && !names.iter().all(|name| stays_below(name)) {
         return Err(format!("{uri} is not in the scene's folder; allow it with --trust"));
@@ -44,9 +52,10 @@ pub(super) fn address(uri: &str, trust: bool) -> Result<Address, String> {
 }
 
 /// Bytes of a data address, behind its scheme (RFC 2397): base64 of either alphabet, padded or not, with or without
-/// line breaks; else percent-encoded.
+/// line breaks; else percent-encoded. A place within the data (#) is no part of them.
 fn data(rest: &str) -> Result<Vec<u8>, String> {
     let (kind, text) = rest.split_once(',').ok_or("its data: address has no comma before the data")?;
+    let text = text.split_once('#').map_or(text, |(text, _)| text);
     let encoded = kind.rsplit(';').next().is_some_and(|last| last.trim().eq_ignore_ascii_case("base64"));
     let bytes = urlencoding::decode_binary(text.as_bytes());
     if !encoded {
@@ -60,6 +69,20 @@ fn data(rest: &str) -> Result<Vec<u8>, String> {
     }));
     let config = base64::STANDARD_NO_PAD.decode_allow_trailing_bits(true);
     base64::decode_config(&plain, config).map_err(|error| format!("its base64 is wrong: {error}"))
+}
+
+/// Path without steps into a folder and out again (RFC 3986, 5.2.4).
+fn without_detours(path: &Path) -> PathBuf {
+    let mut straight = PathBuf::new();
+    for part in path.components() {
+        let steps_back = matches!(straight.components().next_back(), Some(Component::Normal(_)));
+        match part {
+            Component::ParentDir if steps_back => drop(straight.pop()),
+            Component::CurDir => {}
+            part => straight.push(part),
+        }
+    }
+    straight
 }
 
 /// True if a relative path stays in the folder that it starts from.
@@ -84,6 +107,7 @@ mod tests {
             "data:;base64,AP+/\r\n f w==",
             "data:a/b;charset=x;base64,AP%2B%2Ffw%3D%3D",
             "data:application/gltf-buffer,%00%FF%BF%7F",
+            " data:;base64,AP+/fw==#part",
         ] {
             assert_eq!(address(uri, false).unwrap(), Address::Data(vec![0, 255, 191, 127]), "{uri}");
         }
@@ -99,6 +123,10 @@ mod tests {
         }
         let Address::File(names) = address("sub%20a\\b.png", false).unwrap() else { unreachable!("it is a file") };
         assert!(names.contains(&"sub a/b.png".into()) && names.contains(&"sub%20a\\b.png".into()), "{names:?}");
+        for (uri, name) in [("./sub/../a.png", "a.png"), ("sub//..\\a.png", "a.png"), ("b.png?v=1#x", "b.png")] {
+            let Ok(Address::File(names)) = address(uri, false) else { unreachable!("{uri} is a file in the folder") };
+            assert!(names.contains(&name.into()), "{names:?}");
+        }
         assert!(address("https://a.b/c", true).unwrap_err().contains("https"));
     }
 }

@@ -1,14 +1,17 @@
-//! Repair of a file's JSON: what exporters write against the letter of glTF is put right, and a part that cannot be
-//! read is replaced by an empty one, so that the rest can be drawn.
+//! Repair of a file's JSON: what exporters write against the letter of glTF is put right, a member that cannot be read
+//! is left out, and a part that cannot be read without it is replaced by an empty one, so that the rest can be drawn.
 //!
 //! A sound file never comes here: it is parsed in one pass. Only where that fails, or where a number is so large that
 //! an index would wrap around, is the text parsed as plain JSON, mended, and parsed again.
 
 use ::gltf::json;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Number, Value, json};
 
 use super::file_json::{GltfJson, NodeJson};
+use super::loose_json::tightened;
+use super::members::remove_unreadable;
 use super::notices::{Notices, Part};
 
 /// Keys whose numbers are indices into lists.
@@ -45,7 +48,7 @@ const NOWHERE: u32 = u32::MAX - 1;
 const LONG_NUMBER: usize = 10;
 
 /// True if the text may have an index that 32 bits cannot hold: a long run of digits that is no fraction.
-pub(super) fn may_wrap(text: &[u8]) -> bool {
+pub fn may_wrap(text: &[u8]) -> bool {
     let mut start = 0;
     while start < text.len() {
         if !text[start].is_ascii_digit() {
@@ -66,11 +69,20 @@ pub(super) fn may_wrap(text: &[u8]) -> bool {
     false
 }
 
-/// JSON of a file with its repairs made and named; `None` if the text is no JSON object, or has no asset.
-pub(super) fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
-    let mut value: Value = serde_json::from_str(&String::from_utf8_lossy(text)).ok()?;
+/// JSON of a file with its repairs made and named; `None` if the text is no JSON object.
+pub fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
+    let text = String::from_utf8_lossy(text);
+    let mut value: Value = match serde_json::from_str(&text) {
+        Ok(value) => value,
+        Err(fault) => {
+            let value = serde_json::from_str(&tightened(&text)).ok()?;
+            notices.left_out(Part::File, "what is no JSON", &fault.to_string());
+            value
+        }
+    };
     normalise(&mut value, "");
     let root = value.as_object_mut()?;
+    mend_asset(root, notices);
     list::<json::Scene>(root, "scenes", &json!({ "nodes": [] }), notices, |scene, _, _| {
         scene.entry("nodes").or_insert_with(|| json!([]));
     });
@@ -92,7 +104,12 @@ pub(super) fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
         },
     );
     list::<json::Skin>(root, "skins", &json!({ "joints": [] }), notices, |_, _, _| {});
-    list::<json::Camera>(root, "cameras", &json!({ "type": "unknown" }), notices, |_, _, _| {});
+    list::<json::Camera>(root, "cameras", &json!({ "type": "unknown" }), notices, |camera, _, _| {
+        // The near plane is this program's own.
+        if let Some(Value::Object(perspective)) = camera.get_mut("perspective") {
+            perspective.entry("znear").or_insert_with(|| json!(0.01));
+        }
+    });
     let none = json!({ "componentType": 0, "type": "none", "count": 0 });
     list::<json::Accessor>(root, "accessors", &none, notices, |_, _, _| {});
     list::<json::buffer::View>(
@@ -113,7 +130,7 @@ pub(super) fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
         let readable = match (key, root.get(key)) {
             (_, None) => true,
             ("scene", Some(scene)) => scene.is_u64(),
-            (_, Some(extensions)) => reads::<json::extensions::Root>(extensions).is_ok(),
+            (_, Some(extensions)) => json::extensions::Root::deserialize(extensions).is_ok(),
         };
         if !readable {
             root.remove(key);
@@ -123,8 +140,31 @@ pub(super) fn repaired(text: &[u8], notices: &mut Notices) -> Option<GltfJson> {
     serde_json::from_value(value).ok()
 }
 
-fn reads<T: DeserializeOwned>(value: &Value) -> Result<T, String> {
-    T::deserialize(value).map_err(|error| error.to_string())
+/// Writes a version that is a number as a text, and adds an asset that is missing: lists are of version 2.
+fn mend_asset(root: &mut Map<String, Value>, notices: &mut Notices) {
+    if !root.contains_key("asset") && ["nodes", "meshes"].iter().any(|key| root.get(*key).is_some_and(Value::is_array))
+    {
+        notices.left_out(Part::File, "asset", "it is missing");
+        root.insert("asset".into(), json!({ "version": "2.0" }));
+    }
+    let Some(asset) = root.get_mut("asset") else { return };
+    for key in ["version", "minVersion"] {
+        if let Some(number) = asset.get(key).and_then(Value::as_f64) {
+            asset[key] = Value::String(format!("{number:.1}"));
+        }
+    }
+    mend::<json::Asset>(asset, "asset", notices).ok();
+}
+
+/// Removes the members of an item that cannot be read, and names them.
+///
+/// # Errors
+/// Fault of an item that cannot be read all the same.
+fn mend<T: DeserializeOwned>(item: &mut Value, place: &str, notices: &mut Notices) -> Result<(), String> {
+    for (member, fault) in remove_unreadable::<T>(item)? {
+        notices.left_out(Part::File, &format!("{place}{member}"), &fault);
+    }
+    Ok(())
 }
 
 /// Mends the items of one of the file's lists with `mend`, and replaces those that cannot be read by `empty`.
@@ -146,21 +186,14 @@ fn list<T: DeserializeOwned>(
         if let Value::Object(item) = item {
             mend(item, &place, notices);
         }
-        let Err(fault) = reads::<T>(item) else { continue };
-        // An extension is the part that can be spared.
-        if let Value::Object(members) = item
-            && members.remove("extensions").is_some()
-            && reads::<T>(item).is_ok()
-        {
-            notices.left_out(Part::File, &format!("{place}.extensions"), &fault);
-            continue;
+        if let Err(fault) = self::mend::<T>(item, &place, notices) {
+            notices.left_out(part_of(key), &place, &fault);
+            *item = empty.clone();
         }
-        notices.left_out(part_of(key), &place, &fault);
-        *item = empty.clone();
     }
 }
 
-/// Removes the items of an item's own list that cannot be read.
+/// Mends the items of an item's own list, and removes those that cannot be read.
 fn inner<T: DeserializeOwned>(
     item: &mut Map<String, Value>,
     key: &str,
@@ -170,13 +203,14 @@ fn inner<T: DeserializeOwned>(
 ) {
     let Some(Value::Array(parts)) = item.get_mut(key) else { return };
     let mut index = 0;
-    parts.retain(|value| {
-        let read = reads::<T>(value);
+    parts.retain_mut(|value| {
+        let place = format!("{place}.{key}[{index}]");
+        let read = mend::<T>(value, &place, notices);
         if let Err(fault) = &read {
             // A channel of KHR_animation_pointer has no node.
             let pointer = part == Part::Animation && value["target"]["node"].is_null();
             let fault = if pointer { "it moves something else than a node" } else { fault };
-            notices.left_out(part, &format!("{place}.{key}[{index}]"), fault);
+            notices.left_out(part, &place, fault);
         }
         index += 1;
         read.is_ok()
@@ -195,14 +229,18 @@ fn part_of(key: &str) -> Part {
     }
 }
 
-/// Writes whole numbers as such (4.0 as 4), removes members that are null, and replaces indices that are too large.
+/// Writes whole numbers as such (4.0 as 4), removes members that are null and indices of −1, which stand for none, and
+/// replaces indices that are too large.
 /// Extras belong to other programs and stay as they are.
 fn normalise(value: &mut Value, key: &str) {
     match value {
         Value::Object(members) => {
             // A name that is none costs nothing but itself.
+            let none = |key: &str, member: &Value| {
+                (INDEX_KEYS.contains(&key)) && member.as_f64() == Some(-1.0) || member.is_null()
+            };
             let kept = |key: &str, member: &Value| {
-                key == "extras" || !member.is_null() && (key != "name" || member.is_string())
+                key == "extras" || !none(key, member) && (key != "name" || member.is_string())
             };
             members.retain(|key, member| kept(key, member));
             for (own, member) in members.iter_mut().filter(|(key, _)| key.as_str() != "extras") {
@@ -238,6 +276,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
+    use ::gltf::json::validation::Checked::Valid;
 
     #[test]
     fn whole_numbers_with_a_fraction_of_zero_are_whole() {
@@ -262,6 +301,40 @@ mod tests {
         assert!(json.animations[0].channels.is_empty() && json.scenes[0].nodes.is_empty());
         let said = notices.into_sentences().join("\n");
         assert!(said.contains("materials[0]") && said.contains("animations[0].channels[0]"), "{said}");
+    }
+
+    #[test]
+    fn a_member_that_cannot_be_read_costs_nothing_but_itself() {
+        let text = br#"{ "nodes": [
+            { "children": [1, "x"], "translation": [0, 1], "rotation": [0, 0, 0, 1], "camera": -1 }, {}],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 3, "NORMAL": "x" }, "material": -1 }] }],
+            "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.5 } }],
+            "materials": [{ "emissiveFactor": [1], "alphaMode": "BLEND", "normalTexture": {}, "extensions": {
+                "KHR_materials_ior": { "ior": "x" }, "KHR_materials_unlit": {} } }] }"#;
+        let mut notices = Notices::default();
+        let json = repaired(text, &mut notices).unwrap();
+        let node = &json.nodes[0];
+        assert_eq!((node.rotation, node.translation), (Some([0.0, 0.0, 0.0, 1.0]), None));
+        assert_eq!(node.children.as_ref().unwrap().len(), 1);
+        let attributes = &json.meshes[0].primitives[0].attributes;
+        assert_eq!(attributes.values().map(|index| index.value()).collect::<Vec<_>>(), [3]);
+        assert_eq!(json.cameras[0].perspective.as_ref().unwrap().yfov, 0.5);
+        let material = &json.materials[0];
+        let extensions = material.extensions.as_ref().unwrap();
+        assert!(extensions.unlit.is_some() && material.normal_texture.is_none());
+        assert_eq!(material.alpha_mode, Valid(json::material::AlphaMode::Blend));
+        let said = notices.into_sentences().join("\n");
+        assert!(said.starts_with("7 parts of the file are passed over: asset (it is missing)"), "{said}");
+    }
+
+    #[test]
+    fn a_text_that_is_almost_json_is_read() {
+        let text = b"{ \"asset\": { \"version\": 2.0, \"generator\": 7 }, \"accessors\": [{ \"componentType\": 5126,
+            \"count\": 1, \"type\": \"VEC3\", \"min\": [NaN, 0, 0] },], }";
+        let mut notices = Notices::default();
+        let json = repaired(text, &mut notices).unwrap();
+        assert_eq!((json.asset.version.as_str(), json.accessors[0].count.0), ("2.0", 1));
+        assert!(notices.into_sentences().join("\n").contains("what is no JSON"));
     }
 
     #[test]

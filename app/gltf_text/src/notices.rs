@@ -13,7 +13,7 @@ const LONGEST: usize = 200;
 
 /// Kind of a part that is left out; the first matters most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Part {
+pub enum Part {
     /// Triangles, or the numbers that they are made of.
     Mesh,
     /// Node, with what hangs on it.
@@ -54,7 +54,7 @@ impl Part {
 
 /// Sentences for [`scene::Scene::notices`].
 #[derive(Default)]
-pub(super) struct Notices {
+pub struct Notices {
     parts: BTreeMap<Part, LeftOut>,
     sentences: Vec<(String, usize)>,
     place_of: BTreeMap<String, usize>,
@@ -70,7 +70,7 @@ struct LeftOut {
 
 impl Notices {
     /// Adds a sentence about a feature.
-    pub(super) fn add(&mut self, sentence: String) {
+    pub fn add(&mut self, sentence: String) {
         let place = *self.place_of.entry(sentence.clone()).or_insert(self.sentences.len());
         match self.sentences.get_mut(place) {
             Some((_, count)) => *count += 1,
@@ -79,7 +79,7 @@ impl Notices {
     }
 
     /// Adds a part of the file that is left out, with its place in the JSON and its fault.
-    pub(super) fn left_out(&mut self, part: Part, place: &str, fault: &str) {
+    pub fn left_out(&mut self, part: Part, place: &str, fault: &str) {
         let parts = self.parts.entry(part).or_default();
         parts.count += 1;
         if parts.named.len() < NAMED {
@@ -93,11 +93,12 @@ impl Notices {
     }
 
     /// First fault of the geometry, if any of it is left out.
-    pub(super) fn first_fault(&self) -> Option<&str> {
+    pub fn first_fault(&self) -> Option<&str> {
         self.parts.values().next().and_then(|parts| parts.named.first()).map(String::as_str)
     }
 
-    pub(super) fn into_sentences(self) -> Vec<String> {
+    /// All notices, parts first.
+    pub fn into_sentences(self) -> Vec<String> {
         let of_part = |(part, parts): (Part, LeftOut)| {
             let more = parts.count - parts.named.len().min(parts.count);
             let more = if more > 0 { format!(", and {more} more") } else { String::new() };

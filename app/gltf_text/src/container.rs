@@ -7,25 +7,24 @@
 use std::ops::Range;
 
 /// Parts of a file: its JSON, its binary chunk, and a notice about a container that is cut short.
-pub(super) struct Chunks {
+pub struct Chunks {
     /// Range of the JSON in the file.
-    pub(super) json: Range<usize>,
+    pub json: Range<usize>,
     /// Range of the binary chunk in the file.
-    pub(super) blob: Option<Range<usize>>,
+    pub blob: Option<Range<usize>>,
     /// Number of bytes that the file announces beyond its end.
-    pub(super) missing: usize,
+    pub missing: usize,
 }
 
 /// Parts of a file of any of the two kinds.
 ///
 /// # Errors
 /// Fault of the container, in words.
-pub(super) fn chunks(bytes: &[u8]) -> Result<Chunks, String> {
+pub fn chunks(bytes: &[u8]) -> Result<Chunks, String> {
     if bytes.starts_with(b"glTF") {
         return glb_chunks(bytes);
     }
-    let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-    let json = start..start + without_padding(&bytes[start..]);
+    let json = text(bytes, 0..bytes.len());
     if bytes[json.clone()].iter().find(|byte| !byte.is_ascii_whitespace()) != Some(&b'{') {
         return Err("it is neither a .glb nor JSON".into());
     }
@@ -47,8 +46,8 @@ fn glb_chunks(bytes: &[u8]) -> Result<Chunks, String> {
         let end = start.saturating_add(size as usize);
         match kind {
             b"JSON" if json.is_none() => {
-                let text = bytes.get(start..end).ok_or("its JSON is cut short")?;
-                json = Some(start..start + without_padding(text));
+                bytes.get(start..end).ok_or("its JSON is cut short")?;
+                json = Some(text(bytes, start..end));
             }
             b"BIN\0" if blob.is_none() => blob = Some(start..end.min(bytes.len())),
             _ => {}
@@ -65,13 +64,38 @@ fn glb_chunks(bytes: &[u8]) -> Result<Chunks, String> {
     Ok(Chunks { json, blob, missing })
 }
 
-fn without_padding(text: &[u8]) -> usize {
-    text.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1)
+/// Range of a text without a mark of its encoding before it and zeros behind.
+fn text(bytes: &[u8], within: Range<usize>) -> Range<usize> {
+    let start = within.start + if bytes[within.clone()].starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let last = bytes[start..within.end].iter().rposition(|&byte| byte != 0);
+    start..last.map_or(start, |last| start + last + 1)
 }
 
 /// Part of a slice, by numbers from a file; `None` if it does not exist.
-pub(super) fn range(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
+pub fn range(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(offset).ok()?;
     let end = usize::try_from(offset.checked_add(length)?).ok()?;
     bytes.get(start..end)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: the JSON of a container is its text alone, whatever stands around it.
+    #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+    use super::*;
+
+    #[test]
+    fn a_mark_of_the_encoding_and_padding_are_no_json() {
+        let texts: [&[u8]; 4] = [b"{ }", b"\xef\xbb\xbf{ }", b"{ }\0\0", b"\xef\xbb\xbf{ }\0"];
+        for text in texts {
+            let length = text.len() as u32;
+            let head =
+                [&b"glTF"[..], &2_u32.to_le_bytes(), &(20 + length).to_le_bytes(), &length.to_le_bytes()].concat();
+            let glb = [&head[..], b"JSON", text].concat();
+            for bytes in [text, &glb] {
+                assert_eq!(&bytes[chunks(bytes).unwrap().json], b"{ }");
+            }
+        }
+    }
 }

@@ -10,76 +10,102 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// JSON of a glTF file. Indices in it are not yet checked.
 #[derive(Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", expecting = "an object")]
-pub(crate) struct GltfJson {
-    pub(crate) asset: json::Asset,
+pub struct GltfJson {
+    /// Version of the format, and who made the file.
+    pub asset: json::Asset,
+    /// Names of all extensions in the file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) extensions_used: Vec<String>,
+    pub extensions_used: Vec<String>,
+    /// Names of the extensions without which the file cannot be read.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) extensions_required: Vec<String>,
+    pub extensions_required: Vec<String>,
+    /// Extensions of the whole file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) extensions: Option<json::extensions::Root>,
+    pub extensions: Option<json::extensions::Root>,
+    /// Index of the scene that is shown first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) scene: Option<Index<json::Scene>>,
+    pub scene: Option<Index<json::Scene>>,
+    /// Scenes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) scenes: Vec<json::Scene>,
+    pub scenes: Vec<json::Scene>,
+    /// Nodes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) nodes: Vec<NodeJson>,
+    pub nodes: Vec<NodeJson>,
+    /// Meshes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) meshes: Vec<json::Mesh>,
+    pub meshes: Vec<json::Mesh>,
+    /// Materials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) materials: Vec<json::Material>,
+    pub materials: Vec<json::Material>,
+    /// Textures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) textures: Vec<json::Texture>,
+    pub textures: Vec<json::Texture>,
+    /// Samplers of textures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) samplers: Vec<json::texture::Sampler>,
+    pub samplers: Vec<json::texture::Sampler>,
+    /// Images.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) images: Vec<json::Image>,
+    pub images: Vec<json::Image>,
+    /// Animations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) animations: Vec<json::Animation>,
+    pub animations: Vec<json::Animation>,
+    /// Skins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) skins: Vec<json::Skin>,
+    pub skins: Vec<json::Skin>,
+    /// Cameras.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) cameras: Vec<json::Camera>,
+    pub cameras: Vec<json::Camera>,
+    /// Accessors.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) accessors: Vec<json::Accessor>,
+    pub accessors: Vec<json::Accessor>,
+    /// Buffer views.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) buffer_views: Vec<json::buffer::View>,
+    pub buffer_views: Vec<json::buffer::View>,
+    /// Buffers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) buffers: Vec<json::Buffer>,
+    pub buffers: Vec<json::Buffer>,
 }
 
 /// Node with all digits of its transform.
 #[derive(Default, Deserialize, Serialize)]
 #[serde(expecting = "an object")]
-pub(crate) struct NodeJson {
+pub struct NodeJson {
+    /// Name.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) name: Option<String>,
+    pub name: Option<String>,
+    /// Indices of the nodes below.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) children: Option<Vec<Index<json::Node>>>,
+    pub children: Option<Vec<Index<json::Node>>>,
+    /// Index of its mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) mesh: Option<Index<json::Mesh>>,
+    pub mesh: Option<Index<json::Mesh>>,
+    /// Index of its camera.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) camera: Option<Index<json::Camera>>,
+    pub camera: Option<Index<json::Camera>>,
+    /// Index of its skin.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) skin: Option<Index<json::Skin>>,
+    pub skin: Option<Index<json::Skin>>,
+    /// Weights of the morph targets, in place of its mesh's.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) weights: Option<Vec<f32>>,
+    pub weights: Option<Vec<f32>>,
     /// Matrix of the transform to the parent's frame, column by column.
     #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
-    pub(crate) matrix: Option<[f64; 16]>,
+    pub matrix: Option<[f64; 16]>,
     /// Translation, metres.
     #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
-    pub(crate) translation: Option<[f64; 3]>,
+    pub translation: Option<[f64; 3]>,
     /// Rotation, a quaternion x, y, z, w.
     #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
-    pub(crate) rotation: Option<[f64; 4]>,
+    pub rotation: Option<[f64; 4]>,
     /// Scale factors.
     #[serde(default, deserialize_with = "single_range", skip_serializing_if = "Option::is_none")]
-    pub(crate) scale: Option<[f64; 3]>,
+    pub scale: Option<[f64; 3]>,
+    /// Extensions of the node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) extensions: Option<json::extensions::scene::Node>,
+    pub extensions: Option<json::extensions::scene::Node>,
+    /// Data of other programs, and of this one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) extras: Extras,
+    pub extras: Extras,
 }
 
 /// Numbers of a transform, with all their digits, in the range of single precision: glTF knows no larger numbers, and
