@@ -98,7 +98,11 @@ fn a_steered_ride_has_the_same_bits_without_fused_multiplication() {
             }
             let verified = command.output().unwrap();
             let text = said(&verified);
-            assert!(text.contains(&format!("{FRAMES} frames, identical to the bit")), "{name}: {text}{}", told(&verified));
+            assert!(
+                text.contains(&format!("{FRAMES} frames, identical to the bit")),
+                "{name}: {text}{}",
+                told(&verified)
+            );
         }
     }
 }

@@ -92,9 +92,7 @@ impl TrackingMode {
     pub fn of(self, state: HeadState) -> Option<HeadState> {
         match self {
             Self::PositionAndVelocity => Some(state),
-            Self::Position => {
-                Some(HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..state })
-            }
+            Self::Position => Some(HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..state }),
             Self::None => None,
         }
     }

@@ -264,6 +264,9 @@ fn quaternions_keep_their_sign() {
 fn modes_use_what_they_say() {
     let state = walking().state(SEEN);
     assert_eq!(TrackingMode::PositionAndVelocity.of(state), Some(state));
-    assert_eq!(TrackingMode::Position.of(state), Some(HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..state }));
+    assert_eq!(
+        TrackingMode::Position.of(state),
+        Some(HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..state })
+    );
     assert_eq!(TrackingMode::None.of(state), None);
 }

@@ -21,5 +21,6 @@ mod sphere;
 mod stereo;
 mod textures;
 mod three_scenes;
+mod turning_room;
 mod vertex_stage;
 mod walls;

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::{DQuat, DVec3};
-use physics::worldline::WorldlineState;
+use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};
 use render::SceneRenderer;
 use render::picture::{Studio, light};
@@ -52,7 +52,9 @@ impl StereoWindow {
         let scene = rooms(head.place_m, colours);
         let mut renderer = SceneRenderer::new(gpu(), scene.clone(), format, None, AS_GIVEN, Occasion::Still).unwrap();
         let mut walls = Walls::new(gpu(), display, quality, wgpu::TextureFormat::Rgba32Float);
-        let submitted = walls.submit(gpu(), &mut renderer, &Occupant { vehicle, head }, Effects::NONE).unwrap();
+        let submitted = walls
+            .submit(gpu(), &mut renderer, &Occupant { vehicle, thrust: Thrust::default(), head }, Effects::NONE)
+            .unwrap();
         walls.draw(gpu(), &mut renderer, submitted).unwrap();
         walls.adapt(gpu(), &Default::default(), None);
         Self(walls)

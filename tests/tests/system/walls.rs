@@ -13,7 +13,7 @@
 use built_in::lattice::Lattice;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use image::RgbaImage;
-use physics::worldline::WorldlineState;
+use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};
 use rayon::prelude::*;
 use render::SceneRenderer;
@@ -69,6 +69,7 @@ fn head(viewer: &Viewer, celerity: DVec3) -> RoomHead {
         place_m: viewer.head_m + DVec3::new(0.2, 0.1, -0.15),
         room_from_head: room_from_turned(20.0, -10.0, 5.0),
         celerity: Celerity::new(celerity).unwrap(),
+        turn_rate: DVec3::ZERO,
     }
 }
 
@@ -92,6 +93,11 @@ fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant])
     pictures
 }
 
+/// Celerity U of what moves by `celerity` over ground that moves at β: U = γβ + u, by repetition.
+fn carried(beta: DVec3, celerity: DVec3) -> DVec3 {
+    (0..200).fold(celerity, |carried, _| beta * (1.0 + carried.length_squared()).sqrt() + celerity)
+}
+
 /// Exact picture of a channel, by textbook formulas.
 struct ExactChannel<'a> {
     boxes: &'a Boxes,
@@ -105,13 +111,18 @@ struct ExactChannel<'a> {
 
 impl<'a> ExactChannel<'a> {
     fn new(boxes: &'a Boxes, display: &'a Display, channel: &'a Channel, occupant: &Occupant) -> Self {
-        let Occupant { vehicle, head } = occupant;
+        let Occupant { vehicle, thrust, head } = occupant;
         let world_from_room = boost(-vehicle.celerity.vector()) * rotation(vehicle.orientation);
-        let world_from_head = world_from_room * boost(-head.celerity.vector());
+        let of_head = carried(thrust.turn_rate.cross(head.place_m), head.celerity.vector());
+        let world_from_middle = world_from_room * boost(-of_head);
         let aside = head.room_from_head.x_axis * (0.5 * channel.eye.side() * display.viewer.eye_separation_m);
+        // The clocks of the head and of the vehicle differ by the head's γ.
+        let turn = head.turn_rate + thrust.turn_rate * (1.0 + of_head.length_squared()).sqrt();
+        let of_eye = carried(turn.cross(aside * display.viewer.eye_scale), DVec3::ZERO);
+        let world_from_head = world_from_middle * boost(-of_eye);
         let event = four(vehicle.ct, vehicle.position)
             + world_from_room * four(0.0, head.place_m)
-            + world_from_head * four(0.0, aside * display.viewer.eye_scale);
+            + world_from_middle * four(0.0, aside * display.viewer.eye_scale);
         let (eye_m, eye_in_world) = (head.place_m + aside, space(event));
         Self { boxes, display, channel, world_from_head, eye_m, eye_in_world }
     }
@@ -147,10 +158,16 @@ fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene) {
     let boxes = Boxes::of(&LATTICE, BACKGROUND);
     let display = display(name, coarser);
     let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
+    let thrust = Thrust::default();
+    // Rates in radians per metre: of a flight that rolls and noses up, and of a head that is shaken, near light.
+    let turning = Thrust { turn_rate: DVec3::new(0.09, -0.05, 0.12), ..thrust };
+    let turning_head = head(&display.viewer, DVec3::new(0.5, -0.1, 0.3));
+    let turning_head = RoomHead { turn_rate: DVec3::new(0.5, 3.0, -0.4), ..turning_head };
     let occupants = [
-        Occupant { vehicle: vehicle(DVec3::ZERO), head: head(&display.viewer, DVec3::ZERO) },
-        Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::ZERO) },
-        Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::new(0.5, -0.1, 0.3)) },
+        Occupant { vehicle: vehicle(DVec3::ZERO), thrust, head: head(&display.viewer, DVec3::ZERO) },
+        Occupant { vehicle: vehicle(fast), thrust, head: head(&display.viewer, DVec3::ZERO) },
+        Occupant { vehicle: vehicle(fast), thrust, head: head(&display.viewer, DVec3::new(0.5, -0.1, 0.3)) },
+        Occupant { vehicle: vehicle(fast), thrust: turning, head: turning_head },
     ];
     let pictures = drawn(&display, method, scene, &occupants);
     for (occupant, pictures) in occupants.iter().zip(&pictures) {
@@ -198,10 +215,11 @@ fn every_projector_of_a_dome_shows_what_the_eye_sees() {
 fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let display = display("cave4", 8);
     let fast = DVec3::new(-0.9, 0.4, -1.5);
-    let walking = Occupant { vehicle: vehicle(fast), head: head(&display.viewer, DVec3::new(0.7, -0.2, 0.5)) };
+    let thrust = Thrust::default();
+    let walking = Occupant { vehicle: vehicle(fast), thrust, head: head(&display.viewer, DVec3::new(0.7, -0.2, 0.5)) };
 
     // Reference: one boost, at the same event.
-    let Occupant { vehicle, head } = walking;
+    let Occupant { vehicle, head, .. } = walking;
     let room_from_world = rotation(vehicle.orientation).inverse() * boost(fast);
     let head_from_world = boost(head.celerity.vector()) * room_from_world;
     let (celerity, room_from_boosted) = parts(head_from_world);
@@ -212,6 +230,7 @@ fn vehicle_and_head_together_are_one_boost_and_one_rotation() {
     let at_rest = RoomHead { celerity: Celerity::ZERO, ..head };
     let one = Occupant {
         vehicle: WorldlineState::new(reference, Celerity::new(celerity).unwrap(), orientation),
+        thrust,
         head: at_rest,
     };
 
