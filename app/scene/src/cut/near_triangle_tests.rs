@@ -95,7 +95,6 @@ fn a_wall_right_behind_at_a_high_speed_needs_few_cuts_without_a_claim() {
             let rule = CutRule::new(&scene, &viewpoint, fineness, 0.0, None);
             let cut = rule.cut(&scene, fineness.triangles).expect("few triangles do");
             let unclaimed = rule.unclaimed_cuts.into_inner();
-            println!("{away} {speed}: {} triangles, {unclaimed} cuts without a claim", cut.triangles);
             assert!(unclaimed < 62_500 / 4, "{unclaimed} cuts without a claim for {} triangles", cut.triangles);
         }
     }
