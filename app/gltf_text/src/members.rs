@@ -11,11 +11,14 @@ const MOST_FAULTS: usize = 16;
 const INDEX_LISTS: [&str; 2] = ["children", "nodes"];
 
 /// Removes the members of an item that cannot be read as part of a `T`, and gives their paths in the item and their
-/// faults.
+/// faults. `spared` is true for the path of a member without which the rest means the same.
 ///
 /// # Errors
 /// First fault of an item that cannot be read all the same; the item stays as it was.
-pub(crate) fn remove_unreadable<T: DeserializeOwned>(item: &mut Value) -> Result<Vec<(String, String)>, String> {
+pub(crate) fn remove_unreadable<T: DeserializeOwned>(
+    item: &mut Value,
+    spared: impl Fn(&str) -> bool,
+) -> Result<Vec<(String, String)>, String> {
     let Err((_, first)) = read::<T>(item) else { return Ok(Vec::new()) };
     let mut mended = item.clone();
     let mut removed = Vec::new();
@@ -24,7 +27,7 @@ pub(crate) fn remove_unreadable<T: DeserializeOwned>(item: &mut Value) -> Result
             *item = mended;
             return Ok(removed);
         };
-        let Some(member) = remove_at(&mut mended, &path) else { break };
+        let Some(member) = remove_at(&mut mended, &path).filter(|member| spared(member)) else { break };
         removed.push((member, fault));
     }
     Err(first)

@@ -41,6 +41,9 @@ const INDEX_KEYS: [&str; 20] = [
 /// Keys below which every number is an index, whatever its own key.
 const INDEX_MAPS: [&str; 2] = ["attributes", "targets"];
 
+/// Members of lists of numbers without which these mean the same. Any other, such as an offset, would give wrong ones.
+const SPARED: [&str; 4] = [".name", ".target", ".min", ".max"];
+
 /// Index that no list has, in place of one that 32 bits cannot hold.
 const NOWHERE: u32 = u32::MAX - 1;
 
@@ -153,15 +156,20 @@ fn mend_asset(root: &mut Map<String, Value>, notices: &mut Notices) {
             asset[key] = Value::String(format!("{number:.1}"));
         }
     }
-    mend::<json::Asset>(asset, "asset", notices).ok();
+    mend::<json::Asset>(asset, "asset", notices, |_| true).ok();
 }
 
-/// Removes the members of an item that cannot be read, and names them.
+/// Removes the members of an item that cannot be read and are `spared`, and names them.
 ///
 /// # Errors
 /// Fault of an item that cannot be read all the same.
-fn mend<T: DeserializeOwned>(item: &mut Value, place: &str, notices: &mut Notices) -> Result<(), String> {
-    for (member, fault) in remove_unreadable::<T>(item)? {
+fn mend<T: DeserializeOwned>(
+    item: &mut Value,
+    place: &str,
+    notices: &mut Notices,
+    spared: impl Fn(&str) -> bool,
+) -> Result<(), String> {
+    for (member, fault) in remove_unreadable::<T>(item, spared)? {
         notices.left_out(Part::File, &format!("{place}{member}"), &fault);
     }
     Ok(())
@@ -181,12 +189,14 @@ fn list<T: DeserializeOwned>(
         notices.left_out(Part::File, key, "it is no list");
         return;
     };
+    let are_numbers = ["accessors", "bufferViews", "buffers"].contains(&key);
+    let is_spared = |member: &str| SPARED.iter().any(|name| member.starts_with(name));
     for (index, item) in items.iter_mut().enumerate() {
         let place = format!("{key}[{index}]");
         if let Value::Object(item) = item {
             mend(item, &place, notices);
         }
-        if let Err(fault) = self::mend::<T>(item, &place, notices) {
+        if let Err(fault) = self::mend::<T>(item, &place, notices, |member| !are_numbers || is_spared(member)) {
             notices.left_out(part_of(key), &place, &fault);
             *item = empty.clone();
         }
@@ -205,7 +215,7 @@ fn inner<T: DeserializeOwned>(
     let mut index = 0;
     parts.retain_mut(|value| {
         let place = format!("{place}.{key}[{index}]");
-        let read = mend::<T>(value, &place, notices);
+        let read = mend::<T>(value, &place, notices, |_| true);
         if let Err(fault) = &read {
             // A channel of KHR_animation_pointer has no node.
             let pointer = part == Part::Animation && value["target"]["node"].is_null();
@@ -325,6 +335,18 @@ mod tests {
         assert_eq!(material.alpha_mode, Valid(json::material::AlphaMode::Blend));
         let said = notices.into_sentences().join("\n");
         assert!(said.starts_with("7 parts of the file are passed over: asset (it is missing)"), "{said}");
+    }
+
+    #[test]
+    fn numbers_without_their_place_are_no_numbers() {
+        let text = br#"{ "asset": { "version": "2.0" }, "bufferViews": [
+            { "buffer": 0, "byteLength": 4, "byteOffset": -1 },
+            { "buffer": 0, "byteLength": 4, "byteOffset": 8, "target": "x" }] }"#;
+        let mut notices = Notices::default();
+        let json = repaired(text, &mut notices).unwrap();
+        let views = json.buffer_views.iter().map(|view| (view.byte_length.0, view.byte_offset.map_or(0, |at| at.0)));
+        assert_eq!(views.collect::<Vec<_>>(), [(0, 0), (4, 8)]);
+        assert!(notices.first_fault().unwrap().contains("bufferViews[0]"));
     }
 
     #[test]

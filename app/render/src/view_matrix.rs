@@ -5,7 +5,7 @@ use physics::Celerity;
 use view::{Camera, PixelSample};
 
 /// Distance in front of the eye, at rest, within which nothing is drawn, metres. Reversed depth has the same relative
-/// precision whatever it is, so it is small enough for molecules; what is 1e28 m away has a depth that f32 holds, still.
+/// precision whatever it is, so it is small enough for molecules; what is 1e27 m away has a depth that f32 holds.
 pub const NEAR_M: f64 = 1e-10;
 
 /// View uniforms of one picture, for the shaders.

@@ -189,3 +189,27 @@ fn around(places: &[DVec3]) -> Ball {
     let centre = 0.5 * (least + most);
     Ball { centre, radius: places.iter().map(|place| place.distance(centre)).fold(0.0, f64::max) }
 }
+
+#[cfg(test)]
+mod tests {
+    //! Law: the work is in proportion to the meshes and the motions, not to their product.
+    use super::*;
+    use crate::mesh::Mesh;
+    use physics::{Celerity, Event};
+
+    #[test]
+    fn very_many_motions_find_their_meshes_soon() {
+        let count = 200_000;
+        let uniform = Uniform { celerity: Celerity::ZERO, anchor: Event::default() };
+        let mut scene = Scene {
+            meshes: (0..count).map(|n| Mesh { motion: Some(count - 1 - n), ..Mesh::default() }).collect(),
+            motions: vec![Motion::Uniform(uniform); count],
+            ..Scene::default()
+        };
+        let started = std::time::Instant::now();
+        scene.set_speed_of_light(1.0).expect("nothing is animated");
+        // A search among all meshes, for each motion, takes a minute.
+        assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
+        assert_eq!(scene.moving_meshes()[7], [count - 8]);
+    }
+}

@@ -50,7 +50,8 @@ impl<'a> MpcdiFiles<'a> {
         }
     }
 
-    /// Contents of a file by its name, in upper or lower case, with slashes of any system. The budget pays for them before they are unpacked.
+    /// Contents of a file by its name, in upper or lower case, with slashes of any system. The budget pays for them
+    /// before they are unpacked.
     pub fn read(&mut self, name: &str, budget: &Budget) -> Result<Vec<u8>, String> {
         match self {
             Self::Bare { folder, .. } => {

@@ -79,6 +79,21 @@ fn claims_are_refused_before_they_are_believed() {
     }
 }
 
+#[test]
+fn xml_that_takes_too_long_to_parse_is_refused() {
+    let attributes: String = (0..100_000).map(|n| format!(" a{n}='1'")).collect();
+    let spaces: String = (0..60_000).map(|n| format!("<a xmlns:n{n}='u{n}'>")).collect();
+    for (inside, words) in [
+        (format!("<Machine{attributes}/>"), "more than 1000 attributes"),
+        (format!("{spaces}{}", "</a>".repeat(60_000)), "more than 1000 namespaces"),
+    ] {
+        let begun = Instant::now();
+        let text = format!("<pvx>{inside}</pvx>");
+        let message = within("x.pvx", text.as_bytes(), Budget::DEFAULT).unwrap_err().to_string();
+        assert!(message.contains(words) && begun.elapsed() < SOON, "{message} after {:?}", begun.elapsed());
+    }
+}
+
 /// Checks that a file is read and described in time.
 fn soon(name: &str, text: &str, channels: usize) {
     let begun = Instant::now();

@@ -85,6 +85,22 @@ fn a_cut_ends_with_the_eye_in_the_plane_of_a_triangle_of_any_size() {
 }
 
 #[test]
+fn a_wall_right_behind_at_a_high_speed_needs_few_cuts_without_a_claim() {
+    let corners = [Vec3::new(-50.0, -50.0, 0.1), Vec3::new(50.0, -50.0, 0.1), Vec3::new(0.0, 50.0, 0.1)];
+    for (away, speed) in [(0.1, 1e6), (1.0, 1e6), (0.1, 1e3), (10.0, 1e6), (0.01, 1e6)] {
+        let scene = triangle(corners);
+        for eye in [DVec3::new(0.0, 0.0, 0.1 - away), DVec3::new(3.1, 0.7, 0.1 - away)] {
+            let viewpoint = viewpoint(eye, speed * DVec3::NEG_Z, DVec3::Z + 1e-9 * DVec3::X);
+            let fineness = CutFineness { tolerance_px: 0.5, turn_rad: 0.0, triangles: 8_000_000 };
+            let rule = CutRule::new(&scene, &viewpoint, fineness, 0.0, None);
+            let cut = rule.cut(&scene, fineness.triangles).expect("few triangles do");
+            let unclaimed = rule.unclaimed_cuts.into_inner();
+            assert!(unclaimed < 62_500 / 4, "{unclaimed} cuts without a claim for {} triangles", cut.triangles);
+        }
+    }
+}
+
+#[test]
 fn a_triangle_without_area_is_cut_to_an_end() {
     for size in [1.0, 1e7, 1e12_f32] {
         let line = [Vec3::NEG_X * size, Vec3::ZERO, Vec3::X * size];

@@ -47,6 +47,10 @@ const PATIENT_TRIES: u32 = 6;
 /// Number of tries after which nothing is cut.
 const MOST_TRIES: u32 = 16;
 
+/// Share of all triangles that may be made by cuts of edges without a claimed error; a try that makes more has gone
+/// astray, and ends at once.
+const UNCLAIMED_SHARE: f64 = 1.0 / 16.0;
+
 /// Length over distance above which edges without a claimed error are cut in the second try; it grows with the
 /// tolerance.
 const FIRST_UNCLAIMED: f64 = 1e-3;
@@ -86,6 +90,8 @@ struct CutRule<'a> {
     least_allowed: f64,
     /// Length over distance up to which an edge stays for which no error is claimed.
     unclaimed: f64,
+    /// Number of edges that were cut because no error is claimed for them.
+    unclaimed_cuts: AtomicUsize,
     before: Option<&'a Cut>,
 }
 
@@ -105,6 +111,7 @@ impl<'a> CutRule<'a> {
             skies,
             fineness,
             unclaimed,
+            unclaimed_cuts: AtomicUsize::new(0),
             before,
         }
     }
@@ -138,6 +145,9 @@ impl<'a> CutRule<'a> {
         let stays_unclaimed = || self.unclaimed == f64::INFINITY || length <= self.unclaimed * seen.length();
         if error_rad == 0.0 || error_rad == f64::INFINITY && stays_unclaimed() {
             return None;
+        }
+        if error_rad == f64::INFINITY {
+            self.unclaimed_cuts.fetch_add(1, Ordering::Relaxed);
         }
         let allowed = self.allowed(sight.observer_from_group * direction, radius_rad);
         let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(a, b)));
@@ -236,7 +246,11 @@ impl<'a> CutRule<'a> {
     fn cut_batch(&self, mesh: &Mesh, corners: &[u32], total: &AtomicUsize, limit: usize) -> Option<Batch> {
         let sight = self.sight(mesh);
         let mut batch = Batch::default();
-        let count = |made: usize| total.fetch_add(made, Ordering::Relaxed) + made <= limit;
+        let most_unclaimed = (UNCLAIMED_SHARE * limit as f64) as usize;
+        let count = |made: usize| {
+            total.fetch_add(made, Ordering::Relaxed) + made <= limit
+                && self.unclaimed_cuts.load(Ordering::Relaxed) <= most_unclaimed
+        };
         if self.is_whole(mesh, corners) {
             return count(corners.len() / 3).then_some(batch);
         }

@@ -15,6 +15,9 @@ use crate::scene::{MAX_TRIANGLES, Scene};
 /// which a split shortens an edge.
 const STEPS_PER_EDGE: f32 = 16.0;
 
+/// Ratio of the estimated number of triangles to the largest one from which on nothing is counted.
+const SURE: f64 = 3.0;
+
 /// Refined scene: no edge is longer than `edge` metres. If the scene has a circuit, edges further away from it than
 /// [`NEAR_M`](super::NEAR_M) may be longer by their distance over [`NEAR_M`](super::NEAR_M).
 ///
@@ -49,14 +52,11 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         }
     }
     let limit = limit.max(scene.triangle_count());
-    // Counting takes as long as splitting does, so it is left to the few lengths that estimates do not decide.
+    // Counting takes as long as splitting does, so it is left to scenes close to the limit.
     let estimate = rule.estimate(scene);
-    if estimate > limit as f64 && rule.count(scene, limit).is_none() {
+    if estimate > limit as f64 && (estimate > SURE * limit as f64 || rule.count(scene, limit).is_none()) {
         let triangles = rule.at_least(scene).max(limit as u64 + 1);
-        // Twice as long an edge makes a quarter of the triangles at best; the steps are powers of two.
-        let least = 0.5 * f64::from(edge) * (estimate / limit as f64).sqrt();
         let enough = round_lengths_above(edge)
-            .filter(|&length| f64::from(length) >= least)
             .find(|&length| SplitRule::new(f64::from(length), &circuit).estimate(scene) <= limit as f64)
             .expect("a length above all edges splits none");
         return Err(RefineError::TooMany { scene: scene.name.clone(), edge, triangles, limit, enough });

@@ -113,18 +113,22 @@ impl<'a> SplitRule<'a> {
         scene.meshes.iter().flat_map(triangles).map(bound).sum::<f64>() as u64
     }
 
-    /// Upper estimate of that number from the longest edges alone, at once for any length: four triangles each time
-    /// that the longest edge is halved. Slivers need nearly as many, since all their edges are long.
+    /// Estimate of that number from the lengths of the edges alone, at once for any length: a triangle becomes four
+    /// as long as its shortest edge is halved, then three for its two longer ones, then two.
     ///
-    /// *Accuracy:* never below the number, and up to four times as large for wide triangles (`tests.rs`).
+    /// *Accuracy:* 1 to 2.2 times the number of a large scene, and at least 0.6 times that of any triangle
+    /// (`tests.rs`).
     pub fn estimate(self, scene: &Scene) -> f64 {
         let of = |triangle: [Vec3; 3]| {
             let [a, b, c] = triangle;
-            let longest = [(a, b), (b, c), (c, a)].map(|(a, b)| distance_squared(a, b)).into_iter().fold(0.0, f64::max);
-            let longest = longest.sqrt();
-            let nearest = (self.distance(a.as_dvec3()) - longest).max(0.0);
-            let halvings = (longest / (self.edge * self.leniency(nearest).sqrt())).log2().ceil();
-            if halvings.is_finite() && halvings > 0.0 { 4.0_f64.powf(halvings) } else { 1.0 }
+            let mut lengths = [(a, b), (b, c), (c, a)].map(|(a, b)| distance_squared(a, b).sqrt());
+            lengths.sort_by(f64::total_cmp);
+            let nearest = if self.circuit.is_empty() { 0.0 } else { self.distance(a.as_dvec3()) - lengths[2] };
+            let edge = self.edge * self.leniency(nearest).sqrt();
+            let halvings = lengths.map(|length| (length / edge).log2().ceil().max(0.0));
+            let [short, middle, long] = halvings;
+            let number = 4.0_f64.powf(short) * 3.0_f64.powf(middle - short) * 2.0_f64.powf(long - middle);
+            if number.is_finite() { number } else { 1.0 }
         };
         let of_mesh = |mesh: &Mesh| triangles(mesh).map(of).sum::<f64>();
         scene.meshes.par_iter().map(of_mesh).sum()

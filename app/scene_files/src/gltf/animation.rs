@@ -1,8 +1,9 @@
 //! Animations: the nodes that keys move, and their keys (glTF 2.0, 3.11).
 //!
 //! All animations of a file run together, on the world's clock. Smooth translations, rotations and scalings move a
-//! node; a channel that holds one value is a pose, of a shape as well. A jump is faster than light, and stands still, as
-//! does a change of shape; a notice names them. Keys at equal times, and values that no time belongs to, are passed over.
+//! node; a channel that holds one value is a pose, of a shape as well. A jump is faster than light, and stands still,
+//! as does a change of shape; a notice names them. Keys at equal times, and values that no time belongs to, are passed
+//! over.
 
 use std::collections::BTreeMap;
 

@@ -81,7 +81,7 @@ fn contradictions_are_named_with_their_place() {
     refused(|file| file.json["accessors"][0]["byteOffset"] = json!(u64::MAX), &["accessors[0]"]);
     refused(|file| file.json["accessors"][0]["type"] = json!("VEC2"), &["accessors[0]", "Vec2"]);
     refused(|file| file.json["accessors"][0]["componentType"] = json!(1), &["accessors[0]", "unknown"]);
-    refused(|file| file.json["bufferViews"][0]["byteLength"] = json!(999), &["bufferViews[0]", "999 bytes"]);
+    refused(|file| file.json["bufferViews"][0]["byteOffset"] = json!(999), &["bufferViews[0]", "from 999 on"]);
     refused(|file| file.json["bufferViews"][0]["byteOffset"] = json!(u64::MAX), &["bufferViews[0]"]);
     refused(|file| file.json["bufferViews"][0]["byteStride"] = json!(8), &["accessors[0]", "every 8 bytes"]);
     refused(|file| file.json["bufferViews"][0]["buffer"] = json!(1), &["bufferViews[0]", "no number 1"]);
