@@ -7,12 +7,16 @@ use crate::output::files::unused;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
 use input::devices::{DeviceState, Devices};
+use input::head::Tracking;
 use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
-use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
+use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation, TICKS_PER_SECOND};
 use std::path::Path;
 
 /// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
+
+/// Own time that may be lost without a word, seconds: that of a first picture.
+const NOTICEABLE_S: f64 = 0.5;
 
 /// Ride in progress.
 pub struct Live {
@@ -21,6 +25,10 @@ pub struct Live {
     end: Option<Nanos>,
     said: Vec<Sample>,
     told: Vec<(Nanos, String)>,
+    /// Own time that was not ridden because frames came too late, seconds.
+    lost_s: f64,
+    /// Sentence on a head that its tracker does not see, while it does not.
+    unseen: Option<String>,
 }
 
 /// Source of the ride's frames.
@@ -56,7 +64,7 @@ impl Live {
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
         let end = seconds.map(|seconds| (seconds * SECOND as f64) as Nanos);
-        Self { clock, rider, end, said: Vec::new(), told: Vec::new() }
+        Self { clock, rider, end, said: Vec::new(), told: Vec::new(), lost_s: 0.0, unseen: None }
     }
 
     /// Present time of the ride.
@@ -93,6 +101,12 @@ impl Live {
                 samples.sort_by_key(|sample| sample.at);
                 let frame = simulation.frame(now, &samples);
                 devices.brake(frame.vehicle.resistance());
+                self.lost_s += frame.dropped_ticks as f64 / f64::from(TICKS_PER_SECOND);
+                let unseen = unseen(simulation.desk(), &frame);
+                if unseen.is_some() != self.unseen.is_some() {
+                    tell(unseen.as_deref().unwrap_or("the head is tracked"));
+                }
+                self.unseen = unseen;
                 if let Err(error) = log.frame(&samples, &frame) {
                     // The ride goes on, and the notice stays: nobody should believe that the rest is recorded.
                     tell(&error);
@@ -153,7 +167,20 @@ impl Live {
 
     /// Sentences for the rider, the newest last.
     pub fn told(&self) -> Vec<String> {
-        self.told.iter().map(|(_, sentence)| sentence.clone()).collect()
+        let mut told: Vec<String> = self.told.iter().map(|(_, sentence)| sentence.clone()).collect();
+        told.extend(self.unseen.clone());
+        if self.lost_s > NOTICEABLE_S {
+            told.push(self.loss());
+        }
+        told
+    }
+
+    fn loss(&self) -> String {
+        format!(
+            "{:.1} s of your own time were not ridden: frames took longer than a quarter of a second; a smaller \
+             picture helps",
+            self.lost_s
+        )
     }
 
     /// Sentences on the state of the devices, one each.
@@ -172,6 +199,10 @@ impl Live {
                     }
                     DeviceState::Absent(why) => format!("{}: {why}", status.source),
                 })
+                .chain(simulation.desk().head().map(|head| {
+                    let seen = self.unseen.as_deref().unwrap_or("the head is tracked");
+                    format!("{seen}; {} poses rejected", head.rejected().number())
+                }))
                 .collect(),
         }
     }
@@ -225,11 +256,29 @@ impl Live {
     /// # Errors
     /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
     pub fn finish(&mut self) -> Result<(), LogError> {
+        if self.lost_s > NOTICEABLE_S {
+            tell(self.loss());
+        }
         match &mut self.rider {
             Rider::Present { log, .. } => log.finish(),
             Rider::Recorded { .. } => Ok(()),
         }
     }
+}
+
+/// Sentence on a tracked head that is not seen, with the reason; `None` while it is seen, or if none is tracked.
+fn unseen(desk: &Desk, frame: &RideFrame) -> Option<String> {
+    let (head, state) = (desk.head()?, frame.controls.head.as_ref()?);
+    let how = match state.tracked {
+        Tracking::Tracked => return None,
+        Tracking::Never => "has not been seen yet",
+        Tracking::Fading | Tracking::Lost => "is lost, and rests at its last place",
+    };
+    let rejected = head.rejected();
+    let why = rejected
+        .last()
+        .map_or_else(String::new, |last| format!("; poses rejected: {}, the last: {last}", rejected.number()));
+    Some(format!("the head {how}{why}"))
 }
 
 /// Actions of a recorded ride's onlooker that concern the window alone.

@@ -21,6 +21,9 @@ pub enum PoseError {
     /// A place that is not finite, or absurdly far away.
     #[error("a head at {0}, which is nowhere")]
     Place(DVec3),
+    /// The tracker's origin without any turn, to the bit, which no sensor measures.
+    #[error("the zero pose, which trackers send for a head that they have lost")]
+    Zero,
     /// A quaternion that is not of length one.
     #[error("a quaternion of length {0}")]
     Quaternion(f64),

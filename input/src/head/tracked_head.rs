@@ -76,6 +76,9 @@ impl TrackedHead {
             return;
         }
         if let Err(error) = self.accept(pose) {
+            if error == PoseError::Zero {
+                self.gone(pose.at);
+            }
             self.rejected.count(error.to_string());
         }
     }
@@ -144,6 +147,10 @@ impl TrackedHead {
 
     /// Pose of the head, if the sensor's is possible.
     fn sound(&self, pose: &TrackedPose) -> Result<SeenPose, PoseError> {
+        let still = pose.position_m == DVec3::ZERO && DVec3::from_slice(&pose.orientation.to_array()) == DVec3::ZERO;
+        if still && self.config.counts_turn_and_clock() {
+            return Err(PoseError::Zero);
+        }
         let length = pose.orientation.length();
         if !UNIT_LENGTHS.contains(&length) {
             return Err(PoseError::Quaternion(length));
