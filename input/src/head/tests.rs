@@ -101,7 +101,7 @@ fn message_times_make_the_velocity_not_arrivals() {
     let mut head = head();
     for number in 0..20 {
         let jitter = if number % 2 == 0 { FRAME } else { 0 };
-        let walking = pose(number, DVec3::X * 0.01 * number as f64);
+        let walking = pose(number, DVec3::Y + DVec3::X * 0.01 * number as f64);
         head.pose(&TrackedPose { at: walking.at + jitter, ..walking });
         if number > 0 {
             near(head.state(number * FRAME).velocity_m_s, DVec3::X, CLOCK);
@@ -114,7 +114,7 @@ fn message_times_make_the_velocity_not_arrivals() {
 fn without_message_times_arrivals_make_the_velocity() {
     let mut head = head();
     for number in 0..20 {
-        head.pose(&TrackedPose { measured_s: None, ..pose(number, DVec3::X * 0.01 * number as f64) });
+        head.pose(&TrackedPose { measured_s: None, ..pose(number, DVec3::Y + DVec3::X * 0.01 * number as f64) });
     }
     near(head.state(19 * FRAME).velocity_m_s, DVec3::X, ROUNDING);
 }
@@ -145,7 +145,7 @@ fn a_slow_tracker_loses_nobody_between_its_frames() {
         // A tracker of 8 Hz.
         let at = number * SECOND / 8;
         let measured_s = Some(0.125 * number as f64);
-        head.pose(&TrackedPose { at, measured_s, ..pose(0, DVec3::X * 0.125 * number as f64) });
+        head.pose(&TrackedPose { at, measured_s, ..pose(0, DVec3::Y + DVec3::X * 0.125 * number as f64) });
         if number > 0 {
             let state = head.state(at + SECOND / 8);
             assert_eq!((state.tracked, state.velocity_m_s), (Tracking::Tracked, DVec3::X));
@@ -210,6 +210,43 @@ fn the_same_message_twice_confirms_no_leap() {
     let leap = pose(10, DVec3::new(3.0, 1.7, 0.0));
     (0..5).for_each(|_| head.pose(&leap));
     assert_eq!((head.state(SEEN).position_m.x, head.rejected().number()), (0.0, 5));
+}
+
+#[test]
+fn a_turning_head_has_the_velocity_of_its_turn() {
+    // 2 rad/s about an axis that is none of the room's, in a room whose tracker hangs askew.
+    let axis = DVec3::new(0.3, 0.9, -0.2).normalize();
+    for velocity in [VelocityFilter::Off, VelocityFilter::default(), VelocityFilter::least_squares()] {
+        let room_from_tracker = AxesPlacement { yaw: 30.0, pitch: -20.0, ..Default::default() };
+        let mut head = TrackedHead::new(HeadConfig { velocity, room_from_tracker, ..config() }).unwrap();
+        for number in 0..50 {
+            let sign = if number % 3 == 0 { -1.0 } else { 1.0 };
+            let orientation = DQuat::from_axis_angle(axis, 0.02 * number as f64) * sign;
+            head.pose(&TrackedPose { orientation, ..pose(number, DVec3::Y) });
+        }
+        let room_from_tracker = DQuat::from_euler(glam::EulerRot::YXZ, 30_f64.to_radians(), -20_f64.to_radians(), 0.0);
+        near(head.state(49 * FRAME).turn_rad_s, room_from_tracker * axis * 2.0, CLOCK * 2.0);
+        // It fades with the velocity, and recordings of the first edition know none.
+        assert_eq!(head.state(100 * FRAME).turn_rad_s, DVec3::ZERO);
+        let mut old = TrackedHead::new(HeadConfig { velocity, edition: 1, ..config() }).unwrap();
+        for number in 0..9 {
+            let orientation = DQuat::from_axis_angle(axis, 0.02 * number as f64);
+            old.pose(&TrackedPose { orientation, ..pose(number, DVec3::Y) });
+        }
+        assert_eq!(old.state(8 * FRAME).turn_rad_s, DVec3::ZERO);
+    }
+}
+
+#[test]
+fn the_zero_pose_is_a_head_that_is_lost() {
+    let mut head = walking();
+    let place = head.state(SEEN).position_m;
+    (10..40).for_each(|number| head.pose(&pose(number, DVec3::ZERO)));
+    let state = head.state(40 * FRAME);
+    assert_eq!((state.position_m, state.tracked), (place, Tracking::Lost));
+    assert!(head.rejected().last().unwrap().starts_with("the zero pose"), "{:?}", head.rejected());
+    head.pose(&pose(41, place));
+    assert_eq!(head.state(41 * FRAME).tracked, Tracking::Tracked);
 }
 
 #[test]
