@@ -101,8 +101,8 @@ impl FrameRecord {
     }
 }
 
-/// True if two values of a function differ by its rounding alone. The rapidity is one of the celerity, which is compared
-/// to the bit; until 0.1 it was asked of the C library, whose last bits differ between processors.
+/// True if two values of a function differ by its rounding alone. The rapidity is one of the celerity, which is
+/// compared to the bit; earlier versions asked the C library for it, whose last bits differ between processors.
 fn is_rounding(ours: f64, theirs: f64) -> bool {
     const ROUNDINGS: f64 = 4.0;
     (ours - theirs).abs() <= ROUNDINGS * f64::EPSILON * ours.abs()

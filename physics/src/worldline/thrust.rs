@@ -1,9 +1,9 @@
 //! Thrust and turn rate of a vehicle at one instant, and what they do to whoever is on board.
 //!
 //! A rigid vehicle that turns carries its points along: in the frame in which its reference point rests now, a point at
-//! r moves at β = ω × r / (1 + a·r), since time at r runs 1 + a·r times as fast as at the reference point. A head that
-//! moves through the vehicle by u metres of its axes per metre of the head's own time has the celerity U = γβ + u there,
-//! with γ² = 1 + U², so γ = (β·u + √((β·u)² + (1 − β²)(1 + u²)))/(1 − β²).
+//! r moves at β = ω × r / (1 + a·r), since time at r runs 1 + a·r times as fast as at the reference point. A head
+//! that moves through the vehicle by u metres of its axes per metre of the head's own time has the celerity
+//! U = γβ + u there, with γ² = 1 + U², so γ = (β·u + √((β·u)² + (1 − β²)(1 + u²)))/(1 − β²).
 
 use glam::DVec3;
 

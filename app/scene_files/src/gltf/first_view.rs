@@ -38,8 +38,8 @@ const FILLED: f64 = 0.85;
 
 /// Height of the eye over the middle of a framed scene, and its distance to the right, as tangents at that middle: a
 /// look from slightly above and from one side shows the shape.
-const FROM_ABOVE: f64 = 0.2;
-const FROM_THE_RIGHT: f64 = 0.3;
+const FROM_ABOVE: f64 = 0.4;
+const FROM_THE_RIGHT: f64 = 0.6;
 
 /// Tangent of the height from which flat-lying scenes, such as terrain, are looked at.
 const FROM_HIGH_ABOVE: f64 = 0.7;
