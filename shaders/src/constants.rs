@@ -9,11 +9,13 @@ pub const VIEW_GROUP: u32 = 0;
 pub const MATERIAL_GROUP: u32 = 1;
 /// Radius over which the sun's shadow is smoothed, shadow-map texels.
 pub const SHADOW_FILTER_TEXELS: f32 = 0.75;
-/// Distance that a surface may lie behind the shadow map and still be lit, metres.
-pub const SHADOW_BIAS_M: f32 = 0.04;
-/// Distance that the point looked up in the shadow map is moved off its surface, so that no surface shades itself;
-/// metres.
-pub const SHADOW_NORMAL_OFFSET_M: f32 = 0.06;
+/// Distance that a surface may lie behind the shadow map and still be lit, shadow-map texels.
+pub const SHADOW_BIAS_TEXELS: f64 = 0.5;
+/// Distance that the point looked up in the shadow map is moved off its surface, so that no surface shades itself,
+/// shadow-map texels. A sample is up to (0.75 + 0.5)√2 texels aside, and a surface at the angle θ to the light is as
+/// much times tan θ deeper there; a step s along its normal makes up for s/cos θ. With the bias, 1.5 suffice up to 70°,
+/// beyond which little light falls.
+pub const SHADOW_NORMAL_OFFSET_TEXELS: f64 = 1.5;
 
 /// Largest value of a channel; larger ones are taken for it. Its square is still a finite f32.
 pub const BRIGHTEST: f32 = (1_u64 << 60) as f32;

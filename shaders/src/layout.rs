@@ -52,7 +52,8 @@ pub struct LightingUniforms {
     pub ambient_green: Vec4,
     /// Blue light likewise.
     pub ambient_blue: Vec4,
-    /// Half the radiance of the ground, for directions in which no surface is; w unused.
+    /// Half the radiance of the ground, for directions in which no surface is; w is the distance by which a point is
+    /// moved off its surface before the shadow map is asked, metres.
     pub ground: Vec4,
     /// Radiance of the sky overhead; w = the carrier of all sky.
     pub zenith: Vec4,

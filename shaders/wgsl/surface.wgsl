@@ -96,7 +96,7 @@ fn vertex_animated(at: ApparentPosition, in: Vertex, @location(7) log2_doppler: 
 
 // Share of the sun that reaches a point: four filtered samples of the sun's depth map.
 fn sunlit(world: vec3<f32>, normal: vec3<f32>) -> f32 {
-    let place = lighting.shadow_from_world * vec4(world + normal * SHADOW_NORMAL_OFFSET_M, 1.0);
+    let place = lighting.shadow_from_world * vec4(world + normal * lighting.ground.w, 1.0);
     let texel = SHADOW_FILTER_TEXELS / vec2<f32>(textureDimensions(shadow_map));
     let depth = place.z + lighting.sun.w;
     var sum = 0.0;

@@ -191,23 +191,23 @@ impl Bodies {
     /// True if the sun's light reaches a point with this normal that rests in the world. The point is relative to the
     /// scene's origin.
     ///
-    /// The ray begins off the surface, at the distance that the other renderers leave between a surface and its own
-    /// shadow.
+    /// The ray begins off the surface, beyond the rounding error of its place.
     pub fn sunlit(&self, position: DVec3, normal: DVec3, towards_sun: DVec3) -> bool {
-        let from = position + f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
+        let from = position + skin(position) * normal;
         self.is_free(from, towards_sun, f64::INFINITY)
     }
 
     /// True if nothing is between a point at rest in the world and one of the lamps, `away` from it. `normal` is as
     /// for [`Bodies::sunlit`]; it is zero if the point moves, since its frame has another normal.
     pub fn lamplit(&self, position: DVec3, normal: DVec3, away: DVec3) -> bool {
-        let offset = f64::from(shaders::SHADOW_NORMAL_OFFSET_M) * normal;
+        let offset = skin(position) * normal;
         let distance = (away - offset).length();
         self.is_free(position + offset, (away - offset) / distance, distance)
     }
 
     fn is_free(&self, from: DVec3, direction: DVec3, until: f64) -> bool {
-        let after = f64::from(shaders::SHADOW_BIAS_M);
+        // A smooth normal may lead a little into the surface.
+        let after = 8.0 * skin(from);
         let Some(resting) = self.bodies.iter().find(|body| body.motion.is_none()) else { return true };
         let meet = |triangle: &Triangle| {
             if !self.casters[triangle.mesh] {

@@ -16,6 +16,7 @@ mod mirrors;
 mod moving;
 mod radiance;
 mod raytrace;
+mod shadows;
 mod sky;
 mod sphere;
 mod stereo;

@@ -23,6 +23,9 @@ use wgpu::util::DeviceExt;
 /// Side of the map, texels.
 const MAP_SIZE: u32 = 4096;
 
+/// Least extent of the map along an axis, as a share of the largest.
+const LEAST_EXTENT: f64 = 1e-3;
+
 /// Light of a scene, for the shaders.
 pub struct Light {
     /// Light that falls on the resting scene.
@@ -47,8 +50,10 @@ impl Light {
             // This is written for every picture.
             Motion::Animated(_) => Irradiance::at_rest(&scene.light),
         });
-        let at_rest = lighting(scene, &Irradiance::at_rest(&scene.light), true, spectra, background);
-        let moving = moving.map(|falling| lighting(scene, &falling, false, spectra, background));
+        let side = if scene.light.shadows { MAP_SIZE.min(gpu.device.limits().max_texture_dimension_2d) } else { 1 };
+        let shadow = Shadow::of(scene, side);
+        let at_rest = lighting(scene, &Irradiance::at_rest(&scene.light), Some(&shadow), spectra, background);
+        let moving = moving.map(|falling| lighting(scene, &falling, None, spectra, background));
         let upload = |lighting| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("lighting"),
@@ -57,7 +62,6 @@ impl Light {
             })
         };
         let uniforms: Vec<_> = std::iter::once(at_rest).chain(moving).map(upload).collect();
-        let side = if scene.light.shadows { MAP_SIZE.min(gpu.device.limits().max_texture_dimension_2d) } else { 1 };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let map = texture(gpu, "sun's depth map", [side, side], DEPTH_FORMAT, 1, usage);
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -122,26 +126,25 @@ pub fn draw_map(
     gpu.queue.submit([encoder.finish()]);
 }
 
-/// Light of a scene for the shaders, falling as `falling` says. `shadowed` is true if surfaces between it and the sun
-/// cast shadows.
+/// Light of a scene for the shaders, falling as `falling` says. `shadow` of surfaces between it and the sun, if they
+/// cast any.
 fn lighting(
     scene: &Scene,
     falling: &Irradiance,
-    shadowed: bool,
+    shadow: Option<&Shadow>,
     spectra: &SceneCarriers,
     background: Option<[f32; 3]>,
 ) -> shaders::LightingUniforms {
     let light = &scene.light;
     let colour = |[red, green, blue]: [f32; 3]| Vec4::new(red, green, blue, 0.0);
-    let (shadow_from_world, depth_m) = shadow_from_world(scene);
     let of_scene = shaders::LightingUniforms {
-        shadow_from_world: matrix(&shadow_from_world),
-        sun_direction: Vec4::W * f32::from(u8::from(shadowed)),
-        sun: Vec4::W * (shaders::SHADOW_BIAS_M / depth_m as f32),
+        shadow_from_world: matrix(&shadow.map_or(DMat4::IDENTITY, |shadow| shadow.from_world)),
+        sun_direction: Vec4::W * f32::from(u8::from(shadow.is_some())),
+        sun: Vec4::W * shadow.map_or(0.0, |shadow| shadow.bias as f32),
         ambient_red: Vec4::ZERO,
         ambient_green: Vec4::ZERO,
         ambient_blue: Vec4::ZERO,
-        ground: colour(light.ground),
+        ground: colour(light.ground).with_w(shadow.map_or(0.0, |shadow| shadow.normal_offset_m as f32)),
         zenith: colour(light.zenith).with_w(spectra.sky as f32),
         horizon: colour(light.horizon).with_w(spectra.factor(spectra.sky)),
         background: background.map_or(Vec4::ZERO, colour),
@@ -162,9 +165,33 @@ pub fn with_falling(lighting: &shaders::LightingUniforms, falling: &Irradiance) 
     }
 }
 
+/// Place of the sun's depth map.
+struct Shadow {
+    /// Matrix from the scene's coordinates to texture coordinates (y down) and reversed depth, such that all lit
+    /// surfaces are inside.
+    from_world: DMat4,
+    /// Depth that a surface may lie behind the map and still be lit, a share of the map's range.
+    bias: f64,
+    /// Distance by which a point is moved off its surface before it is looked up, metres.
+    normal_offset_m: f64,
+}
+
+impl Shadow {
+    /// Map of `side` texels over a scene of any size.
+    fn of(scene: &Scene, side: u32) -> Self {
+        let (from_world, extent_m) = shadow_from_world(scene);
+        let texel_m = extent_m.x.max(extent_m.y) / f64::from(side);
+        Self {
+            from_world,
+            bias: shaders::SHADOW_BIAS_TEXELS * texel_m / extent_m.z,
+            normal_offset_m: shaders::SHADOW_NORMAL_OFFSET_TEXELS * texel_m,
+        }
+    }
+}
+
 /// Matrix from the scene's coordinates to texture coordinates (y down) and reversed depth, such that all lit surfaces
-/// are inside; and the range of that depth in metres.
-fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
+/// are inside; and the extent of both, metres.
+fn shadow_from_world(scene: &Scene) -> (DMat4, DVec3) {
     let towards_sun = scene.light.sun_direction.as_dvec3().normalize_or(DVec3::Y);
     let side = if towards_sun.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z }.cross(towards_sun).normalize();
     let up = towards_sun.cross(side);
@@ -178,10 +205,11 @@ fn shadow_from_world(scene: &Scene) -> (DMat4, f64) {
     }
     if !low.is_finite() {
         // Nothing is lit, so nothing is looked up.
-        return (DMat4::IDENTITY, 1.0);
+        return (DMat4::IDENTITY, DVec3::ONE);
     }
-    let extent = (high - low).max(DVec3::splat(1e-3));
+    // A flat scene has no extent along one axis.
+    let extent = (high - low).max(DVec3::splat(LEAST_EXTENT * (high - low).max_element().max(f64::MIN_POSITIVE)));
     let texture_from_sun = DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0) / extent)
         * DMat4::from_translation(DVec3::new(-low.x, -high.y, -low.z));
-    (texture_from_sun * sun_from_world, extent.z)
+    (texture_from_sun * sun_from_world, extent)
 }
