@@ -16,7 +16,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 
 use super::motion::Motion;
-use super::row::{ExtremesRow, Worst};
+use super::row::{ExtremesRow, RK4_LIMIT, Worst};
 
 /// Speed of light, metres per second.
 const LIGHT_M_PER_S: f64 = 10.0;
@@ -75,6 +75,7 @@ pub fn rows(lengths: Lengths) -> Result<Vec<ExtremesRow>, Refused> {
     for step_s in [1e-6, 1e-4, 1e-2, 1.0, 10.0] {
         rows.extend(steps_of(step_s, lengths.steps)?);
     }
+    rows.extend(steps_of_a_ride()?);
     rows.extend(any_speed(lengths.cases)?);
     rows.extend(reversals(lengths.reversals)?);
     rows.extend(circle(lengths.turns)?);
@@ -111,7 +112,7 @@ fn steps(
 
 /// Errors at rest, where nothing changes but the clocks.
 fn resting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
-    let mut worst = Worst::new(format!("resting, {} steps", sized(count)));
+    let mut worst = Worst::new(format!("resting, {} steps, exact step and RK4", sized(count)));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     for integrator in [&Exact as &dyn Integrator, &Rk4] {
         let place = DVec3::new(1e9, 1.6, -0.1);
@@ -136,8 +137,7 @@ fn resting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
 ///
 /// [`Refused`] if a step or a start is refused.
 pub fn coasting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
-    let mut worst =
-        Worst::new(format!("coasting at γ = 1000, {} steps of 1/240 s, all taken, fourth order", sized(count)));
+    let mut worst = Worst::new(format!("coasting at γ = 1000, {} steps of 1/240 s, all taken, RK4", sized(count)));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     let celerity = Celerity::new(DVec3::new(999.9, 12.3, 1e-3))?;
     let event = Event { ct: 0.1, position: DVec3::new(0.7, -0.3, 0.1) };
@@ -163,7 +163,7 @@ pub fn coasting(count: u64) -> Result<Vec<ExtremesRow>, Refused> {
 fn steps_of(step_s: f64, most: u64) -> Result<Vec<ExtremesRow>, Refused> {
     const JOURNEY_S: f64 = 10.0;
     let count = ((JOURNEY_S / step_s).round() as u64).min(most);
-    let mut worst = Worst::new(format!("thrust of 1 g and turns, {} steps of {step_s:e} s", sized(count)));
+    let mut worst = Worst::new(format!("thrust of 1 g and turns, {} steps of {step_s:e} s, exact step", sized(count)));
     let step = step_s * LIGHT_M_PER_S;
     let straight = Thrust { acceleration: DVec3::new(0.0, 0.0, -thrust_per_m()), turn_rate: DVec3::ZERO };
     let turning = Thrust { turn_rate: DVec3::new(0.02, -0.05, 0.01), ..straight };
@@ -177,10 +177,26 @@ fn steps_of(step_s: f64, most: u64) -> Result<Vec<ExtremesRow>, Refused> {
     Ok(worst.rows())
 }
 
+/// Errors of ten seconds of thrust and turn by the default integrator, in the steps of a ride.
+fn steps_of_a_ride() -> Result<Vec<ExtremesRow>, Refused> {
+    const STEPS: u64 = 2400;
+    let mut worst = Worst::within(RK4_LIMIT, "thrust of 1 g and turns, 2400 steps of 1/240 s, RK4");
+    let step = LIGHT_M_PER_S / STEPS_PER_S;
+    let straight = Thrust { acceleration: DVec3::new(0.0, 0.0, -thrust_per_m()), turn_rate: DVec3::ZERO };
+    let turning = Thrust { turn_rate: DVec3::new(0.02, -0.05, 0.01), ..straight };
+    for thrust in [straight, turning] {
+        let start = WorldlineState::default();
+        let end = steps(&Rk4, &start, step, STEPS, &thrust)?;
+        let exact = Motion::at(&start).then(&Motion::under(&thrust, &(real(step) * real(STEPS as f64))));
+        worst.meet(errors(&start, &end, &exact));
+    }
+    Ok(worst.rows())
+}
+
 /// Errors of one step of any size from any speed.
 fn any_speed(cases: u32) -> Result<Vec<ExtremesRow>, Refused> {
     let mut random = ChaCha8Rng::seed_from_u64(32);
-    let mut worst = Worst::new("one step of 1e-6 to 10 s from γ of 1 + 1e-12 to 1e12, any thrust and turn");
+    let mut worst = Worst::new("one exact step of 1e-6 to 10 s from γ of 1 + 1e-12 to 1e12, any thrust and turn");
     for case in 0..cases {
         let power = if case == 0 { 12.0 } else { random.random_range(-5.849..12.0) };
         let celerity = Celerity::new(direction(&mut random) * 10.0_f64.powf(power))?;
@@ -199,7 +215,8 @@ fn any_speed(cases: u32) -> Result<Vec<ExtremesRow>, Refused> {
 /// Errors of a thrust that is reversed every second.
 fn reversals(count: u32) -> Result<Vec<ExtremesRow>, Refused> {
     const LEG_STEPS: u64 = 240;
-    let mut worst = Worst::new(format!("{} reversals of a thrust of 30 m/s², a second each", sized(u64::from(count))));
+    let mut worst =
+        Worst::new(format!("{} reversals of a thrust of 30 m/s², a second each, exact step", sized(u64::from(count))));
     let step = LIGHT_M_PER_S / STEPS_PER_S;
     let forth = Thrust { acceleration: DVec3::new(0.1, 0.02, -0.28), turn_rate: DVec3::ZERO };
     let back = Thrust { acceleration: -forth.acceleration, ..forth };
@@ -228,7 +245,8 @@ fn circle(turns: u32) -> Result<Vec<ExtremesRow>, Refused> {
     let start = WorldlineState::new(Event::default(), Celerity::new(DVec3::new(0.0, 0.0, -w))?, DQuat::IDENTITY);
     let thrust = Thrust { acceleration: DVec3::new(a, 0.0, 0.0), turn_rate: DVec3::new(0.0, -GAMMA * a / w, 0.0) };
     let count = (f64::from(turns) * TAU * w / (a * step)).ceil() as u64;
-    let mut worst = Worst::new(format!("circle at γ = 1000, {turns} turns, {} steps of {STEP_S} s", sized(count)));
+    let mut worst =
+        Worst::new(format!("circle at γ = 1000, {turns} turns, {} steps of {STEP_S} s, exact step", sized(count)));
     let end = steps(&Exact, &start, step, count, &thrust)?;
     let tau = real(step) * real(count as f64);
     let exact = Motion::at(&start).then(&Motion::under(&thrust, &tau));

@@ -21,7 +21,7 @@ fn nothing_is_worse_than_the_limit() {
 
 #[test]
 fn an_error_beyond_the_limit_is_told() {
-    let row = |error| ExtremesRow { what: "it".into(), cases: 1, quantity: "way", error };
+    let row = |error| ExtremesRow { what: "it".into(), cases: 1, quantity: "way", error, limit: LIMIT };
     assert!(check(&[row(0.0), row(LIMIT)]).is_ok());
     for bad in [2.0 * LIMIT, f64::INFINITY, f64::NAN] {
         let told = check(&[row(0.0), row(bad)]).unwrap_err();
