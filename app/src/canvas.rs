@@ -53,7 +53,7 @@ pub enum Submitted {
         pending: Pending,
     },
     /// Eyes of an occupant of a room.
-    Room(SubmittedRoom),
+    Room(Box<SubmittedRoom>),
 }
 
 /// Observer of one frame, in the vehicle and in its room.
@@ -126,7 +126,7 @@ impl Canvas {
         };
         let head = watcher.head.unwrap_or(walls::RoomHead::at_rest(walls.display.viewer.head_m));
         let occupant = Occupant { vehicle: watcher.vehicle, thrust: watcher.thrust, head };
-        Ok(Submitted::Room(walls.submit(gpu, renderer, &occupant, effects)?))
+        Ok(Submitted::Room(Box::new(walls.submit(gpu, renderer, &occupant, effects)?)))
     }
 
     /// Draws the light of a frame.
@@ -143,10 +143,10 @@ impl Canvas {
             (Self::Picture(picture), Submitted::Picture { shot, pending }) => {
                 picture.draw(gpu, renderer, &shot, pending)
             }
-            (Self::Room(walls), Submitted::Room(room)) => walls.draw(gpu, renderer, room),
+            (Self::Room(walls), Submitted::Room(room)) => walls.draw(gpu, renderer, *room),
             (Self::Preview(preview), Submitted::Room(room)) => {
                 preview.occupant = Some(room.occupant);
-                preview.walls.draw(gpu, renderer, room)
+                preview.walls.draw(gpu, renderer, *room)
             }
             // A frame is drawn on the canvas that it was submitted for.
             (_, _) => Ok(DrawnChannels::default()),

@@ -30,7 +30,7 @@ const MOST_QUEUED: usize = 256 << 20;
 
 /// Item of the queue.
 enum Queued {
-    One(RecordingEntry),
+    One(Box<RecordingEntry>),
     Many(Vec<RecordingEntry>),
     /// Beginning of the ride, nanoseconds since 1970.
     Began(u64),
@@ -86,7 +86,7 @@ impl Recorder {
     /// # Errors
     /// A failed write, or a disk that does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Queued::One(RecordingEntry::Sample(sample.clone())))
+        self.push(Queued::One(Box::new(RecordingEntry::Sample(sample.clone()))))
     }
 
     /// Records the controls of a frame.
@@ -94,7 +94,11 @@ impl Recorder {
     /// # Errors
     /// Errors of [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Queued::One(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() })))
+        self.push(Queued::One(Box::new(RecordingEntry::Controls(ControlsRecord {
+            frame,
+            at,
+            controls: controls.clone(),
+        }))))
     }
 
     /// Records the observer after a frame.
@@ -103,7 +107,7 @@ impl Recorder {
     /// A number that is not finite, and errors of [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
         check(record)?;
-        self.push(Queued::One(RecordingEntry::Frame(record.clone())))
+        self.push(Queued::One(Box::new(RecordingEntry::Frame(record.clone()))))
     }
 
     /// Records all entries from before the file was created, however many; called first.
