@@ -171,7 +171,7 @@ fn pictures(format: ImageFormat) -> Glb {
         let mut bytes = Cursor::new(Vec::new());
         match format {
             ImageFormat::Jpeg => {
-                picture.write_with_encoder(JpegEncoder::new_with_quality(&mut bytes, QUALITY)).unwrap()
+                picture.write_with_encoder(JpegEncoder::new_with_quality(&mut bytes, QUALITY)).unwrap();
             }
             _ => picture.write_to(&mut bytes, format).unwrap(),
         }

@@ -52,7 +52,7 @@ impl Part {
     }
 }
 
-/// Sentences for [`scene::Scene::notices`].
+/// Sentences for `scene::Scene::notices`.
 #[derive(Default)]
 pub struct Notices {
     parts: BTreeMap<Part, LeftOut>,
