@@ -15,25 +15,33 @@ use scene::collision::Collision;
 /// Setting that makes glibc take the processor for one without fused multiplication.
 const WITHOUT_FMA: (&str, &str) = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F");
 
-/// Number of frames of a ride: six seconds.
-const FRAMES: u64 = 360;
+/// Number of frames of a ride. The C library's functions differ for one argument in a thousand, so a minute of ticks
+/// meets some in each function.
+const FRAMES: u64 = 3600;
+
+/// Number of frames after which the keys are pressed again.
+const CYCLE: u64 = 360;
 
 /// Samples of a ride by keys, with a handlebar and a head that never rest.
 fn samples() -> Vec<Sample> {
-    let tenth = |n: u64| n * SECOND / 10;
-    let mut samples = vec![
-        Sample::key(tenth(1), KeyboardKey::W, true),
-        Sample::key(tenth(9), KeyboardKey::A, true),
-        Sample::key(tenth(20), KeyboardKey::A, false),
-        Sample::key(tenth(21), KeyboardKey::D, true),
-        Sample::key(tenth(24), KeyboardKey::R, true),
-        Sample::key(tenth(29), KeyboardKey::Q, true),
-        Sample::key(tenth(33), KeyboardKey::D, false),
-        Sample::action(tenth(35), &Action::TimeScale(0.7)),
-        Sample::key(tenth(40), KeyboardKey::R, false),
-        Sample::action(tenth(50), &Action::SpeedOfLight(3.0)),
-        Sample::mouse(0, MouseEvent::Button { button: MouseButton::Left, pressed: true }),
-    ];
+    let mut samples = vec![Sample::mouse(0, MouseEvent::Button { button: MouseButton::Left, pressed: true })];
+    for cycle in 0..FRAMES / CYCLE {
+        let tenth = |n: u64| (CYCLE * cycle / 6 + n) * SECOND / 10;
+        samples.extend([
+            Sample::key(tenth(1), KeyboardKey::W, true),
+            Sample::key(tenth(9), KeyboardKey::A, true),
+            Sample::key(tenth(20), KeyboardKey::A, false),
+            Sample::key(tenth(21), KeyboardKey::D, true),
+            Sample::key(tenth(24), KeyboardKey::R, true),
+            Sample::key(tenth(29), KeyboardKey::Q, true),
+            Sample::key(tenth(33), KeyboardKey::D, false),
+            Sample::action(tenth(35), &Action::TimeScale(0.7)),
+            Sample::key(tenth(40), KeyboardKey::R, false),
+            Sample::action(tenth(50), &Action::SpeedOfLight(8.0 - 0.5 * cycle as f64)),
+            Sample::key(tenth(52), KeyboardKey::Q, false),
+            Sample::key(tenth(55), KeyboardKey::W, false),
+        ]);
+    }
     for n in 0..FRAMES {
         let at = n * SECOND / 60;
         let turn = (n % 37) as f32 - 17.0;
