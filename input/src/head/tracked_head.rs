@@ -18,6 +18,9 @@ const GRACE_S: f64 = 0.05;
 /// Age of a pose at which its velocity begins to fade, in intervals of a slow tracker; the larger of both counts.
 const GRACE_FRAMES: f64 = 1.5;
 
+/// Steps of the turn per radian a second: far below the noise of any tracker, they keep recordings short.
+const TURN_STEPS: f64 = 1e5;
+
 /// Tracked head. Poses are fed in the order in which they came, and the state is read once a frame.
 #[derive(Debug)]
 pub struct TrackedHead {
@@ -192,6 +195,7 @@ impl TrackedHead {
         let (tracked, share) = self.belief(last, at);
         let Rigid { position, orientation } = last.room_from_head;
         let turn = if self.config.counts_turn_and_clock() { self.turn.value() * share } else { DVec3::ZERO };
+        let turn = (turn * TURN_STEPS).round() / TURN_STEPS;
         let velocity_m_s = self.velocity.value() * share;
         HeadState { position_m: position, orientation, velocity_m_s, turn_rad_s: turn, tracked }
     }
