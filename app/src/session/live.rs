@@ -270,9 +270,10 @@ impl Live {
 fn unseen(desk: &Desk, frame: &RideFrame) -> Option<String> {
     let (head, state) = (desk.head()?, frame.controls.head.as_ref()?);
     let how = match state.tracked {
-        Tracking::Tracked => return None,
+        // A head that fades may be back with the next pose.
+        Tracking::Tracked | Tracking::Fading => return None,
         Tracking::Never => "has not been seen yet",
-        Tracking::Fading | Tracking::Lost => "is lost, and rests at its last place",
+        Tracking::Lost => "is lost, and rests at its last place",
     };
     let rejected = head.rejected();
     let why = rejected

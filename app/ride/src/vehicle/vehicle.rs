@@ -21,8 +21,8 @@ use super::walls;
 const LONGEST_STEP_S: f64 = 1.0 / 240.0;
 /// Largest number of pieces of one step.
 const MOST_PIECES: f64 = 64.0;
-/// Largest change of the rapidity, plus turn in radians, within a step of RK4. A year of steps of this size at a
-/// constant thrust is off by less than 1e-6 of the celerity.
+/// Largest change of the rapidity, plus turn in radians, within a step of RK4: about that of the row of RK4 in
+/// ACCURACY.md. The error of a journey grows with its fourth power.
 const LARGEST_CHANGE: f64 = 0.005;
 /// Sine of a slope steeper than any road.
 const STEEPEST_ROAD: f64 = 0.9;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use input::recording::{FrameRecord, Recorder, Recording, RecordingEntry, RecordingError};
-use input::{Action, DeskConfig, KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
+use input::{Action, DeskConfig, HeadConfig, KeyboardKey, MouseEvent, Nanos, SECOND, Sample, VehicleKind};
 use ride::{LightSpeed, Notice, Replay, ReplayError, RideFrame, RideStart, Setup, Simulation, VehicleSettings};
 use scene::OpenPlane;
 
@@ -77,6 +77,32 @@ fn assert_same(a: &[FrameRecord], b: &[FrameRecord]) {
     for (a, b) in a.iter().zip(b) {
         assert_eq!(a.first_difference(b), None, "frame {}", a.frame);
     }
+}
+
+#[test]
+fn the_vehicles_clock_runs_faster_than_that_of_a_head_that_moves_in_it() {
+    // Real time is the head's own: while it moves at u, the vehicle ages by γ = √(1 + u²). Old recordings keep one clock.
+    let own_m = |edition| {
+        let head = HeadConfig { edition, ..HeadConfig::new("mouse".parse().unwrap()) };
+        let desk = DeskConfig { head: Some(head), ..DeskConfig::default() };
+        let mut ride = Simulation::new(Setup { desk, ..setup(VehicleKind::Fly) }, Arc::new(OpenPlane)).unwrap();
+        let c = LightSpeed::OLD_TOWN.speed_of_light_m_s();
+        let (mut expected, mut end) = (0.0, 0.0);
+        for tick in 1..=240_u64 {
+            let at = (tick * SECOND).div_ceil(240);
+            let wheel = [Sample::mouse(at, MouseEvent::Wheel(40.0))];
+            let frame = ride.frame(at, if tick == 10 { &wheel } else { &[] });
+            let u = frame.controls.head.unwrap().velocity_m_s / c;
+            expected += (1.0 + u.length_squared()).sqrt() * c / 240.0;
+            end = frame.record.proper_time;
+        }
+        (end, expected, c)
+    };
+    let (found, expected, c) = own_m(2);
+    assert!((found - expected).abs() < 1e-9 * expected, "{found} m for {expected} m");
+    assert!(found > 1.05 * c, "the head has to move, or nothing is tested: {found} m of {c} m");
+    let (found, _, c) = own_m(1);
+    assert!((found - c).abs() < 1e-9 * c, "{found} m for {c} m");
 }
 
 #[test]
