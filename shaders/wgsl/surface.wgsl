@@ -24,6 +24,8 @@ override BLENDED: bool = false;
 override MAP: bool = false;
 // True if apparent positions are worked out here, but for vertices that the CPU has worked out.
 override BENDS: bool = false;
+// Level added to that of textures' smaller copies: below zero, a single sample a pixel shows finer detail.
+override TEXTURE_BIAS: f32 = 0.0;
 // True if every vertex brings its own Doppler factor, that of its own motion.
 override ANIMATED: bool = false;
 // True if the position of the surface is drawn instead of light, and its object: 1 + view.layer.x, which is 1 for the
@@ -53,7 +55,7 @@ struct Vertex {
 }
 
 struct Fragment {
-    @builtin(position) clip: vec4<f32>,
+    @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     // Texture coordinates of the base colour, then of the emission.
@@ -77,6 +79,20 @@ fn vertex_plain(in: Vertex) -> Fragment {
     let clip = view.clip_from_observer * vec4(in.world, 1.0);
     return Fragment(clip, in.world, in.normal, vec4(in.uv, in.emissive_uv), in.colour);
 }
+
+// Depth alone, at exactly the places at which light is drawn afterwards.
+@vertex
+fn vertex_depth(at: ApparentPosition) -> @invariant @builtin(position) vec4<f32> {
+    return view.clip_from_observer * vec4(at.x, at.y, at.z, 1.0);
+}
+
+@vertex
+fn vertex_plain_depth(@location(3) world: vec3<f32>) -> @invariant @builtin(position) vec4<f32> {
+    return view.clip_from_observer * vec4(world, 1.0);
+}
+
+@fragment
+fn fragment_depth() {}
 
 // A fragment of an animated body: log2 D of each vertex comes in a stream of its own.
 struct AnimatedFragment {
@@ -141,7 +157,7 @@ fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -
 // Radiance, weights or position that a fragment shows.
 fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
     // A sample stands for a part of its pixel only.
-    let level = log2(view.layer.y);
+    let level = log2(view.layer.y) + TEXTURE_BIAS;
     let texel = textureSampleBias(base_colour_texture, base_colour_sampler, in.uv.xy, level);
     let base = material.base_colour * in.colour * texel;
     var emitted = vec3(0.0);

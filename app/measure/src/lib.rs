@@ -15,7 +15,7 @@ pub mod pictures;
 pub mod plot;
 pub mod precision;
 pub mod quantiles;
-mod reference;
+pub mod reference;
 mod row;
 pub mod samples;
 pub mod shift_table;

@@ -22,9 +22,14 @@ impl Format {
         Self { colour, samples: 1 }
     }
 
+    /// True if every value is exact to f32.
+    pub fn is_exact(self) -> bool {
+        self.colour == wgpu::TextureFormat::Rgba32Float
+    }
+
     /// Largest value that every channel can hold.
     pub fn largest(self) -> f32 {
-        if self.colour == wgpu::TextureFormat::Rgba32Float { f32::MAX } else { shaders::HALF_LIMIT }
+        if self.is_exact() { f32::MAX } else { shaders::HALF_LIMIT }
     }
 
     /// Format for windows: half the memory traffic, edges smoothed by the hardware.

@@ -280,6 +280,17 @@ impl World {
                 ranges.into_iter().for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
             }
         };
+        if let Some(depth) = &pipelines.depth {
+            for (sides, pipeline) in depth.by_sides.iter().enumerate() {
+                // What brings its own Doppler factors comes from other streams.
+                let hides = |draw: &&Draw| {
+                    depth.of_material[draw.material] == Some(sides) && !draw.motion.is_some_and(is_animated)
+                };
+                let hiding: Vec<&Draw> = geometry.opaque.iter().filter(drawn).filter(hides).collect();
+                pass.set_pipeline(pipeline);
+                self.draw_depth(gpu, pass, draws, parts, &hiding);
+            }
+        }
         geometry.opaque.iter().filter(drawn).for_each(|draw| draw_all(pass, draw));
         if draws.sky {
             pass.set_pipeline(&pipelines.sky);
@@ -289,6 +300,36 @@ impl World {
             }
         }
         blended.into_iter().for_each(|draw| draw_all(pass, draw));
+    }
+
+    /// Draws the depth of draws with the pipeline that is set; ranges that follow each other take one call.
+    fn draw_depth(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        draws: &Draws<'_>,
+        parts: &[TargetPart],
+        drawn: &[&Draw],
+    ) {
+        for part in parts {
+            for motion in std::iter::once(None).chain((0..draws.moving.len()).map(Some)) {
+                let mut seen = drawn
+                    .iter()
+                    .filter(|draw| draw.motion == motion)
+                    .flat_map(|draw| ranges(draw, part, draws.eye))
+                    .peekable();
+                if seen.peek().is_none() {
+                    continue;
+                }
+                self.go_to(gpu, pass, part, motion);
+                while let Some(mut range) = seen.next() {
+                    while let Some(next) = seen.next_if(|next| next.start == range.end) {
+                        range.end = next.end;
+                    }
+                    pass.draw_indexed(range, 0, 0..1);
+                }
+            }
+        }
     }
 
     fn go_to(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, part: &TargetPart, motion: Option<usize>) {
