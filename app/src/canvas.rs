@@ -3,10 +3,14 @@
 //! Each takes the same four steps for a frame. Photo-surfaces are submitted for its eyes. Its light is drawn. Its
 //! viewer adapts. The developed light goes to windows.
 
-use render::display::{Adaptation, Developer, Development, Seen};
-use render::target::{Format, Radiance};
+use crate::flat_picture::FlatPicture;
+use crate::frame::Look;
+use glam::DVec3;
+use physics::worldline::{Thrust, WorldlineState};
+use physics::{Celerity, Event, Observer};
+use render::display::Development;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
-use view::{Effects, Gaze, Shot, Stored};
+use view::{Camera, Effects, Gaze, Shot};
 use walls::preview::{Preview, RoomOnlooker};
 use walls::{DrawnChannels, Occupant, SubmittedRoom, Walls};
 
@@ -18,16 +22,6 @@ pub enum Canvas {
     Room(Box<Walls>),
     /// The room itself, seen from outside, in one window.
     Preview(Box<RoomPreview>),
-}
-
-/// One picture, and the eye that is adapted to it.
-pub struct FlatPicture {
-    /// Light of the picture.
-    pub radiance: Radiance,
-    developer: Developer,
-    /// Adaptation of the eye.
-    pub adaptation: Adaptation,
-    stored: Stored,
 }
 
 /// A room that is looked at from outside.
@@ -62,9 +56,9 @@ pub struct Watcher {
     /// View along the vehicle's nose.
     pub gaze: Gaze,
     /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
-    pub vehicle: physics::worldline::WorldlineState,
+    pub vehicle: WorldlineState,
     /// Acceleration and turn of the vehicle.
-    pub thrust: physics::worldline::Thrust,
+    pub thrust: Thrust,
     /// Head in the vehicle's room, if one is tracked.
     pub head: Option<walls::RoomHead>,
 }
@@ -80,16 +74,6 @@ impl Submitted {
 }
 
 impl Canvas {
-    /// A flat picture of `size` pixels, shown on a screen of this format.
-    pub fn picture(gpu: &Gpu, size: [u32; 2], format: Format, screen: wgpu::TextureFormat) -> Self {
-        Self::Picture(Box::new(FlatPicture {
-            radiance: Radiance::new(gpu, size, format),
-            developer: Developer::new(gpu, format.colour, screen),
-            adaptation: Adaptation::new(gpu),
-            stored: Stored::UNSHIFTED,
-        }))
-    }
-
     /// The room itself, seen from outside.
     pub fn preview(gpu: &Gpu, walls: Walls, screen: wgpu::TextureFormat) -> Self {
         let preview = Preview::new(gpu, &walls, screen);
@@ -104,6 +88,42 @@ impl Canvas {
             Self::Room(walls) => Some(walls),
             Self::Preview(room) => Some(&mut room.walls),
         }
+    }
+
+    /// Draws frames from the scene's start that nobody sees, so that the first frames of the ride wait for no pipeline,
+    /// map or cut: its clock would run on meanwhile.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn warm_up(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        start: &scene::Start,
+        look: &Look,
+        screens: &[wgpu::TextureView],
+    ) -> Result<(), GpuError> {
+        let orientation = Camera::looking(start.look, DVec3::Y, 1.0).observer_from_eye;
+        let event = Event { ct: 0.0, position: start.eye() };
+        let observer = Observer { event, celerity: Celerity::ZERO };
+        let watcher = Watcher {
+            gaze: Gaze { observer, observer_from_eye: orientation },
+            vehicle: WorldlineState::new(event, Celerity::ZERO, orientation),
+            thrust: Thrust::default(),
+            head: None,
+        };
+        for _ in 0..2 {
+            let submitted = self.submit(gpu, renderer, &watcher, look.effects, look.fov_deg)?;
+            self.draw(gpu, renderer, submitted)?;
+            renderer.settle();
+        }
+        self.adapt(gpu, &look.development, None);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for (window, screen) in screens.iter().enumerate() {
+            self.show(gpu, &mut encoder, window, &look.development, screen, [0, 0]);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        gpu.wait()
     }
 
     /// Begins the photo-surfaces of a frame, in parallel with other drawing. `fov_deg`: vertical field of view of a
@@ -155,17 +175,11 @@ impl Canvas {
 
     /// Adapts the viewer to the light drawn last. `elapsed_s`: time to adapt, seconds; `None` adapts at once.
     pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
-        let Self::Picture(picture) = self else {
-            if let Some(walls) = self.walls_mut() {
-                walls.adapt(gpu, development, elapsed_s);
-            }
-            return;
-        };
-        let FlatPicture { radiance, developer, adaptation, stored } = &mut **picture;
-        let seen = Seen { radiance: radiance.result(), stored: *stored, elapsed_s };
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        developer.adapt(gpu, &mut encoder, adaptation, &seen, development);
-        gpu.queue.submit([encoder.finish()]);
+        match self {
+            Self::Picture(picture) => picture.adapt(gpu, development, elapsed_s),
+            Self::Room(walls) => walls.adapt(gpu, development, elapsed_s),
+            Self::Preview(room) => room.walls.adapt(gpu, development, elapsed_s),
+        }
     }
 
     /// Develops the light for window number `window`. `first_pixel`: place of the window's upper left pixel on its
@@ -180,10 +194,7 @@ impl Canvas {
         first_pixel: [i32; 2],
     ) {
         match self {
-            Self::Picture(picture) => {
-                let FlatPicture { radiance, developer, adaptation, .. } = &mut **picture;
-                developer.show(gpu, encoder, radiance.result(), adaptation, development, screen);
-            }
+            Self::Picture(picture) => picture.show(gpu, encoder, development, screen),
             Self::Room(walls) => walls.show_window(gpu, encoder, window, development, screen, first_pixel),
             Self::Preview(room) => {
                 let RoomPreview { walls, preview, onlooker, occupant, .. } = &mut **room;
@@ -192,28 +203,5 @@ impl Canvas {
                 }
             }
         }
-    }
-}
-
-impl FlatPicture {
-    fn draw(
-        &mut self,
-        gpu: &Gpu,
-        renderer: &mut SceneRenderer,
-        shot: &Shot,
-        pending: Pending,
-    ) -> Result<DrawnChannels, GpuError> {
-        let transformed = renderer.show(gpu, pending)?;
-        renderer.prepare(gpu, shot, self.radiance.size);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        renderer.draw(gpu, &mut encoder, &self.radiance, shot, view::PixelSample::WHOLE);
-        gpu.queue.submit([encoder.finish()]);
-        self.stored = renderer.stored(shot);
-        Ok(DrawnChannels {
-            behind: Vec::new(),
-            not_finite: transformed.not_finite,
-            transform: transformed.duration,
-            certainty: renderer.certainty(shot, self.radiance.size),
-        })
     }
 }

@@ -10,6 +10,8 @@
 use crate::canvas::{Canvas, Submitted, Watcher};
 use crate::command::Latency;
 use crate::error::Error;
+use crate::flat_picture::{Drawing, PictureShares};
+use crate::governor::Governor;
 use crate::session::live::Live;
 use crate::session::tracker;
 use crate::stage_times::StageTimes;
@@ -19,7 +21,11 @@ use render::display::Development;
 use render::{Gpu, SceneRenderer};
 use ride::RideFrame;
 use std::collections::VecDeque;
+use std::time::{Duration, Instant};
 use view::Effects;
+
+/// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
+const STILL: Duration = Duration::from_millis(120);
 
 /// Settings of a frame that no recording depends on.
 #[derive(Clone, Copy, Debug)]
@@ -52,11 +58,17 @@ pub struct RideInProgress {
     pub certainty: Certainty,
     /// Times of the stages of a frame.
     pub times: StageTimes,
+    /// Governor of the window's resolution; `None` if every pixel is drawn however long it takes.
+    governor: Option<Governor>,
+    /// Time at which the frame before was drawn in motion.
+    moved_at: Option<Instant>,
+    /// Share of the window's width and height that is drawn.
+    pub share: f64,
 }
 
 impl RideInProgress {
     /// A ride that is about to begin.
-    pub fn new(renderer: SceneRenderer, live: Live) -> Self {
+    pub fn new(renderer: SceneRenderer, live: Live, governor: Option<Governor>) -> Self {
         Self {
             live,
             renderer,
@@ -66,6 +78,9 @@ impl RideInProgress {
             behind: None,
             certainty: Certainty::default(),
             times: StageTimes::default(),
+            governor,
+            moved_at: None,
+            share: 1.0,
         }
     }
 
@@ -108,10 +123,30 @@ impl RideInProgress {
         self.certainty = drawn.certainty;
         self.behind = drawn.behind.first().map(|(channel, behind)| format!("{channel} is black: {behind}"));
         self.times.stage("draw");
+        self.govern(canvas);
 
         // The viewer adapts to it. Windows show it: window/show.rs.
         canvas.adapt(gpu, &look.development, elapsed_s);
         Ok(Some(actions))
+    }
+}
+
+impl RideInProgress {
+    /// Sets the resolution of the next frame of a flat picture, so that the frame rate is held. Pictures at rest take
+    /// the time that they need.
+    fn govern(&mut self, canvas: &mut Canvas) {
+        let Canvas::Picture(picture) = canvas else { return };
+        self.share = picture.share();
+        let Some(governor) = &mut self.governor else { return };
+        let now = Instant::now();
+        let before = self.moved_at.take();
+        if picture.drawing() == Drawing::Moving {
+            self.moved_at = Some(now);
+            if let Some(before) = before {
+                governor.frame(now - before);
+                picture.set_shares(PictureShares { moving: governor.share(), resting: governor.share_within(STILL) });
+            }
+        }
     }
 }
 

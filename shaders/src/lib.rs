@@ -25,6 +25,6 @@ pub use layout::{
     MeteringUniforms, PlacementUniforms, RoomViewUniforms, ViewUniforms,
 };
 pub use modules::{
-    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW, SKY, SURFACE,
-    WARP,
+    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW, SKY,
+    SURFACE, WARP,
 };

@@ -79,10 +79,12 @@ pub const ENCODED: Module =
     Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
+/// Module that enlarges a finished picture to the size of its window.
+pub const ENLARGE: Module = Module { name: "enlarge", files: &[FULLSCREEN, include_str!("../wgsl/enlarge.wgsl")] };
 /// Module of the shared functions alone, called from a compute shader so that they can be held against their Rust
 /// twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 13] =
-    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, PROBE];
+pub const MODULES: [Module; 14] =
+    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE, PROBE];

@@ -68,6 +68,9 @@ pub trait Method {
         None
     }
 
+    /// Sets the texels of the map for each pixel, if the method has a map, from the next picture on.
+    fn set_map_scale(&mut self, _texels_per_pixel: f64) {}
+
     /// Waits for the work that goes on beside the drawing.
     fn settle(&self) {}
 

@@ -160,6 +160,16 @@ impl SceneRenderer {
         Ok(report)
     }
 
+    /// True if nothing in the scene moves, so that an observer at rest sees the same at all times.
+    pub fn is_still(&self) -> bool {
+        self.motions.is_empty()
+    }
+
+    /// Sets the texels of the map for each pixel, if the method has a map, from the next picture on.
+    pub fn set_map_scale(&mut self, texels_per_pixel: f64) {
+        self.method.set_map_scale(texels_per_pixel);
+    }
+
     /// Waits for the work that goes on beside the drawing.
     pub fn settle(&self) {
         self.method.settle();

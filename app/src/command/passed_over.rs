@@ -10,7 +10,7 @@ use super::line::CheckOptions;
 use super::measure::MeasureOptions;
 use super::picture::PictureOptions;
 use super::render::RenderOptions;
-use super::ride::{Latency, RideOptions, VehicleName};
+use super::ride::{FrameRate, Latency, RideOptions, VehicleName};
 use super::values::Output;
 use super::world::{SceneChoice, WorldOptions};
 use render::display::Development;
@@ -51,6 +51,11 @@ impl RideOptions {
         let devices = &self.devices;
         if films {
             passed.note(self.latency != Latency::default(), "--latency", "it is for windows, and this ride is filmed");
+            passed.note(
+                self.frame_rate != FrameRate::default(),
+                "--frame-rate",
+                "it is for windows, and this ride is filmed",
+            );
             let live = devices.bicycle.is_some() || devices.spacemouse || self.realtime;
             let replayed = self.replay.is_some();
             if live && self.record.is_some() {
@@ -77,6 +82,11 @@ impl RideOptions {
                 "a window takes 1 or 4 samples a pixel; it takes 4",
             );
             if self.display.is_some() {
+                passed.note(
+                    self.frame_rate != FrameRate::default(),
+                    "--frame-rate",
+                    "the screens of a room have every pixel drawn",
+                );
                 self.picture.pass_over_sizes(self.preview, &mut passed);
             }
         }

@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use super::ride::FrameRate;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use glam::DVec3;
 use physics::{Beta, Celerity, CelerityError};
@@ -64,6 +65,9 @@ pub enum ValueError {
         /// Extensions that are allowed.
         allowed: &'static str,
     },
+    /// A text that is no frame rate.
+    #[error("expected 1 to 1000 frames per second, or off, as in 30")]
+    FrameRate,
     /// A text that names no vehicle.
     #[error("expected bicycle, drive or fly")]
     Vehicle,
@@ -242,6 +246,18 @@ pub(super) fn milliseconds(text: &str) -> Result<f64, ValueError> {
 pub(super) fn pixels(text: &str) -> Result<f64, ValueError> {
     let number = text.trim().strip_suffix("px").ok_or(ValueError::Pixels)?;
     positive(number).map_err(|_| ValueError::Pixels)
+}
+
+/// Frames per second from 1 to 1000, or `off`.
+///
+/// # Errors
+/// [`ValueError::FrameRate`].
+pub fn frame_rate(text: &str) -> Result<FrameRate, ValueError> {
+    match text.parse::<f64>() {
+        Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(FrameRate::Held(rate)),
+        Err(_) if text == "off" => Ok(FrameRate::Any),
+        _ => Err(ValueError::FrameRate),
+    }
 }
 
 /// Finite number above zero.

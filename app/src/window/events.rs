@@ -7,7 +7,6 @@ use crate::canvas::Canvas;
 use crate::error::Error;
 use input::{MouseButton, MouseEvent, Sample, SampleSource};
 use render::display::development;
-use render::target::Radiance;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
 use winit::event_loop::ActiveEventLoop;
@@ -167,7 +166,7 @@ impl Open {
         if self.windows[window].resize(&self.gpu, size)
             && let Canvas::Picture(picture) = &mut self.canvas
         {
-            picture.radiance = Radiance::new(&self.gpu, [size.width, size.height], self.format);
+            picture.resize(self.windows[window].size());
         }
     }
 }

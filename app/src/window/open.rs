@@ -5,8 +5,9 @@ use super::interface::Interface;
 use super::panel::Settings;
 use super::window_surface::{WindowSurface, attributes};
 use crate::canvas::Canvas;
-use crate::command::RideOptions;
+use crate::command::{RideOptions, map_scale_of_windows};
 use crate::error::Error;
+use crate::flat_picture::FlatPicture;
 use crate::frame::{Look, RideInProgress};
 use crate::output::progress;
 use crate::output::say::tell;
@@ -15,7 +16,7 @@ use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use render::choice::Choice;
 use render::picture::largest_side;
-use render::target::Format;
+use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
 use scene::Scene;
 use std::sync::Arc;
@@ -45,7 +46,6 @@ pub struct Open {
     /// Windows; the first has the interface.
     pub(super) windows: Vec<WindowSurface>,
     pub(super) canvas: Canvas,
-    pub(super) format: Format,
     pub(super) interface: Interface,
     pub(super) settings: Settings,
     /// True if the mouse moves the head.
@@ -113,11 +113,11 @@ impl Open {
         spinner.finish_and_clear();
         tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
-        let renderer = SceneRenderer::new(&gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
+        let mut renderer = SceneRenderer::new(&gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
         gpu.wait()?;
         spinner.finish_and_clear();
         let interface = Interface::new(&gpu, &surfaces[0].window, screen_format);
-        let canvas = match display {
+        let mut canvas = match display {
             Some(mut display) => {
                 let smaller = display.shrink_to(largest_side(&gpu));
                 smaller.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
@@ -129,31 +129,36 @@ impl Open {
                     Canvas::Room(Box::new(walls))
                 }
             }
-            None => Canvas::picture(&gpu, surfaces[0].size(), format, screen_format),
+            None => {
+                let map_scale = dial.map_scale.unwrap_or(map_scale_of_windows(gpu.is_software()));
+                let size = surfaces[0].size();
+                Canvas::Picture(Box::new(FlatPicture::new(&gpu, size, format, screen_format, map_scale)))
+            }
         };
+        let look = Look {
+            effects: options.picture.effects,
+            latency: options.latency,
+            fov_deg: options.picture.fov_deg(&start),
+            development: options.picture.development(),
+        };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
+        let screens: Vec<_> = surfaces.iter().map(screen).collect();
+        let spinner = progress::spinner("drawing the first picture");
+        canvas.warm_up(&gpu, &mut renderer, &start, &look, &screens)?;
+        spinner.finish_and_clear();
         Ok(Self {
             canvas,
-            settings: Settings {
-                open: false,
-                help: false,
-                readings: true,
-                look: Look {
-                    effects: options.picture.effects,
-                    latency: options.latency,
-                    fov_deg: options.picture.fov_deg(&start),
-                    development: options.picture.development(),
-                },
-            },
+            settings: Settings { open: false, help: false, readings: true, look },
             mouse_moves_head,
             shift: false,
             display_name: options.display.clone(),
             calibrating: None,
             cursor: None,
-            ride: RideInProgress::new(renderer, begin()?),
+            ride: RideInProgress::new(renderer, begin()?, options.frame_rate.governor()),
             stop: interrupted(),
             gpu,
             windows: surfaces,
-            format,
             interface,
         })
     }

@@ -1,11 +1,12 @@
 //! Photo of the window's picture, without the head-up display.
 
-use crate::canvas::{Canvas, FlatPicture};
+use crate::canvas::Canvas;
 use crate::error::Error;
+use crate::flat_picture::FlatPicture;
 use crate::output::files::{save, unused};
-use render::Gpu;
 use render::display::Development;
 use render::picture::Darkroom;
+use render::{Gpu, SceneRenderer};
 use walls::Walls;
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
@@ -13,18 +14,29 @@ use walls::Walls;
 ///
 /// # Errors
 /// A lost device, or a folder that cannot be written to.
-pub fn take(gpu: &Gpu, canvas: &mut Canvas, development: &Development) -> Result<String, Error> {
+pub fn take(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    canvas: &mut Canvas,
+    development: &Development,
+) -> Result<String, Error> {
     match canvas {
-        Canvas::Picture(picture) => take_picture(gpu, picture, development),
+        Canvas::Picture(picture) => take_picture(gpu, renderer, picture, development),
         Canvas::Room(walls) => take_room(gpu, walls, development),
         Canvas::Preview(room) => take_room(gpu, &mut room.walls, development),
     }
 }
 
-fn take_picture(gpu: &Gpu, picture: &FlatPicture, development: &Development) -> Result<String, Error> {
-    let FlatPicture { radiance, adaptation, .. } = picture;
-    let mut darkroom = Darkroom::new(gpu, radiance.size, radiance.format.colour);
-    let picture = darkroom.develop(gpu, radiance.result(), adaptation, development)?;
+fn take_picture(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    picture: &mut FlatPicture,
+    development: &Development,
+) -> Result<String, Error> {
+    let (radiance, adaptation) = picture.whole(gpu, renderer);
+    let texture = radiance.texture();
+    let mut darkroom = Darkroom::new(gpu, [texture.width(), texture.height()], texture.format());
+    let picture = darkroom.develop(gpu, radiance, adaptation, development)?;
     let path = unused("photo", "png");
     save(&picture, &path)?;
     Ok(format!("photo: {}", path.display()))

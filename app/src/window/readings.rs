@@ -30,11 +30,17 @@ pub fn readings(ride: &RideInProgress) -> Readings {
         own_m: odometer.own_m,
         frame_rate: ride.times.frame_rate(),
         stages_ms: ride.times.stages_ms(),
-        certainty: ride.certainty.reading(),
+        certainty: accuracy(ride),
         notices,
         paused: frame.paused,
         recording: ride.live.is_recording(),
     }
+}
+
+/// Error of directions in the picture, and its resolution if that is less than the window's.
+fn accuracy(ride: &RideInProgress) -> String {
+    let error = ride.certainty.reading();
+    if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
 }
 
 /// State of the ride that the settings panel shows.

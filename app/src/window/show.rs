@@ -44,7 +44,7 @@ impl Open {
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
-                    let taken = photo::take(&self.gpu, &mut self.canvas, &look.development);
+                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &look.development);
                     self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
                 }
                 _ => {}

@@ -14,9 +14,11 @@
 pub mod adaptation;
 mod developer;
 pub mod development;
+mod enlarge;
 mod passes;
 
 pub use adaptation::{Adaptation, Seen};
 pub use developer::{Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, resample};
 pub use development::{Development, Exposure, Gamut, Tone};
+pub use enlarge::Enlarger;
 pub use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};

@@ -71,6 +71,11 @@ impl Method for ImageRenderer {
         Some(self.map.stats())
     }
 
+    fn set_map_scale(&mut self, texels_per_pixel: f64) {
+        self.quality.texels_per_pixel = texels_per_pixel;
+        self.map.set_scale(texels_per_pixel);
+    }
+
     fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {
         if let Some(texels_per_pixel) = map_scale {
             self.quality = MapQuality { texels_per_pixel, smooth: occasion == Occasion::Ride };

@@ -90,6 +90,11 @@ impl MapRenderer {
         self.stats
     }
 
+    /// Sets the texels for each pixel of the next maps.
+    pub fn set_scale(&mut self, texels_per_pixel: f64) {
+        self.quality.texels_per_pixel = texels_per_pixel;
+    }
+
     /// Draws the map for a picture of `size` pixels.
     pub fn draw_map(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2], subject: Subject) {
         let started = Instant::now();

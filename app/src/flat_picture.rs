@@ -1,0 +1,266 @@
+//! Flat picture of a window: drawn with as many pixels as there is time for, and to the full when nothing moves.
+
+use render::certainty::Certainty;
+use render::display::{Accumulator, Adaptation, DevelopedPart, Developer, Development, Enlarger, Seen};
+use render::target::{Format, Radiance};
+use render::{Gpu, GpuError, Pending, SceneRenderer};
+use std::time::{Duration, Instant};
+use view::{PixelSample, Shot, Stored};
+use walls::DrawnChannels;
+
+/// Samples of each pixel of a picture at rest, one a frame.
+const STILL_SAMPLES: u32 = 16;
+/// Factor on the map's texels for each pixel, along each axis, at rest.
+const STILL_MAP: f64 = 1.4;
+/// Number of frames for which a complete picture at rest is still developed anew, while the eye adapts.
+const ADAPTING_FRAMES: u32 = 20;
+/// Time without any change after which a picture is at rest.
+const STILL_AFTER: Duration = Duration::from_millis(250);
+
+/// One picture, and the eye that is adapted to it.
+pub struct FlatPicture {
+    /// Width and height of the window, pixels.
+    size: [u32; 2],
+    /// Shares of its width and height that are drawn while anything changes, and at rest.
+    shares: PictureShares,
+    /// Texels of a map for each pixel while anything changes.
+    map_scale: f64,
+    /// Light of the frame drawn last.
+    radiance: Radiance,
+    still: Option<Still>,
+    /// Picture drawn last, and the time of the last change.
+    shown: Option<(Shot, Instant)>,
+    developer: Developer,
+    enlarger: Enlarger,
+    adaptation: Adaptation,
+    stored: Stored,
+    certainty: Certainty,
+}
+
+/// Picture at rest: the sum of its samples so far.
+struct Still {
+    sum: Accumulator,
+    samples: u32,
+    /// Size of the cut that is drawn: another cut begins another sum.
+    triangles: Option<usize>,
+    /// Development of the picture shown last, and number of frames for which it is complete.
+    developed: Option<Development>,
+    frames: u32,
+}
+
+/// Shares of a window's width and height that are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureShares {
+    /// Share while anything changes.
+    pub moving: f64,
+    /// Share at rest.
+    pub resting: f64,
+}
+
+impl Default for PictureShares {
+    fn default() -> Self {
+        Self { moving: 1.0, resting: 1.0 }
+    }
+}
+
+/// Way in which a frame of a flat picture was drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    /// A frame of a ride.
+    Moving,
+    /// A sample of a picture at rest, or nothing, since all of them are there.
+    Resting,
+}
+
+impl FlatPicture {
+    /// A picture of `size` pixels, shown on a screen of this format. `map_scale`: texels of a map for each pixel.
+    pub fn new(gpu: &Gpu, size: [u32; 2], format: Format, screen: wgpu::TextureFormat, map_scale: f64) -> Self {
+        Self {
+            size,
+            shares: PictureShares::default(),
+            map_scale,
+            radiance: Radiance::new(gpu, size, format),
+            still: None,
+            shown: None,
+            developer: Developer::new(gpu, format.colour, screen),
+            enlarger: Enlarger::new(gpu, screen),
+            adaptation: Adaptation::new(gpu),
+            stored: Stored::UNSHIFTED,
+            certainty: Certainty::default(),
+        }
+    }
+
+    /// Changes the size of the window, pixels.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        (self.size, self.still, self.shown) = (size, None, None);
+    }
+
+    /// Changes the shares of the window's width and height that are drawn.
+    pub fn set_shares(&mut self, shares: PictureShares) {
+        self.shares = shares;
+    }
+
+    /// Share of the window's width and height that the frame drawn last has.
+    pub fn share(&self) -> f64 {
+        f64::from(self.radiance.size[0]) / f64::from(self.size[0].max(1))
+    }
+
+    /// Way in which the frame was drawn last.
+    pub fn drawing(&self) -> Drawing {
+        if self.still.is_some() { Drawing::Resting } else { Drawing::Moving }
+    }
+
+    /// Draws the light of a frame, or adds a sample to the picture if nothing has changed for a while.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        pending: Pending,
+    ) -> Result<DrawnChannels, GpuError> {
+        let transformed = renderer.show(gpu, pending)?;
+        self.stored = renderer.stored(shot);
+        let rests_since = self.shown.filter(|(before, _)| renderer.is_still() && looks_alike(before, shot));
+        let since = rests_since.map_or_else(Instant::now, |(_, since)| since);
+        self.shown = Some((*shot, since));
+        if rests_since.is_some() && since.elapsed() >= STILL_AFTER {
+            self.add_sample(gpu, renderer, shot);
+        } else {
+            self.still = None;
+            renderer.set_map_scale(self.map_scale);
+            self.fit(gpu, self.part(self.shares.moving));
+            renderer.prepare(gpu, shot, self.radiance.size);
+            self.expose(gpu, renderer, shot, PixelSample::WHOLE);
+            self.certainty = renderer.certainty(shot, self.radiance.size);
+        }
+        Ok(DrawnChannels {
+            behind: Vec::new(),
+            not_finite: transformed.not_finite,
+            transform: transformed.duration,
+            certainty: self.certainty,
+        })
+    }
+
+    /// Adds a sample to the picture at rest, until it has all of them.
+    fn add_sample(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) {
+        let begins = self.still.is_none();
+        if begins {
+            self.fit(gpu, self.part(self.shares.resting));
+        }
+        let size = self.radiance.size;
+        let mut still = self.still.take().unwrap_or_else(|| Still {
+            sum: self.developer.accumulator(gpu, size),
+            samples: 0,
+            triangles: None,
+            developed: None,
+            frames: 0,
+        });
+        if begins || renderer.cut_stats().is_some() {
+            renderer.set_map_scale(STILL_MAP * self.map_scale);
+            renderer.prepare(gpu, shot, size);
+        }
+        let triangles = renderer.cut_stats().map(|cut| cut.triangles);
+        if triangles != still.triangles {
+            still.sum.restart();
+            (still.samples, still.triangles) = (0, triangles);
+        }
+        if still.samples < STILL_SAMPLES {
+            self.expose(gpu, renderer, shot, PixelSample::of(still.samples, STILL_SAMPLES));
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            self.developer.add(gpu, &mut encoder, &mut still.sum, self.radiance.result(), STILL_SAMPLES);
+            gpu.queue.submit([encoder.finish()]);
+            still.samples += 1;
+            still.frames = 0;
+            self.certainty = renderer.certainty(shot, size);
+        }
+        self.still = Some(still);
+    }
+
+    /// Draws a sample into the target.
+    fn expose(&self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot, sample: PixelSample) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Part of the window's width and height, pixels.
+    fn part(&self, share: f64) -> [u32; 2] {
+        self.size.map(|side| ((f64::from(side) * share).round() as u32).max(1))
+    }
+
+    /// Gives the target this size.
+    fn fit(&mut self, gpu: &Gpu, size: [u32; 2]) {
+        if self.radiance.size != size {
+            self.radiance = Radiance::new(gpu, size, self.radiance.format);
+        }
+    }
+
+    /// Light of the whole picture in every pixel of the window, and the eye that is adapted to it: drawn anew if the
+    /// frame has fewer pixels.
+    pub fn whole(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer) -> (&wgpu::TextureView, &Adaptation) {
+        if let (Some((shot, _)), true) = (self.shown, self.radiance.size != self.size) {
+            self.fit(gpu, self.size);
+            renderer.prepare(gpu, &shot, self.size);
+            self.expose(gpu, renderer, &shot, PixelSample::WHOLE);
+        }
+        let complete = self.still.as_ref().filter(|still| still.samples == STILL_SAMPLES);
+        (complete.map_or(self.radiance.result(), |still| still.sum.result()), &self.adaptation)
+    }
+
+    /// Adapts the eye to the light drawn last. `elapsed_s`: time to adapt, seconds; `None` adapts at once.
+    pub fn adapt(&mut self, gpu: &Gpu, development: &Development, elapsed_s: Option<f64>) {
+        if self.still.as_ref().is_some_and(|still| still.frames >= ADAPTING_FRAMES) {
+            return;
+        }
+        let seen = Seen { radiance: self.radiance.result(), stored: self.stored, elapsed_s };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.developer.adapt(gpu, &mut encoder, &mut self.adaptation, &seen, development);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Develops the light for the window.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        development: &Development,
+        screen: &wgpu::TextureView,
+    ) {
+        let Self { radiance, still, developer, enlarger, adaptation, .. } = self;
+        let part = |exposure: f32| {
+            let [width, height] = radiance.size;
+            DevelopedPart { viewport: [0, 0, width, height], over: false, exposure, gains: None, gamma: None }
+        };
+        match still {
+            Some(still) if still.samples > 0 => {
+                // A complete picture to which the eye is adapted is not developed again.
+                if still.frames < ADAPTING_FRAMES || still.developed != Some(*development) {
+                    let target = enlarger.target(gpu, radiance.size);
+                    // The sum of a part of the samples is that much darker.
+                    let part = part(STILL_SAMPLES as f32 / still.samples as f32);
+                    developer.show_part(gpu, encoder, still.sum.result(), adaptation, development, &target, &part);
+                    still.frames += 1;
+                    still.developed = Some(*development);
+                }
+                enlarger.enlarge(gpu, encoder, screen);
+            }
+            _ if radiance.size != [screen.texture().width(), screen.texture().height()] => {
+                let target = enlarger.target(gpu, radiance.size);
+                let light = radiance.result();
+                developer.show_part(gpu, encoder, light, adaptation, development, &target, &part(1.0));
+                enlarger.enlarge(gpu, encoder, screen);
+            }
+            _ => developer.show_part(gpu, encoder, radiance.result(), adaptation, development, screen, &part(1.0)),
+        }
+    }
+}
+
+/// True if two pictures of a scene in which nothing moves are the same: the time of the event does not matter.
+fn looks_alike(one: &Shot, other: &Shot) -> bool {
+    let same = |shot: &Shot| (shot.observer.event.position, shot.observer.celerity);
+    same(one) == same(other)
+        && (one.camera, one.effects, one.stored_scale) == (other.camera, other.effects, other.stored_scale)
+}
