@@ -3,6 +3,8 @@
 //! Each takes the same four steps for a frame. Photo-surfaces are submitted for its eyes. Its light is drawn. Its
 //! viewer adapts. The developed light goes to windows.
 
+use glam::DMat3;
+use input::FreeLook;
 use render::display::{Adaptation, Developer, Development, Seen};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
@@ -59,7 +61,7 @@ pub enum Submitted {
 /// Observer of one frame, in the vehicle and in its room.
 #[derive(Clone, Copy, Debug)]
 pub struct Watcher {
-    /// View along the vehicle's nose.
+    /// View of a flat picture: along the vehicle's nose, turned by the rider's look.
     pub gaze: Gaze,
     /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
     pub vehicle: physics::worldline::WorldlineState,
@@ -67,6 +69,8 @@ pub struct Watcher {
     pub thrust: physics::worldline::Thrust,
     /// Head in the vehicle's room, if one is tracked.
     pub head: Option<walls::RoomHead>,
+    /// Turn of a rider who looks round, whose head is not tracked. Screens that stand in the room know nothing of it.
+    pub look: FreeLook,
 }
 
 impl Submitted {
@@ -124,7 +128,12 @@ impl Canvas {
             let pending = renderer.submit(gpu, &shot.observer, effects)?;
             return Ok(Submitted::Picture { shot, pending });
         };
-        let head = watcher.head.unwrap_or(walls::RoomHead::at_rest(walls.display.viewer.head_m));
+        let head = watcher.head.unwrap_or_else(|| {
+            let viewer = &walls.display.viewer;
+            let looking = if viewer.turns_pictures { watcher.look } else { FreeLook::default() };
+            let room_from_head = DMat3::from_quat(looking.nose_from_gaze());
+            walls::RoomHead { room_from_head, ..walls::RoomHead::at_rest(viewer.head_m) }
+        });
         let occupant = Occupant { vehicle: watcher.vehicle, thrust: watcher.thrust, head };
         Ok(Submitted::Room(Box::new(walls.submit(gpu, renderer, &occupant, effects)?)))
     }

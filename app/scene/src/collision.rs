@@ -32,6 +32,7 @@ const STEEP: f64 = 0.5;
 /// Solid part of a scene. Positions are world metres.
 pub struct Collision {
     origin: DVec3,
+    circuit: Vec<DVec3>,
     sorted: LazyLock<SortedTriangles, Box<dyn FnOnce() -> SortedTriangles + Send>>,
 }
 
@@ -65,7 +66,7 @@ impl Collision {
         scene.validate()?;
         let triangles: Vec<[Vec3; 3]> = solid_triangles(scene).collect();
         let sorted: Box<dyn FnOnce() -> SortedTriangles + Send> = Box::new(move || SortedTriangles::of(triangles));
-        Ok(Self { origin: scene.origin, sorted: LazyLock::new(sorted) })
+        Ok(Self { origin: scene.origin, circuit: scene.circuit.clone(), sorted: LazyLock::new(sorted) })
     }
 
     /// Sorts the triangles now instead of at the first question: about a microsecond for each.
@@ -75,6 +76,10 @@ impl Collision {
 }
 
 impl Surroundings for Collision {
+    fn circuit(&self) -> &[DVec3] {
+        &self.circuit
+    }
+
     /// Highest floor that is not more than [`STEP`] above a point, or `None` if there is none below.
     fn height_below(&self, position: DVec3) -> Option<Ground> {
         let from = above(position, self.origin);

@@ -31,6 +31,11 @@ pub trait Surroundings: Send + Sync {
     /// Wall nearest to a vehicle whose reference point on the ground is `position`; `None` if there is none within
     /// `reach` metres. The distance must be that of the nearest of all walls: any shorter way is known to be free.
     fn nearest_wall(&self, position: DVec3, reach: f64) -> Option<Wall>;
+
+    /// Corners of a closed route on the ground, world metres; empty where there is none.
+    fn circuit(&self) -> &[DVec3] {
+        &[]
+    }
 }
 
 /// Empty space: no ground and no wall.

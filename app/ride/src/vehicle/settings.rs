@@ -4,6 +4,8 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::assist::AssistMode;
+
 /// Settings of a vehicle's response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -16,6 +18,8 @@ pub struct VehicleSettings {
     pub integrator: IntegratorKind,
     /// Offset of the rider's or driver's eye from the reference point on the ground, metres: right, up, backward.
     pub eye_m: [f64; 3],
+    /// Condition for assisted steering on the ground.
+    pub assist: AssistMode,
 }
 
 impl Default for VehicleSettings {
@@ -26,6 +30,7 @@ impl Default for VehicleSettings {
             flight: FlightSettings::default(),
             integrator: IntegratorKind::default(),
             eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
+            assist: AssistMode::Off,
         }
     }
 }
@@ -36,7 +41,7 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m } = self;
+        let Self { bicycle, flight, integrator: _, eye_m, assist: _ } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),

@@ -77,6 +77,11 @@ impl Vehicle {
         &self.state
     }
 
+    /// Level unit vector along which the nose points.
+    pub fn heading(&self) -> DVec3 {
+        heading(self.state.orientation)
+    }
+
     /// Kind of vehicle: bicycle, drive or fly.
     pub fn kind(&self) -> VehicleKind {
         self.kind

@@ -1,5 +1,6 @@
 //! Tests of the crate `ride`, one module a subject.
 
+mod assist;
 mod log;
 mod old_recordings;
 mod simulation;
