@@ -245,7 +245,7 @@ fn forward_m_s(vehicle: &Vehicle) -> f64 {
 /// True if the rider's hand steers.
 fn steers(rider: &Controls) -> bool {
     let turns = [rider.steer_rad, rider.thrust[0], rider.turn[1]];
-    turns.iter().any(|turn| !(turn.abs() <= HAND))
+    turns.iter().any(|turn| turn.abs() > HAND || turn.is_nan())
 }
 
 /// True if the vehicle goes ahead, or the rider wants it to.

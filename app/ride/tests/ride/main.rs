@@ -9,4 +9,5 @@ mod town;
 mod vehicle_bicycle;
 mod vehicle_flight;
 mod vehicle_gaze;
+mod vehicle_hull;
 mod vehicle_walls;
