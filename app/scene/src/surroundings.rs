@@ -16,8 +16,8 @@ pub struct Ground {
 pub struct Wall {
     /// Distance from the point to the nearest place of the wall, metres, not negative.
     pub distance: f64,
-    /// Unit vector from that place to the point, world axes; level for a wall beside a vehicle on the ground. It tells only on which side of the wall the point
-    /// lies.
+    /// Unit vector from that place to the point, world axes; level for a wall beside a vehicle on the ground. It tells
+    /// only on which side of the wall the point lies.
     pub normal: DVec3,
 }
 
