@@ -44,8 +44,8 @@ const FARTHEST_LEVER: f64 = 0.65;
 /// Speed below which a vehicle stands, m/s; time of standing after which a bicycle is pushed back, and time of that,
 /// seconds of own time.
 const STANDING_M_S: f64 = 0.3;
-const PATIENCE_S: f64 = 0.6;
-const BACK_S: f64 = 1.3;
+const PATIENCE_S: f64 = 3.0;
+const BACK_S: f64 = 3.0;
 /// Speed of a bicycle that is pushed back, m/s.
 const BACK_M_S: f64 = 1.5;
 /// Bearing beyond which a car turns on the spot, radians.
@@ -73,6 +73,8 @@ pub struct Assist {
     share: f64,
     standing_s: f64,
     back_s: f64,
+    /// Side to which the nose turns meanwhile: 1 left, −1 right.
+    back_side: f64,
 }
 
 impl Assist {
@@ -87,6 +89,7 @@ impl Assist {
             share: 1.0,
             standing_s: 0.0,
             back_s: 0.0,
+            back_side: 1.0,
         }
     }
 
@@ -139,7 +142,7 @@ impl Assist {
         let stands = speed_m_s.abs() < STANDING_M_S && wanted_m_s > STANDING_M_S;
         self.standing_s = if stands { self.standing_s + own_s } else { 0.0 };
         if self.standing_s > PATIENCE_S {
-            (self.standing_s, self.back_s) = (0.0, BACK_S);
+            (self.standing_s, self.back_s, self.back_side) = (0.0, BACK_S, 1_f64.copysign(bearing));
         }
         let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
         let sharpest = if bearing.abs() > FRAC_PI_2 {
@@ -151,7 +154,7 @@ impl Assist {
             self.back_s -= own_s;
             controls.wheel_speed = Some(-BACK_M_S);
             // A bicycle that rolls backward turns its nose to the other side.
-            controls.steer_rad = -FARTHEST_STEER_RAD.copysign(bearing);
+            controls.steer_rad = -FARTHEST_STEER_RAD * self.back_side;
             return;
         }
         controls.steer_rad += self.share * sharpest;

@@ -150,6 +150,58 @@ fn walls_alone_show_the_way_round_a_block() {
 }
 
 #[test]
+fn a_vehicle_that_stands_before_a_wall_comes_free() {
+    for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
+        for beside_m in [0.41, 0.45, 0.6] {
+            let half = 20.0;
+            let in_corner = half + WIDTH_M - beside_m;
+            let places = [
+                (DVec3::new(half + beside_m, 0.0, 3.0), DVec3::NEG_X),
+                (DVec3::new(in_corner, 0.0, in_corner), DVec3::new(1.0, 0.0, 1.0)),
+                (DVec3::new(in_corner, 0.0, in_corner), DVec3::Z),
+            ];
+            for (place, nose) in places {
+                let start = RideStart::at_rest(place, nose, DVec3::Y);
+                let setup = setup(kind, 30.0 / 3.6, start, AssistMode::Auto);
+                let frames = ridden(setup, Arc::new(Block(half)), &pedalling(), 20);
+                let road = frames.last().unwrap().vehicle.odometer().road_m;
+                let slow_s = longest_below(&frames[6 * RATE as usize..], 1.0);
+                assert!(slow_s < 2.0 && road > 30.0, "{kind:?} at {place}, nose {nose}: {slow_s} s slow, {road} m");
+            }
+        }
+    }
+}
+
+/// Blind alley, open towards +z, and no wider than a bicycle can turn in.
+struct Alley;
+
+impl Surroundings for Alley {
+    fn height_below(&self, _: DVec3) -> Option<Ground> {
+        Some(Ground { height: 0.0, normal: DVec3::Y })
+    }
+
+    fn nearest_wall(&self, position: DVec3, reach: f64) -> Option<Wall> {
+        let foot = DVec3 { y: 0.0, ..position };
+        let along = foot.z.clamp(-1.0, 8.0);
+        let end = DVec3::new(foot.x.clamp(-0.9, 0.9), 0.0, -1.0);
+        let places = [DVec3::new(0.9, 0.0, along), DVec3::new(-0.9, 0.0, along), end];
+        let nearest = places.into_iter().min_by(|a, b| foot.distance(*a).total_cmp(&foot.distance(*b)))?;
+        let distance = foot.distance(nearest);
+        (distance <= reach).then(|| Wall { distance, normal: (foot - nearest).normalize_or(DVec3::X) })
+    }
+}
+
+#[test]
+fn a_blind_alley_is_left_again() {
+    for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
+        let start = RideStart::at_rest(DVec3::new(0.1, 0.0, 4.0), DVec3::NEG_Z, DVec3::Y);
+        let frames = ridden(setup(kind, 30.0 / 3.6, start, AssistMode::Auto), Arc::new(Alley), &pedalling(), 60);
+        let end = frames.last().unwrap().vehicle.state().position;
+        assert!(frames.iter().any(|frame| frame.vehicle.state().position.z > 8.5), "{kind:?} at {end}");
+    }
+}
+
+#[test]
 fn a_hand_that_steers_is_not_disturbed_and_the_assist_returns() {
     let town = &TOWN.1;
     for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
