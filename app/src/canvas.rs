@@ -5,7 +5,8 @@
 
 use crate::flat_picture::FlatPicture;
 use crate::frame::Look;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
+use input::FreeLook;
 use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event, Observer};
 use render::display::Development;
@@ -53,7 +54,7 @@ pub enum Submitted {
 /// Observer of one frame, in the vehicle and in its room.
 #[derive(Clone, Copy, Debug)]
 pub struct Watcher {
-    /// View along the vehicle's nose.
+    /// View of a flat picture: along the vehicle's nose, turned by the rider's look.
     pub gaze: Gaze,
     /// Vehicle, and the head in it; a head at rest at the display's place if none is tracked.
     pub vehicle: WorldlineState,
@@ -61,6 +62,8 @@ pub struct Watcher {
     pub thrust: Thrust,
     /// Head in the vehicle's room, if one is tracked.
     pub head: Option<walls::RoomHead>,
+    /// Turn of a rider who looks round, whose head is not tracked. Screens that stand in the room know nothing of it.
+    pub look: FreeLook,
 }
 
 impl Submitted {
@@ -111,6 +114,7 @@ impl Canvas {
             vehicle: WorldlineState::new(event, Celerity::ZERO, orientation),
             thrust: Thrust::default(),
             head: None,
+            look: FreeLook::default(),
         };
         for _ in 0..2 {
             let submitted = self.submit(gpu, renderer, &watcher, look.effects, look.fov_deg)?;
@@ -144,7 +148,12 @@ impl Canvas {
             let pending = renderer.submit(gpu, &shot.observer, effects)?;
             return Ok(Submitted::Picture { shot, pending });
         };
-        let head = watcher.head.unwrap_or(walls::RoomHead::at_rest(walls.display.viewer.head_m));
+        let head = watcher.head.unwrap_or_else(|| {
+            let viewer = &walls.display.viewer;
+            let looking = if viewer.turns_pictures { watcher.look } else { FreeLook::default() };
+            let room_from_head = DMat3::from_quat(looking.nose_from_gaze());
+            walls::RoomHead { room_from_head, ..walls::RoomHead::at_rest(viewer.head_m) }
+        });
         let occupant = Occupant { vehicle: watcher.vehicle, thrust: watcher.thrust, head };
         Ok(Submitted::Room(Box::new(walls.submit(gpu, renderer, &occupant, effects)?)))
     }

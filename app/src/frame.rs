@@ -96,8 +96,13 @@ impl RideInProgress {
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let light_speed = frame.vehicle.light_speed().speed_of_light_m_s();
         let head = frame.controls.head.as_ref().map(|state| tracker::head(state, light_speed));
-        let watcher =
-            Watcher { gaze: frame.gaze, vehicle: *frame.vehicle.state(), thrust: *frame.vehicle.thrust(), head };
+        let watcher = Watcher {
+            gaze: frame.gaze,
+            vehicle: *frame.vehicle.state(),
+            thrust: *frame.vehicle.thrust(),
+            head,
+            look: frame.controls.look,
+        };
         let elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         let actions = frame.controls.actions.clone();
         self.frame = Some(frame);

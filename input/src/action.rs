@@ -34,6 +34,8 @@ pub enum Action {
     SpeedOfLight(f64),
     /// Change of the vehicle.
     Vehicle(VehicleKind),
+    /// Look along the nose again.
+    LookAhead,
     /// Return to the start.
     Restart,
     /// Request for a picture.

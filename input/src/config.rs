@@ -25,6 +25,13 @@ pub struct DeskConfig {
     /// Settings of the tracked head; `None` without a tracker, and in recordings made before heads were tracked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub head: Option<HeadConfig>,
+    /// True if the rider may look round; false in recordings made before one could.
+    #[serde(default = "not_in_old_recordings")]
+    pub free_look: bool,
+}
+
+fn not_in_old_recordings() -> bool {
+    false
 }
 
 impl Default for DeskConfig {
@@ -35,6 +42,7 @@ impl Default for DeskConfig {
             space_mouse: AxisTable::RAW,
             spacenavd: AxisTable::SPACENAVD,
             head: None,
+            free_look: true,
         }
     }
 }

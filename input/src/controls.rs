@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 use crate::head::state::HeadState;
+use crate::look::free_look::FreeLook;
 
 /// State of all controls at one moment, and the actions since the moment before.
 ///
@@ -28,6 +29,9 @@ pub struct Controls {
     /// Head in the room. `None` without a tracker.
     #[serde(default)]
     pub head: Option<HeadState>,
+    /// Turn of the gaze against the nose; along the nose in recordings made before one could look round.
+    #[serde(default)]
+    pub look: FreeLook,
     /// Actions since the controls were last asked for, in order.
     pub actions: Vec<Action>,
 }

@@ -7,8 +7,11 @@
 //! is the faster of the measured and the simulated one. Keys and sticks turn the handlebar only as far as a rider
 //! would lean: at the speed v no further than tan δ = a L / v².
 //!
+//! Keys, the mouse and a gamepad's second stick turn the rider's look, unless a tracked head decides where it goes.
+//!
 //! A tracker's poses go to the one [`TrackedHead`], if one is configured.
 
+use crate::action::{Action, VehicleKind};
 use crate::bicycle::decoder::BicycleDecoder;
 use crate::clock::Nanos;
 use crate::config::DeskConfig;
@@ -25,6 +28,8 @@ use crate::head::tracked_head::TrackedHead;
 use crate::head::tracked_pose::TrackedPose;
 use crate::head::url::TrackerUrl;
 use crate::keyboard::KeyboardDecoder;
+use crate::look::decoder::LookDecoder;
+use crate::look::free_look::FreeLook;
 use crate::sample::{Sample, SampleSource, Signal};
 use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
@@ -44,6 +49,11 @@ pub struct Desk {
     vrpn: VrpnDecoder,
     dtrack: DtrackDecoder,
     mouse: MouseDecoder,
+    look: LookDecoder,
+    /// Vehicle that is ridden, on which the meaning of the gamepad's second stick depends.
+    vehicle: VehicleKind,
+    /// True if a handlebar, a stick or a SpaceMouse steers, false if keys do.
+    by_hand: bool,
     head: Option<TrackedHead>,
     settings: ActionDecoder,
     actions: Actions,
@@ -65,9 +75,12 @@ impl Desk {
             vrpn: VrpnDecoder::new(device),
             dtrack: DtrackDecoder::default(),
             mouse: MouseDecoder::new(home),
+            look: LookDecoder::default(),
+            vehicle: VehicleKind::default(),
+            by_hand: false,
             head: config.head.clone().map(TrackedHead::new).transpose()?,
             keyboard: KeyboardDecoder::new(config.rider.clone()),
-            gamepad: GamepadDecoder::default(),
+            gamepad: GamepadDecoder::new(config.free_look),
             space_mouse: SpaceMouseDecoder::new(config.space_mouse),
             spacenavd: SpacenavdDecoder::new(config.spacenavd),
             bicycle: BicycleDecoder::new(config.bicycle.clone()),
@@ -92,6 +105,7 @@ impl Desk {
             SampleSource::Bicycle => &mut self.bicycle,
             SampleSource::Vrpn => &mut self.vrpn,
             SampleSource::Dtrack => &mut self.dtrack,
+            SampleSource::Mouse if self.mouse_looks() => &mut self.look,
             SampleSource::Mouse => &mut self.mouse,
             SampleSource::Settings => &mut self.settings,
         };
@@ -100,6 +114,51 @@ impl Desk {
             Signal::Bytes(bytes) => decoder.bytes(sample.at, bytes, &mut self.actions),
         }
         self.track(sample);
+        self.note_hand(sample);
+        if matches!(sample.source, SampleSource::Keyboard) {
+            self.look.hold(sample.at, self.keyboard.look(), self.keyboard.looks_back());
+        }
+    }
+
+    /// Notes the device that steers: a bicycle as long as it sends, else the one that was moved last.
+    fn note_hand(&mut self, sample: &Sample) {
+        let sends = matches!(sample.signal, Signal::Bytes(_));
+        let pushed = |axes: &[f64]| sends && axes.iter().any(|axis| *axis != 0.0);
+        match sample.source {
+            SampleSource::Bicycle => self.by_hand = sends,
+            SampleSource::Keyboard if sends => self.by_hand = self.bicycle.wheel_speed(sample.at).is_some(),
+            SampleSource::Gamepad => self.by_hand |= pushed(&self.gamepad.deflection()),
+            SampleSource::SpaceMouse => self.by_hand |= pushed(&self.space_mouse.deflection(sample.at)),
+            SampleSource::Spacenavd => self.by_hand |= pushed(&self.spacenavd.deflection()),
+            _ => {}
+        }
+    }
+
+    /// True if a handlebar, a stick or a SpaceMouse steers, false if keys do.
+    pub fn is_steered_by_hand(&self) -> bool {
+        self.by_hand
+    }
+
+    /// Takes the vehicle that is ridden.
+    pub fn ride(&mut self, vehicle: VehicleKind) {
+        self.vehicle = vehicle;
+    }
+
+    /// True if the window's mouse turns the look, false if it moves the head.
+    fn mouse_looks(&self) -> bool {
+        self.config.head.as_ref().is_none_or(|head| head.url != TrackerUrl::Mouse)
+    }
+
+    /// Turn of the gaze at the time `at`, after `actions`; none where the head is tracked, which decides.
+    fn free_look(&mut self, at: Nanos, actions: &[Action]) -> FreeLook {
+        if !self.config.free_look || self.config.head.is_some() {
+            return FreeLook::default();
+        }
+        if actions.iter().any(|action| matches!(action, Action::LookAhead | Action::Restart)) {
+            self.look.look_ahead(at);
+        }
+        self.look.push(self.gamepad.look(self.vehicle == VehicleKind::Bicycle));
+        self.look.look(at)
     }
 
     /// Passes a tracker's poses to the head, if the head listens to that tracker.
@@ -159,6 +218,7 @@ impl Desk {
             self.spacenavd.deflection(),
         ];
         let deflection = |axis: usize| deflections.iter().map(|device| device[axis]).sum::<f64>().clamp(-1.0, 1.0);
+        let actions = self.actions.take();
         Controls {
             wheel_speed,
             cadence_hz: self.bicycle.cadence_hz(at),
@@ -167,7 +227,8 @@ impl Desk {
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
-            actions: self.actions.take(),
+            look: self.free_look(at, &actions),
+            actions,
         }
     }
 
@@ -181,6 +242,7 @@ impl Desk {
             SampleSource::Bicycle => self.bicycle.faults(),
             SampleSource::Vrpn => self.vrpn.faults(),
             SampleSource::Dtrack => self.dtrack.faults(),
+            SampleSource::Mouse if self.mouse_looks() => self.look.faults(),
             SampleSource::Mouse => self.mouse.faults(),
             SampleSource::Settings => self.settings.faults(),
         }
@@ -191,8 +253,9 @@ impl Desk {
 mod tests {
     //! Devices used together must add up to one rider; a device that goes must release what it held.
     use super::*;
-    use crate::action::{Action, VehicleKind};
     use crate::clock::SECOND;
+    use crate::gamepad::GamepadItem;
+    use crate::head::mouse_event::{MouseButton, MouseEvent};
     use crate::key::KeyboardKey;
 
     fn desk() -> Desk {
@@ -245,6 +308,73 @@ mod tests {
         // v² tan δ / L is the lateral acceleration.
         let lateral = controls.wheel_speed.unwrap().powi(2) * controls.steer_rad.tan() / 1.1;
         assert!((lateral - 5.0).abs() < 1e-12, "{lateral}");
+    }
+
+    #[test]
+    fn keys_mouse_and_stick_turn_one_look_and_nothing_else() {
+        let mut desk = desk();
+        let still = desk.controls(0);
+        desk.feed(&Sample::key(0, KeyboardKey::J, true));
+        desk.feed(&Sample::key(SECOND, KeyboardKey::J, false));
+        desk.feed(&Sample::mouse(SECOND, MouseEvent::Button { button: MouseButton::Left, pressed: true }));
+        desk.feed(&Sample::mouse(SECOND, MouseEvent::Moved { right: 200.0, down: 0.0 }));
+        let look = desk.controls(2 * SECOND);
+        assert!((look.look.yaw_rad - 60_f64.to_radians()).abs() < 1e-12, "{:?}", look.look);
+        assert_eq!(Controls { look: still.look, ..look }, still);
+        for action in [Action::LookAhead, Action::Restart] {
+            desk.feed(&Sample::mouse(2 * SECOND, MouseEvent::Moved { right: 200.0, down: 10.0 }));
+            desk.feed(&Sample::action(3 * SECOND, &action));
+            assert!(!desk.controls(3 * SECOND).look.is_ahead());
+            assert!(desk.controls(4 * SECOND).look.is_ahead());
+        }
+    }
+
+    #[test]
+    fn the_second_stick_looks_from_a_bicycle_and_turns_the_nose_of_others() {
+        let mut desk = desk();
+        let mut bytes = Vec::new();
+        let axis = GamepadItem::Axis { code: 3, value: -100, least: -100, most: 100 };
+        [GamepadItem::Gamepad, axis].iter().for_each(|item| item.encode(&mut bytes));
+        desk.feed(&Sample::bytes(0, SampleSource::Gamepad, bytes));
+        assert_eq!(desk.controls(0).look.yaw_rad, std::f64::consts::PI);
+        desk.ride(VehicleKind::Fly);
+        let flying = desk.controls(0);
+        assert_eq!((flying.look.is_ahead(), flying.turn[1]), (true, 1.0));
+    }
+
+    #[test]
+    fn recordings_made_before_have_no_look_and_a_tracked_head_decides_itself() {
+        let mouse = HeadConfig::new(TrackerUrl::Mouse);
+        for config in [
+            DeskConfig { free_look: false, ..DeskConfig::default() },
+            DeskConfig { head: Some(mouse), ..DeskConfig::default() },
+        ] {
+            let mut desk = Desk::new(config).unwrap();
+            desk.feed(&Sample::key(0, KeyboardKey::J, true));
+            assert!(desk.controls(SECOND).look.is_ahead());
+        }
+        let header = serde_json::to_value(DeskConfig::default()).unwrap();
+        let mut old = header.clone();
+        old.as_object_mut().unwrap().remove("free_look");
+        assert_eq!(serde_json::from_value::<DeskConfig>(header).unwrap(), DeskConfig::default());
+        assert!(!serde_json::from_value::<DeskConfig>(old).unwrap().free_look);
+    }
+
+    #[test]
+    fn the_device_that_was_moved_last_steers_and_a_bicycle_always_does() {
+        let mut desk = desk();
+        let key = Sample::key(0, KeyboardKey::W, true);
+        desk.feed(&key);
+        assert!(!desk.is_steered_by_hand());
+        desk.feed(&push_right(1));
+        assert!(desk.is_steered_by_hand());
+        desk.feed(&key);
+        assert!(!desk.is_steered_by_hand());
+        desk.feed(&Sample::bytes(2, SampleSource::Bicycle, *b"3.6\n"));
+        desk.feed(&key);
+        assert!(desk.is_steered_by_hand());
+        desk.feed(&Sample::closed(3, SampleSource::Bicycle));
+        assert!(!desk.is_steered_by_hand());
     }
 
     #[test]

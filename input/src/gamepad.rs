@@ -16,6 +16,9 @@
 //! | thrust | left stick, triggers, cross up and down | trigger forward, thumb backward, hat |
 //! | nose up, down; roll | right stick; shoulder buttons | stick back, forward; twist |
 //!
+//! On the bicycle a gamepad's right stick turns the look. In the other vehicles, where it turns the nose, it does so as
+//! long as it is pressed down.
+//!
 //! On a gamepad Start pauses, Select shows the help, the upper button returns to the start and the left one takes a
 //! picture.
 
@@ -57,6 +60,7 @@ pub mod codes {
     pub(super) const RIGHT_SHOULDER: u16 = 0x137;
     pub(super) const SELECT: u16 = 0x13a;
     pub(super) const START: u16 = 0x13b;
+    pub(super) const RIGHT_STICK: u16 = 0x13e;
 }
 
 /// Item of a gamepad's bytes.
@@ -170,18 +174,32 @@ pub struct GamepadDecoder {
     axes: [Option<GamepadAxis>; AXES],
     held: Vec<u16>,
     pedalled: bool,
+    /// True if the second stick, pressed down, turns the look.
+    looks_round: bool,
     faults: Faults,
 }
 
 impl Default for GamepadDecoder {
     fn default() -> Self {
-        Self { is_joystick: false, axes: [None; AXES], held: Vec::new(), pedalled: false, faults: Faults::default() }
+        Self {
+            is_joystick: false,
+            axes: [None; AXES],
+            held: Vec::new(),
+            pedalled: false,
+            looks_round: false,
+            faults: Faults::default(),
+        }
     }
 }
 
 impl GamepadDecoder {
     /// Most buttons remembered, more than any pad has.
     const MOST_HELD: usize = 64;
+
+    /// Gamepad at rest; `looks_round`: its second stick, pressed down, turns the look.
+    pub fn new(looks_round: bool) -> Self {
+        Self { looks_round, ..Self::default() }
+    }
 
     /// Strength of pedalling, 0 to 1; `None` before the first.
     pub fn pedal(&self) -> Option<f64> {
@@ -208,8 +226,25 @@ impl GamepadDecoder {
             let back = (self.stick(codes::Y) + back).clamp(-1.0, 1.0);
             let roll_left = self.button(codes::LEFT_SHOULDER) - self.button(codes::RIGHT_SHOULDER);
             let [right, up] = [self.stick(codes::X), -self.stick(codes::HAT_Y)];
-            [right, up, back, -self.stick(codes::RY), -self.stick(codes::RX), roll_left]
+            let [nose_left, nose_up] = if self.looks() { [0.0; 2] } else { self.second_stick() };
+            [right, up, back, nose_up, nose_left, roll_left]
         }
+    }
+
+    /// Deflection of the second stick where it turns the look: to the left and up, each −1 to 1. `always`: without the
+    /// stick being pressed down.
+    pub fn look(&self, always: bool) -> [f64; 2] {
+        if !self.is_joystick && (always || self.looks()) { self.second_stick() } else { [0.0; 2] }
+    }
+
+    /// True while the second stick is pressed down, which turns the look.
+    fn looks(&self) -> bool {
+        self.looks_round && self.button(codes::RIGHT_STICK) > 0.0
+    }
+
+    /// Deflection of the second stick: to the left and up, each −1 to 1.
+    fn second_stick(&self) -> [f64; 2] {
+        [-self.stick(codes::RX), -self.stick(codes::RY)]
     }
 
     fn forward(&self) -> f64 {
@@ -272,7 +307,7 @@ impl GamepadDecoder {
 
 impl Decoder for GamepadDecoder {
     fn reset(&mut self, _at: Nanos) {
-        *self = Self { faults: std::mem::take(&mut self.faults), ..Self::default() };
+        *self = Self { faults: std::mem::take(&mut self.faults), ..Self::new(self.looks_round) };
     }
 
     fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
@@ -335,6 +370,23 @@ mod tests {
         assert_eq!(pad.deflection(), [-1.0, -0.0, -1.0, -0.0, -1.0, 0.0]);
         feed(&mut pad, &[event(codes::ABSOLUTE, codes::RZ, 0)], &mut actions);
         assert_eq!(pad.pedal(), Some(0.0));
+    }
+
+    #[test]
+    fn the_second_stick_looks_where_it_is_free_or_pressed_down() {
+        let mut pad = GamepadDecoder::new(true);
+        let mut actions = Actions::default();
+        let pushed = [GamepadItem::Gamepad, axis(codes::RX, -32768), axis(codes::RY, 32767)];
+        feed(&mut pad, &pushed, &mut actions);
+        assert_eq!((pad.look(true), pad.look(false)), ([1.0, -1.0], [0.0; 2]));
+        assert_eq!(pad.deflection()[3..5], [-1.0, 1.0]);
+        feed(&mut pad, &[event(codes::KEY, codes::RIGHT_STICK, 1)], &mut actions);
+        assert_eq!((pad.look(false), pad.deflection()), ([1.0, -1.0], [0.0; 6]));
+        // Recordings made before one could look round know no such button.
+        let mut before = GamepadDecoder::default();
+        feed(&mut before, &pushed, &mut actions);
+        feed(&mut before, &[event(codes::KEY, codes::RIGHT_STICK, 1)], &mut actions);
+        assert_eq!(before.deflection()[3..5], [-1.0, 1.0]);
     }
 
     #[test]

@@ -45,6 +45,18 @@ keys! {
     F = 0x09,
     /// The key H.
     H = 0x0b,
+    /// The key I.
+    I = 0x0c,
+    /// The key J.
+    J = 0x0d,
+    /// The key K.
+    K = 0x0e,
+    /// The key L.
+    L = 0x0f,
+    /// The key M.
+    M = 0x10,
+    /// The key O.
+    O = 0x12,
     /// The key P.
     P = 0x13,
     /// The key Q.

@@ -12,9 +12,11 @@
 //! | Space | brake | brake |
 //! | R, F | | thrust up, down |
 //! | Q, E | | roll left, right |
+//! | J, L, I, K | look left, right, up, down | the same |
+//! | M | look back | the same |
 //!
 //! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
-//! returns to the start, C takes a picture, V records, H and F1 show the help.
+//! returns to the start, O looks ahead again, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::clock::Nanos;
@@ -40,11 +42,18 @@ fn action(key: KeyboardKey) -> Option<Action> {
         KeyboardKey::Two => Action::Vehicle(VehicleKind::Drive),
         KeyboardKey::Three => Action::Vehicle(VehicleKind::Fly),
         KeyboardKey::Backspace => Action::Restart,
+        KeyboardKey::O => Action::LookAhead,
         KeyboardKey::C => Action::Photo,
         KeyboardKey::V => Action::ToggleRecording,
         KeyboardKey::H | KeyboardKey::F1 => Action::ToggleHelp,
         _ => return None,
     })
+}
+
+/// True for the number of a key that turns the look and nothing else.
+fn looks(code: u8) -> bool {
+    use KeyboardKey::{I, J, K, L, M, O};
+    [I, J, K, L, M, O].iter().any(|&key| key as u8 == code)
 }
 
 /// Keys that are down.
@@ -112,6 +121,19 @@ impl KeyboardDecoder {
         let [right, up, back] = self.thrust.map(|ramp| ramp.value(at));
         let [nose_up, nose_left, roll_left] = self.turn.map(|ramp| ramp.value(at));
         [right, up, back, nose_up, nose_left, roll_left]
+    }
+
+    /// Directions in which the held keys turn the look: to the left and up, each −1, 0 or 1.
+    pub fn look(&self) -> [f64; 2] {
+        [
+            self.held.between(&[KeyboardKey::L], &[KeyboardKey::J]),
+            self.held.between(&[KeyboardKey::K], &[KeyboardKey::I]),
+        ]
+    }
+
+    /// True while the key to look back is held.
+    pub fn looks_back(&self) -> bool {
+        self.held.any(&[KeyboardKey::M])
     }
 
     /// Aims every ramp at the goal of the held keys.
@@ -183,7 +205,10 @@ impl Decoder for KeyboardDecoder {
         if !rest.is_empty() {
             self.faults.count("half a key event");
         }
-        self.aim(at);
+        // A ramp that is aimed again goes the same way but for rounding: whoever looks round leaves the ride its bits.
+        if events.is_empty() || !events.iter().all(|[code, _]| looks(*code)) {
+            self.aim(at);
+        }
     }
 
     fn faults(&self) -> &Faults {

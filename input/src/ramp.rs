@@ -15,6 +15,11 @@ pub struct Ramp {
 }
 
 impl Ramp {
+    /// Ramp that rests at a value since `at`.
+    pub fn resting(at: Nanos, value: f64) -> Self {
+        Self { from: value, since: at, target: value, rate: 0.0 }
+    }
+
     /// Value at the time `at`.
     pub fn value(&self, at: Nanos) -> f64 {
         let way = self.target - self.from;

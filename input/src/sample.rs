@@ -31,7 +31,8 @@ pub enum SampleSource {
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
     Dtrack,
-    /// The mouse in the window, where it moves the head: [`crate::head::MouseDecoder`].
+    /// The mouse in the window: it moves the head ([`crate::head::MouseDecoder`]) or turns the look
+    /// ([`crate::LookDecoder`]).
     Mouse,
     /// The program's own interface: [`crate::settings`].
     Settings,
@@ -116,7 +117,7 @@ impl Sample {
         Self::bytes(at, SampleSource::Keyboard, key.to_bytes(pressed))
     }
 
-    /// Sample of the window's mouse, where it moves the head.
+    /// Sample of the window's mouse.
     pub fn mouse(at: Nanos, event: MouseEvent) -> Self {
         Self::bytes(at, SampleSource::Mouse, event.to_bytes())
     }

@@ -49,6 +49,7 @@ mod tests {
             Action::ScaleTime(0.5),
             Action::SpeedOfLight(30.0 / 3.6),
             Action::Vehicle(VehicleKind::Fly),
+            Action::LookAhead,
             Action::Restart,
         ] {
             assert_eq!(decode(&action.to_bytes()), (vec![action], 0));

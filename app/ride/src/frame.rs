@@ -14,7 +14,7 @@ pub struct RideFrame {
     /// Controls of the last tick, with all actions since the last frame. Actions that concern the ride itself have been
     /// performed already.
     pub controls: Controls,
-    /// View that the frame shows.
+    /// View that the frame shows: from the rider's eye along the nose, turned by the rider's look.
     pub gaze: Gaze,
     /// Vehicle as it is shown.
     pub vehicle: Vehicle,

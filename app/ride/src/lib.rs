@@ -1,6 +1,7 @@
 //! Samples in, observers out: the vehicle that a rider drives, the ticks of its simulation, replays, the scripted tour,
 //! and the log of a ride.
 
+mod assist;
 mod frame;
 mod log;
 mod replay;
@@ -11,6 +12,7 @@ mod ticks;
 mod tour;
 pub mod vehicle;
 
+pub use assist::AssistMode;
 pub use frame::RideFrame;
 pub use log::{LogError, RideLog};
 pub use replay::{Replay, ReplayError, Replayed};

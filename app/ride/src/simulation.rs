@@ -11,6 +11,9 @@
 //! vehicle's steps are taken ([`Vehicle::time_ratio`](crate::Vehicle::time_ratio)). A frame
 //! shows a copy of the vehicle, moved on by the rest of a tick, so a film is as smooth as its frame times.
 //!
+//! The rider may look round ([`Controls::look`]): that turns the frame's gaze and nothing else, so the worldline and
+//! the recorded numbers are those of a rider who looks along the nose.
+//!
 //! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
 //! same bits, and a [`Replay`](crate::Replay) proves it. The ticks do not depend on the frame times either, as long as
 //! every sample is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a
@@ -20,10 +23,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use input::recording::FrameRecord;
-use input::{Action, Controls, Desk, Nanos, Sample};
+use input::{Action, Controls, Desk, FreeLook, Nanos, Sample};
 use scene::Surroundings;
 use view::Gaze;
 
+use crate::assist::{Assist, AssistMode};
 use crate::frame::RideFrame;
 use crate::setup::{Setup, SetupError};
 use crate::ticks::{TICKS_PER_SECOND, Ticks};
@@ -47,6 +51,10 @@ pub struct Simulation {
     vehicle: Vehicle,
     /// Controls of the last tick.
     controls: Controls,
+    /// Assisted steering, if the setup has any.
+    assist: Option<Assist>,
+    /// Controls of the vehicle in the last step: the rider's, or what the assist made of them.
+    steered: Controls,
     paused: bool,
     time_scale: f64,
     frames: u64,
@@ -61,6 +69,8 @@ impl Simulation {
         let desk = Desk::new(setup.desk.clone())?;
         let mut vehicle = Vehicle::new(setup.light_speed, setup.kind, setup.start.state()?, setup.vehicle)?;
         vehicle.settle(&*surroundings);
+        let assisted = setup.vehicle.assist != AssistMode::Off;
+        let assist = assisted.then(|| Assist::new(surroundings.circuit()));
         Ok(Self {
             setup,
             surroundings,
@@ -71,6 +81,8 @@ impl Simulation {
             first: vehicle.clone(),
             vehicle,
             controls: Controls::default(),
+            assist,
+            steered: Controls::default(),
             paused: false,
             time_scale: 1.0,
             frames: 0,
@@ -107,14 +119,14 @@ impl Simulation {
 
         let mut shown = self.vehicle.clone();
         if !self.paused {
-            shown.step(self.own_s() * self.ticks.fraction(at), &self.controls, &*self.surroundings);
+            shown.step(self.own_s() * self.ticks.fraction(at), &self.steered, &*self.surroundings);
         }
         let record = record(self.frames, at, steps, &shown);
         self.frames += 1;
         RideFrame {
             record,
             controls: Controls { actions, ..self.controls.clone() },
-            gaze: shown.gaze(),
+            gaze: turned(shown.gaze(), &self.controls.look),
             vehicle: shown,
             paused: self.paused,
             time_scale: self.time_scale,
@@ -134,6 +146,7 @@ impl Simulation {
         while let Some(first) = self.waiting.first_entry().filter(|first| first.key().0 <= at) {
             self.desk.feed(&first.remove());
         }
+        self.desk.ride(self.vehicle.kind());
         self.controls = self.desk.controls(at);
         let mut single_steps = 0;
         for index in 0..self.controls.actions.len() {
@@ -142,13 +155,24 @@ impl Simulation {
             self.act(action, notices);
         }
         let steps = if self.paused { single_steps } else { 1 };
+        self.steered = self.controls.clone();
         for _ in 0..steps {
-            self.vehicle.step(self.own_s(), &self.controls, &*self.surroundings);
+            self.steer();
+            self.vehicle.step(self.own_s(), &self.steered, &*self.surroundings);
             for &notice in self.vehicle.notices() {
                 tell(notices, notice);
             }
         }
         steps
+    }
+
+    /// Lets the assist steer for the next step, if it is to.
+    fn steer(&mut self) {
+        let wanted = self.setup.vehicle.assist == AssistMode::On || !self.desk.is_steered_by_hand();
+        let own_s = self.own_s();
+        if let Some(assist) = self.assist.as_mut().filter(|_| wanted) {
+            self.steered = assist.steered(&self.controls, &self.vehicle, &*self.surroundings, own_s);
+        }
     }
 
     /// Own time of the vehicle per tick, seconds.
@@ -172,17 +196,28 @@ impl Simulation {
             },
             Action::Vehicle(kind) => self.vehicle.set_kind(kind, &*self.surroundings),
             Action::Restart => self.restart(),
-            Action::Step | Action::Photo | Action::ToggleRecording | Action::ToggleHelp => {}
+            Action::LookAhead | Action::Step | Action::Photo | Action::ToggleRecording | Action::ToggleHelp => {}
         }
     }
 
     /// Puts the vehicle back to the start. Its kind and the speed of light stay as they are.
     fn restart(&mut self) {
+        if let Some(assist) = &mut self.assist {
+            assist.restart();
+        }
         let (light_speed, kind) = (self.vehicle.light_speed(), self.vehicle.kind());
         self.vehicle = self.first.clone();
         self.vehicle.set_light_speed(light_speed);
         self.vehicle.set_kind(kind, &*self.surroundings);
     }
+}
+
+/// Gaze of a rider who looks round: another direction of view from the same eye.
+fn turned(gaze: Gaze, look: &FreeLook) -> Gaze {
+    if look.is_ahead() {
+        return gaze;
+    }
+    Gaze { observer_from_eye: gaze.observer_from_eye * look.nose_from_gaze(), ..gaze }
 }
 
 fn tell(notices: &mut Vec<Notice>, notice: Notice) {

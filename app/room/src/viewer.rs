@@ -49,11 +49,14 @@ pub struct Viewer {
     pub eye_scale: f64,
     /// Point midway between the eyes of an untracked head, room axes, metres; the head faces −z.
     pub head_m: DVec3,
+    /// True if the pictures turn with the head, as those of a headset, or of a window that stands for one. Otherwise
+    /// the screens stand still in the room, and a turn of the head moves the eyes alone.
+    pub turns_pictures: bool,
 }
 
 impl Default for Viewer {
     fn default() -> Self {
-        Self { eye_separation_m: EYE_SEPARATION_M, eye_scale: 1.0, head_m: HEAD_M }
+        Self { eye_separation_m: EYE_SEPARATION_M, eye_scale: 1.0, head_m: HEAD_M, turns_pictures: false }
     }
 }
 

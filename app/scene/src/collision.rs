@@ -13,11 +13,12 @@ use std::sync::LazyLock;
 use glam::{DVec2, DVec3, Vec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
-use parry3d_f64::query::Ray;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+use parry3d_f64::query::{PointQuery, Ray};
 
 use crate::scene::Scene;
 use crate::surroundings::{Ground, Surroundings, Wall};
+use crate::triangle_point::nearest_point;
 use crate::validate::SceneFault;
 
 /// Highest step that a vehicle climbs, metres.
@@ -32,6 +33,7 @@ const STEEP: f64 = 0.5;
 /// Solid part of a scene. Positions are world metres.
 pub struct Collision {
     origin: DVec3,
+    circuit: Vec<DVec3>,
     sorted: LazyLock<SortedTriangles, Box<dyn FnOnce() -> SortedTriangles + Send>>,
 }
 
@@ -65,7 +67,7 @@ impl Collision {
         scene.validate()?;
         let triangles: Vec<[Vec3; 3]> = solid_triangles(scene).collect();
         let sorted: Box<dyn FnOnce() -> SortedTriangles + Send> = Box::new(move || SortedTriangles::of(triangles));
-        Ok(Self { origin: scene.origin, sorted: LazyLock::new(sorted) })
+        Ok(Self { origin: scene.origin, circuit: scene.circuit.clone(), sorted: LazyLock::new(sorted) })
     }
 
     /// Sorts the triangles now instead of at the first question: about a microsecond for each.
@@ -75,6 +77,24 @@ impl Collision {
 }
 
 impl Surroundings for Collision {
+    fn nearest_surface(&self, position: DVec3, reach: f64) -> Option<Wall> {
+        let place = position - self.origin;
+        if !place.is_finite() || reach.is_nan() {
+            return None;
+        }
+        let SortedTriangles { floors, walls } = &*self.sorted;
+        let nearest = floors.nearest(place, reach);
+        let nearer_m = nearest.map_or(reach, |(distance, _)| distance);
+        let (distance, triangle) = walls.nearest(place, nearer_m).or(nearest)?;
+        // A point in the surface itself is on either side of it.
+        let away = (place - nearest_point(triangle, place)).try_normalize().or_else(|| normal(triangle))?;
+        Some(Wall { distance, normal: away })
+    }
+
+    fn circuit(&self) -> &[DVec3] {
+        &self.circuit
+    }
+
     /// Highest floor that is not more than [`STEP`] above a point, or `None` if there is none below.
     fn height_below(&self, position: DVec3) -> Option<Ground> {
         let from = above(position, self.origin);
@@ -175,6 +195,18 @@ impl SolidTree {
         };
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
         Self { hierarchy: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), triangles }
+    }
+
+    /// Distance of the triangle nearest to a place, if that is within `reach`, and the triangle.
+    fn nearest(&self, place: DVec3, reach: f64) -> Option<(f64, [DVec3; 3])> {
+        if self.triangles.is_empty() {
+            return None;
+        }
+        let at = vector(place);
+        let to_box = |node: &BvhNode, _| node.aabb().distance_to_local_point(at, true);
+        let distance = |index, _| Some(nearest_point(self.triangle(index), place).distance(place));
+        let (index, distance) = self.hierarchy.find_best(reach, to_box, distance)?;
+        Some((distance, self.triangle(index)))
     }
 
     fn triangle(&self, index: u32) -> [DVec3; 3] {
@@ -445,6 +477,41 @@ mod tests {
                 assert_eq!(ground_below(&scene, nowhere), Ok(None));
             }
         }
+    }
+
+    #[test]
+    fn the_nearest_surface_is_that_of_all_triangles() {
+        let mut random = ChaCha8Rng::seed_from_u64(11);
+        let triangles: Vec<[Vec3; 3]> = (0..2000)
+            .map(|_| {
+                let centre = (Vec3::from_array(random.random()) - 0.5) * 20.0;
+                [(); 3].map(|()| centre + Vec3::from_array(random.random()))
+            })
+            .collect();
+        let origin = DVec3::new(1e6, -3e3, 7e5);
+        let collision = collision(origin, vec![mesh(&triangles, true)]);
+        for _ in 0..1000 {
+            let place = (DVec3::from_array(random.random()) - 0.5) * 30.0;
+            let points = triangles.iter().map(|triangle| nearest_point(triangle.map(|c| c.as_dvec3()), place));
+            let nearest = points.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place))).unwrap();
+            let expected = nearest.distance(place);
+            let found = collision.nearest_surface(origin + place, f64::INFINITY).unwrap();
+            assert!((found.distance - expected).abs() < TOLERANCE, "{} for {expected}", found.distance);
+            assert!((found.normal - (place - nearest) / expected).length() < 1e-3);
+            assert_eq!(collision.nearest_surface(origin + place, 0.9 * expected), None);
+        }
+    }
+
+    #[test]
+    fn floors_and_roofs_are_surfaces_and_a_point_in_one_has_a_side() {
+        let street = street(DVec3::ZERO);
+        let over_floor = street.nearest_surface(DVec3::new(0.0, 0.7, 3.0), 1.0).unwrap();
+        assert!((over_floor.distance - 0.7).abs() < TOLERANCE && over_floor.normal == DVec3::Y);
+        let over_roof = street.nearest_surface(DVec3::new(9.0, 8.25, 3.0), 1.0).unwrap();
+        assert!((over_roof.distance - 0.25).abs() < TOLERANCE && over_roof.normal == DVec3::Y);
+        let within = street.nearest_surface(DVec3::new(-5.0, 3.0, 3.0), 1.0).unwrap();
+        assert_eq!((within.distance, within.normal.abs()), (0.0, DVec3::X));
+        assert_eq!(street.nearest_surface(DVec3::new(f64::NAN, 3.0, 3.0), 1.0), None);
     }
 
     #[test]

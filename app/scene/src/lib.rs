@@ -22,6 +22,7 @@ pub mod refine;
 mod scene;
 mod speed_limit;
 mod surroundings;
+mod triangle_point;
 mod validate;
 
 pub use lamp::{Lamp, Lamplight, Spot};

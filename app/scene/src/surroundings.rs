@@ -16,8 +16,8 @@ pub struct Ground {
 pub struct Wall {
     /// Distance from the point to the nearest place of the wall, metres, not negative.
     pub distance: f64,
-    /// Unit vector from that place to the point, world axes, level. It tells only on which side of the wall the point
-    /// lies.
+    /// Unit vector from that place to the point, world axes; level for a wall beside a vehicle on the ground. It tells
+    /// only on which side of the wall the point lies.
     pub normal: DVec3,
 }
 
@@ -31,6 +31,18 @@ pub trait Surroundings: Send + Sync {
     /// Wall nearest to a vehicle whose reference point on the ground is `position`; `None` if there is none within
     /// `reach` metres. The distance must be that of the nearest of all walls: any shorter way is known to be free.
     fn nearest_wall(&self, position: DVec3, reach: f64) -> Option<Wall>;
+
+    /// Place of any solid surface nearest to `position`, in space; `None` if there is none within `reach` metres. The
+    /// normal points from that place to `position` and need not be level. The distance must be that of the nearest of
+    /// all surfaces: any shorter way is known to be free.
+    fn nearest_surface(&self, _position: DVec3, _reach: f64) -> Option<Wall> {
+        None
+    }
+
+    /// Corners of a closed route on the ground, world metres; empty where there is none.
+    fn circuit(&self) -> &[DVec3] {
+        &[]
+    }
 }
 
 /// Empty space: no ground and no wall.

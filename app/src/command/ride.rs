@@ -10,7 +10,7 @@ use super::values;
 use super::world::WorldOptions;
 use crate::governor::Governor;
 use input::TrackerUrl;
-use ride::{IntegratorKind, Nose};
+use ride::{AssistMode, IntegratorKind, Nose};
 use view::{Dial, Occasion, RendererName};
 
 /// Kind of vehicle that carries the observer.
@@ -85,6 +85,7 @@ pub struct RideOptions {
     /// World, vehicle and devices come from the recording. --scene is needed only if the file of its scene has moved.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
+    #[arg(conflicts_with_all = ["assist", "through_walls"])]
     #[arg(conflicts_with_all = ["bicycle", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
     /// Compare only: compute the recorded ride again, show nothing, and fail at the first frame that is not equal to
@@ -163,6 +164,14 @@ pub struct VehicleOptions {
     /// Turning of the nose of a driven or flown vehicle.
     #[arg(long, value_enum, default_value = "facing")]
     pub transport: Nose,
+    /// Steering along the street for whoever only pedals or thrusts: along the circuit of the scene, else where walls
+    /// leave room. It eases off before bends, and a hand that steers wins at once. auto: as long as keys alone steer,
+    /// without a bicycle, and not after a stick or a SpaceMouse was moved.
+    #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
+    pub assist: AssistMode,
+    /// Fly through walls, floors and roofs, which hold a flight otherwise.
+    #[arg(long)]
+    pub through_walls: bool,
     /// Seconds of the rider's own time per second of real time, up to 16.
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::within(1e-6, 16.0))]
     pub time_scale: f64,
@@ -178,7 +187,8 @@ pub struct DeviceOptions {
     /// Read a SpaceMouse, directly or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
-    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse.
+    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse, whose drags turn and
+    /// move the head. Its turn turns the picture of the display window.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
 }

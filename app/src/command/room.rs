@@ -30,7 +30,8 @@ pub struct RoomOptions {
     /// Place of the head in the room, metres: right, up, backward [default: the display's].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "display")]
     head: Option<DVec3>,
-    /// Angle by which the head is turned to its left, degrees.
+    /// Angle by which the head is turned to its left, degrees. It turns the picture of the display window; in rooms,
+    /// whose screens stand still, it moves the eyes alone.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::within(-360.0, 360.0), requires = "display")]
     head_yaw: Option<f64>,
     /// Angle by which the head is then raised, degrees.

@@ -4,7 +4,7 @@
 
 use super::line::Cli;
 use ::render::display::{Development, Exposure, Gamut, Tone};
-use ::ride::{IntegratorKind, Nose};
+use ::ride::{AssistMode, IntegratorKind, Nose};
 use clap::CommandFactory;
 use glam::DVec3;
 use view::{Effects, RendererName};
@@ -73,7 +73,7 @@ fn a_ride_takes_all_its_options() {
         "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
          --exposure -1.5 --tone filmic --gamut clamp \
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
-         --threads 2 --integrator exact --transport gyroscopic --time-scale 0.5 --out r.mp4 --realtime --fov 90",
+         --threads 2 --integrator exact --transport gyroscopic --assist off --through-walls --time-scale 0.5 --out r.mp4 --realtime --fov 90",
     );
     assert_eq!(options.world.scene, Some(SceneChoice::File("a/b.glb".into())));
     assert_eq!(options.world.speed_of_light, Some(299_792_458.0));
@@ -91,6 +91,7 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(options.vehicle.vehicle, Some(VehicleName::Fly));
     assert_eq!(options.vehicle.integrator, IntegratorKind::Exact);
     assert_eq!(options.vehicle.transport, Nose::Gyroscopic);
+    assert_eq!((options.vehicle.assist, options.vehicle.through_walls), (AssistMode::Off, true));
     assert_eq!(options.dial.renderer, RendererName::Polygon);
     assert_eq!((options.picture.samples, options.picture.threads, options.picture.fov), (1, Some(2), Some(90.0)));
     let developed = Development { exposure: Exposure::Stops(-1.5), tone: Tone::Filmic, gamut: Gamut::Clamp };
@@ -225,6 +226,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("ride --latency none", ["--latency", "overlap"]),
         ("ride --integrator euler", ["--integrator", "dopri5"]),
         ("ride --transport bus", ["--transport", "gyroscopic"]),
+        ("ride --assist perhaps", ["--assist", "auto"]),
         ("ride --time-scale 0", ["--time-scale", "to 16"]),
         ("ride --out ride.png", ["--out", ".mp4"]),
         ("ride --out ride.exr", ["--out", ".mp4"]),

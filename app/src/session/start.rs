@@ -7,6 +7,7 @@ use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
 use crate::session::tracker;
+use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
@@ -106,8 +107,8 @@ pub fn prepared(
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     let collision = Arc::new(Collision::new(scene)?);
-    // What flies asks for no ground.
-    if setup.kind != VehicleKind::Fly {
+    // What flies without a hull asks for nothing.
+    if setup.kind != VehicleKind::Fly || setup.vehicle.flight.hull_m > 0.0 {
         let spinner = progress::spinner("finding ground and walls");
         collision.prepare();
         spinner.finish_and_clear();
@@ -138,6 +139,8 @@ fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Resu
     };
     let mut vehicle = VehicleSettings { integrator: options.vehicle.integrator, ..Default::default() };
     vehicle.flight.nose = options.vehicle.transport;
+    vehicle.assist = options.vehicle.assist;
+    vehicle.flight.hull_m = if options.vehicle.through_walls { 0.0 } else { hull_m(&world.scene) };
     if start.is_on_ground() {
         vehicle.eye_m = [0.0, start.eye_height_m, 0.0];
     }
@@ -150,6 +153,20 @@ fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Resu
         vehicle,
         desk: DeskConfig { head, ..Default::default() },
     })
+}
+
+/// Radius of a spaceship's hull, metres: that of a person, and less in a scene that is small.
+fn hull_m(scene: &Scene) -> f64 {
+    const USUAL_M: f64 = 0.4;
+    /// Share of the scene's extent.
+    const SHARE: f64 = 0.01;
+    let solid = scene.meshes.iter().filter(|mesh| mesh.solid);
+    let corners = solid.flat_map(|mesh| &mesh.positions).map(|corner| corner.as_dvec3()).filter(|c| c.is_finite());
+    let bounds = corners.fold(None, |bounds: Option<(DVec3, DVec3)>, corner| {
+        let (least, most) = bounds.unwrap_or((corner, corner));
+        Some((least.min(corner), most.max(corner)))
+    });
+    bounds.map_or(0.0, |(least, most)| (SHARE * least.distance(most)).min(USUAL_M))
 }
 
 /// Actions at the start of the ride, from the command line.

@@ -31,7 +31,8 @@ impl Open {
             WindowEvent::Resized(size) => self.resize(number, size),
             WindowEvent::Focused(false) => {
                 self.ride.live.say(|at| Sample::closed(at, SampleSource::Keyboard));
-                if self.mouse_moves_head {
+                self.dragged = false;
+                if self.mouse_moves_head || self.mouse_looks {
                     self.ride.live.say(|at| Sample::closed(at, SampleSource::Mouse));
                 }
             }
@@ -106,7 +107,7 @@ impl Open {
         }
     }
 
-    /// Moves the head with the mouse, or turns the room in the preview.
+    /// Moves the head with the mouse, turns the look, or turns the room in the preview.
     fn mouse(&mut self, event: MouseEvent) {
         /// Turn of the room, radians for each pixel.
         const TURN_RAD: f64 = 0.005;
@@ -114,6 +115,8 @@ impl Open {
         const CLOSER: f64 = 1.1;
         if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
+        } else if self.mouse_looks {
+            self.look(event);
         } else if let Canvas::Preview(room) = &mut self.canvas {
             match event {
                 MouseEvent::Button { pressed, .. } => room.held = pressed,
@@ -123,6 +126,21 @@ impl Open {
                 MouseEvent::Wheel(notches) => room.onlooker.orbit(0.0, 0.0, CLOSER.powf(f64::from(notches))),
                 _ => {}
             }
+        }
+    }
+
+    /// Turns the look by a drag. Other motions of the mouse mean nothing, and are not recorded.
+    fn look(&mut self, event: MouseEvent) {
+        let means = match event {
+            MouseEvent::Moved { .. } => self.dragged,
+            MouseEvent::Button { button: MouseButton::Left, pressed } => {
+                std::mem::replace(&mut self.dragged, pressed) != pressed
+            }
+            MouseEvent::Button { button: MouseButton::Middle, pressed } => pressed,
+            _ => false,
+        };
+        if means {
+            self.ride.live.say(|at| Sample::mouse(at, event));
         }
     }
 

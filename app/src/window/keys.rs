@@ -12,6 +12,12 @@ pub fn key(code: KeyCode) -> Option<KeyboardKey> {
         KeyCode::KeyE => KeyboardKey::E,
         KeyCode::KeyF => KeyboardKey::F,
         KeyCode::KeyH => KeyboardKey::H,
+        KeyCode::KeyI => KeyboardKey::I,
+        KeyCode::KeyJ => KeyboardKey::J,
+        KeyCode::KeyK => KeyboardKey::K,
+        KeyCode::KeyL => KeyboardKey::L,
+        KeyCode::KeyM => KeyboardKey::M,
+        KeyCode::KeyO => KeyboardKey::O,
         KeyCode::KeyP => KeyboardKey::P,
         KeyCode::KeyQ => KeyboardKey::Q,
         KeyCode::KeyR => KeyboardKey::R,
@@ -47,8 +53,9 @@ mod tests {
     fn every_key_of_the_ride_has_a_place_on_the_keyboard() {
         use KeyCode::*;
         let places = [
-            KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyP, KeyQ, KeyR, KeyS, KeyV, KeyW, Digit1, Digit2, Digit3, Backspace,
-            Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown, ArrowUp, ShiftLeft,
+            KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyO, KeyP, KeyQ, KeyR, KeyS, KeyV, KeyW,
+            Digit1, Digit2, Digit3, Backspace, Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown,
+            ArrowUp, ShiftLeft,
         ];
         for wanted in KeyboardKey::ALL {
             assert!(places.iter().any(|place| key(*place) == Some(*wanted)), "{wanted:?}");

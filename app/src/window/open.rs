@@ -50,6 +50,10 @@ pub struct Open {
     pub(super) settings: Settings,
     /// True if the mouse moves the head.
     pub(super) mouse_moves_head: bool,
+    /// True if the mouse turns the look.
+    pub(super) mouse_looks: bool,
+    /// True while a drag turns the look.
+    pub(super) dragged: bool,
     /// True while a Shift key is down.
     pub(super) shift: bool,
     /// Name of the display on the command line.
@@ -71,6 +75,8 @@ impl Open {
     pub fn new(events: &ActiveEventLoop, options: &RideOptions, waiting: WaitingRide) -> Result<Self, Error> {
         let WaitingRide { scene, room, begin } = waiting;
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
+        let turns = room.display.as_ref().is_none_or(|display| display.viewer.turns_pictures && !options.preview);
+        let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
         let display = room.display;
         let title = format!("Rapidity: {}", scene.name);
         let attributes = match &display {
@@ -151,6 +157,8 @@ impl Open {
             canvas,
             settings: Settings { open: false, help: false, readings: true, look },
             mouse_moves_head,
+            mouse_looks,
+            dragged: false,
             shift: false,
             display_name: options.display.clone(),
             calibrating: None,

@@ -156,13 +156,16 @@ fn choice<T: ValueEnum + PartialEq>(ui: &mut Ui, chosen: &mut T) {
 }
 
 /// Keys and their meanings; the same list as in the README.
-const KEYS: [(&str, &str); 22] = [
+const KEYS: [(&str, &str); 25] = [
     ("W S  ↑ ↓", "pedal, push back; thrust forward, back; the arrows lower and raise the nose when flying"),
     ("A D  ← →", "steer; thrust sideways; the arrows turn the nose"),
     ("R F", "thrust up, down when flying"),
     ("Q E", "roll"),
     ("Shift", "sprint"),
     ("Space", "brake"),
+    ("J L I K", "look left, right, up, down, as a drag of the mouse does; rooms and tracked heads look by themselves"),
+    ("O", "look ahead again, as the middle button does"),
+    ("M", "look back, as long as it is held"),
     ("1 2 3", "bicycle, drive, fly"),
     ("P", "pause"),
     (".", "one step while paused"),

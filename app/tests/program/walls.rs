@@ -104,6 +104,25 @@ fn two_windows_show_what_each_eye_sees() {
 }
 
 #[test]
+fn a_plain_window_turns_with_the_head() {
+    let folder = tempfile::tempdir().unwrap();
+    let seen = |name: &str, arguments: &[&str]| {
+        let place = ["--display", "window", "--out", name, "--samples", "1", "--position", "0,0,3"];
+        let rendered = render(folder.path(), &[&place, arguments].concat());
+        assert!(rendered.status.success(), "{}", told(&rendered));
+        picture(&folder.path().join(name).join("main.png"))
+    };
+    let [ahead, left, back] = ["0", "90", "180"].map(|yaw| seen(yaw, &["--head-yaw", yaw]));
+    for (one, other) in [(&ahead, &left), (&left, &back), (&back, &ahead)] {
+        assert!(difference(one, other) > 1.0, "the head turns, and the picture does not");
+    }
+    // A vehicle at rest that has turned shows the same as a head that has turned in it.
+    let turned = seen("turned", &["--look", "-1,0,0"]);
+    let off = difference(&left, &turned);
+    assert!(off < 0.1 * difference(&left, &ahead), "{off}");
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("stereo.toml"), STEREO).unwrap();

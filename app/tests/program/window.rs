@@ -4,7 +4,8 @@
 
 use crate::runner::{run, said, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
-use input::recording::Recording;
+use input::SampleSource;
+use input::recording::{Recording, RecordingEntry};
 use std::time::Duration;
 
 #[test]
@@ -18,6 +19,9 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
     wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
     display.tool(&["keydown", "w"]);
+    display.tool(&["keydown", "j"]);
+    let drag = ["mousemove", "100", "100", "mousedown", "1", "mousemove", "130", "90", "mouseup", "1"];
+    display.tool(&drag);
     let photo = folder.path().join("photo-001.png");
     wait_for("photo", || {
         display.tool(&["key", "c"]);
@@ -34,6 +38,13 @@ fn a_window_rides_takes_a_photo_and_leaves_a_whole_recording() {
     assert_eq!(picture.dimensions(), (320, 240));
     let first = *picture.get_pixel(0, 0);
     assert!(picture.pixels().any(|pixel| *pixel != first), "the photo shows nothing");
+    // The look is recorded: what the key and the mouse have sent, and where it went.
+    let entries: Vec<_> = Recording::open(&folder.path().join("r.mcap")).unwrap().map(Result::unwrap).collect();
+    let turned =
+        |entry: &RecordingEntry| matches!(entry, RecordingEntry::Controls(record) if !record.controls.look.is_ahead());
+    assert!(entries.iter().any(turned), "nobody has looked round");
+    let dragged = |entry: &RecordingEntry| matches!(entry, RecordingEntry::Sample(sample) if sample.source == SampleSource::Mouse);
+    assert!(entries.iter().any(dragged), "the drag is not recorded");
     let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
     assert!(verified.status.success(), "{}", told(&verified));
 }

@@ -41,7 +41,8 @@ pub struct Occupant {
 pub struct OccupantEye {
     /// Event and celerity of the eye in the world.
     pub observer: Observer,
-    /// Rotation from the room's axes to those of the pure boost from the world.
+    /// Rotation from the room's axes, turned with the head where its pictures are, to those of the pure boost from the
+    /// world.
     ///
     /// The axes of the eye's own frame are a pure boost of the room's and are named as the room's are: a pixel of a
     /// screen shows what the eye sees, in these axes, towards the pixel. Wigner's rotation is therefore part of this
@@ -65,10 +66,44 @@ impl Occupant {
         let turn_rate = turn_rate + self.thrust.turn_rate * self.thrust.time_ratio(place_m, celerity);
         let turn = Thrust { turn_rate, ..Thrust::default() };
         let seen_from = middle.aboard(room_from_head * viewer.world_offset_m(eye), Celerity::ZERO, &turn);
+        // Pictures that turn with the head are looked at by a head that looks ahead, in a room that has turned with it.
+        let (picture_turn, room_from_head) = if viewer.turns_pictures {
+            (DQuat::from_mat3(&room_from_head), DMat3::IDENTITY)
+        } else {
+            (DQuat::IDENTITY, room_from_head)
+        };
         OccupantEye {
             observer: seen_from.observer(),
-            observer_from_room: seen_from.orientation,
+            observer_from_room: seen_from.orientation * picture_turn,
             place_m: viewer.eye_m(eye, place_m, room_from_head),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law under test: a turn of the head turns the pictures of a display whose pictures turn with it, and moves the
+    //! eyes alone where screens stand in the room. A wrong program shows the same picture to every head.
+    use super::*;
+    use physics::Event;
+
+    #[test]
+    fn pictures_turn_with_the_head_only_where_the_display_says_so() {
+        let celerity = Celerity::new(DVec3::new(0.0, 0.0, -0.75)).unwrap_or_default();
+        let vehicle = WorldlineState::new(Event { ct: 0.0, position: DVec3::ZERO }, celerity, DQuat::IDENTITY);
+        let turn = DQuat::from_rotation_y(0.5);
+        let ahead = RoomHead::at_rest(DVec3::Y);
+        let turned = RoomHead { room_from_head: DMat3::from_quat(turn), ..ahead };
+        for (turns_pictures, expected) in [(false, DQuat::IDENTITY), (true, turn)] {
+            let viewer = Viewer { turns_pictures, ..Viewer::default() };
+            let eye = |head, side| Occupant { vehicle, thrust: Thrust::default(), head }.eye(&viewer, side);
+            let [before, after] = [ahead, turned].map(|head| eye(head, EyeSide::Centre));
+            assert_eq!(before.observer, after.observer);
+            let between = before.observer_from_room.inverse() * after.observer_from_room;
+            assert!(between.angle_between(expected) < 1e-7, "{between} for {expected}");
+            // The picture's middle is before each eye, wherever the eyes have gone.
+            let [before, after] = [ahead, turned].map(|head| eye(head, EyeSide::Left));
+            assert_eq!(before.place_m == after.place_m, turns_pictures);
         }
     }
 }

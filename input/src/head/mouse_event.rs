@@ -61,7 +61,7 @@ impl MouseEvent {
     }
 
     /// First event of the bytes, and the rest; `None` if they do not begin with an event.
-    pub(super) fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let (&kind, rest) = bytes.split_first()?;
         Some(match kind {
             MOVED => {

@@ -10,11 +10,11 @@
 //! |---|---|---|
 //! | bicycle | wheel speed, handlebar, brake (`bicycle`) | the ground, the street |
 //! | drive | two thrusts, rudder, brake (`flight`) | the ground, the street |
-//! | fly | three thrusts, roll, rudder, brake (`flight`) | nothing |
+//! | fly | three thrusts, roll, rudder, brake (`flight`) | free space, if its hull has a radius (`hull`) |
 //!
 //! The celerity is never set directly, except by named constraints: wheels do not slip (`bicycle::roll`), walls hold
-//! (`walls`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion therefore never jumps, at rest, in reverse or at
-//! extreme speed; only a change of kind and a restart may make it jump.
+//! (`walls`, `hull`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion therefore never jumps, at rest, in reverse or
+//! at extreme speed; only a change of kind and a restart may make it jump.
 //!
 //! A step depends only on the vehicle, the controls and the [`scene::Surroundings`]; the same calls give the same bits.
 //!
@@ -39,6 +39,7 @@
 mod bicycle;
 mod flight;
 mod ground;
+mod hull;
 mod light_speed;
 mod notice;
 mod odometer;

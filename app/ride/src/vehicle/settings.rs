@@ -4,6 +4,8 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::assist::AssistMode;
+
 /// Settings of a vehicle's response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -16,6 +18,8 @@ pub struct VehicleSettings {
     pub integrator: IntegratorKind,
     /// Offset of the rider's or driver's eye from the reference point on the ground, metres: right, up, backward.
     pub eye_m: [f64; 3],
+    /// Condition for assisted steering on the ground.
+    pub assist: AssistMode,
 }
 
 impl Default for VehicleSettings {
@@ -26,6 +30,7 @@ impl Default for VehicleSettings {
             flight: FlightSettings::default(),
             integrator: IntegratorKind::default(),
             eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
+            assist: AssistMode::Off,
         }
     }
 }
@@ -36,7 +41,7 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m } = self;
+        let Self { bicycle, flight, integrator: _, eye_m, assist: _ } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),
@@ -51,6 +56,10 @@ impl VehicleSettings {
                 return Err(SettingsError { key, value, expected: "a number from 0.001 to 1000" });
             }
         }
+        if !(0.0..=LARGEST_HULL_M).contains(&flight.hull_m) {
+            let (key, value) = ("flight.hull_m", flight.hull_m);
+            return Err(SettingsError { key, value, expected: "a number of metres from 0 to 1000" });
+        }
         match eye_m.iter().find(|offset| !(-FARTHEST_EYE_M..=FARTHEST_EYE_M).contains(*offset)) {
             Some(&value) => Err(SettingsError { key: "eye_m", value, expected: "three numbers from -1000 to 1000" }),
             None => Ok(()),
@@ -60,6 +69,8 @@ impl VehicleSettings {
 
 /// Range allowed for every positive setting. A vehicle outside it could not be ridden.
 const MODEST: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+/// Largest radius of a hull, metres.
+const LARGEST_HULL_M: f64 = 1e3;
 /// Largest offset of an eye from its vehicle along each axis, metres.
 const FARTHEST_EYE_M: f64 = 1e3;
 
@@ -109,12 +120,15 @@ pub struct FlightSettings {
     pub turn_rad_s: f64,
     /// Direction of the nose.
     pub nose: Nose,
+    /// Radius of the sphere round the pilot's eye that passes through no surface, metres; 0 for a flight through
+    /// everything, and in recordings made before flights had a hull.
+    pub hull_m: f64,
 }
 
 impl Default for FlightSettings {
     /// Default settings: u = 1, that is β = 0.71, is reached after three seconds (asinh 1 / 3 s).
     fn default() -> Self {
-        Self { thrust_per_s: 0.294, turn_rad_s: 1.0, nose: Nose::default() }
+        Self { thrust_per_s: 0.294, turn_rad_s: 1.0, nose: Nose::default(), hull_m: 0.0 }
     }
 }
 
@@ -184,6 +198,9 @@ mod tests {
             settings.flight.turn_rad_s = bad;
             assert_eq!(settings.check().unwrap_err().key, "flight.turn_rad_s");
         }
+        let mut settings = VehicleSettings::default();
+        settings.flight.hull_m = -1.0;
+        assert_eq!(settings.check().unwrap_err().key, "flight.hull_m");
         let mut settings = VehicleSettings::default();
         settings.eye_m[2] = f64::NAN;
         assert_eq!(settings.check().unwrap_err().key, "eye_m");

@@ -10,6 +10,7 @@ use view::Gaze;
 use super::bicycle::{BicycleControl, roll};
 use super::flight::{FlightControl, level};
 use super::ground::{GroundCourse, heading, placed, upright};
+use super::hull::Hull;
 use super::light_speed::LightSpeed;
 use super::notice::{Notice, RAPIDITY_CAP};
 use super::odometer::Odometer;
@@ -75,6 +76,11 @@ impl Vehicle {
     /// eye. The orientation is that of the pilot's axes: right, up, backward.
     pub fn state(&self) -> &WorldlineState {
         &self.state
+    }
+
+    /// Level unit vector along which the nose points.
+    pub fn heading(&self) -> DVec3 {
+        heading(self.state.orientation)
     }
 
     /// Kind of vehicle: bicycle, drive or fly.
@@ -174,15 +180,76 @@ impl Vehicle {
         let pieces = (own_s / LONGEST_STEP_S - ROUNDING).ceil().max(1.0);
         for _ in 0..pieces as usize {
             match self.kind {
-                VehicleKind::Fly => self.fly(own_s / pieces, &controls),
+                VehicleKind::Fly => self.fly(own_s / pieces, &controls, surroundings),
                 VehicleKind::Bicycle | VehicleKind::Drive => self.ride(own_s / pieces, &controls, surroundings),
             }
         }
     }
 
-    /// Takes one piece of a step through free space.
-    fn fly(&mut self, own_s: f64, controls: &SafeControls) {
+    /// Takes one piece of a step in flight, in strides in which no surface can be reached.
+    fn fly(&mut self, own_s: f64, controls: &SafeControls, surroundings: &dyn Surroundings) {
         self.resistance = 0.0;
+        let hull = Hull { radius_m: self.settings.flight.hull_m };
+        if hull.radius_m == 0.0 {
+            return self.fly_on(own_s, controls);
+        }
+        let mut left_s = own_s;
+        let mut surface = hull.nearest(surroundings, self.state.position, self.farthest_m(own_s));
+        for stride in 1..=MOST_STRIDES {
+            let celerity = self.state.celerity.vector();
+            let slid = surface.map_or(celerity, |surface| hull.slid(&surface, celerity, self.light_speed));
+            if slid != celerity {
+                self.state.celerity = Celerity::new(slid).unwrap_or(Celerity::ZERO);
+            }
+            let farthest_m = self.farthest_m(left_s);
+            let free_m = hull.stride_m(surface, farthest_m);
+            let is_last = stride == MOST_STRIDES || farthest_m <= free_m;
+            let span_s = if is_last { left_s } else { left_s * (free_m / farthest_m) };
+
+            let before = self.state.position;
+            self.fly_on(span_s, controls);
+            if surface.is_none() {
+                return;
+            }
+            let moved = self.state.position - before;
+            if moved.length() > free_m {
+                self.state.position = before + hull.held(surface, moved * (free_m / moved.length()));
+                self.state.celerity = walls::slowed(self.state.celerity, free_m, span_s, self.light_speed);
+                self.tell(Notice::HeldByWalls);
+            }
+            let end = self.state.position;
+            match hull.landed(surroundings, surface, end, self.state.celerity, self.farthest_m(left_s)) {
+                Some(landing) => {
+                    self.state.position = landing.position;
+                    if landing.celerity != self.state.celerity.vector() {
+                        self.state.celerity = Celerity::new(landing.celerity).unwrap_or(Celerity::ZERO);
+                    }
+                    surface = landing.surface;
+                }
+                None => {
+                    self.state.position = before;
+                    self.state.celerity = Celerity::ZERO;
+                }
+            }
+            if is_last {
+                return;
+            }
+            left_s -= span_s;
+        }
+    }
+
+    /// Largest distance that a flight may cover in a time, metres, whatever the controls do.
+    fn farthest_m(&self, own_s: f64) -> f64 {
+        /// Largest proper acceleration, in full thrusts: three thrusts, two of the brake, the rudder and its turn.
+        const THRUSTS: f64 = 8.0;
+        let gain = THRUSTS * self.settings.flight.thrust_per_s * own_s;
+        let u = self.state.celerity.magnitude();
+        let fastest = u * libm::cosh(gain) + libm::hypot(u, 1.0) * libm::sinh(gain);
+        self.light_speed.metres(own_s) * fastest
+    }
+
+    /// Takes one stride through free space.
+    fn fly_on(&mut self, own_s: f64, controls: &SafeControls) {
         let settings = self.settings;
         self.integrate(own_s, &FlightControl::new(&settings.flight, self.light_speed, controls, None));
     }

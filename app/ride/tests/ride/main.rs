@@ -1,5 +1,6 @@
 //! Tests of the crate `ride`, one module a subject.
 
+mod assist;
 mod log;
 mod old_recordings;
 mod simulation;
@@ -8,4 +9,5 @@ mod town;
 mod vehicle_bicycle;
 mod vehicle_flight;
 mod vehicle_gaze;
+mod vehicle_hull;
 mod vehicle_walls;

@@ -10,8 +10,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use input::recording::{FrameRecord, Recorder, Recording, RecordingEntry, RecordingError};
-use input::{Action, DeskConfig, HeadConfig, KeyboardKey, MouseEvent, Nanos, SECOND, Sample, VehicleKind};
-use ride::{LightSpeed, Notice, Replay, ReplayError, RideFrame, RideStart, Setup, Simulation, VehicleSettings};
+use input::{Action, DeskConfig, HeadConfig, KeyboardKey, MouseButton, MouseEvent, Nanos, SECOND, Sample, VehicleKind};
+use ride::{
+    LightSpeed, Notice, Replay, ReplayError, Replayed, RideFrame, RideStart, Setup, Simulation, VehicleSettings,
+};
 use scene::OpenPlane;
 
 fn setup(kind: VehicleKind) -> Setup {
@@ -112,6 +114,58 @@ fn the_same_ride_has_the_same_bits() {
     assert_same(&first, &ride());
     let end = &first[first.len() - 1];
     assert!(end.road > 20.0 && end.rapidity > 0.1, "something happens: {end:?}");
+}
+
+/// The busy ride, of a rider who looks round with keys and the mouse.
+fn looking_ride() -> Vec<Sample> {
+    let tenth = |n: u64| n * SECOND / 10;
+    let drag = MouseEvent::Button { button: MouseButton::Left, pressed: true };
+    let looks = [
+        Sample::key(tenth(5), KeyboardKey::J, true),
+        Sample::key(tenth(12), KeyboardKey::J, false),
+        Sample::mouse(tenth(20), drag),
+        Sample::mouse(tenth(21), MouseEvent::Moved { right: 70.0, down: -33.0 }),
+        Sample::key(tenth(40), KeyboardKey::M, true),
+        Sample::key(tenth(47), KeyboardKey::M, false),
+        Sample::action(tenth(70), &Action::LookAhead),
+    ];
+    let mut samples: Vec<Sample> = busy_ride().into_iter().chain(looks).collect();
+    samples.sort_by_key(|sample| sample.at);
+    samples
+}
+
+#[test]
+fn looking_round_turns_the_gaze_and_no_bit_of_the_worldline() {
+    for kind in [VehicleKind::Bicycle, VehicleKind::Drive, VehicleKind::Fly] {
+        let ahead = frames(&mut simulation(kind), &busy_ride(), times(9));
+        let round = frames(&mut simulation(kind), &looking_ride(), times(9));
+        assert_same(&records(&ahead), &records(&round));
+        let turns = ahead.iter().zip(&round).map(|(ahead, round)| {
+            assert_eq!(ahead.gaze.observer, round.gaze.observer);
+            let forward = |frame: &RideFrame| frame.gaze.observer_from_eye * DVec3::NEG_Z;
+            forward(ahead).angle_between(forward(round)).to_degrees()
+        });
+        let turns: Vec<f64> = turns.collect();
+        // A key at 90° a second, then a drag, then the look back, and ahead again.
+        for (second, expected) in [(0.4, 0.0), (1.0, 45.0), (1.8, 63.0), (4.5, 180.0), (8.0, 0.0)] {
+            let found = turns[(second * 60.0) as usize];
+            assert!((found - expected).abs() < 2.5, "{kind:?}: {found}° after {second} s");
+        }
+        assert_eq!(turns[8 * 60], 0.0);
+    }
+}
+
+#[test]
+fn a_replay_looks_where_the_rider_looked() {
+    let setup = setup(VehicleKind::Bicycle);
+    let ridden = frames(&mut simulation(VehicleKind::Bicycle), &looking_ride(), times(9));
+    let entries = entries(&setup, &looking_ride()).into_iter().map(Ok);
+    let mut replay = Replay::of(entries, setup, Arc::new(OpenPlane)).unwrap();
+    for before in &ridden {
+        let Replayed { frame, difference } = replay.next_frame().unwrap().unwrap();
+        assert_eq!(difference, None);
+        assert_eq!(frame.gaze, before.gaze);
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ use scene::collision::Collision;
 use scene::{OpenSpace, Scene, Surroundings};
 
 /// Town built once for all tests, as its pictures take their time.
-static TOWN: LazyLock<(Scene, Arc<Collision>)> = LazyLock::new(|| {
+pub(super) static TOWN: LazyLock<(Scene, Arc<Collision>)> = LazyLock::new(|| {
     let scene = town::build(1);
     let collision = Arc::new(Collision::new(&scene).unwrap());
     (scene, collision)

@@ -27,6 +27,7 @@ pub(super) struct ViewerTable {
     pub eye_separation: Option<f64>,
     pub eye_scale: Option<f64>,
     pub head: Option<[f64; 3]>,
+    pub turns_pictures: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]

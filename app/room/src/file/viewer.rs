@@ -1,4 +1,4 @@
-//! `[viewer]` table: the distance between the eyes, and the place of an untracked head.
+//! `[viewer]` table: the distance between the eyes, the place of an untracked head, and what its turn does.
 
 use super::schema;
 use super::text::DisplayText;
@@ -39,5 +39,6 @@ pub(super) fn resolve(
         }
         viewer.head_m = head;
     }
+    viewer.turns_pictures = given.turns_pictures.unwrap_or(viewer.turns_pictures);
     Ok(viewer)
 }
