@@ -80,7 +80,7 @@ pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), 
     let recording = Recording::open(path)?;
     // A scene that is named overrides the recorded one, whose file may have moved.
     let choice = options.scene.clone().unwrap_or_else(|| SceneChoice::from_name(&recording.header().scene));
-    let scene = scenes::load_recorded(&choice, &options.reading, recording.header().speed_of_light_m_s)?;
+    let scene = scenes::load_recorded(&choice, options, recording.header().speed_of_light_m_s)?;
     if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
         tell(format_args!(
             "{}: {} is not the scene that was ridden through; expect another ride",
