@@ -4,6 +4,7 @@ use crate::command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
+use crate::session::kiosk::{DayLog, Kiosk};
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
 use crate::session::tracker;
@@ -28,6 +29,7 @@ fn fingerprint(scene: &Scene) -> String {
 }
 
 /// Room in which a ride is shown, and the tracking of the head in it.
+#[derive(Clone)]
 pub struct RideRoom {
     /// Display, if the ride is shown in a room. A tracked head without a named display gets the built-in window.
     pub display: Option<Display>,
@@ -58,14 +60,38 @@ impl RideRoom {
     }
 }
 
-/// Live ride whose clock starts now.
+/// Kiosk that the options ask for, for rides in `scene`.
+///
+/// # Errors
+/// A folder for the day's log that cannot be made, if it was named.
+pub fn kiosk(options: &RideOptions, setup: &Setup, scene: &Scene) -> Result<Option<Kiosk>, Error> {
+    if !options.kiosk.kiosk {
+        return Ok(None);
+    }
+    let log = match &options.kiosk.log {
+        Some(folder) => Some(DayLog::in_folder(folder)?),
+        None => DayLog::usual_folder().and_then(|folder| DayLog::in_folder(&folder).map_err(tell).ok()),
+    };
+    let scale = options.vehicle.time_scale;
+    Ok(Some(Kiosk::new(options.kiosk.idle_s, setup, scale, &scene.circuit, log)?))
+}
+
+/// Live ride whose clock starts now; for visitors, if there is a kiosk.
 ///
 /// # Errors
 /// Devices that cannot be read.
-pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> Result<Live, Error> {
+pub fn present(
+    options: &RideOptions,
+    simulation: Simulation,
+    log: RideLog,
+    kiosk: Option<Kiosk>,
+) -> Result<Live, Error> {
     let clock = Clock::start();
     let devices = Devices::open(&devices_config(options, &simulation.setup().desk), clock)?;
     let mut live = Live::present(simulation, devices, clock, log, options.seconds);
+    if let Some(kiosk) = kiosk {
+        return Ok(live.for_visitors(kiosk));
+    }
     for action in first_actions(options) {
         live.say(|at| Sample::action(at, &action));
     }

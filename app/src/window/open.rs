@@ -3,6 +3,7 @@
 use super::calibrating::Calibrating;
 use super::interface::Interface;
 use super::panel::Settings;
+use super::server_loss;
 use super::window_surface::{WindowSurface, attributes};
 use crate::canvas::Canvas;
 use crate::command::RideOptions;
@@ -10,7 +11,7 @@ use crate::error::Error;
 use crate::frame::{Look, RideInProgress};
 use crate::output::progress;
 use crate::output::say::tell;
-use crate::session::interrupt::interrupted;
+use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use render::choice::Choice;
@@ -24,7 +25,7 @@ use view::Occasion;
 use walls::{Quality, Walls};
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
-use winit::window::Window;
+use winit::window::{Fullscreen, Window};
 
 /// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 const HARDWARE_SAMPLES: u32 = 4;
@@ -48,6 +49,8 @@ pub struct Open {
     pub(super) format: Format,
     pub(super) interface: Interface,
     pub(super) settings: Settings,
+    /// Settings of a fresh ride, which a kiosk returns to.
+    pub(super) fresh: Settings,
     /// True if the mouse moves the head.
     pub(super) mouse_moves_head: bool,
     /// True while a Shift key is down.
@@ -81,14 +84,19 @@ impl Open {
             _ => {
                 let [width, height] = options.picture.size;
                 let size = PhysicalSize::new(width, height);
-                vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
+                let fullscreen = options.kiosk.kiosk.then_some(Fullscreen::Borderless(None));
+                let attributes = Window::default_attributes().with_title(&title).with_inner_size(size);
+                vec![attributes.with_fullscreen(fullscreen)]
             }
         };
         let mut windows = Vec::new();
         for attributes in attributes {
             let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
+            window.set_cursor_visible(!options.kiosk.kiosk);
             windows.push(Arc::new(window));
         }
+
+        server_loss::outlive(&windows[0]);
 
         // The first surface decides which device can draw in it.
         let instance = wgpu::Instance::new(descriptor());
@@ -131,26 +139,29 @@ impl Open {
             }
             None => Canvas::picture(&gpu, surfaces[0].size(), format, screen_format),
         };
+        let fresh = Settings {
+            open: false,
+            help: false,
+            kiosk: options.kiosk.kiosk,
+            readings: true,
+            look: Look {
+                effects: options.picture.effects,
+                latency: options.latency,
+                fov_deg: options.picture.fov_deg(&start),
+                development: options.picture.development(),
+            },
+        };
         Ok(Self {
             canvas,
-            settings: Settings {
-                open: false,
-                help: false,
-                readings: true,
-                look: Look {
-                    effects: options.picture.effects,
-                    latency: options.latency,
-                    fov_deg: options.picture.fov_deg(&start),
-                    development: options.picture.development(),
-                },
-            },
+            settings: fresh.clone(),
+            fresh,
             mouse_moves_head,
             shift: false,
             display_name: options.display.clone(),
             calibrating: None,
             cursor: None,
             ride: RideInProgress::new(renderer, begin()?),
-            stop: interrupted(),
+            stop: interruption(),
             gpu,
             windows: surfaces,
             format,

@@ -6,6 +6,7 @@ mod cache;
 mod calibration;
 mod check;
 mod first_view;
+mod kiosk;
 mod measure;
 mod models;
 #[cfg(target_os = "linux")]
