@@ -200,12 +200,12 @@ pub(super) fn paint(seed: u32, painted: impl Fn(usize, usize) + Sync) -> Vec<Tow
     let recipes: Vec<Recipe> = TownSurface::all().into_iter().map(TownSurface::recipe).collect();
     let brushes: Vec<_> = recipes.iter().filter_map(|recipe| recipe.picture.as_ref()).collect();
     let finished = AtomicUsize::new(0);
-    let paint = |brush: &&Box<Brush>| {
+    let pictures = brushes.par_iter().map(|brush| {
         let picture = brush(seed).finish();
         painted(1 + finished.fetch_add(1, Ordering::Relaxed), brushes.len());
         picture
-    };
-    brushes.par_iter().map(paint).collect()
+    });
+    pictures.collect()
 }
 
 /// Lists the materials, and the textures that show `pictures`; `None` if these are not as many as there are surfaces

@@ -46,6 +46,8 @@ pub struct Kiosk {
     /// Beginning, distance and top speed (v/c) of the visitor's ride.
     began: Nanos,
     road_m: f64,
+    /// Odometer at the last frame of the visitor, metres.
+    odometer_m: f64,
     top_beta: f64,
     /// Frames since the last summary: their number, those that were late, the longest, and the last frame's time.
     frames: u64,
@@ -82,6 +84,7 @@ impl Kiosk {
             log,
             began: 0,
             road_m: 0.0,
+            odometer_m: f64::INFINITY,
             top_beta: 0.0,
             frames: 0,
             late: 0,
@@ -128,6 +131,8 @@ impl Kiosk {
                     passed.push(Sample::opened(at, SampleSource::Bicycle));
                 }
                 (self.began, self.road_m, self.top_beta) = (now.max(1), 0.0, 0.0);
+                // Until the vehicle is at the start, the odometer is that of the attract ride.
+                self.odometer_m = f64::INFINITY;
             }
             None => {}
         }
@@ -145,7 +150,10 @@ impl Kiosk {
     pub fn shown(&mut self, now: Nanos, frame: &RideFrame) {
         self.paused = frame.paused;
         if !self.turns.attracts() {
-            self.road_m = frame.vehicle.odometer().road_m;
+            // A return to the start takes the odometer back, not the road that was ridden.
+            let road_m = frame.vehicle.odometer().road_m;
+            self.road_m += (road_m - self.odometer_m).max(0.0);
+            self.odometer_m = road_m;
             self.top_beta = self.top_beta.max(frame.gaze.observer.celerity.beta().vector().length());
         }
         if let Some(before) = self.before.replace(now) {
