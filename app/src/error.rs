@@ -2,10 +2,10 @@
 
 use crate::output::files::WriteError;
 use crate::output::film::FilmError;
-use crate::session::kiosk::DayLogError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
 use crate::session::tracker::TrackerError;
+use kiosk::DayLogError;
 use measure::MeasureError;
 use measure::choice::ChoiceError;
 use measure::extremes::ExtremesError;

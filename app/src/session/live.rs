@@ -6,10 +6,10 @@
 use crate::output::files::unused;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
-use crate::session::kiosk::Kiosk;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
 use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource};
+use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation, TICKS_PER_SECOND};
 use std::path::Path;
 
@@ -163,6 +163,7 @@ impl Live {
                 let frame = simulation.frame(now, &samples);
                 if let Some(kiosk) = &mut self.kiosk {
                     kiosk.shown(now, &frame);
+                    kiosk.take_fault().iter().for_each(tell);
                 }
                 devices.brake(frame.vehicle.resistance());
                 self.lost_s += frame.dropped_ticks as f64 / f64::from(TICKS_PER_SECOND);

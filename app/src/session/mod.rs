@@ -3,7 +3,6 @@
 
 pub mod gaps;
 pub mod interrupt;
-pub mod kiosk;
 pub mod live;
 mod picture_cache;
 pub mod preferences;

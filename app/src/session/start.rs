@@ -4,18 +4,19 @@ use crate::command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
-use crate::session::kiosk::{DayLog, Kiosk};
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
 use crate::session::tracker;
+use directories::ProjectDirs;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
+use kiosk::{DayLog, Kiosk};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use room::Display;
 use scene::Scene;
 use scene::collision::Collision;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Name of the display for a tracked head if no display is named.
@@ -70,10 +71,16 @@ pub fn kiosk(options: &RideOptions, setup: &Setup, scene: &Scene) -> Result<Opti
     }
     let log = match &options.kiosk.log {
         Some(folder) => Some(DayLog::in_folder(folder)?),
-        None => DayLog::usual_folder().and_then(|folder| DayLog::in_folder(&folder).map_err(tell).ok()),
+        None => usual_log_folder().and_then(|folder| DayLog::in_folder(&folder).map_err(tell).ok()),
     };
     let scale = options.vehicle.time_scale;
     Ok(Some(Kiosk::new(options.kiosk.idle_s, setup, scale, &scene.circuit, log)?))
+}
+
+/// Folder of a kiosk's log in the user's folder for states; `None` if the system names none.
+fn usual_log_folder() -> Option<PathBuf> {
+    let directories = ProjectDirs::from("", "", "rapidity")?;
+    Some(directories.state_dir().unwrap_or_else(|| directories.data_local_dir()).to_owned())
 }
 
 /// Live ride whose clock starts now; for visitors, if there is a kiosk.

@@ -31,6 +31,7 @@ const PLAN: [(&str, &[&str]); 20] = [
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
+    ("kiosk", &["input", "ride"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
@@ -39,6 +40,7 @@ const PLAN: [(&str, &[&str]); 20] = [
         &[
             "built_in",
             "input",
+            "kiosk",
             "measure",
             "panoramas",
             "physics",

@@ -5,10 +5,9 @@
 //! bicycle of the tour stands in for the real one. What the devices say is decoded a second time here, to tell a touch
 //! from a device that merely goes on talking.
 
-use super::attract::Attract;
-use super::day_log::{DayEvent, DayLog};
-use super::turns::{Turn, Turns};
-use crate::output::say::tell;
+use crate::attract::Attract;
+use crate::day_log::{DayEvent, DayLog, DayLogError};
+use crate::turns::{Turn, Turns};
 use glam::DVec3;
 use input::{Action, ConfigError, Controls, Desk, Nanos, SECOND, Sample, SampleSource, Signal};
 use ride::{RideFrame, Setup, Vehicle};
@@ -43,6 +42,8 @@ pub struct Kiosk {
     bicycle: bool,
     paused: bool,
     log: Option<DayLog>,
+    /// Fault of the log that nobody has been told of.
+    unwritten: Option<DayLogError>,
     /// Beginning, distance and top speed (v/c) of the visitor's ride.
     began: Nanos,
     road_m: f64,
@@ -82,6 +83,7 @@ impl Kiosk {
             bicycle: false,
             paused: false,
             log,
+            unwritten: None,
             began: 0,
             road_m: 0.0,
             odometer_m: f64::INFINITY,
@@ -172,6 +174,11 @@ impl Kiosk {
         self.note(&DayEvent::Fault { sentence });
     }
 
+    /// Fault of the day's log, once.
+    pub fn take_fault(&mut self) -> Option<DayLogError> {
+        self.unwritten.take()
+    }
+
     /// Completes the day's log.
     pub fn finish(&mut self, now: Nanos) {
         if !self.turns.attracts() && self.began > 0 {
@@ -237,7 +244,7 @@ impl Kiosk {
 
     fn note(&mut self, event: &DayEvent<'_>) {
         if let Some(Err(error)) = self.log.as_mut().map(|log| log.note(event)) {
-            tell(error);
+            self.unwritten = Some(error);
         }
     }
 }

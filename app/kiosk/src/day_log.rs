@@ -90,12 +90,6 @@ impl DayLog {
         Ok(Self { folder: folder.to_owned(), open: None, told: false })
     }
 
-    /// Folder of the log in the user's folder for states; `None` if the system names none.
-    pub fn usual_folder() -> Option<PathBuf> {
-        let directories = directories::ProjectDirs::from("", "", "rapidity")?;
-        Some(directories.state_dir().unwrap_or_else(|| directories.data_local_dir()).to_owned())
-    }
-
     /// Writes an entry with the present time.
     ///
     /// # Errors
