@@ -5,6 +5,7 @@ use crate::output::film::FilmError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
 use crate::session::tracker::TrackerError;
+use kiosk::DayLogError;
 use measure::MeasureError;
 use measure::choice::ChoiceError;
 use measure::extremes::ExtremesError;
@@ -62,6 +63,12 @@ pub enum Error {
         "--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`"
     )]
     NoWindows,
+    /// A kiosk without a graphical session for its window.
+    #[error("--kiosk needs a window, and there is no graphical session to open it in: set DISPLAY or WAYLAND_DISPLAY")]
+    KioskWithoutWindows,
+    /// A kiosk's log that cannot be written.
+    #[error(transparent)]
+    DayLog(#[from] DayLogError),
     /// The ray tracer, asked to draw for a room.
     #[error("--renderer raytrace does not draw for --display; leave one out, or choose auto, polygon or image")]
     WallsByRays,

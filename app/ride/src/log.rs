@@ -55,6 +55,11 @@ impl RideLog {
         self.file.is_some()
     }
 
+    /// Keeps nothing of the past in memory from now on, for rides that nobody records from their beginning later.
+    pub fn forget(&mut self) {
+        self.kept = None;
+    }
+
     /// Adds the samples of one frame and the frame's result.
     ///
     /// # Errors

@@ -13,6 +13,7 @@
 //! ```
 
 mod dial;
+mod kiosk;
 mod line;
 mod measure;
 mod passed_over;
@@ -25,6 +26,7 @@ mod values;
 mod world;
 
 pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
+pub use kiosk::KioskOptions;
 pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse, parse_from};
 pub use measure::MeasureOptions;
 pub use picture::PictureOptions;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::dial::{DialOptions, map_scale_of_windows};
+use super::kiosk::KioskOptions;
 use super::picture::PictureOptions;
 use super::values;
 use super::world::WorldOptions;
@@ -116,6 +117,9 @@ pub struct RideOptions {
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
+    /// Options of a kiosk.
+    #[command(flatten)]
+    pub kiosk: KioskOptions,
     /// Options of the method of drawing.
     #[command(flatten)]
     pub dial: DialOptions,

@@ -63,6 +63,10 @@ pub struct WorldOptions {
     /// [default: 30 km/h; for a file, a speed that crosses the scene in about five seconds].
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, value_parser = values::speed)]
     pub speed_of_light: Option<f64>,
+    /// Paint the old town anew, instead of taking its pictures from the cache and keeping them there (`rapidity` in the
+    /// user's folder for caches: ~/.cache on Linux, or XDG_CACHE_HOME).
+    #[arg(long)]
+    pub no_cache: bool,
     /// Options of reading the scene's file.
     #[command(flatten)]
     pub reading: ReadingOptions,

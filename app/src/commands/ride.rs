@@ -9,7 +9,7 @@ use crate::output::say::{say, tell};
 use crate::session::live::Live;
 use crate::session::preferences;
 use crate::session::scenes;
-use crate::session::start::{RideRoom, has_display, prepared, present, recorded};
+use crate::session::start::{RideRoom, has_display, kiosk, prepared, present, recorded};
 use crate::window;
 use input::HeadConfig;
 use input::recording::RecordingError;
@@ -34,6 +34,9 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
         let room = RideRoom::of(options)?;
         let (scene, begin) = begin(options, room.head.clone())?;
         return window::run(options, scene, room, begin);
+    }
+    if options.kiosk.kiosk {
+        return Err(Error::KioskWithoutWindows);
     }
     if options.display.is_some() {
         return Err(Error::NoWindows);
@@ -68,9 +71,10 @@ fn begin(options: &RideOptions, head: Option<HeadConfig>) -> Result<(Scene, wind
     let world = scenes::load(&options.world)?;
     let (simulation, mut log) = prepared(options, &world, head)?;
     let scene = world.scene;
+    let kiosk = kiosk(options, simulation.setup(), &scene)?;
     if let Some(path) = &options.record {
         log.record(path)?;
     }
     let options = options.clone();
-    Ok((scene, Box::new(move || present(&options, simulation, log))))
+    Ok((scene, Box::new(move || present(&options, simulation, log, kiosk))))
 }

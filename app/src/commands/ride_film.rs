@@ -70,7 +70,7 @@ type Followed = (Reel, Result<(), LogError>);
 /// Follows a live ride in real time.
 fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: f64) -> Result<Followed, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
-    let mut live = present(&options, simulation, log)?;
+    let mut live = present(&options, simulation, log, None)?;
     let stop = interrupted();
     let spinner = progress::spinner("riding");
     let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);

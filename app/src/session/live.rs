@@ -8,12 +8,16 @@ use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource};
+use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation, TICKS_PER_SECOND};
 use std::path::Path;
 
 /// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
+
+/// Sentence over the attract ride.
+const INVITATION: &str = "Press a key or start to pedal: the ride is yours";
 
 /// Own time that may be lost without a word, seconds: that of a first picture.
 const NOTICEABLE_S: f64 = 0.5;
@@ -27,6 +31,12 @@ pub struct Live {
     told: Vec<(Nanos, String)>,
     /// Own time that was not ridden because frames came too late, seconds.
     lost_s: f64,
+    /// Visitors, if the ride is for them.
+    kiosk: Option<Box<Kiosk>>,
+    /// True once another rider's turn has begun.
+    turned: bool,
+    /// Devices that were open at the last look.
+    open: Vec<SampleSource>,
     /// Sentence on a head that its tracker does not see, while it does not.
     unseen: Option<String>,
 }
@@ -64,7 +74,52 @@ impl Live {
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
         let end = seconds.map(|seconds| (seconds * SECOND as f64) as Nanos);
-        Self { clock, rider, end, said: Vec::new(), told: Vec::new(), lost_s: 0.0, unseen: None }
+        Self {
+            clock,
+            rider,
+            end,
+            said: Vec::new(),
+            told: Vec::new(),
+            lost_s: 0.0,
+            kiosk: None,
+            turned: false,
+            open: Vec::new(),
+            unseen: None,
+        }
+    }
+
+    /// The same ride for visitors, one after the other.
+    pub fn for_visitors(mut self, kiosk: Kiosk) -> Self {
+        if let Rider::Present { log, .. } = &mut self.rider {
+            // Nobody asks for a recording of the past.
+            log.forget();
+        }
+        self.kiosk = Some(Box::new(kiosk));
+        self
+    }
+
+    /// Sentence for passers-by, while the attract ride is shown.
+    pub fn invitation(&self) -> Option<&'static str> {
+        self.kiosk.as_ref().is_some_and(|kiosk| kiosk.attracts()).then_some(INVITATION)
+    }
+
+    /// Notes a touch of something that is no device of the ride, in a kiosk.
+    pub fn touch(&mut self) {
+        if let Some(kiosk) = &mut self.kiosk {
+            kiosk.touch();
+        }
+    }
+
+    /// True once after another rider's turn has begun.
+    pub fn has_turned(&mut self) -> bool {
+        std::mem::take(&mut self.turned)
+    }
+
+    /// Notes a fault in the day's log of a kiosk.
+    pub fn fault(&mut self, sentence: &str) {
+        if let Some(kiosk) = &mut self.kiosk {
+            kiosk.fault(sentence);
+        }
     }
 
     /// Present time of the ride.
@@ -99,7 +154,17 @@ impl Live {
                 let mut samples = devices.drain();
                 samples.append(&mut self.said);
                 samples.sort_by_key(|sample| sample.at);
+                if let Some(kiosk) = &mut self.kiosk {
+                    note_devices(kiosk, devices, &mut self.open);
+                    let (passed, turn) = kiosk.samples(now, samples, simulation.vehicle());
+                    samples = passed;
+                    self.turned |= turn.is_some();
+                }
                 let frame = simulation.frame(now, &samples);
+                if let Some(kiosk) = &mut self.kiosk {
+                    kiosk.shown(now, &frame);
+                    kiosk.take_fault().iter().for_each(tell);
+                }
                 devices.brake(frame.vehicle.resistance());
                 self.lost_s += frame.dropped_ticks as f64 / f64::from(TICKS_PER_SECOND);
                 let unseen = unseen(simulation.desk(), &frame);
@@ -110,6 +175,9 @@ impl Live {
                 if let Err(error) = log.frame(&samples, &frame) {
                     // The ride goes on, and the notice stays: nobody should believe that the rest is recorded.
                     tell(&error);
+                    if let Some(kiosk) = &mut self.kiosk {
+                        kiosk.fault(&error.to_string());
+                    }
                     self.told.push((Nanos::MAX, error.to_string()));
                 }
                 Some(frame)
@@ -169,7 +237,7 @@ impl Live {
     pub fn told(&self) -> Vec<String> {
         let mut told: Vec<String> = self.told.iter().map(|(_, sentence)| sentence.clone()).collect();
         told.extend(self.unseen.clone());
-        if self.lost_s > NOTICEABLE_S {
+        if self.lost_s > NOTICEABLE_S && self.kiosk.is_none() {
             told.push(self.loss());
         }
         told
@@ -259,11 +327,27 @@ impl Live {
         if self.lost_s > NOTICEABLE_S {
             tell(self.loss());
         }
+        if let Some(kiosk) = &mut self.kiosk {
+            kiosk.finish(self.clock.now());
+        }
         match &mut self.rider {
             Rider::Present { log, .. } => log.finish(),
             Rider::Recorded { .. } => Ok(()),
         }
     }
+}
+
+/// Notes in the day's log which devices have come and gone.
+fn note_devices(kiosk: &mut Kiosk, devices: &Devices, before: &mut Vec<SampleSource>) {
+    let open = devices.status().into_iter().filter(|status| status.state == DeviceState::Open);
+    let open: Vec<SampleSource> = open.map(|status| status.source).collect();
+    for gone in before.iter().filter(|source| !open.contains(source)) {
+        kiosk.fault(&format!("{gone}: the device is gone"));
+    }
+    for come in open.iter().filter(|source| !before.contains(source)) {
+        kiosk.fault(&format!("{come}: the device is there"));
+    }
+    *before = open;
 }
 
 /// Sentence on a tracked head that is not seen, with the reason; `None` while it is seen, or if none is tracked.

@@ -1,8 +1,9 @@
 //! Loading of the requested scene: built in, or from a file.
 
-use crate::command::{ReadingOptions, SceneChoice, WorldOptions};
-use crate::output::progress;
+use crate::command::{SceneChoice, WorldOptions};
+use crate::output::progress::{self, LateBar};
 use crate::output::say::tell;
+use crate::session::picture_cache::PictureCache;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
 use scene::{Scene, TooFast, ViewCamera};
@@ -57,7 +58,7 @@ pub struct World {
 /// A fault of the file with its place, a camera that the scene does not have, or an animation faster than light.
 pub fn load(options: &WorldOptions) -> Result<World, SceneError> {
     let choice = options.scene();
-    let mut scene = read_scene(&choice, &options.reading)?;
+    let mut scene = read_scene(&choice, options)?;
     if let Some(name) = &options.camera {
         scene.start = camera(&scene, name)?.start;
     }
@@ -74,10 +75,10 @@ pub fn load(options: &WorldOptions) -> Result<World, SceneError> {
 /// A fault of the file with its place, or an animation faster than light.
 pub fn load_recorded(
     choice: &SceneChoice,
-    reading: &ReadingOptions,
+    options: &WorldOptions,
     speed_of_light_m_s: f64,
 ) -> Result<Scene, SceneError> {
-    let mut scene = read_scene(choice, reading)?;
+    let mut scene = read_scene(choice, options)?;
     set_light(&mut scene, choice, speed_of_light_m_s)?;
     Ok(scene)
 }
@@ -136,20 +137,32 @@ fn camera<'a>(scene: &'a Scene, name: &str) -> Result<&'a ViewCamera, SceneError
     })
 }
 
-fn read_scene(choice: &SceneChoice, reading: &ReadingOptions) -> Result<Scene, SceneError> {
+/// Old town, its pictures from the user's cache if they are there, else painted and kept for the next start.
+fn old_town(no_cache: bool) -> Scene {
+    let seed = town::TOWN_SEED;
+    let cache = if no_cache { None } else { PictureCache::of_user() };
+    if let Some(scene) = cache.as_ref().and_then(|cache| town::build_with(seed, cache.load(seed)?)) {
+        return scene;
+    }
+    let bar = LateBar::new("painting the town");
+    let pictures = town::paint_pictures(seed, |done, total| bar.told(done, total));
+    bar.finish();
+    if let Some(cache) = cache {
+        // What cannot be kept is painted again the next time.
+        let _ = cache.keep(seed, &pictures);
+    }
+    town::build_with(seed, pictures).expect("as many pictures are painted as the town has")
+}
+
+fn read_scene(choice: &SceneChoice, options: &WorldOptions) -> Result<Scene, SceneError> {
     match choice {
-        SceneChoice::Town => {
-            let spinner = progress::spinner("building the old town");
-            let scene = town::build(town::TOWN_SEED);
-            spinner.finish_and_clear();
-            Ok(scene)
-        }
+        SceneChoice::Town => Ok(old_town(options.no_cache)),
         SceneChoice::Spectra => Ok(spectra::build()),
         SceneChoice::Lattice => Ok(Lattice::default().build()),
         SceneChoice::File(path) => {
             let bar = progress::bar(path.display().to_string(), 0);
-            let budget = reading.budget();
-            let rules = ReadRules { budget: &budget, trust: reading.trust };
+            let budget = options.reading.budget();
+            let rules = ReadRules { budget: &budget, trust: options.reading.trust };
             let scene = read(path, rules, |progress| {
                 let stage = match progress.stage {
                     LoadStage::Pictures => "pictures",

@@ -7,15 +7,17 @@ use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
 use crate::session::tracker;
+use directories::ProjectDirs;
 use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
 use input::recording::Recording;
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
+use kiosk::{DayLog, Kiosk};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use room::Display;
 use scene::Scene;
 use scene::collision::Collision;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Name of the display for a tracked head if no display is named.
@@ -29,6 +31,7 @@ fn fingerprint(scene: &Scene) -> String {
 }
 
 /// Room in which a ride is shown, and the tracking of the head in it.
+#[derive(Clone)]
 pub struct RideRoom {
     /// Display, if the ride is shown in a room. A tracked head without a named display gets the built-in window.
     pub display: Option<Display>,
@@ -59,14 +62,44 @@ impl RideRoom {
     }
 }
 
-/// Live ride whose clock starts now.
+/// Kiosk that the options ask for, for rides in `scene`.
+///
+/// # Errors
+/// A folder for the day's log that cannot be made, if it was named.
+pub fn kiosk(options: &RideOptions, setup: &Setup, scene: &Scene) -> Result<Option<Kiosk>, Error> {
+    if !options.kiosk.kiosk {
+        return Ok(None);
+    }
+    let log = match &options.kiosk.log {
+        Some(folder) => Some(DayLog::in_folder(folder)?),
+        None => usual_log_folder().and_then(|folder| DayLog::in_folder(&folder).map_err(tell).ok()),
+    };
+    let scale = options.vehicle.time_scale;
+    Ok(Some(Kiosk::new(options.kiosk.idle_s, setup, scale, &scene.circuit, log)?))
+}
+
+/// Folder of a kiosk's log in the user's folder for states; `None` if the system names none.
+fn usual_log_folder() -> Option<PathBuf> {
+    let directories = ProjectDirs::from("", "", "rapidity")?;
+    Some(directories.state_dir().unwrap_or_else(|| directories.data_local_dir()).to_owned())
+}
+
+/// Live ride whose clock starts now; for visitors, if there is a kiosk.
 ///
 /// # Errors
 /// Devices that cannot be read.
-pub fn present(options: &RideOptions, simulation: Simulation, log: RideLog) -> Result<Live, Error> {
+pub fn present(
+    options: &RideOptions,
+    simulation: Simulation,
+    log: RideLog,
+    kiosk: Option<Kiosk>,
+) -> Result<Live, Error> {
     let clock = Clock::start();
     let devices = Devices::open(&devices_config(options, &simulation.setup().desk), clock)?;
     let mut live = Live::present(simulation, devices, clock, log, options.seconds);
+    if let Some(kiosk) = kiosk {
+        return Ok(live.for_visitors(kiosk));
+    }
     for action in first_actions(options) {
         live.say(|at| Sample::action(at, &action));
     }
@@ -81,7 +114,7 @@ pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), 
     let recording = Recording::open(path)?;
     // A scene that is named overrides the recorded one, whose file may have moved.
     let choice = options.scene.clone().unwrap_or_else(|| SceneChoice::from_name(&recording.header().scene));
-    let scene = scenes::load_recorded(&choice, &options.reading, recording.header().speed_of_light_m_s)?;
+    let scene = scenes::load_recorded(&choice, options, recording.header().speed_of_light_m_s)?;
     if recording.header().settings.get(FINGERPRINT).is_some_and(|recorded| *recorded != fingerprint(&scene)) {
         tell(format_args!(
             "{}: {} is not the scene that was ridden through; expect another ride",

@@ -3,12 +3,17 @@
 use super::open::{Open, WaitingRide};
 use crate::command::RideOptions;
 use crate::error::Error;
+use crate::output::say::tell;
+use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use scene::Scene;
+use std::cell::Cell;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use winit::application::ApplicationHandler;
 use winit::error::EventLoopError;
 use winit::event::WindowEvent;
@@ -25,11 +30,15 @@ pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
 pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Wait);
+    // What a lost graphics device takes with it, for a ride that goes on nevertheless.
+    let spare = options.kiosk.kiosk.then(|| (scene.clone(), room.clone()));
     let waiting = Some(WaitingRide { scene, room, begin });
-    let mut application = Application { options: options.clone(), waiting, open: None, failed: None };
+    let stranded = Rc::new(Cell::new(None));
+    let mut application = Application { options: options.clone(), waiting, open: None, spare, stranded, failed: None };
     let ended = outlived(|| events.run_app(&mut application));
     // Whatever has ended the windows, the recording is completed.
-    let finished = application.open.map_or(Ok(()), |mut open| Ok(open.ride.live.finish()?));
+    let live = application.open.map(close).or_else(|| application.stranded.take());
+    let finished = live.map_or(Ok(()), |mut live| Ok(live.finish()?));
     ended?;
     application.failed.map_or(finished, Err)
 }
@@ -57,11 +66,24 @@ fn is_of_winit(file: &str) -> bool {
     Path::new(file).components().any(|part| part.as_os_str().to_string_lossy().starts_with("winit-"))
 }
 
+/// Number of attempts to open the windows again after the loss of the graphics device, and the pause after each.
+const ATTEMPTS: u32 = 30;
+const ATTEMPT_PAUSE: Duration = Duration::from_secs(2);
+
+/// Ride of windows that are closed, with all that they drew with.
+fn close(open: Open) -> Live {
+    open.ride.live
+}
+
 /// State that winit calls.
 struct Application {
     options: RideOptions,
     waiting: Option<WaitingRide>,
     open: Option<Open>,
+    /// Scene and room of a kiosk, whose windows are opened again after the loss of a graphics device.
+    spare: Option<(Scene, RideRoom)>,
+    /// Ride whose windows are not open again yet.
+    stranded: Rc<Cell<Option<Live>>>,
     failed: Option<Error>,
 }
 
@@ -82,12 +104,38 @@ impl ApplicationHandler for Application {
         let Some(open) = &mut self.open else { return };
         match open.event(events, window, event) {
             Ok(()) => {}
+            Err(error @ Error::Gpu(_)) if self.spare.is_some() => self.reopen(events, error),
             Err(error) => self.fail(events, error),
         }
     }
 }
 
 impl Application {
+    /// Opens the windows of a kiosk again after the loss of the graphics device. The ride goes on meanwhile.
+    fn reopen(&mut self, events: &ActiveEventLoop, error: Error) {
+        let (Some((scene, room)), Some(open)) = (&self.spare, self.open.take()) else { return };
+        tell(format_args!("{error}; the windows are opened again"));
+        let mut live = close(open);
+        live.fault(&error.to_string());
+        self.stranded.set(Some(live));
+        let stop = interruption();
+        for _ in 0..ATTEMPTS {
+            let stranded = Rc::clone(&self.stranded);
+            let begin = Box::new(move || stranded.take().ok_or(Error::WindowLost));
+            let (scene, room) = (scene.clone(), room.clone());
+            if let Ok(open) = Open::new(events, &self.options, WaitingRide { scene, room, begin }) {
+                open.windows[0].window.request_redraw();
+                self.open = Some(open);
+                return;
+            }
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            std::thread::sleep(ATTEMPT_PAUSE);
+        }
+        self.fail(events, error);
+    }
+
     fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
         self.failed.get_or_insert(error);
         events.exit();

@@ -27,6 +27,7 @@ impl Open {
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
         let taken = offered && self.interface.event(&self.windows[0].window, &event);
         match event {
+            WindowEvent::CloseRequested if self.settings.kiosk => {}
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(number, size),
             WindowEvent::Focused(false) => {
@@ -47,6 +48,7 @@ impl Open {
                 if let PhysicalKey::Code(code) = event.physical_key {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
+                        self.ride.live.touch();
                         self.window_key(events, code);
                     }
                     // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
@@ -61,9 +63,13 @@ impl Open {
                     self.mouse(MouseEvent::Moved { right: right as f32, down: down as f32 });
                 }
             }
+            WindowEvent::Touch(_) => self.ride.live.touch(),
             WindowEvent::CursorLeft { .. } => self.cursor = None,
             WindowEvent::MouseInput { state, button, .. } => {
                 let pressed = state == ElementState::Pressed;
+                if pressed {
+                    self.ride.live.touch();
+                }
                 let button = match button {
                     winit::event::MouseButton::Left => Some(MouseButton::Left),
                     winit::event::MouseButton::Right => Some(MouseButton::Right),
@@ -147,6 +153,7 @@ impl Open {
     /// Carries out a key that concerns the window alone.
     fn window_key(&mut self, events: &ActiveEventLoop, code: KeyCode) {
         match code {
+            KeyCode::Escape | KeyCode::F3 | KeyCode::F4 | KeyCode::F11 if self.settings.kiosk => {}
             KeyCode::Escape => events.exit(),
             KeyCode::F3 => self.settings.open = !self.settings.open,
             KeyCode::F4 => self.calibrate(),

@@ -29,6 +29,10 @@ pub struct Readings {
     pub certainty: String,
     /// Notices for the rider, the most urgent first.
     pub notices: Vec<String>,
+    /// Sentence for passers-by.
+    pub invitation: Option<&'static str>,
+    /// True in a kiosk, where nobody asks for the program's pace.
+    pub kiosk: bool,
     /// True if the ride is paused.
     pub paused: bool,
     /// True if a recording is being written.
@@ -105,6 +109,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
         readings.frame_rate,
         stages.join(" · ")
     );
+    let pace = if readings.kiosk { "F1 help".to_owned() } else { pace };
     let pace = painter.layout(pace, FontId::proportional(13.0), INK, screen.width() - 24.0);
     let words = [(readings.recording, "recording", ALERT), (readings.paused, "paused", ACCENT)];
     let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, words, colour)| (words, colour));
@@ -126,6 +131,13 @@ pub fn show(ui: &Ui, readings: &Readings) {
         let at = Pos2::new(screen.left() + 14.0, y);
         y += line.size().y + 10.0;
         painter.rect_filled(Rect::from_min_size(at, line.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
+        painter.galley(at, line, INK);
+    }
+    if let Some(invitation) = readings.invitation {
+        let font = FontId::proportional(34.0 * scale);
+        let line = painter.layout(invitation.to_owned(), font, INK, screen.width() - 80.0);
+        let at = Pos2::new(screen.center().x - 0.5 * line.size().x, bar.top() - line.size().y - 36.0 * scale);
+        painter.rect_filled(Rect::from_min_size(at, line.size()).expand(14.0), CornerRadius::same(8), BACKDROP);
         painter.galley(at, line, INK);
     }
     let at = Pos2::new(screen.right() - pace.size().x - 12.0, screen.top() + 8.0);

@@ -10,7 +10,9 @@
 mod application;
 mod calibrate;
 mod calibrating;
+mod controls;
 mod events;
+mod help;
 mod hud;
 mod interface;
 mod keys;
@@ -18,6 +20,7 @@ mod open;
 mod panel;
 mod photo;
 mod readings;
+mod server_loss;
 mod show;
 mod window_surface;
 

@@ -3,6 +3,7 @@
 use super::calibrating::Calibrating;
 use super::interface::Interface;
 use super::panel::Settings;
+use super::server_loss;
 use super::window_surface::{WindowSurface, attributes};
 use crate::canvas::Canvas;
 use crate::command::{RideOptions, map_scale_of_windows};
@@ -11,7 +12,7 @@ use crate::flat_picture::FlatPicture;
 use crate::frame::{Look, RideInProgress};
 use crate::output::progress;
 use crate::output::say::tell;
-use crate::session::interrupt::interrupted;
+use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
 use render::choice::Choice;
@@ -25,7 +26,7 @@ use view::Occasion;
 use walls::{Quality, Walls};
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
-use winit::window::Window;
+use winit::window::{Fullscreen, Window};
 
 /// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 const HARDWARE_SAMPLES: u32 = 4;
@@ -48,6 +49,8 @@ pub struct Open {
     pub(super) canvas: Canvas,
     pub(super) interface: Interface,
     pub(super) settings: Settings,
+    /// Settings of a fresh ride, which a kiosk returns to.
+    pub(super) fresh: Settings,
     /// True if the mouse moves the head.
     pub(super) mouse_moves_head: bool,
     /// True if the mouse turns the look.
@@ -87,14 +90,19 @@ impl Open {
             _ => {
                 let [width, height] = options.picture.size;
                 let size = PhysicalSize::new(width, height);
-                vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
+                let fullscreen = options.kiosk.kiosk.then_some(Fullscreen::Borderless(None));
+                let attributes = Window::default_attributes().with_title(&title).with_inner_size(size);
+                vec![attributes.with_fullscreen(fullscreen)]
             }
         };
         let mut windows = Vec::new();
         for attributes in attributes {
             let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
+            window.set_cursor_visible(!options.kiosk.kiosk);
             windows.push(Arc::new(window));
         }
+
+        server_loss::outlive(&windows[0]);
 
         // The first surface decides which device can draw in it.
         let instance = wgpu::Instance::new(descriptor());
@@ -153,9 +161,11 @@ impl Open {
         let spinner = progress::spinner("drawing the first picture");
         canvas.warm_up(&gpu, &mut renderer, &start, &look, &screens)?;
         spinner.finish_and_clear();
+        let fresh = Settings { open: false, help: false, kiosk: options.kiosk.kiosk, readings: true, look };
         Ok(Self {
             canvas,
-            settings: Settings { open: false, help: false, readings: true, look },
+            settings: fresh.clone(),
+            fresh,
             mouse_moves_head,
             mouse_looks,
             dragged: false,
@@ -164,7 +174,7 @@ impl Open {
             calibrating: None,
             cursor: None,
             ride: RideInProgress::new(renderer, begin()?, options.frame_rate.governor()),
-            stop: interrupted(),
+            stop: interruption(),
             gpu,
             windows: surfaces,
             interface,

@@ -6,7 +6,7 @@ use crate::frame::RideInProgress;
 use render::Gpu;
 
 /// Readings for the head-up display.
-pub fn readings(ride: &RideInProgress) -> Readings {
+pub fn readings(ride: &RideInProgress, kiosk: bool) -> Readings {
     let Some(frame) = &ride.frame else { return Readings::default() };
     let celerity = frame.gaze.observer.celerity;
     let odometer = frame.vehicle.odometer();
@@ -32,6 +32,8 @@ pub fn readings(ride: &RideInProgress) -> Readings {
         stages_ms: ride.times.stages_ms(),
         certainty: accuracy(ride),
         notices,
+        invitation: ride.live.invitation(),
+        kiosk,
         paused: frame.paused,
         recording: ride.live.is_recording(),
     }

@@ -39,8 +39,12 @@ impl Open {
         // Devices to light, on one page: frame.rs.
         let look = self.settings.look;
         let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &look)? else { return Ok(false) };
+        if self.ride.live.has_turned() {
+            self.settings = self.fresh.clone();
+        }
         for action in actions {
             match action {
+                Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Photo => {
@@ -52,7 +56,7 @@ impl Open {
         }
 
         // Light to the windows, and the interface over the first.
-        let readings = readings::readings(&self.ride);
+        let readings = readings::readings(&self.ride, self.settings.kiosk);
         let panel = readings::panel(&self.ride, &self.gpu);
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let settings = &mut self.settings;

@@ -2,9 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
 #[cfg(target_os = "linux")]
+mod cache;
 mod calibration;
 mod check;
 mod first_view;
+mod kiosk;
 mod measure;
 mod models;
 #[cfg(target_os = "linux")]

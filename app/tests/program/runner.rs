@@ -7,6 +7,9 @@ use std::process::{Command, Output};
 pub fn rapidity(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rapidity"));
     command.args(arguments).current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    // Never the folders of whoever runs the tests; one cache for all of them, since the town is always the same.
+    command.env("XDG_CACHE_HOME", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
+    command.env("XDG_STATE_HOME", folder.join("state"));
     command
 }
 

@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 20] = [
+const PLAN: [(&str, &[&str]); 21] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -31,6 +31,7 @@ const PLAN: [(&str, &[&str]); 20] = [
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
+    ("kiosk", &["input", "ride"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
@@ -39,6 +40,7 @@ const PLAN: [(&str, &[&str]); 20] = [
         &[
             "built_in",
             "input",
+            "kiosk",
             "measure",
             "panoramas",
             "physics",

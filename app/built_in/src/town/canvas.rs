@@ -9,7 +9,7 @@ use glam::{IVec2, Vec2, Vec3, Vec4, ivec2, vec2};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use scene::{Texture, Wrap};
+use super::pictures::TownPicture;
 
 /// Picture while it is being painted.
 pub(super) struct PaintCanvas {
@@ -95,10 +95,11 @@ impl PaintCanvas {
         let bottom = (((self.size.y - area.low.y) / step.y).ceil().max(0.0) as usize).min(self.height);
         for row in top..bottom {
             let y = self.size.y - (row as f32 + 0.5) * step.y;
+            let pixels = &mut self.pixels[row * self.width..(row + 1) * self.width];
+            let mut wrapped = left.rem_euclid(self.width as i64) as usize;
             for column in left..right {
-                let p = vec2((column as f32 + 0.5) * step.x, y);
-                let wrapped = column.rem_euclid(self.width as i64) as usize;
-                stroke(p, &mut self.pixels[row * self.width + wrapped]);
+                stroke(vec2((column as f32 + 0.5) * step.x, y), &mut pixels[wrapped]);
+                wrapped = if wrapped + 1 == self.width { 0 } else { wrapped + 1 };
             }
         }
     }
@@ -142,8 +143,8 @@ impl PaintCanvas {
         });
     }
 
-    /// Finished picture as a texture.
-    pub(super) fn finish(self, name: &str, wrap: [Wrap; 2]) -> Texture {
+    /// Finished picture.
+    pub(super) fn finish(self) -> TownPicture {
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         let mut rgba = vec![0; self.pixels.len() * 4];
         rgba.par_chunks_mut(4 * self.width).zip(self.pixels.par_chunks(self.width)).for_each(|(bytes, pixels)| {
@@ -151,8 +152,7 @@ impl PaintCanvas {
                 bytes.copy_from_slice(&pixel.to_array().map(byte));
             }
         });
-        let (width, height) = (self.width as u32, self.height as u32);
-        Texture { name: name.into(), width, height, rgba: Arc::new(rgba), wrap, nearest: false }
+        TownPicture { width: self.width as u32, height: self.height as u32, rgba: Arc::new(rgba) }
     }
 }
 
@@ -173,7 +173,7 @@ pub(super) fn noise(p: Vec2, period: IVec2, seed: u32) -> f32 {
     let cell = ivec2(floor(p.x), floor(p.y));
     let f = p - cell.as_vec2();
     let s = f * f * (3.0 - 2.0 * f);
-    let low = cell.rem_euclid(period);
+    let low = ivec2(within(cell.x, period.x), within(cell.y, period.y));
     let next = |low: i32, period: i32| if low + 1 == period { 0 } else { low + 1 };
     let (x, y) = (next(low.x, period.x), next(low.y, period.y));
     let row = |row: i32| {
@@ -184,8 +184,19 @@ pub(super) fn noise(p: Vec2, period: IVec2, seed: u32) -> f32 {
     2.0 * (a + (b - a) * s.y) - 1.0
 }
 
+/// Remainder of `cell` in 0…`period`, without a division where it is the cell itself, as nearly always.
+pub(super) fn within(cell: i32, period: i32) -> i32 {
+    if (0..period).contains(&cell) { cell } else { cell.rem_euclid(period) }
+}
+
+/// Number of cells along and up a repetition of `tile` metres, `scale` of them a metre.
+pub(super) fn repeats(tile: Vec2, scale: Vec2) -> IVec2 {
+    let sides = tile * scale + 0.5;
+    ivec2(sides.x as i32, sides.y as i32)
+}
+
 /// Largest whole number not above `x`, without a call into a mathematics library.
-fn floor(x: f32) -> i32 {
+pub(super) fn floor(x: f32) -> i32 {
     let whole = x as i32;
     if (whole as f32) > x { whole - 1 } else { whole }
 }

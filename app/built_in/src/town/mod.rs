@@ -2,6 +2,7 @@
 //!
 //! `plan` lays out the way, the square and the lots. `street` paves them. `house` and the other building modules
 //! build on the lots with the help of `builder`. `surface` lists the pictures, which `paint` paints on a `canvas`.
+//! Painting takes most of the time; so `paint_pictures` can be left out where its pictures have been kept.
 //! Everything is computed from sums, products, quotients and square roots, and every part has a random generator of
 //! its own, so a seed gives the same town to the bit.
 
@@ -17,6 +18,7 @@ mod market;
 mod masonry;
 mod nature;
 mod paint;
+mod pictures;
 mod plan;
 mod roof;
 mod skyline;
@@ -31,6 +33,7 @@ use rand_chacha::ChaCha8Rng;
 
 use builder::{Builder, SiteFrame};
 use house::Builders;
+pub use pictures::{EDITION, TownPicture};
 use plan::{TownPlan, Use, on_ground};
 use scene::{Lighting, Scene, Start};
 
@@ -44,11 +47,22 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
     dice
 }
 
-/// Builds the old town.
+/// Paints the pictures on the town's surfaces. `painted` hears, on any thread, how many are finished, and of how many.
+pub fn paint_pictures(seed: u64, painted: impl Fn(usize, usize) + Sync) -> Vec<TownPicture> {
+    surface::paint(seed as u32, painted)
+}
+
+/// Builds the old town, its pictures painted anew.
+pub fn build(seed: u64) -> Scene {
+    build_with(seed, paint_pictures(seed, |_, _| ())).expect("there is a picture for each surface that has one")
+}
+
+/// Builds the old town with pictures of [`paint_pictures`] that were kept; `None` if they are not as many as it has.
 ///
 /// *Frames, units*: metres, y up, the middle of the market square near the origin; north is −z. The circuit runs
 /// clockwise on a map, some 415 m, at least 1.5 m clear of anything solid.
-pub fn build(seed: u64) -> Scene {
+pub fn build_with(seed: u64, pictures: Vec<TownPicture>) -> Option<Scene> {
+    let (materials, textures) = surface::materials(pictures)?;
     let plan = TownPlan::new(&mut dice(seed, 0));
     let mut builder = Builder::default();
 
@@ -94,11 +108,10 @@ pub fn build(seed: u64) -> Scene {
     skyline::town_wall(&mut builder);
     nature::country(&mut builder, &daylight());
 
-    // Paint the surfaces and hand everything over.
-    let (materials, textures) = surface::materials(seed as u32);
+    // Hand everything over.
     let circuit = plan.circuit();
     let look = (circuit[1] - circuit[0]).normalize();
-    Scene {
+    Some(Scene {
         name: "old town".into(),
         origin: DVec3::ZERO,
         textures,
@@ -108,7 +121,7 @@ pub fn build(seed: u64) -> Scene {
         start: Start { position: circuit[0], look, ..Start::default() },
         circuit,
         ..Scene::default()
-    }
+    })
 }
 
 /// Light of a clear late morning: the sun stands in the south-east.

@@ -5,9 +5,11 @@
 
 use glam::{Vec2, vec2};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::canvas::PaintCanvas;
 use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
+use super::pictures::TownPicture;
 use scene::{Alpha, Material, Texture, Wrap};
 
 /// Kind of surface.
@@ -47,11 +49,14 @@ pub(super) enum TownSurface {
     Hills,
 }
 
+/// Painter of a picture, from a seed.
+type Brush = dyn Fn(u32) -> PaintCanvas + Send + Sync;
+
 /// Recipe of a surface's picture and material.
 struct Recipe {
     name: String,
     /// Function that paints the picture, if there is one.
-    picture: Option<Box<dyn Fn(u32) -> PaintCanvas + Send + Sync>>,
+    picture: Option<Box<Brush>>,
     base_colour: [f32; 4],
     wrap: [Wrap; 2],
     alpha: Alpha,
@@ -114,9 +119,7 @@ impl TownSurface {
 
     fn recipe(self) -> Recipe {
         let tile = self.tile();
-        let square = |size: usize,
-                      paint: fn([usize; 2], Vec2, u32) -> PaintCanvas|
-         -> Option<Box<dyn Fn(u32) -> PaintCanvas + Send + Sync>> {
+        let square = |size: usize, paint: fn([usize; 2], Vec2, u32) -> PaintCanvas| -> Option<Box<Brush>> {
             Some(Box::new(move |seed| paint([size, size], tile, seed)))
         };
         let plain = Recipe {
@@ -192,20 +195,35 @@ fn plain_like(recipe: &Recipe) -> Recipe {
     Recipe { name: recipe.name.clone(), picture: None, ..*recipe }
 }
 
-/// Paints every picture, and lists the materials and textures.
-pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
+/// Paints every picture, in the order of [`materials`]. `painted` hears how many are finished, and of how many.
+pub(super) fn paint(seed: u32, painted: impl Fn(usize, usize) + Sync) -> Vec<TownPicture> {
     let recipes: Vec<Recipe> = TownSurface::all().into_iter().map(TownSurface::recipe).collect();
-    let pictures: Vec<Option<Texture>> = recipes
-        .par_iter()
-        .map(|recipe| recipe.picture.as_ref().map(|paint| paint(seed).finish(&recipe.name, recipe.wrap)))
-        .collect();
+    let brushes: Vec<_> = recipes.iter().filter_map(|recipe| recipe.picture.as_ref()).collect();
+    let finished = AtomicUsize::new(0);
+    let pictures = brushes.par_iter().map(|brush| {
+        let picture = brush(seed).finish();
+        painted(1 + finished.fetch_add(1, Ordering::Relaxed), brushes.len());
+        picture
+    });
+    pictures.collect()
+}
+
+/// Lists the materials, and the textures that show `pictures`; `None` if these are not as many as there are surfaces
+/// with pictures.
+pub(super) fn materials(pictures: Vec<TownPicture>) -> Option<(Vec<Material>, Vec<Texture>)> {
+    let mut pictures = pictures.into_iter();
     let mut textures = Vec::new();
     let mut materials = Vec::new();
-    for (recipe, picture) in recipes.into_iter().zip(pictures) {
-        let base_colour_texture = picture.map(|picture| {
-            textures.push(picture);
-            textures.len() - 1
-        });
+    for recipe in TownSurface::all().into_iter().map(TownSurface::recipe) {
+        let base_colour_texture = match recipe.picture {
+            Some(_) => {
+                let TownPicture { width, height, rgba } = pictures.next()?;
+                let (name, wrap) = (recipe.name.clone(), recipe.wrap);
+                textures.push(Texture { name, width, height, rgba, wrap, nearest: false });
+                Some(textures.len() - 1)
+            }
+            None => None,
+        };
         materials.push(Material {
             name: recipe.name,
             base_colour: recipe.base_colour,
@@ -216,5 +234,5 @@ pub(super) fn materials(seed: u32) -> (Vec<Material>, Vec<Texture>) {
             ..Material::default()
         });
     }
-    (materials, textures)
+    pictures.next().is_none().then_some((materials, textures))
 }

@@ -2,7 +2,7 @@
 
 use glam::{IVec2, Vec2, Vec3, ivec2, vec2, vec3};
 
-use crate::town::canvas::{PaintCanvas, chance, cloud, noise, smoothstep};
+use crate::town::canvas::{PaintCanvas, chance, cloud, floor, noise, repeats, smoothstep, within};
 
 /// Stone of a course, as seen from a point.
 struct Stone {
@@ -20,15 +20,15 @@ struct Stone {
 /// shift of a joint, as a share of a stone. `round` is the radius of corners in metres.
 fn course(p: Vec2, tile: Vec2, cells: IVec2, jitter: f32, round: f32, gap: f32, seed: u32) -> Stone {
     let cell = tile / cells.as_vec2();
-    let row = (p.y / cell.y).floor() as i32;
-    let wrapped_row = row.rem_euclid(cells.y);
+    let row = floor(p.y / cell.y);
+    let wrapped_row = within(row, cells.y);
     let shift = (chance(wrapped_row, 1, seed) + 0.5 * (wrapped_row % 2) as f32) * cell.x;
     let x = p.x + shift;
     let joint = |k: i32| {
-        let wrapped = k.rem_euclid(cells.x);
+        let wrapped = within(k, cells.x);
         (k as f32 + jitter * (chance(wrapped, wrapped_row, seed ^ 77) - 0.5)) * cell.x
     };
-    let mut column = (x / cell.x).floor() as i32;
+    let mut column = floor(x / cell.x);
     if x < joint(column) {
         column -= 1;
     } else if x >= joint(column + 1) {
@@ -40,7 +40,7 @@ fn course(p: Vec2, tile: Vec2, cells: IVec2, jitter: f32, round: f32, gap: f32, 
     let offset = vec2(x, p.y) - centre;
     let q = offset.abs() - half + round;
     let distance = q.max(Vec2::ZERO).length() + q.max_element().min(0.0) - round;
-    Stone { distance, place: offset / half, id: ivec2(column.rem_euclid(cells.x), wrapped_row) }
+    Stone { distance, place: offset / half, id: ivec2(within(column, cells.x), wrapped_row) }
 }
 
 /// Relief of a rounded stone as a factor on its colour: bright on top, darker down its sides.
@@ -130,11 +130,11 @@ pub(super) fn ashlar_at(p: Vec2, tile: Vec2, cells: IVec2, seed: u32) -> Vec3 {
     let base = vec3(0.71, 0.63, 0.50)
         .lerp(vec3(0.68, 0.57, 0.48), hue)
         .lerp(vec3(0.62, 0.60, 0.55), (own * 7.0).fract() * 0.6);
-    let period = |scale: f32| (tile * scale).round().as_ivec2();
+    let period = |scale: f32| repeats(tile, Vec2::splat(scale));
     let surface = 1.0
         + 0.10 * cloud(p * 2.0, period(2.0), 4, seed + 3)
         + 0.05 * noise(p * 70.0, period(70.0), seed + 4)
-        + 0.05 * noise(p * vec2(4.0, 30.0), (tile * vec2(4.0, 30.0)).round().as_ivec2(), seed + 5);
+        + 0.05 * noise(p * vec2(4.0, 30.0), repeats(tile, vec2(4.0, 30.0)), seed + 5);
     let bevel = 0.84
         + 0.16 * smoothstep(0.0, 0.022, -stone.distance)
         + 0.05 * stone.place.y * smoothstep(0.04, 0.0, -stone.distance);
@@ -150,14 +150,14 @@ pub(in crate::town) fn rubble(pixels: [usize; 2], tile: Vec2, seed: u32) -> Pain
 /// Colour of a fieldstone wall at a point: cells about scattered points.
 pub(super) fn rubble_at(p: Vec2, tile: Vec2, seed: u32) -> Vec3 {
     let cell = vec2(0.32, 0.22);
-    let cells = (tile / cell).round().as_ivec2();
-    let q = p / tile * cells.as_vec2();
-    let home = q.floor().as_ivec2();
+    let stones = repeats(tile, cell.recip());
+    let q = p / tile * stones.as_vec2();
+    let home = ivec2(floor(q.x), floor(q.y));
     let (mut first, mut second, mut id, mut to) = (9.0_f32, 9.0_f32, home, Vec2::ZERO);
     for dy in -1..=1 {
         for dx in -1..=1 {
             let at = home + ivec2(dx, dy);
-            let wrapped = at.rem_euclid(cells);
+            let wrapped = ivec2(within(at.x, stones.x), within(at.y, stones.y));
             let seedling = vec2(chance(wrapped.x, wrapped.y, seed), chance(wrapped.x, wrapped.y, seed + 1));
             let offset = q - (at.as_vec2() + 0.15 + 0.7 * seedling);
             let d = offset.length();
@@ -172,7 +172,7 @@ pub(super) fn rubble_at(p: Vec2, tile: Vec2, seed: u32) -> Vec3 {
     let own = chance(id.x, id.y, seed + 2);
     let hue = chance(id.x, id.y, seed + 3);
     let base = vec3(0.58, 0.53, 0.45).lerp(vec3(0.52, 0.51, 0.50), hue) * (0.78 + 0.34 * own);
-    let period = |scale: f32| (tile * scale).round().as_ivec2();
+    let period = |scale: f32| repeats(tile, Vec2::splat(scale));
     let surface =
         1.0 + 0.14 * cloud(p * 5.0, period(5.0), 3, seed + 4) + 0.06 * noise(p * 60.0, period(60.0), seed + 5);
     let top = base * surface * (0.72 + 0.28 * depth + 0.10 * to.y * (1.0 - depth));
@@ -186,16 +186,12 @@ pub(in crate::town) fn plaster(pixels: [usize; 2], tile: Vec2, seed: u32) -> Pai
 
 /// Unevenness of plaster as a factor on its colour.
 pub(super) fn plaster_at(p: Vec2, tile: Vec2, seed: u32) -> f32 {
-    let period = |scale: f32| (tile * scale).round().as_ivec2();
+    let period = |scale: f32| repeats(tile, Vec2::splat(scale));
     1.0 + 0.07 * cloud(p * 1.0, period(1.0), 4, seed)
         + 0.018 * noise(p * 22.0, period(22.0), seed + 7)
         + 0.025 * noise(p * 75.0, period(75.0), seed + 8)
         - 0.05
-            * smoothstep(
-                0.25,
-                0.6,
-                noise(p * vec2(6.0, 0.5), (tile * vec2(6.0, 0.5)).round().max(Vec2::ONE).as_ivec2(), seed + 9),
-            )
+            * smoothstep(0.25, 0.6, noise(p * vec2(6.0, 0.5), repeats(tile, vec2(6.0, 0.5)).max(IVec2::ONE), seed + 9))
 }
 
 /// Paints beaver-tail roof tiles, each course overlapping the one below.

@@ -166,7 +166,11 @@ pub(super) fn join(canvas: &mut PaintCanvas, beams: &[Beam], colour: Vec3, seed:
     for (number, beam) in beams.iter().enumerate() {
         let number = number as i32;
         let own = 0.88 + 0.22 * chance(number, 1, seed);
-        let wobbly = |p: Vec2| beam.locate(p).0 + 0.008 * noise(p * 3.0, ENDLESS, seed + 2);
+        let wobbly = |p: Vec2| {
+            let distance = beam.locate(p).0;
+            // Far outside the outline nothing is painted, however the edge wobbles.
+            if distance > 0.1 { distance } else { distance + 0.008 * noise(p * 3.0, ENDLESS, seed + 2) }
+        };
         canvas.fill(beam.area(), wobbly, |p, distance| {
             let (_, place) = beam.locate(p);
             let start = number as f32 * 17.0;
