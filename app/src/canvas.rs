@@ -4,7 +4,6 @@
 //! viewer adapts. The developed light goes to windows.
 
 use crate::flat_picture::FlatPicture;
-use crate::frame::Look;
 use glam::{DMat3, DVec3};
 use input::FreeLook;
 use physics::worldline::{Thrust, WorldlineState};
@@ -103,7 +102,7 @@ impl Canvas {
         gpu: &Gpu,
         renderer: &mut SceneRenderer,
         start: &scene::Start,
-        look: &Look,
+        (effects, fov_deg, development): (Effects, f64, &Development),
         screens: &[wgpu::TextureView],
     ) -> Result<(), GpuError> {
         let orientation = Camera::looking(start.look, DVec3::Y, 1.0).observer_from_eye;
@@ -117,14 +116,14 @@ impl Canvas {
             look: FreeLook::default(),
         };
         for _ in 0..2 {
-            let submitted = self.submit(gpu, renderer, &watcher, look.effects, look.fov_deg)?;
+            let submitted = self.submit(gpu, renderer, &watcher, effects, fov_deg)?;
             self.draw(gpu, renderer, submitted)?;
             renderer.settle();
         }
-        self.adapt(gpu, &look.development, None);
+        self.adapt(gpu, development, None);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         for (window, screen) in screens.iter().enumerate() {
-            self.show(gpu, &mut encoder, window, &look.development, screen, [0, 0]);
+            self.show(gpu, &mut encoder, window, development, screen, [0, 0]);
         }
         gpu.queue.submit([encoder.finish()]);
         gpu.wait()

@@ -7,8 +7,8 @@
 
 use std::time::Duration;
 
-/// Smallest share of the window's width and height that is drawn to hold the frame rate: coarser pictures are worse than
-/// fewer frames.
+/// Smallest share of the window's width and height that is drawn to hold the frame rate: coarser pictures are worse
+/// than fewer frames.
 const SMALL_SHARE: f64 = 0.45;
 /// Smallest share that is drawn to hold half of the frame rate, below which nobody can steer.
 const SMALLEST_SHARE: f64 = 0.25;

@@ -13,6 +13,7 @@
 //! ```
 
 mod dial;
+mod frame_rate;
 mod kiosk;
 mod line;
 mod measure;
@@ -26,13 +27,14 @@ mod values;
 mod world;
 
 pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
+pub use frame_rate::FrameRate;
 pub use kiosk::KioskOptions;
 pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse, parse_from};
 pub use measure::MeasureOptions;
 pub use picture::PictureOptions;
 pub use rays::RayOptions;
 pub use render::{RenderOptions, Viewpoint};
-pub use ride::{DeviceOptions, FrameRate, Latency, RideOptions, VehicleName, VehicleOptions};
+pub use ride::{DeviceOptions, Latency, RideOptions, VehicleName, VehicleOptions};
 pub use room::RoomOptions;
 pub use values::{Output, ValueError};
 pub use world::{ReadingOptions, SceneChoice, WorldOptions};

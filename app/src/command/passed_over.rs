@@ -6,11 +6,12 @@
 use std::path::Path;
 
 use super::dial::DialOptions;
+use super::frame_rate::FrameRate;
 use super::line::CheckOptions;
 use super::measure::MeasureOptions;
 use super::picture::PictureOptions;
 use super::render::RenderOptions;
-use super::ride::{FrameRate, Latency, RideOptions, VehicleName};
+use super::ride::{Latency, RideOptions, VehicleName};
 use super::values::Output;
 use super::world::{SceneChoice, WorldOptions};
 use render::display::Development;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::dial::{DialOptions, map_scale_of_windows};
+use super::frame_rate::FrameRate;
 use super::kiosk::KioskOptions;
 use super::picture::PictureOptions;
 use super::values;
 use super::world::WorldOptions;
-use crate::governor::Governor;
 use input::TrackerUrl;
 use ride::{AssistMode, IntegratorKind, Nose};
 use view::{Dial, Occasion, RendererName};
@@ -34,31 +34,6 @@ pub enum Latency {
     /// Transform the next frame while this one is drawn, for more frames per second.
     #[default]
     Overlap,
-}
-
-/// Frame rate that a window holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FrameRate {
-    /// Frames per second.
-    Held(f64),
-    /// Any rate: every pixel is drawn.
-    Any,
-}
-
-impl Default for FrameRate {
-    fn default() -> Self {
-        Self::Held(30.0)
-    }
-}
-
-impl FrameRate {
-    /// Governor that holds the rate; `None` for any rate.
-    pub fn governor(self) -> Option<Governor> {
-        match self {
-            Self::Held(frame_rate) => Some(Governor::new(frame_rate)),
-            Self::Any => None,
-        }
-    }
 }
 
 /// Options of `rapidity ride`.
@@ -105,8 +80,8 @@ pub struct RideOptions {
     /// Order of transforming and drawing within a frame.
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
-    /// Frames per second that a window holds, by drawing fewer pixels and enlarging them; `off` draws every pixel however
-    /// long it takes. At rest the picture is drawn to the full. In a room (--display) every pixel is drawn.
+    /// Frames per second that a window holds, by drawing fewer pixels and enlarging them; `off` draws every pixel
+    /// however long it takes. At rest the picture is drawn to the full. In a room (--display) every pixel is drawn.
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: FrameRate,
     /// Room in whose windows the ride is shown: window, stereo-wall, cave4, cave6, curved, dome6, or a display file

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::ride::FrameRate;
+use super::frame_rate::FrameRate;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use glam::DVec3;
 use physics::{Beta, Celerity, CelerityError};

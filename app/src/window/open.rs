@@ -159,7 +159,7 @@ impl Open {
         let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
         let screens: Vec<_> = surfaces.iter().map(screen).collect();
         let spinner = progress::spinner("drawing the first picture");
-        canvas.warm_up(&gpu, &mut renderer, &start, &look, &screens)?;
+        canvas.warm_up(&gpu, &mut renderer, &start, (look.effects, look.fov_deg, &look.development), &screens)?;
         spinner.finish_and_clear();
         let fresh = Settings { open: false, help: false, kiosk: options.kiosk.kiosk, readings: true, look };
         Ok(Self {

@@ -9,6 +9,7 @@ mod colour;
 mod directions;
 mod display;
 mod footprints;
+mod hidden;
 mod house;
 mod lamps;
 mod lattice_pixels;

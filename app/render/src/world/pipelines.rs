@@ -266,8 +266,9 @@ impl Pipelines {
     }
 }
 
-/// Levels by which windows take textures finer than their pixels ask for. Of the old town at 0.8 c, a frame of 640 × 360
-/// pixels so differs from 64 rays a pixel by a FLIP of 0.053 instead of 0.060 (`cargo bench -p rapidity --bench windows`).
+/// Levels by which windows take textures finer than their pixels ask for. Of the old town at 0.8 c, a frame of
+/// 640 × 360 pixels so differs from 64 rays a pixel by a FLIP of 0.053 instead of 0.060 (`cargo bench -p rapidity
+/// --bench windows -- 640x360`).
 const WINDOW_TEXTURE_BIAS: f64 = -0.5;
 
 /// Largest number of triangles of a scene whose depth is drawn first where the CPU draws: the work on twice as many
