@@ -7,7 +7,8 @@
 //! rays a pixel by FLIP, developed alike.
 //!
 //! `cargo bench -p rapidity --bench windows`, or with `-- 640x360` for another size, `-- lattice` for another scene,
-//! `-- quick` for no comparison with rays, `-- 60s` for more time.
+//! `-- quick` for no comparison with rays, `-- 60s` for
+//! more time, `-- map=1.5` for a finer map besides.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
@@ -24,8 +25,8 @@ use render::{Gpu, Pending, SceneRenderer};
 use scene::Scene;
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
-use support::{commit, median, milliseconds, processor, processor_time};
+use std::time::{Duration, Instant};
+use support::{commit, median, milliseconds, processor};
 use trace::RayTracer;
 use view::{Camera, Dial, Effects, Occasion, PixelSample, Shot};
 
@@ -61,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let tracer = if has("quick") { None } else { Some(RayTracer::new(scene.clone(), None, false)?) };
     let scales: Vec<f64> = words.iter().filter_map(|word| word.strip_prefix("map=")?.parse().ok()).collect();
     let mut ways = ways(&gpu, &scene, size, &scales)?;
-    for speed in SPEEDS.into_iter().filter(|speed| has("all") || [0.8, 0.99].contains(speed)) {
+    for speed in SPEEDS {
         let shot = shot(&scene, speed)?;
         let stop = AtomicBool::new(false);
         let reference = tracer.as_ref().map(|tracer| Reference::trace(tracer, &shot, size, RAYS, &stop));
@@ -120,8 +121,8 @@ fn ways(gpu: &Gpu, scene: &Scene, size: [u32; 2], scales: &[f64]) -> Result<Vec<
         ("image", Dial::map(map), Effects::ALL, 1),
         ("polygon", Dial::tolerance(1.5), Effects::ALL, 1),
     ];
-    let further: Vec<_> = scales.iter().map(|scale| (format!("image {scale}"), *scale)).collect();
-    named.extend(further.iter().map(|(name, scale)| (name.as_str(), Dial::map(*scale), Effects::ALL, 1)));
+    let finer: Vec<_> = scales.iter().map(|scale| (format!("image {scale}"), *scale)).collect();
+    named.extend(finer.iter().map(|(name, scale)| (name.as_str(), Dial::map(*scale), Effects::ALL, 1)));
     for (name, dial, effects, samples) in named {
         let format = Format::fast(samples);
         ways.push(Way {
@@ -187,4 +188,16 @@ impl Way {
     fn times(&self) -> [f64; 2] {
         [median(&self.clock), median(&self.processors)]
     }
+}
+
+/// Time that all processors have spent on this process, from Linux; zero elsewhere.
+fn processor_time() -> Duration {
+    let mut total = 0_u64;
+    if let Ok(tasks) = std::fs::read_dir("/proc/self/task") {
+        for task in tasks.flatten() {
+            let text = std::fs::read_to_string(task.path().join("schedstat")).unwrap_or_default();
+            total += text.split(' ').next().and_then(|number| number.parse::<u64>().ok()).unwrap_or(0);
+        }
+    }
+    Duration::from_nanos(total)
 }

@@ -3,7 +3,6 @@
 //! Each takes the same four steps for a frame. Photo-surfaces are submitted for its eyes. Its light is drawn. Its
 //! viewer adapts. The developed light goes to windows.
 
-use crate::flat_picture::FlatPicture;
 use glam::{DMat3, DVec3};
 use input::FreeLook;
 use physics::worldline::{Thrust, WorldlineState};
@@ -12,7 +11,7 @@ use render::display::Development;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use view::{Camera, Effects, Gaze, Shot};
 use walls::preview::{Preview, RoomOnlooker};
-use walls::{DrawnChannels, Occupant, SubmittedRoom, Walls};
+use walls::{DrawnChannels, FlatPicture, Occupant, SubmittedRoom, Walls};
 
 /// Target of a ride's frames.
 pub enum Canvas {

@@ -10,8 +10,6 @@
 use crate::canvas::{Canvas, Submitted, Watcher};
 use crate::command::Latency;
 use crate::error::Error;
-use crate::flat_picture::{Drawing, PictureShares};
-use crate::governor::Governor;
 use crate::session::live::Live;
 use crate::session::tracker;
 use crate::stage_times::StageTimes;
@@ -23,6 +21,7 @@ use ride::RideFrame;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 use view::Effects;
+use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
 const STILL: Duration = Duration::from_millis(120);

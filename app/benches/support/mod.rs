@@ -20,18 +20,6 @@ pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
-/// Time that all processors have spent on this process, from Linux; zero elsewhere.
-pub fn processor_time() -> Duration {
-    let mut total = 0_u64;
-    if let Ok(tasks) = std::fs::read_dir("/proc/self/task") {
-        for task in tasks.flatten() {
-            let text = std::fs::read_to_string(task.path().join("schedstat")).unwrap_or_default();
-            total += text.split(' ').next().and_then(|number| number.parse::<u64>().ok()).unwrap_or(0);
-        }
-    }
-    Duration::from_nanos(total)
-}
-
 /// Name of the measured version in version control.
 pub fn commit() -> String {
     let output = Command::new("git").args(["describe", "--always", "--dirty"]).output();

@@ -12,6 +12,7 @@ use crate::stats::{CutStats, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World};
+use glam::DVec2;
 use physics::Observer;
 use scene::cut::SeenFrom;
 use view::{Occasion, Shot};
@@ -68,8 +69,9 @@ pub trait Method {
         None
     }
 
-    /// Sets the texels of the map for each pixel, if the method has a map, from the next picture on.
-    fn set_map_scale(&mut self, _texels_per_pixel: f64) {}
+    /// Sets the texels of the map for each pixel, if the method has a map, and their shift, parts of a texel, from the
+    /// next picture on.
+    fn set_map_texels(&mut self, _texels_per_pixel: f64, _shift: DVec2) {}
 
     /// Waits for the work that goes on beside the drawing.
     fn settle(&self) {}

@@ -12,7 +12,7 @@ use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
 use crate::world::{Sorting, World};
-use glam::{DMat4, Vec4};
+use glam::{DMat4, DVec2, Vec4};
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
@@ -165,9 +165,10 @@ impl SceneRenderer {
         self.motions.is_empty()
     }
 
-    /// Sets the texels of the map for each pixel, if the method has a map, from the next picture on.
-    pub fn set_map_scale(&mut self, texels_per_pixel: f64) {
-        self.method.set_map_scale(texels_per_pixel);
+    /// Sets the texels of the map for each pixel, if the method has a map, and their shift, parts of a texel, from the
+    /// next picture on.
+    pub fn set_map_texels(&mut self, texels_per_pixel: f64, shift: DVec2) {
+        self.method.set_map_texels(texels_per_pixel, shift);
     }
 
     /// Waits for the work that goes on beside the drawing.

@@ -1,6 +1,6 @@
 //! Frame rate that a window holds by its resolution.
 
-use crate::governor::Governor;
+use walls::Governor;
 
 /// Frame rate that a window holds.
 #[derive(Clone, Copy, Debug, PartialEq)]

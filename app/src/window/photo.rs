@@ -2,12 +2,11 @@
 
 use crate::canvas::Canvas;
 use crate::error::Error;
-use crate::flat_picture::FlatPicture;
 use crate::output::files::{save, unused};
 use render::display::Development;
 use render::picture::Darkroom;
 use render::{Gpu, SceneRenderer};
-use walls::Walls;
+use walls::{FlatPicture, Walls};
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
 /// room, writes one file for each window. Returns a sentence that names the files.

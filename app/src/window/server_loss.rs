@@ -32,6 +32,7 @@ mod x11 {
     /// End of the program after the report: Xlib returns to its caller instead.
     extern "C" fn carry_on(_display: *mut c_void, _data: *mut c_void) {}
 
+    /// Sets both of Xlib's handlers for the display of `window`.
     pub fn outlive(window: &Window) {
         let Ok(handle) = window.display_handle() else { return };
         let RawDisplayHandle::Xlib(xlib) = handle.as_raw() else { return };

@@ -9,12 +9,17 @@
 //!    (`curved`).
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
 //!    developed, multiplied by its projector's gains, and put into its window.
+//!
+//! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
+//! (`governor`).
 
 pub mod calibration;
 mod combine;
 mod curved;
 mod facet;
+mod flat_picture;
 mod gains;
+mod governor;
 mod head;
 mod picture;
 pub mod preview;
@@ -23,6 +28,8 @@ mod show;
 mod test_grid;
 mod walls;
 
+pub use flat_picture::{Drawing, FlatPicture, PictureShares};
+pub use governor::Governor;
 pub use head::{Occupant, OccupantEye, RoomHead};
 pub use quality::Quality;
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

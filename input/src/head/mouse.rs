@@ -141,13 +141,11 @@ impl Decoder for MouseDecoder {
     }
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
-        let mut rest = bytes;
-        while !rest.is_empty() {
-            let Some((event, behind)) = MouseEvent::from_bytes(rest) else {
-                return self.faults.count("an event of the mouse that cannot be read");
-            };
-            self.event(at, event);
-            rest = behind;
+        for event in MouseEvent::all(bytes) {
+            match event {
+                Some(event) => self.event(at, event),
+                None => self.faults.count("an event of the mouse that cannot be read"),
+            }
         }
     }
 

@@ -60,8 +60,21 @@ impl MouseEvent {
         }
     }
 
+    /// Events of the bytes, up to what is no event: that is `None`, once.
+    pub(crate) fn all(bytes: &[u8]) -> impl Iterator<Item = Option<Self>> {
+        let mut rest = bytes;
+        std::iter::from_fn(move || {
+            if rest.is_empty() {
+                return None;
+            }
+            let (event, behind) = Self::from_bytes(rest).unzip();
+            rest = behind.unwrap_or_default();
+            Some(event)
+        })
+    }
+
     /// First event of the bytes, and the rest; `None` if they do not begin with an event.
-    pub(crate) fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
+    fn from_bytes(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let (&kind, rest) = bytes.split_first()?;
         Some(match kind {
             MOVED => {

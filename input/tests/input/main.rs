@@ -5,3 +5,6 @@
 mod head;
 mod live;
 mod recording;
+mod recording_copies;
+mod recording_damage;
+mod recordings;

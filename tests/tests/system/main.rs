@@ -17,6 +17,7 @@ mod mirrors;
 mod moving;
 mod radiance;
 mod raytrace;
+mod resting;
 mod shadows;
 mod sky;
 mod sphere;

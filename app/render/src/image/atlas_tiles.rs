@@ -99,6 +99,20 @@ impl Plan {
     }
 }
 
+impl Plan {
+    /// The same panes with all texels moved to the right and up by parts of a texel, at most a half: another sample of
+    /// what they show.
+    pub fn shifted(mut self, texels: DVec2) -> Self {
+        for pane in &mut self.placed {
+            let shift = texels * (pane.window.high - pane.window.low) / DVec2::from_array(pane.size.map(f64::from));
+            pane.window.low += shift;
+            pane.window.high += shift;
+        }
+        self.panes = self.placed.iter().map(Placed::pane).collect();
+        self
+    }
+}
+
 impl PictureMap {
     /// Finds the cheapest panes for a part.
     fn cut(&self, part: CubePart, fineness: Fineness, depth: u32) -> Tree {

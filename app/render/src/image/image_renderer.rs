@@ -11,6 +11,7 @@ use crate::stats::MapStats;
 use crate::subject::Subject;
 use crate::target::Format;
 use crate::world::World;
+use glam::DVec2;
 use scene::Scene;
 use view::{Occasion, Shot};
 
@@ -71,9 +72,9 @@ impl Method for ImageRenderer {
         Some(self.map.stats())
     }
 
-    fn set_map_scale(&mut self, texels_per_pixel: f64) {
+    fn set_map_texels(&mut self, texels_per_pixel: f64, shift: DVec2) {
         self.quality.texels_per_pixel = texels_per_pixel;
-        self.map.set_scale(texels_per_pixel);
+        self.map.set_texels(texels_per_pixel, shift);
     }
 
     fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {

@@ -12,7 +12,7 @@ use crate::textures::from_rows;
 use crate::view_matrix::NEAR_M;
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World, bind_group, effect_constants, layout};
 use bytemuck::{bytes_of, cast_slice};
-use glam::{DVec3, Vec4};
+use glam::{DVec2, DVec3, Vec4};
 use std::time::Instant;
 use view::{Effects, Shot};
 use wgpu::util::DeviceExt;
@@ -33,6 +33,8 @@ pub struct MapRenderer {
     sampler: wgpu::Sampler,
     format: Format,
     quality: MapQuality,
+    /// Shift of the texels, parts of a texel.
+    shift: DVec2,
     /// True if pictures get their depth.
     with_depth: bool,
     atlas: Option<Atlas>,
@@ -77,6 +79,7 @@ impl MapRenderer {
             }),
             format,
             quality,
+            shift: DVec2::ZERO,
             with_depth,
             atlas: None,
             group: None,
@@ -90,9 +93,9 @@ impl MapRenderer {
         self.stats
     }
 
-    /// Sets the texels for each pixel of the next maps.
-    pub fn set_scale(&mut self, texels_per_pixel: f64) {
-        self.quality.texels_per_pixel = texels_per_pixel;
+    /// Sets the texels for each pixel of the next maps, and their shift, parts of a texel.
+    pub fn set_texels(&mut self, texels_per_pixel: f64, shift: DVec2) {
+        (self.quality.texels_per_pixel, self.shift) = (texels_per_pixel, shift);
     }
 
     /// Draws the map for a picture of `size` pixels.
@@ -110,7 +113,7 @@ impl MapRenderer {
         // wherever they are needed.
         let budget = self.quality.texels_per_pixel.powi(2) * f64::from(size[0]) * f64::from(size[1]);
         let most_texels = if self.quality.smooth { budget.min(room) } else { room };
-        let plan = self.plan(gpu, &picture_map, most_texels);
+        let plan = self.plan(gpu, &picture_map, most_texels).shifted(self.shift);
         self.stats = MapStats {
             panes: plan.placed.len(),
             texels: plan.texels() as u64,

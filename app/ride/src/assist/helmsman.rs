@@ -1,8 +1,8 @@
 //! Steering of the assist: from the way that is free to the vehicle's controls.
 //!
 //! The vehicle is steered towards a point ahead (pure pursuit: the circle through it has the curvature
-//! κ = 2 sin α / l, α the bearing of that point at the distance l). The speed is at most that at which the bend ahead
-//! is ridden comfortably, with the deceleration of a firm hand on the way to it.
+//! κ = 2 sin α / l, α the bearing of that point at the distance l). The speed is at most that at which the bend
+//! ahead is ridden comfortably, with the deceleration of a firm hand on the way to it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -41,13 +41,8 @@ const FARTHEST_STEER_RAD: f64 = 0.9;
 /// Pull of the lever for each m/s of excess speed, and its largest pull.
 const LEVER_PER_M_S: f64 = 0.25;
 const FARTHEST_LEVER: f64 = 0.65;
-/// Speed below which a vehicle stands, m/s; time of standing after which a bicycle is pushed back, and time of that,
-/// seconds of own time.
+/// Speed below which a vehicle stands, m/s.
 const STANDING_M_S: f64 = 0.3;
-const PATIENCE_S: f64 = 3.0;
-const BACK_S: f64 = 3.0;
-/// Speed of a bicycle that is pushed back, m/s.
-const BACK_M_S: f64 = 1.5;
 /// Bearing beyond which a car turns on the spot, radians.
 const ON_THE_SPOT_RAD: f64 = 0.7;
 
@@ -71,26 +66,12 @@ pub struct Assist {
     course: Option<Course>,
     /// Share of the assist in the steering, 0 to 1.
     share: f64,
-    standing_s: f64,
-    back_s: f64,
-    /// Side to which the nose turns meanwhile: 1 left, −1 right.
-    back_side: f64,
 }
 
 impl Assist {
     /// Assist that follows the closed polyline `circuit` where it is near; walls alone if that is no polyline.
     pub fn new(circuit: &[DVec3]) -> Self {
-        Self {
-            route: Route::new(circuit),
-            along_m: f64::NAN,
-            sense: 0.0,
-            ticks: 0,
-            course: None,
-            share: 1.0,
-            standing_s: 0.0,
-            back_s: 0.0,
-            back_side: 1.0,
-        }
+        Self { route: Route::new(circuit), along_m: f64::NAN, sense: 0.0, ticks: 0, course: None, share: 1.0 }
     }
 
     /// Forgets the way so far: the vehicle is somewhere else.
@@ -110,7 +91,6 @@ impl Assist {
         let speed_m_s = forward_m_s(vehicle);
         if steers(rider) || !goes_ahead(rider, vehicle.kind(), speed_m_s) {
             (self.share, self.ticks, self.course) = (0.0, 0, None);
-            (self.standing_s, self.back_s) = (0.0, 0.0);
             return controls;
         }
         self.share = (self.share + own_s / RETURN_S).min(1.0);
@@ -127,36 +107,23 @@ impl Assist {
         let bend_m_s = (BEND_RAD_S / curvature.abs().max(1e-6)).max(CRAWL_M_S);
         let fastest_m_s = course.fastest_m_s.min(bend_m_s);
         match vehicle.kind() {
-            VehicleKind::Bicycle => self.pedal(&mut controls, vehicle, own_s, [bearing, curvature, fastest_m_s]),
+            VehicleKind::Bicycle => self.pedal(&mut controls, vehicle, [bearing, curvature, fastest_m_s]),
             VehicleKind::Drive => self.drive(&mut controls, vehicle, [bearing, curvature, fastest_m_s]),
             VehicleKind::Fly => {}
         }
         controls
     }
 
-    /// Steers a bicycle, eases off, and pushes it back where it stands before a wall.
-    fn pedal(&mut self, controls: &mut Controls, vehicle: &Vehicle, own_s: f64, wish: [f64; 3]) {
+    /// Steers a bicycle, and eases off.
+    fn pedal(&self, controls: &mut Controls, vehicle: &Vehicle, wish: [f64; 3]) {
         let [bearing, curvature, fastest_m_s] = wish;
         let speed_m_s = forward_m_s(vehicle);
-        let wanted_m_s = controls.wheel_speed.unwrap_or(0.0);
-        let stands = speed_m_s.abs() < STANDING_M_S && wanted_m_s > STANDING_M_S;
-        self.standing_s = if stands { self.standing_s + own_s } else { 0.0 };
-        if self.standing_s > PATIENCE_S {
-            (self.standing_s, self.back_s, self.back_side) = (0.0, BACK_S, 1_f64.copysign(bearing));
-        }
         let wheelbase_m = vehicle.settings().bicycle.wheelbase_m;
         let sharpest = if bearing.abs() > FRAC_PI_2 {
             FARTHEST_STEER_RAD.copysign(bearing)
         } else {
             libm::atan(wheelbase_m * curvature).clamp(-FARTHEST_STEER_RAD, FARTHEST_STEER_RAD)
         };
-        if self.back_s > 0.0 {
-            self.back_s -= own_s;
-            controls.wheel_speed = Some(-BACK_M_S);
-            // A bicycle that rolls backward turns its nose to the other side.
-            controls.steer_rad = -FARTHEST_STEER_RAD * self.back_side;
-            return;
-        }
         controls.steer_rad += self.share * sharpest;
         controls.wheel_speed = controls.wheel_speed.map(|wanted| wanted.min(fastest_m_s));
         let excess = (speed_m_s - fastest_m_s - 0.3).max(0.0);
@@ -164,7 +131,7 @@ impl Assist {
     }
 
     /// Steers a car, eases off, and turns it on the spot where its way leads elsewhere.
-    fn drive(&mut self, controls: &mut Controls, vehicle: &Vehicle, wish: [f64; 3]) {
+    fn drive(&self, controls: &mut Controls, vehicle: &Vehicle, wish: [f64; 3]) {
         let [bearing, curvature, fastest_m_s] = wish;
         let speed_m_s = forward_m_s(vehicle);
         let full_m_s2 = vehicle.light_speed().metres_per_own_second(vehicle.settings().flight.thrust_per_s);

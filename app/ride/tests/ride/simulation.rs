@@ -83,7 +83,8 @@ fn assert_same(a: &[FrameRecord], b: &[FrameRecord]) {
 
 #[test]
 fn the_vehicles_clock_runs_faster_than_that_of_a_head_that_moves_in_it() {
-    // Real time is the head's own: while it moves at u, the vehicle ages by γ = √(1 + u²). Old recordings keep one clock.
+    // Real time is the head's own: while it moves at u, the vehicle ages by γ = √(1 + u²). Old recordings keep one
+    // clock.
     let own_m = |edition| {
         let head = HeadConfig { edition, ..HeadConfig::new("mouse".parse().unwrap()) };
         let desk = DeskConfig { head: Some(head), ..DeskConfig::default() };

@@ -1,12 +1,13 @@
 //! Flat picture of a window: drawn with as many pixels as there is time for, and to the full when nothing moves.
 
+use crate::walls::DrawnChannels;
+use glam::{DVec2, Vec2Swizzles};
 use render::certainty::Certainty;
 use render::display::{Accumulator, Adaptation, DevelopedPart, Developer, Development, Enlarger, Seen};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use std::time::{Duration, Instant};
 use view::{PixelSample, Shot, Stored};
-use walls::DrawnChannels;
 
 /// Samples of each pixel of a picture at rest, one a frame.
 const STILL_SAMPLES: u32 = 16;
@@ -130,7 +131,7 @@ impl FlatPicture {
             self.add_sample(gpu, renderer, shot);
         } else {
             self.still = None;
-            renderer.set_map_scale(self.map_scale);
+            renderer.set_map_texels(self.map_scale, DVec2::ZERO);
             self.fit(gpu, self.part(self.shares.moving));
             renderer.prepare(gpu, shot, self.radiance.size);
             self.expose(gpu, renderer, shot, PixelSample::WHOLE);
@@ -146,8 +147,7 @@ impl FlatPicture {
 
     /// Adds a sample to the picture at rest, until it has all of them.
     fn add_sample(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) {
-        let begins = self.still.is_none();
-        if begins {
+        if self.still.is_none() {
             self.fit(gpu, self.part(self.shares.resting));
         }
         let size = self.radiance.size;
@@ -158,8 +158,9 @@ impl FlatPicture {
             developed: None,
             frames: 0,
         });
-        if begins || renderer.cut_stats().is_some() {
-            renderer.set_map_scale(STILL_MAP * self.map_scale);
+        // A cut of the scene may still be coming; after it, every sample is drawn from the same one.
+        if still.samples < STILL_SAMPLES || renderer.cut_stats().is_some() {
+            renderer.set_map_texels(STILL_MAP * self.map_scale, map_shift(still.samples % STILL_SAMPLES));
             renderer.prepare(gpu, shot, size);
         }
         let triangles = renderer.cut_stats().map(|cut| cut.triangles);
@@ -202,6 +203,8 @@ impl FlatPicture {
     /// frame has fewer pixels.
     pub fn whole(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer) -> (&wgpu::TextureView, &Adaptation) {
         if let (Some((shot, _)), true) = (self.shown, self.radiance.size != self.size) {
+            // A picture at rest with fewer pixels begins again.
+            self.still = None;
             self.fit(gpu, self.size);
             renderer.prepare(gpu, &shot, self.size);
             self.expose(gpu, renderer, &shot, PixelSample::WHOLE);
@@ -256,6 +259,12 @@ impl FlatPicture {
             _ => developer.show_part(gpu, encoder, radiance.result(), adaptation, development, screen, &part(1.0)),
         }
     }
+}
+
+/// Shift of a map's texels for a sample at rest, parts of a texel: as the places in a pixel, in another order, so that
+/// both together take every sample elsewhere.
+fn map_shift(sample: u32) -> DVec2 {
+    PixelSample::of((5 * sample + 7) % STILL_SAMPLES, STILL_SAMPLES).offset.yx()
 }
 
 /// True if two pictures of a scene in which nothing moves are the same: the time of the event does not matter.
