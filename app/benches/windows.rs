@@ -19,7 +19,7 @@ use glam::DVec3;
 use measure::reference::Reference;
 use measure::views::further;
 use physics::{Beta, Celerity, Observer};
-use render::picture::light;
+use render::picture::{SCREEN_FORMAT, light};
 use render::target::{Format, Radiance};
 use render::{Gpu, Pending, SceneRenderer};
 use scene::Scene;
@@ -29,6 +29,7 @@ use std::time::{Duration, Instant};
 use support::{commit, median, milliseconds, processor};
 use trace::RayTracer;
 use view::{Camera, Dial, Effects, Occasion, PixelSample, Shot};
+use walls::FlatPicture;
 
 /// Speeds, fractions of c.
 const SPEEDS: [f64; 5] = [0.0, 0.5, 0.8, 0.9, 0.99];
@@ -69,6 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for way in &mut ways {
             way.begin(&gpu, &shot, reference.as_ref())?;
         }
+        let resting = reference.as_ref().map(|reference| resting(&gpu, &scene, &shot, size, reference)).transpose()?;
         let started = Instant::now();
         while started.elapsed().as_secs_f64() < seconds {
             for way in &mut ways {
@@ -86,8 +88,37 @@ fn main() -> Result<(), Box<dyn Error>> {
                 way.flip.map_or("      ".to_owned(), |flip| format!("{flip:6.4}"))
             );
         }
+        if let Some(flip) = resting {
+            println!("  {speed:4}  image, nothing changes {:>37} {flip:6.4}", "");
+        }
     }
     Ok(())
+}
+
+/// FLIP of a window in which nothing has changed for a while.
+fn resting(
+    gpu: &Gpu,
+    scene: &Scene,
+    shot: &Shot,
+    size: [u32; 2],
+    reference: &Reference,
+) -> Result<f64, Box<dyn Error>> {
+    let (format, map) = (Format::fast(1), window_map(gpu));
+    let mut renderer = SceneRenderer::new(gpu, scene.clone(), format, None, Dial::map(map), Occasion::Ride)?;
+    let mut picture = FlatPicture::new(gpu, size, format, SCREEN_FORMAT, map);
+    picture.draw(gpu, &mut renderer, shot, Pending::default())?;
+    std::thread::sleep(Duration::from_millis(300));
+    for _ in 0..20 {
+        picture.draw(gpu, &mut renderer, shot, Pending::default())?;
+    }
+    let stored = renderer.stored(shot);
+    let (whole, _) = picture.whole(gpu, &mut renderer);
+    Ok(reference.compare(&light(gpu, whole, &stored)?).flip)
+}
+
+/// Texels of the map for each pixel of a window, along each axis, without options.
+fn window_map(gpu: &Gpu) -> f64 {
+    if gpu.is_software() { 0.9 } else { 1.5 }
 }
 
 /// Picture at a speed, from the scene's start or the outside of a lattice.
@@ -115,7 +146,7 @@ struct Way {
 
 fn ways(gpu: &Gpu, scene: &Scene, size: [u32; 2], scales: &[f64]) -> Result<Vec<Way>, Box<dyn Error>> {
     let mut ways = Vec::new();
-    let map = if gpu.is_software() { 0.9 } else { 1.5 };
+    let map = window_map(gpu);
     let mut named = vec![
         ("plain", Dial::map(map), Effects::NONE, 1),
         ("image", Dial::map(map), Effects::ALL, 1),
