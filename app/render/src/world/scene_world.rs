@@ -22,6 +22,11 @@ use std::sync::Arc;
 /// Number of views that one submission may draw at first. The buffer grows if more are needed.
 const VIEWS: u64 = 64;
 
+/// Largest number of parts in which depth is drawn first: small parts show little that is hidden, and each takes draws
+/// of its own. A map of the old town has 9 panes up to 0.5 c, where a frame gains by it, and 53 at 0.99 c, where it
+/// loses.
+const DEPTH_FIRST_PARTS: usize = 10;
+
 /// A scene that is ready to be drawn.
 pub struct World {
     /// Geometry drawn now; `None` until it is first needed.
@@ -280,7 +285,7 @@ impl World {
                 ranges.into_iter().for_each(|indices| pass.draw_indexed(indices, 0, 0..1));
             }
         };
-        if let Some(depth) = &pipelines.depth {
+        if let Some(depth) = pipelines.depth.as_ref().filter(|_| parts.len() <= DEPTH_FIRST_PARTS) {
             for (sides, pipeline) in depth.by_sides.iter().enumerate() {
                 // What brings its own Doppler factors comes from other streams.
                 let hides = |draw: &&Draw| {
