@@ -13,6 +13,8 @@ use view::{PixelSample, Shot, Stored};
 const STILL_SAMPLES: u32 = 16;
 /// Factor on the map's texels for each pixel, along each axis, at rest.
 const STILL_MAP: f64 = 1.4;
+/// Time that a frame at rest may take: less than the quarter of a second after which own time is not ridden.
+const STILL_FRAME: Duration = Duration::from_millis(200);
 /// Number of frames for which a complete picture at rest is still developed anew, while the eye adapts.
 const ADAPTING_FRAMES: u32 = 20;
 /// Time without any change after which a picture is at rest.
@@ -47,6 +49,9 @@ struct Still {
     /// Development of the picture shown last, and number of frames for which it is complete.
     developed: Option<Development>,
     frames: u32,
+    /// Time of the sample before, and the longest time from one to the next.
+    sampled: Option<Instant>,
+    longest: Duration,
 }
 
 /// Shares of a window's width and height that are drawn.
@@ -147,6 +152,16 @@ impl FlatPicture {
 
     /// Adds a sample to the picture at rest, until it has all of them.
     fn add_sample(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shot: &Shot) {
+        // A complete picture with fewer pixels than there is time for begins again with more.
+        let share = self.share();
+        let finer = self.still.as_ref().filter(|still| still.frames >= ADAPTING_FRAMES && share < 0.995).map(|still| {
+            let pace = STILL_FRAME.as_secs_f64() / still.longest.as_secs_f64().max(1e-3);
+            (share * pace.sqrt()).min(1.0)
+        });
+        if let Some(finer) = finer.filter(|finer| *finer > 1.05 * share) {
+            self.shares.resting = finer;
+            self.still = None;
+        }
         if self.still.is_none() {
             self.fit(gpu, self.part(self.shares.resting));
         }
@@ -157,6 +172,8 @@ impl FlatPicture {
             triangles: None,
             developed: None,
             frames: 0,
+            sampled: None,
+            longest: Duration::ZERO,
         });
         // A cut of the scene may still be coming; after it, every sample is drawn from the same one.
         if still.samples < STILL_SAMPLES || renderer.cut_stats().is_some() {
@@ -174,6 +191,8 @@ impl FlatPicture {
             self.developer.add(gpu, &mut encoder, &mut still.sum, self.radiance.result(), STILL_SAMPLES);
             gpu.queue.submit([encoder.finish()]);
             still.samples += 1;
+            let before = still.sampled.replace(Instant::now());
+            still.longest = still.longest.max(before.map_or(Duration::ZERO, |before| before.elapsed()));
             still.frames = 0;
             self.certainty = renderer.certainty(shot, size);
         }
