@@ -21,7 +21,7 @@ use measure::views::further;
 use physics::{Beta, Celerity, Observer};
 use render::picture::{SCREEN_FORMAT, light};
 use render::target::{Format, Radiance};
-use render::{Gpu, Pending, SceneRenderer};
+use render::{DrawCounts, Gpu, Pending, SceneRenderer};
 use scene::Scene;
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("commit {}, {}, {cores} cores", commit(), processor());
     println!("{}, {} at {} x {} pixels", gpu.description(), scene.name, size[0], size[1]);
     println!("medians; ratios to the first way of the same speed\n");
-    println!("   v/c  way                      ms  ratio  processors ms  ratio    FLIP");
+    println!("   v/c  way                      ms  ratio  processors ms  ratio    FLIP  triangles  calls");
     let tracer = if has("quick") { None } else { Some(RayTracer::new(scene.clone(), None, false)?) };
     let scales: Vec<f64> = words.iter().filter_map(|word| word.strip_prefix("map=")?.parse().ok()).collect();
     let mut ways = ways(&gpu, &scene, size, &scales)?;
@@ -81,11 +81,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         for way in &ways {
             let [clock, processors] = way.times();
             println!(
-                "  {speed:4}  {:20} {clock:6.1} {:6.2} {processors:14.1} {:6.2}  {}",
+                "  {speed:4}  {:20} {clock:6.1} {:6.2} {processors:14.1} {:6.2}  {}  {:9}  {:5}",
                 way.name,
                 clock / first[0],
                 processors / first[1],
-                way.flip.map_or("      ".to_owned(), |flip| format!("{flip:6.4}"))
+                way.flip.map_or("      ".to_owned(), |flip| format!("{flip:6.4}")),
+                way.drawn.triangles,
+                way.drawn.calls,
             );
         }
         if let Some(flip) = resting {
@@ -142,6 +144,8 @@ struct Way {
     clock: Vec<f64>,
     processors: Vec<f64>,
     flip: Option<f64>,
+    /// Triangles and calls of the frame drawn last.
+    drawn: DrawCounts,
 }
 
 fn ways(gpu: &Gpu, scene: &Scene, size: [u32; 2], scales: &[f64]) -> Result<Vec<Way>, Box<dyn Error>> {
@@ -166,6 +170,7 @@ fn ways(gpu: &Gpu, scene: &Scene, size: [u32; 2], scales: &[f64]) -> Result<Vec<
             clock: Vec::new(),
             processors: Vec::new(),
             flip: None,
+            drawn: DrawCounts::default(),
         });
     }
     Ok(ways)
@@ -213,6 +218,7 @@ impl Way {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(gpu, &mut encoder, &self.radiance, &shot, PixelSample::WHOLE);
         gpu.queue.submit([encoder.finish()]);
+        self.drawn = self.renderer.take_drawn();
         Ok(gpu.wait()?)
     }
 

@@ -16,6 +16,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::celerity::Celerity;
+use crate::direction_cone::DirectionCone;
 use crate::light_cone::LightConeCoordinates;
 
 /// Radius around the middle of an edge, as a share of the edge's length, that holds every triangle of which the edge
@@ -45,15 +46,13 @@ pub struct TriangleInterpolation {
 pub struct InterpolationBound {
     /// Largest angle by which a place of the triangle may be drawn wrongly, radians; infinite if nothing is claimed.
     pub error_rad: f64,
-    /// Axis of a cone in which all places of the triangle are truly seen; unit vector, observer's axes.
-    pub direction: DVec3,
-    /// Half the angle of that cone, radians; π if nothing is claimed.
-    pub radius_rad: f64,
+    /// Cone in which all places of the triangle are truly seen, observer's axes; all directions if nothing is claimed.
+    pub cone: DirectionCone,
 }
 
 impl InterpolationBound {
     /// The bound that claims nothing.
-    const NONE: Self = Self { error_rad: f64::INFINITY, direction: DVec3::ZERO, radius_rad: PI };
+    const NONE: Self = Self { error_rad: f64::INFINITY, cone: DirectionCone { axis: DVec3::NEG_Z, radius_rad: PI } };
 }
 
 impl TriangleInterpolation {
@@ -122,6 +121,31 @@ impl TriangleInterpolation {
         2.0 * sine.atan2(self.kappa * cosine)
     }
 
+    /// Angle from ahead and half the opening angle, radians, of the cone in which a ball lies in the world.
+    fn world_cone(&self, middle: DVec3, radius: f64) -> (f64, f64) {
+        let along = self.direction.dot(middle);
+        let across = middle - along * self.direction;
+        (across.length().atan2(along), (radius / middle.length()).asin())
+    }
+
+    /// Cone in which a ball of places at rest is seen, observer's axes; `None` if the ball holds the observer, or has
+    /// no finite size. `middle`: displacement from the observer to its middle, world axes, metres; `radius`: metres.
+    ///
+    /// Circles stay circles (Penrose 1959), and their extremes along the meridian through the motion stay opposite.
+    pub fn cone(&self, middle: DVec3, radius: f64) -> Option<DirectionCone> {
+        let distance = middle.length();
+        if radius >= distance || !(radius / distance).is_finite() {
+            return None;
+        }
+        let (angle, reach) = self.world_cone(middle, radius);
+        let across = middle - self.direction.dot(middle) * self.direction;
+        let (low, high) = (self.observed(angle - reach), self.observed(angle + reach));
+        let (sine, cosine) = (0.5 * (low + high)).sin_cos();
+        let axis = sine * across.normalize_or_zero() + cosine * self.direction;
+        let axis = axis.normalize_or(self.direction * cosine.signum());
+        Some(DirectionCone { axis, radius_rad: 0.5 * (high - low) })
+    }
+
     /// Upper limit of the error that [`TriangleInterpolation::bound`] gives for an edge of this length at this
     /// distance, whichever way it lies; infinite if nothing is claimed. It takes no angle, and most edges of a scene
     /// are small enough for it.
@@ -141,26 +165,18 @@ impl TriangleInterpolation {
     /// *Accuracy:* held against points of random triangles (`tests/physics/interpolation_error.rs`).
     pub fn bound(&self, middle: DVec3, length: f64) -> InterpolationBound {
         let (distance, radius) = (middle.length(), REACH * length);
-        if radius >= distance || !(radius / distance).is_finite() {
+        let Some(cone) = self.cone(middle, radius) else {
             return if self.w == 0.0 {
                 InterpolationBound { error_rad: 0.0, ..InterpolationBound::NONE }
             } else {
                 InterpolationBound::NONE
             };
-        }
-        let along = self.direction.dot(middle);
-        let across = middle - along * self.direction;
-        let (angle, reach) = (across.length().atan2(along), (radius / distance).asin());
-
-        // Cone in which the ball is seen: circles stay circles, and their extremes along the meridian stay opposite.
-        let (low, high) = (self.observed(angle - reach), self.observed(angle + reach));
-        let (sine, cosine) = (0.5 * (low + high)).sin_cos();
-        let direction = sine * across.normalize_or_zero() + cosine * self.direction;
-        let direction = direction.normalize_or(self.direction * cosine.signum());
-        let bound = InterpolationBound { error_rad: 0.0, direction, radius_rad: 0.5 * (high - low) };
+        };
+        let bound = InterpolationBound { error_rad: 0.0, cone };
         if self.w == 0.0 {
             return bound;
         }
+        let (angle, reach) = self.world_cone(middle, radius);
 
         let nearest = distance - radius;
         let excess = INTERPOLATION * (length / nearest).powi(2);

@@ -28,6 +28,9 @@ override PLACES: bool = false;
 // Reversed depth of the map; used only if something is drawn over the picture.
 @group(1) @binding(5) var depths: texture_depth_2d;
 
+// Point of a surface that is not flat for each pixel, room's axes, metres; w = 0 where nothing is lit.
+@group(2) @binding(0) var points: texture_2d<f32>;
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return vec4(vec2(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, 0.0, 1.0);
@@ -96,10 +99,10 @@ struct Look {
     cube_length: f32,
 }
 
-fn look(at: vec2<f32>) -> Look {
+// Look along a direction of the observer's axes.
+fn look(direction: vec3<f32>) -> Look {
     // The motion is along z in the cube's axes: a boost changes z alone, and x and y keep every digit beside the
     // stern.
-    let direction = pixel_direction(at);
     let observed = (map.cube_from_observer * vec4(direction, 0.0)).xyz;
     let seen = world_from_observer(observed, vec4(0.0, 0.0, 1.0, view.motion.w));
 
@@ -122,7 +125,31 @@ fn shown(look: Look) -> vec4<f32> {
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    return shown(look(at.xy));
+    return shown(look(pixel_direction(at.xy)));
+}
+
+// Point of the surface beside a pixel's own, for a step of at most a pixel; the pixel's own where nothing is lit there.
+fn point_beside(place: vec2<i32>, step: vec2<i32>, own: vec4<f32>) -> vec4<f32> {
+    let point = textureLoad(points, clamp(place + step, vec2(0), vec2<i32>(textureDimensions(points)) - 1), 0);
+    return select(own, point, point.w > 0.0);
+}
+
+// Draws the picture on a surface that is not flat. The view holds the room's axes instead of the picture's, as the
+// observer has them: x right, y up, z forward; and in `eye` the eye's place in the room, in `eye_rest` the place of the
+// sample beside the middle of its pixel, right and down, pixels.
+@fragment
+fn fragment_on_surface(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+    let place = vec2<i32>(at.xy);
+    let own = textureLoad(points, place, 0);
+    let offset = view.eye_rest.xy;
+    let right = point_beside(place, vec2(select(-1, 1, offset.x > 0.0), 0), own) - own;
+    let down = point_beside(place, vec2(0, select(-1, 1, offset.y > 0.0)), own) - own;
+    let seen = (own + abs(offset.x) * right + abs(offset.y) * down).xyz - view.eye.xyz;
+    // Where nothing is lit, look at anything.
+    let lit = own.w > 0.0 && dot(seen, seen) > 0.0;
+    let along = select(vec3(0.0, 0.0, 1.0), seen, lit);
+    let light = shown(look(along.x * view.right.xyz + along.y * view.up.xyz + along.z * view.forward.xyz));
+    return select(vec4(0.0), light, lit);
 }
 
 struct Shown {
@@ -135,7 +162,7 @@ struct Shown {
 // where nothing is, both are zero.
 @fragment
 fn fragment_with_depth(@builtin(position) at: vec4<f32>) -> Shown {
-    let look = look(at.xy);
+    let look = look(pixel_direction(at.xy));
     let stretch = look.observed_length / (look.cube_length * view.motion.w * look.doppler);
     return Shown(shown(look), textureLoad(depths, nearest_texel(look.place, look.pane), 0) * stretch);
 }

@@ -25,8 +25,8 @@ pub mod world;
 
 pub use gpu::{Gpu, GpuError, descriptor};
 pub use pending::Pending;
-pub use scene_renderer::{SceneRenderer, TransformReport};
-pub use stats::{CutStats, MapStats};
+pub use scene_renderer::{BentScreen, SceneRenderer, TransformReport};
+pub use stats::{CutStats, DrawCounts, MapStats};
 pub use subject::Subject;
 pub use textures::{from_rows, view_from_rows};
 pub use view_matrix::shader_view;

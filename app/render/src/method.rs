@@ -8,14 +8,14 @@ use crate::certainty::{Certainty, Edges, EdgesDrawn};
 use crate::gpu::{Gpu, GpuError};
 use crate::moving_objects::Axes;
 use crate::pending::{Pending, Transformed};
-use crate::stats::{CutStats, MapStats};
+use crate::stats::{CutStats, DrawCounts, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World};
 use glam::DVec2;
 use physics::Observer;
 use scene::cut::SeenFrom;
-use view::{Occasion, Shot};
+use view::{Occasion, Shot, Sides};
 
 /// One way of drawing a scene as a moving observer sees it.
 ///
@@ -44,8 +44,23 @@ pub trait Method {
     /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     fn prepare_eye(&mut self, _gpu: &Gpu, _world: &mut World, _shots: &[(Shot, [u32; 2])]) {}
 
-    /// Computes everything that all samples of one picture of `size` pixels share.
-    fn prepare_picture(&mut self, _gpu: &Gpu, _world: &mut World, _shot: &Shot, _size: [u32; 2], _subject: Subject) {}
+    /// True if the method can draw the whole picture of a screen that is not flat at once, so that each of its pixels is
+    /// looked up once.
+    fn shows_bent_screens(&self) -> bool {
+        false
+    }
+
+    /// Computes everything that all samples of one picture share. Several flat pictures, each with its size, stand for
+    /// the one of a screen that is not flat, which has `pixels` pixels.
+    fn prepare_picture(
+        &mut self,
+        _gpu: &Gpu,
+        _world: &mut World,
+        _shots: &[(Shot, [u32; 2])],
+        _pixels: f64,
+        _subject: Subject,
+    ) {
+    }
 
     /// True if the method can draw now. Until then the plain world is drawn.
     fn is_ready(&self) -> bool {
@@ -62,6 +77,11 @@ pub trait Method {
     /// Cost of the newest map, if the method has one.
     fn map_stats(&self) -> Option<MapStats> {
         None
+    }
+
+    /// Triangles that the method drew from a world of its own since the last call of this function.
+    fn take_drawn(&self) -> DrawCounts {
+        DrawCounts::default()
     }
 
     /// Size and accuracy of the newest cut, if the scene is cut for every picture.
@@ -91,8 +111,12 @@ pub struct Sample<'a> {
     pub shot: &'a Shot,
     /// View 0 is of the resting scene, view 1 + i of motion i.
     pub views: Vec<shaders::ViewUniforms>,
-    /// View of each motion from the observer.
+    /// Sight of the resting scene, then of each motion, by the observer.
     pub sights: &'a [SeenFrom],
+    /// Sides of the picture, observer's axes.
+    pub sides: Sides,
+    /// Points of the room that the pixels show, if the screen is not flat.
+    pub points: Option<&'a wgpu::TextureView>,
     /// Content of the picture.
     pub subject: Subject,
     /// Format of the target.
@@ -106,6 +130,11 @@ impl Sample<'_> {
             Subject::Light => Mode::Light(self.shot.effects),
             Subject::Places => Mode::Places,
         }
+    }
+
+    /// Whole target, with the view written first.
+    pub fn whole(&self) -> TargetPart {
+        TargetPart { view: 0, place: None, sides: self.sides }
     }
 
     /// Draws the scene with the apparent positions in `streams`; with the positions of the plain world if there are
@@ -125,15 +154,7 @@ impl Sample<'_> {
         };
         self.world.prepare(gpu, mode, source, self.format);
         self.world.write_views(gpu, &self.views);
-        let draws = Draws {
-            streams,
-            bends,
-            mode,
-            format: self.format,
-            eye: self.shot.observer.event.position,
-            moving: self.sights,
-            sky: true,
-        };
-        self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[TargetPart::WHOLE]);
+        let draws = Draws { streams, bends, mode, format: self.format, sights: self.sights, sky: true };
+        self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[self.whole()]);
     }
 }

@@ -7,12 +7,12 @@ use crate::method::{Method, Sample};
 use crate::moving_objects;
 use crate::pending::Pending;
 use crate::polygon::{Adaptive, PhotoSurface, VertexStage};
-use crate::stats::{CutStats, MapStats};
+use crate::stats::{CutStats, DrawCounts, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
-use crate::world::{Sorting, World};
-use glam::{DMat4, DVec2, Vec4};
+use crate::world::{World, gather};
+use glam::{DMat4, DQuat, DVec2, DVec3, Vec4};
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
@@ -20,7 +20,11 @@ use scene::cut::SeenFrom;
 use scene::motion::Motion;
 use std::sync::Arc;
 use std::time::Duration;
-use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Stored, Transform};
+use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Sides, Stored, Transform};
+
+/// Pixels by which pictures are taken to be wider than they are, so that nothing is left out that a sample beside the
+/// middle of its pixel sees.
+const MARGIN_PIXELS: f64 = 4.0;
 
 /// Texels of the map per pixel, along each axis, if the dial does not say.
 const USUAL_MAP_SCALE: f64 = 1.0;
@@ -40,6 +44,17 @@ pub struct SceneRenderer {
     format: Format,
     /// Content of pictures.
     pub subject: Subject,
+}
+
+/// Screen that is not flat, as an eye in a room sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct BentScreen<'a> {
+    /// Point of the room that each pixel of the picture shows, metres, as four f32; the last is 0 where nothing is lit.
+    pub points: &'a wgpu::TextureView,
+    /// Eye in the room, metres.
+    pub eye_m: DVec3,
+    /// Rotation from the room's axes to the observer's.
+    pub observer_from_room: DQuat,
 }
 
 /// Cost of a photo-surface, and its flaws.
@@ -74,11 +89,9 @@ impl SceneRenderer {
         let motions = scene.motions.clone();
         let method = fixed_method(gpu, &scene, format, dial, occasion)?;
         let textures = std::mem::take(&mut scene.textures);
+        gather(&mut scene);
         let (world, method) = match method {
-            Some(method) => {
-                let sorting = if image { Sorting::InGroups } else { Sorting::AsTheyCome };
-                (World::new(gpu, &scene, textures, background, sorting), method)
-            }
+            Some(method) => (World::new(gpu, &scene, textures, background), method),
             None => {
                 let scene = Arc::new(scene);
                 let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
@@ -109,6 +122,13 @@ impl SceneRenderer {
     pub fn stored(&self, shot: &Shot) -> Stored {
         let moves = shot.observer.celerity != Celerity::ZERO || !self.motions.is_empty();
         Stored { white: self.white_luminance(), scale: shot.scale(), shifted: shot.effects.shift_light() && moves }
+    }
+
+    /// Triangles drawn since the last call of this function, and the calls that drew them, shadows not counted.
+    pub fn take_drawn(&self) -> DrawCounts {
+        let of_method = self.method.take_drawn();
+        let DrawCounts { triangles, calls } = self.world.take_drawn();
+        DrawCounts { triangles: triangles + of_method.triangles, calls: calls + of_method.calls }
     }
 
     /// Cost of the newest map, if the method has one.
@@ -187,7 +207,7 @@ impl SceneRenderer {
     /// has one.
     pub fn prepare(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
         self.prepare_eye(gpu, &[(*shot, size)]);
-        self.prepare_picture(gpu, shot, size);
+        self.prepare_picture(gpu, &[(*shot, size)], size);
     }
 
     /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
@@ -201,11 +221,19 @@ impl SceneRenderer {
         }
     }
 
-    /// Computes everything that all samples of one picture share, after [`SceneRenderer::prepare_eye`].
-    pub fn prepare_picture(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) {
-        if shot.effects.geometry {
-            self.method.prepare_picture(gpu, &mut self.world, shot, size, self.subject);
+    /// Computes everything that all samples of one picture of `size` pixels share, after
+    /// [`SceneRenderer::prepare_eye`]. Several flat pictures, each with its size, stand for the one of a screen that is
+    /// not flat.
+    pub fn prepare_picture(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])], size: [u32; 2]) {
+        if shots.iter().all(|(shot, _)| shot.effects.geometry) {
+            let pixels = f64::from(size[0]) * f64::from(size[1]);
+            self.method.prepare_picture(gpu, &mut self.world, shots, pixels, self.subject);
         }
+    }
+
+    /// True if the whole picture of a screen that is not flat can be [drawn at once](Self::draw_bent).
+    pub fn shows_bent_screens(&self, effects: Effects) -> bool {
+        effects.geometry && self.method.shows_bent_screens()
     }
 
     /// Draws one sample of a picture. One submission has room for one.
@@ -217,10 +245,47 @@ impl SceneRenderer {
         shot: &Shot,
         sample: PixelSample,
     ) {
+        let observer = &shot.observer;
+        let view =
+            shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.geometry, shot.scale());
+        self.draw_view(gpu, encoder, target, (shot, view), None);
+    }
+
+    /// Draws one sample of the picture of a screen that is not flat, prepared from flat pictures of which `shot` is
+    /// one. Only for methods that [can](Self::shows_bent_screens).
+    pub fn draw_bent(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &Radiance,
+        shot: &Shot,
+        sample: PixelSample,
+        screen: &BentScreen<'_>,
+    ) {
+        let celerity = shot.observer.celerity;
+        let view = shader_view(&shot.camera, target.size, sample, celerity, shot.effects.geometry, shot.scale());
+        let axis = |axis: DVec3| (screen.observer_from_room * axis).as_vec3().extend(0.0);
+        let view = shaders::ViewUniforms {
+            right: axis(DVec3::X),
+            up: axis(DVec3::Y),
+            forward: axis(DVec3::Z),
+            eye: screen.eye_m.as_vec3().extend(0.0),
+            eye_rest: sample.offset.as_vec2().extend(0.0).extend(0.0),
+            ..view
+        };
+        self.draw_view(gpu, encoder, target, (shot, view), Some(screen.points));
+    }
+
+    fn draw_view(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &Radiance,
+        (shot, resting): (&Shot, shaders::ViewUniforms),
+        points: Option<&wgpu::TextureView>,
+    ) {
         let bent = shot.effects.geometry && self.method.is_ready();
         let observer = &shot.observer;
-        let resting =
-            shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.geometry, shot.scale());
 
         // There is a view for the resting scene, then one for each motion; places say which it is.
         let mut views = vec![resting];
@@ -238,9 +303,15 @@ impl SceneRenderer {
             views[0].clip_from_observer *= matrix(&eye_from_origin);
         }
 
-        let sights = &self.sights(shot)[1..];
+        let mut sights = self.sights(shot);
+        if !bent {
+            let at_rest = Observer { celerity: Celerity::ZERO, ..*observer };
+            sights[0] = SeenFrom::of(self.world.origin, &self.motions, &at_rest, None);
+        }
+        let sides = Sides::of(&shot.camera, target.size, MARGIN_PIXELS);
         let Self { world, method, format, subject, .. } = self;
-        let sample = Sample { world, target, shot, views, sights, subject: *subject, format: *format };
+        let (subject, format) = (*subject, *format);
+        let sample = Sample { world, target, shot, views, sights: &sights, sides, points, subject, format };
         if bent {
             method.draw(gpu, encoder, sample);
         } else {

@@ -27,3 +27,20 @@ pub struct MapStats {
     /// Time to plan the map, milliseconds.
     pub plan_ms: f64,
 }
+
+/// Triangles drawn, and the calls that drew them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawCounts {
+    /// Number of triangles, one that is drawn in several parts of a target counted for each.
+    pub triangles: u64,
+    /// Number of draw calls.
+    pub calls: u64,
+}
+
+impl DrawCounts {
+    /// The counts with one more call, of this many triangles.
+    #[must_use]
+    pub fn with(self, triangles: u64) -> Self {
+        Self { triangles: self.triangles + triangles, calls: self.calls + 1 }
+    }
+}

@@ -7,9 +7,11 @@ mod dial;
 mod effects;
 mod sampling;
 mod shot;
+mod sides;
 
 pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
 pub use effects::{Effects, EffectsError};
 pub use sampling::{PixelSample, sample_offset};
 pub use shot::{EYE_HEIGHT_M, Gaze, Shot, Stored};
+pub use sides::Sides;

@@ -1,12 +1,12 @@
-//! Channels on curved screens or behind a projector's lens: drawn as flat pictures, in which every pixel looks up its
-//! place.
+//! Channels on curved screens or behind a projector's lens. Every pixel shows a point of the room. A method with a map
+//! of all directions looks along its direction; others draw flat pictures, in which the pixel looks up its place.
 
 use crate::facet::{Facet, SurfaceGrid, facets};
 use bytemuck::bytes_of;
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use render::display::Pass;
-use render::target::{Format, Radiance, texture};
+use render::target::{Format, Radiance};
 use render::{Gpu, view_from_rows};
 use room::{Channel, Display};
 use wgpu::util::DeviceExt;
@@ -16,13 +16,16 @@ const GRID: usize = 48;
 
 /// Map from a viewport's pixels to points of the room, and the flat pictures seen in these directions.
 pub struct Curved {
-    points: wgpu::TextureView,
+    /// Point of the room for each pixel, metres.
+    pub points: wgpu::TextureView,
     grid: SurfaceGrid,
-    /// Flat pictures and the targets they are drawn into.
-    pub facets: Vec<(Facet, Radiance)>,
+    /// Flat pictures in which the screen is seen.
+    pub facets: Vec<Facet>,
+    /// Targets that flat pictures are drawn into, by number of the facet; empty while the whole picture is drawn at
+    /// once.
+    pub targets: Vec<Radiance>,
     /// Picture that the channel shows.
-    pub shown: wgpu::TextureView,
-    size: [u32; 2],
+    pub shown: Radiance,
 }
 
 impl Curved {
@@ -41,31 +44,30 @@ impl Curved {
             points: (0..(GRID + 1) * (GRID + 1)).into_par_iter().map(place).collect(),
             pixels: DVec2::new(f64::from(width), f64::from(height)) / GRID as f64,
         };
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        Self {
-            points,
-            grid,
-            facets: Vec::new(),
-            shown: texture(gpu, "shown on a surface", size, format.colour, 1, usage),
-            size,
-        }
+        let shown = Radiance::new(gpu, size, format);
+        Self { points, grid, facets: Vec::new(), targets: Vec::new(), shown }
     }
 
-    /// Chooses facets for an eye in the room. Textures of the previous facets are kept where their size fits.
-    pub fn look_from(&mut self, gpu: &Gpu, eye: DVec3, density: f64, format: Format) {
+    /// Chooses facets for an eye in the room. `density`: texels for each pixel of the screen, along each axis.
+    pub fn look_from(&mut self, gpu: &Gpu, eye: DVec3, density: f64) {
         let largest = gpu.device.limits().max_texture_dimension_2d.min(8192);
-        let mut before: Vec<_> = self.facets.drain(..).map(|(_, target)| target).collect();
-        for facet in facets(&self.grid, eye, density, largest) {
+        self.facets = facets(&self.grid, eye, density, largest);
+    }
+
+    /// Makes the targets that the facets are drawn into. Those of the picture before are kept where their size fits.
+    pub fn make_targets(&mut self, gpu: &Gpu, format: Format) {
+        let mut before = std::mem::take(&mut self.targets);
+        for facet in &self.facets {
             let fits = before.iter().position(|target| target.size == facet.size);
             let target = fits.map_or_else(|| Radiance::new(gpu, facet.size, format), |index| before.swap_remove(index));
-            self.facets.push((facet, target));
+            self.targets.push(target);
         }
     }
 
     /// Resamples the facets into the channel's picture.
     pub fn resample(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, pass: &Pass, eye: DVec3) {
-        let [width, height] = self.size;
-        for (number, (facet, target)) in self.facets.iter().enumerate() {
+        let [width, height] = self.shown.size;
+        for (number, (facet, target)) in self.facets.iter().zip(&self.targets).enumerate() {
             let axes = facet.room_from_facet;
             let axis = |axis: DVec3| axis.as_vec3().extend(0.0);
             let focal_length = facet.tangents.focal_length(facet.size);
@@ -87,7 +89,7 @@ impl Curved {
                 uniform.as_entire_binding(),
                 wgpu::BindingResource::TextureView(target.result()),
             ];
-            pass.draw_part(gpu, encoder, &self.shown, &resources, [0, 0, width, height], number > 0);
+            pass.draw_part(gpu, encoder, self.shown.result(), &resources, [0, 0, width, height], number > 0);
         }
     }
 }

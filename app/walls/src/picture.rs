@@ -9,7 +9,7 @@ use glam::{DMat3, DQuat};
 use render::certainty::Certainty;
 use render::display::{Accumulator, Developer, Pass, clear};
 use render::target::Radiance;
-use render::{Gpu, SceneRenderer};
+use render::{BentScreen, Gpu, SceneRenderer};
 use room::{Channel, Display, EyeBehind, frustum};
 use view::{Camera, Effects, Field, PixelSample, Shot, Stored, Tangents};
 
@@ -32,7 +32,7 @@ pub struct ChannelPicture {
 enum PictureTarget {
     /// Target of a flat screen, drawn at once.
     Flat(Box<Radiance>),
-    /// Targets of a curved screen: flat pictures that are resampled.
+    /// Targets of a curved screen: the whole picture, or flat pictures that are resampled.
     Curved(Box<Curved>),
 }
 
@@ -93,7 +93,7 @@ impl ChannelPicture {
     fn sample(&self) -> &wgpu::TextureView {
         match &self.target {
             PictureTarget::Flat(target) => target.result(),
-            PictureTarget::Curved(curved) => &curved.shown,
+            PictureTarget::Curved(curved) => curved.shown.result(),
         }
     }
 
@@ -106,8 +106,13 @@ impl ChannelPicture {
     ///
     /// # Errors
     /// [`EyeBehind`] if the eye is behind the screen.
-    pub fn aim(&mut self, channel: &Channel, context: &EyeContext<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
-        let mut shots = match self.shots(channel, context) {
+    pub fn aim(
+        &mut self,
+        channel: &Channel,
+        renderer: &SceneRenderer,
+        context: &EyeContext<'_>,
+    ) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
+        let mut shots = match self.shots(channel, renderer, context) {
             Ok(shots) => shots,
             Err(behind) => {
                 self.blacken(context.gpu);
@@ -138,31 +143,42 @@ impl ChannelPicture {
             sum.restart();
         }
         let submit = |encoder: wgpu::CommandEncoder| gpu.queue.submit([encoder.finish()]);
+        // A picture that is drawn at once is prepared once for all samples.
+        let whole_size = match &self.target {
+            PictureTarget::Flat(target) => Some(target.size),
+            PictureTarget::Curved(curved) if curved.targets.is_empty() => Some(curved.shown.size),
+            PictureTarget::Curved(_) => None,
+        };
+        if let Some(size) = whole_size {
+            renderer.prepare_picture(gpu, shots, size);
+        }
         for sample in 0..quality.samples {
             let place = PixelSample::of(sample, quality.samples);
-            let (targets, place): (Vec<_>, _) = match &self.target {
-                PictureTarget::Flat(target) => (vec![&**target], place),
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            match &self.target {
+                PictureTarget::Flat(target) => renderer.draw(gpu, &mut encoder, target, first, place),
+                PictureTarget::Curved(curved) if whole_size.is_some() => {
+                    let OccupantEye { place_m: eye_m, observer_from_room, .. } = context.eye;
+                    let screen = BentScreen { points: &curved.points, eye_m, observer_from_room };
+                    renderer.draw_bent(gpu, &mut encoder, &curved.shown, first, place, &screen);
+                }
                 PictureTarget::Curved(curved) => {
                     // A pixel of the screen has several of a facet.
                     let width = (place.width * quality.density).min(1.0);
                     let place = PixelSample { offset: place.offset * quality.density, width };
-                    (curved.facets.iter().map(|(_, target)| target).collect(), place)
+                    for (target, shot) in curved.targets.iter().zip(shots) {
+                        // A single picture is prepared once for all samples.
+                        if sample == 0 || shots.len() > 1 {
+                            renderer.prepare_picture(gpu, &[*shot], shot.1);
+                        }
+                        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                        renderer.draw(gpu, &mut encoder, target, &shot.0, place);
+                        submit(encoder);
+                    }
+                    curved.resample(gpu, &mut encoder, context.resample, context.eye.place_m);
                 }
-            };
-            for (target, (shot, size)) in targets.into_iter().zip(shots) {
-                // With a single picture, the preparation is shared by all samples.
-                if sample == 0 || shots.len() > 1 {
-                    renderer.prepare_picture(gpu, shot, *size);
-                }
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                renderer.draw(gpu, &mut encoder, target, shot, place);
-                submit(encoder);
             }
-            if let PictureTarget::Curved(curved) = &self.target {
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                curved.resample(gpu, &mut encoder, context.resample, context.eye.place_m);
-                submit(encoder);
-            }
+            submit(encoder);
             if let Some(mut sum) = self.sum.take() {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
                 passes.add(gpu, &mut encoder, &mut sum, self.sample(), quality.samples);
@@ -174,7 +190,12 @@ impl ChannelPicture {
     }
 
     /// Views and sizes of the channel's flat pictures.
-    fn shots(&mut self, channel: &Channel, context: &EyeContext<'_>) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
+    fn shots(
+        &mut self,
+        channel: &Channel,
+        renderer: &SceneRenderer,
+        context: &EyeContext<'_>,
+    ) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
         let place_m = context.eye.place_m;
         match &mut self.target {
             PictureTarget::Flat(target) => {
@@ -183,9 +204,15 @@ impl ChannelPicture {
                 Ok(vec![(context.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
             PictureTarget::Curved(curved) => {
-                curved.look_from(context.gpu, place_m, context.quality.density, context.quality.format);
+                if renderer.shows_bent_screens(context.effects) {
+                    curved.look_from(context.gpu, place_m, 1.0);
+                    curved.targets.clear();
+                } else {
+                    curved.look_from(context.gpu, place_m, context.quality.density);
+                    curved.make_targets(context.gpu, context.quality.format);
+                }
                 let shot = |facet: &Facet| (context.shot(facet.room_from_facet, facet.tangents), facet.size);
-                Ok(curved.facets.iter().map(|(facet, _)| shot(facet)).collect())
+                Ok(curved.facets.iter().map(shot).collect())
             }
         }
     }
@@ -195,7 +222,7 @@ impl ChannelPicture {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match &self.target {
             PictureTarget::Flat(target) => drop(target.begin(&mut encoder)),
-            PictureTarget::Curved(curved) => drop(clear(&mut encoder, &curved.shown)),
+            PictureTarget::Curved(curved) => drop(clear(&mut encoder, curved.shown.result())),
         }
         if let Some(sum) = &self.sum {
             sum.blacken(&mut encoder);

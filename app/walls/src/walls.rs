@@ -132,7 +132,7 @@ impl Walls {
             let of_eye = context.display.channels.iter().zip(&mut self.pictures);
             let mut aimed = Vec::new();
             for (channel, picture) in of_eye.filter(|(channel, _)| channel.eye == side) {
-                match picture.aim(channel, &context) {
+                match picture.aim(channel, renderer, &context) {
                     Ok(shots) => aimed.push((picture, shots)),
                     Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
                 }

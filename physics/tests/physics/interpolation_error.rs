@@ -63,8 +63,12 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
                 );
                 tight = tight.max(error / (bound.error_rad + ROUNDING));
             }
-            let aside = if bound.direction == DVec3::ZERO { 0.0 } else { angle(seen, bound.direction) };
-            assert!(aside <= bound.radius_rad + 1e-6, "{aside} > {} at rapidity {rapidity}", bound.radius_rad);
+            let aside = angle(seen, bound.cone.axis);
+            assert!(
+                aside <= bound.cone.radius_rad + 1e-6,
+                "{aside} > {} at rapidity {rapidity}",
+                bound.cone.radius_rad
+            );
             let said = interpolation
                 .error(place, corners.into_iter().zip(shares).map(|(at, share)| at.length() * share).sum());
             // The lengthening δ is the last digits of a distance at the highest speeds.

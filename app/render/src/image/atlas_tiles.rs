@@ -8,6 +8,7 @@ use super::picture_map::{CubePart, Extent, FACES, PictureMap};
 use crate::view_matrix::matrix;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shaders::{AtlasTile, MapUniforms, ViewUniforms};
+use view::Sides;
 
 /// Side up to which parts are not cut, texels.
 const SMALLEST_SIDE: f64 = 24.0;
@@ -231,10 +232,10 @@ impl Placed {
         }
     }
 
-    /// View that draws the pane, and the planes through the eye that bound the view: inward unit normals, world axes.
+    /// View that draws the pane, and its sides, world axes.
     ///
     /// Positions are relative to a point `from_eye` metres from the eye (world axes).
-    pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (ViewUniforms, [DVec3; 5]) {
+    pub fn view(&self, cube_from_world: &DMat3, from_eye: DVec3, near_m: f64) -> (ViewUniforms, Sides) {
         let world_from_cube = cube_from_world.transpose();
         let [right, up, forward] = FACES[self.window.face].map(|axis| world_from_cube * axis);
         let drawn = DVec2::from_array(self.drawn().map(f64::from));
@@ -258,8 +259,8 @@ impl Placed {
             eye: Vec4::ZERO,
             eye_rest: Vec4::ZERO,
         };
-        let planes = [forward, row_x + forward, forward - row_x, row_y + forward, forward - row_y];
-        (view, planes.map(DVec3::normalize))
+        let sides = [row_x + forward, forward - row_x, row_y + forward, forward - row_y];
+        (view, Sides(sides.map(DVec3::normalize)))
     }
 }
 
@@ -425,7 +426,7 @@ mod tests {
             let aberration = Aberration::new(celerity);
             for look in looks() {
                 let camera = Camera::looking(look, DVec3::Y, 1.1);
-                let sight = PictureMap::new(&camera, SIZE, celerity);
+                let sight = PictureMap::new(&[(camera, SIZE)], celerity);
                 let plan = sight.plan(EXACT, MANY, 1 << 20);
                 let (mut few, mut all) = (0, 0);
                 each_pixel(&camera, |here, neighbour| {
@@ -453,7 +454,7 @@ mod tests {
             let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
             for look in looks() {
                 let plan =
-                    PictureMap::new(&Camera::looking(look, DVec3::Y, 1.1), SIZE, celerity).plan(mean, MANY, 1 << 20);
+                    PictureMap::new(&[(Camera::looking(look, DVec3::Y, 1.1), SIZE)], celerity).plan(mean, MANY, 1 << 20);
                 let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
                 assert!(texels < 3.0 * pixels, "{texels} texels for {pixels} pixels at γ = {gamma} looking to {look}");
             }
@@ -463,7 +464,7 @@ mod tests {
     #[test]
     fn a_plan_keeps_to_its_limits() {
         let celerity = Celerity::new(DVec3::NEG_Z * 2.0).expect("a finite celerity");
-        let sight = PictureMap::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.1), SIZE, celerity);
+        let sight = PictureMap::new(&[(Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.1), SIZE)], celerity);
         let plan = sight.plan(EXACT, 50_000.0, 400);
         assert!(plan.placed.iter().map(Placed::texels).sum::<f64>() <= 50_000.0);
         assert!(plan.size.iter().all(|&side| side <= 400), "{:?}", plan.size);
@@ -477,7 +478,7 @@ mod tests {
             for gamma in [1.0, 1.7, 70.0] {
                 let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
                 for look in looks() {
-                    let plan = PictureMap::new(&Camera::looking(look, DVec3::Y, 1.1), size, celerity).plan(
+                    let plan = PictureMap::new(&[(Camera::looking(look, DVec3::Y, 1.1), size)], celerity).plan(
                         EXACT,
                         MANY,
                         1 << 20,
@@ -493,7 +494,7 @@ mod tests {
     fn panes_do_not_overlap_in_the_atlas() {
         let celerity = Celerity::new(DVec3::new(1.0, 0.0, -2.0)).expect("a finite celerity");
         let plan =
-            PictureMap::new(&Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE, celerity).plan(EXACT, MANY, 1 << 20);
+            PictureMap::new(&[(Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE)], celerity).plan(EXACT, MANY, 1 << 20);
         assert!(plan.placed.len() > 3);
         for (number, one) in plan.placed.iter().enumerate() {
             for other in &plan.placed[..number] {

@@ -7,7 +7,7 @@ use crate::certainty::{Certainty, Edges, EdgesDrawn};
 use crate::gpu::Gpu;
 use crate::method::{Method, Sample};
 use crate::moving_objects::Axes;
-use crate::stats::MapStats;
+use crate::stats::{DrawCounts, MapStats};
 use crate::subject::Subject;
 use crate::target::Format;
 use crate::world::World;
@@ -45,8 +45,19 @@ impl Method for ImageRenderer {
         }
     }
 
-    fn prepare_picture(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2], subject: Subject) {
-        self.map.draw_map(gpu, world, shot, size, subject);
+    fn shows_bent_screens(&self) -> bool {
+        self.moving.is_none()
+    }
+
+    fn prepare_picture(
+        &mut self,
+        gpu: &Gpu,
+        world: &mut World,
+        shots: &[(Shot, [u32; 2])],
+        pixels: f64,
+        subject: Subject,
+    ) {
+        self.map.draw_map(gpu, world, shots, pixels, subject);
     }
 
     fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sample: Sample<'_>) {
@@ -55,7 +66,7 @@ impl Method for ImageRenderer {
             moving.prepare(gpu, &sample);
         }
         let mut pass = sample.target.begin(encoder);
-        self.map.draw(gpu, sample.world, &mut pass, sample.shot.effects, sample.subject);
+        self.map.draw(gpu, sample.world, &mut pass, (sample.shot.effects, sample.subject), sample.points);
         if let Some(moving) = &self.moving {
             moving.draw(gpu, &mut pass, &sample);
         }
@@ -66,6 +77,10 @@ impl Method for ImageRenderer {
         let of_map = estimate(edges, EdgesDrawn::FromMap { texels_per_pixel });
         let moving = self.moving.as_ref().and_then(MovingParts::edges);
         moving.map_or(of_map, |edges| of_map.or_worse(estimate(edges, EdgesDrawn::InFull)))
+    }
+
+    fn take_drawn(&self) -> DrawCounts {
+        self.moving.as_ref().map(MovingParts::take_drawn).unwrap_or_default()
     }
 
     fn map_stats(&self) -> Option<MapStats> {

@@ -12,9 +12,11 @@ use crate::textures::from_rows;
 use crate::view_matrix::NEAR_M;
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World, bind_group, effect_constants, layout};
 use bytemuck::{bytes_of, cast_slice};
-use glam::{DVec2, DVec3, Vec4};
+use glam::{DVec2, Vec4};
+use physics::{Celerity, Observer};
+use scene::cut::SeenFrom;
 use std::time::Instant;
-use view::{Effects, Shot};
+use view::{Effects, Shot, Sides};
 use wgpu::util::DeviceExt;
 
 /// Length of a pane's entry in the table of panes, texels.
@@ -30,6 +32,8 @@ const MOST_BYTES: u64 = 1 << 30;
 pub struct MapRenderer {
     module: wgpu::ShaderModule,
     group_layout: wgpu::BindGroupLayout,
+    /// Layout of the group that holds the points of a screen that is not flat.
+    points_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     format: Format,
     quality: MapQuality,
@@ -39,8 +43,17 @@ pub struct MapRenderer {
     with_depth: bool,
     atlas: Option<Atlas>,
     group: Option<wgpu::BindGroup>,
-    pipelines: Vec<(Effects, Subject, wgpu::RenderPipeline)>,
+    pipelines: Vec<(LookUp, wgpu::RenderPipeline)>,
     stats: MapStats,
+}
+
+/// Kind of look-up that a pipeline does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LookUp {
+    effects: Effects,
+    subject: Subject,
+    /// True for a screen that is not flat.
+    bent: bool,
 }
 
 impl MapRenderer {
@@ -68,9 +81,11 @@ impl MapRenderer {
             types.push(texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2));
         }
         let group_layout = layout(gpu, "map", &types);
+        let points = [texture(float(false), wgpu::TextureViewDimension::D2)];
         Self {
             module,
             group_layout,
+            points_layout: layout(gpu, "points", &points),
             sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("map"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -98,8 +113,17 @@ impl MapRenderer {
         (self.quality.texels_per_pixel, self.shift) = (texels_per_pixel, shift);
     }
 
-    /// Draws the map for a picture of `size` pixels.
-    pub fn draw_map(&mut self, gpu: &Gpu, world: &mut World, shot: &Shot, size: [u32; 2], subject: Subject) {
+    /// Draws the map for flat pictures by one observer, each with its size in pixels, that together show `pixels`
+    /// pixels.
+    pub fn draw_map(
+        &mut self,
+        gpu: &Gpu,
+        world: &mut World,
+        shots: &[(Shot, [u32; 2])],
+        pixels: f64,
+        subject: Subject,
+    ) {
+        let Some((shot, _)) = shots.first() else { return };
         let started = Instant::now();
         let (mode, layers) = match subject {
             Subject::Light => (Mode::Weights, world.spectra.carriers.len() as u32),
@@ -107,11 +131,12 @@ impl MapRenderer {
         };
         let format = atlas::format(self.format);
         let texel_bytes = atlas::texel_bytes(format, layers);
-        let picture_map = PictureMap::new(&shot.camera, size, shot.observer.celerity);
+        let pictures: Vec<_> = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
+        let picture_map = PictureMap::new(&pictures, shot.observer.celerity);
         let room = MOST_BYTES as f64 / (texel_bytes as f64 * atlas::WITH_SPARE);
         // A smooth map costs the same at any speed: its number of texels for each pixel of the picture is fixed,
         // wherever they are needed.
-        let budget = self.quality.texels_per_pixel.powi(2) * f64::from(size[0]) * f64::from(size[1]);
+        let budget = self.quality.texels_per_pixel.powi(2) * pixels;
         let most_texels = if self.quality.smooth { budget.min(room) } else { room };
         let plan = self.plan(gpu, &picture_map, most_texels).shifted(self.shift);
         self.stats = MapStats {
@@ -143,20 +168,15 @@ impl MapRenderer {
         };
         self.stats.bytes = atlas.texels() * texel_bytes;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let draws = Draws {
-            streams: None,
-            bends: false,
-            mode,
-            format,
-            eye: shot.observer.event.position,
-            moving: &[],
-            sky: true,
-        };
+        // The map is of directions in the world, whatever the observer's motion.
+        let observer = Observer { celerity: Celerity::ZERO, ..shot.observer };
+        let at_rest = SeenFrom::of(world.origin, &[], &observer, None);
+        let draws = Draws { streams: None, bends: false, mode, format, sights: &[at_rest], sky: true };
         for layer in 0..layers {
-            let part = |(number, (pane, (_, planes))): (usize, (&Placed, &(_, [DVec3; 5])))| {
+            let part = |(number, (pane, (_, sides))): (usize, (&Placed, &(_, Sides)))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
                 let view = layer * views.len() as u32 + number as u32;
-                TargetPart { view, place: Some([x, y, width, height]), planes: Some(*planes) }
+                TargetPart { view, place: Some([x, y, width, height]), sides: *sides }
             };
             let parts: Vec<TargetPart> = plan.placed.iter().zip(&views).enumerate().map(part).collect();
             world.draw(gpu, &mut atlas.begin(&mut encoder, layer), &draws, &parts);
@@ -215,27 +235,33 @@ impl MapRenderer {
         bind_group(gpu, "map", &self.group_layout, resources)
     }
 
-    /// Draws the picture from the map drawn last. View 0 must have been written for it.
+    /// Draws the picture from the map drawn last. View 0 must have been written for it. `points`: points of the room
+    /// that the pixels show, if the screen is not flat.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         world: &World,
         pass: &mut wgpu::RenderPass<'_>,
-        effects: Effects,
-        subject: Subject,
+        (effects, subject): (Effects, Subject),
+        points: Option<&wgpu::TextureView>,
     ) {
-        let pipeline = self.pipeline(gpu, world, effects, subject);
+        let look = LookUp { effects, subject, bent: points.is_some() };
+        let pipeline = self.pipeline(gpu, world, look);
         let Some(group) = &self.group else { return };
         pass.set_pipeline(&pipeline);
         world.bind_view(gpu, pass, 0, None);
         pass.set_bind_group(1, group, &[]);
+        if let Some(points) = points {
+            let points = bind_group(gpu, "points", &self.points_layout, [wgpu::BindingResource::TextureView(points)]);
+            pass.set_bind_group(2, &points, &[]);
+        }
         pass.draw(0..3, 0..1);
     }
 
-    fn pipeline(&mut self, gpu: &Gpu, world: &World, effects: Effects, subject: Subject) -> wgpu::RenderPipeline {
+    fn pipeline(&mut self, gpu: &Gpu, world: &World, look: LookUp) -> wgpu::RenderPipeline {
         let smooth = self.quality.smooth;
-        let known = self.pipelines.iter().find(|(of, what, _)| (*of, *what) == (effects, subject));
-        if let Some((.., pipeline)) = known {
+        let LookUp { effects, subject, bent } = look;
+        if let Some((_, pipeline)) = self.pipelines.iter().find(|(known, _)| *known == look) {
             return pipeline.clone();
         }
         let layers = world.spectra.carriers.len();
@@ -243,9 +269,15 @@ impl MapRenderer {
         let places = subject == Subject::Places;
         let own = [("LAYERS", layers as f64), ("SMOOTH", flag(smooth)), ("PLACES", flag(places))];
         let constants = [own.as_slice(), &effect_constants(effects, layers == 1, self.format)].concat();
+        let groups = [Some(world.view_layout()), Some(&self.group_layout), Some(&self.points_layout)];
+        let entry_point = match (bent, self.with_depth) {
+            (true, _) => "fragment_on_surface",
+            (false, true) => "fragment_with_depth",
+            (false, false) => "fragment",
+        };
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("warp"),
-            bind_group_layouts: &[Some(world.view_layout()), Some(&self.group_layout)],
+            bind_group_layouts: if bent { &groups } else { &groups[..2] },
             ..Default::default()
         });
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -268,7 +300,7 @@ impl MapRenderer {
             multisample: wgpu::MultisampleState { count: self.format.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
-                entry_point: Some(if self.with_depth { "fragment_with_depth" } else { "fragment" }),
+                entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
                 targets: &[Some(wgpu::ColorTargetState {
                     format: self.format.colour,
@@ -279,7 +311,7 @@ impl MapRenderer {
             multiview_mask: None,
             cache: None,
         });
-        self.pipelines.push((effects, subject, pipeline.clone()));
+        self.pipelines.push((look, pipeline.clone()));
         pipeline
     }
 }

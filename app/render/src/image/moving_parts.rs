@@ -5,7 +5,8 @@ use crate::certainty::Edges;
 use crate::gpu::Gpu;
 use crate::method::Sample;
 use crate::polygon::Adaptive;
-use crate::world::{Draws, TargetPart, VertexSource, World};
+use crate::stats::DrawCounts;
+use crate::world::{Draws, VertexSource, World};
 use scene::{Mesh, Scene};
 use std::sync::Arc;
 use view::{Occasion, Shot};
@@ -40,6 +41,11 @@ impl MovingParts {
         self.adaptive.cut(gpu, &mut self.world, shots);
     }
 
+    /// Triangles drawn since the last call of this function, and the calls that drew them.
+    pub fn take_drawn(&self) -> DrawCounts {
+        self.world.take_drawn()
+    }
+
     /// Sample of the edges of the newest cut.
     pub fn edges(&self) -> Option<&Edges> {
         self.adaptive.edges()
@@ -62,11 +68,10 @@ impl MovingParts {
             bends: false,
             mode: sample.mode(),
             format: sample.format,
-            eye: sample.shot.observer.event.position,
-            moving: sample.sights,
+            sights: sample.sights,
             sky: false,
         };
-        self.world.draw(gpu, pass, &draws, &[TargetPart::WHOLE]);
+        self.world.draw(gpu, pass, &draws, &[sample.whole()]);
     }
 }
 

@@ -1,26 +1,34 @@
 //! Picture map: the directions of the world that a picture sees, and their size in it.
 //!
 //! Directions are those of a cube around the eye, turned so that +z is along the motion. A boost then changes z
-//! alone, and x and y keep every digit near dead astern. A part of a face is judged by a cap around it. Aberration
-//! maps circles to circles (Penrose 1959), so the cap that the observer sees is known exactly from two points on the
-//! meridian through the motion. The cap is conservative, so that every pixel finds its pane.
+//! alone, and x and y keep every digit near dead astern. A part of a face is judged by a cone around it. Aberration
+//! maps circles to circles (Penrose 1959), so the cone that the observer sees is known exactly from two points on the
+//! meridian through the motion. The cone is conservative, so that every pixel finds its pane.
 
 use glam::{DMat3, DVec2, DVec3};
-use physics::{Celerity, LightConeCoordinates};
-use view::Camera;
+use physics::{Celerity, DirectionCone, LightConeCoordinates};
+use view::{Camera, Sides};
 
 /// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;
 
-/// Picture map of a flat picture by an observer in motion.
-#[derive(Clone, Copy, Debug)]
+/// Directions that flat pictures by one observer in motion see, and their sizes in them. The pictures together may stand
+/// for one that is not flat.
+#[derive(Clone, Debug)]
 pub struct PictureMap {
     /// Rotation from the axes of world and observer to those of the cube.
     pub cube_from_world: DMat3,
-    /// Right, up and forward of the picture, cube's axes.
-    picture: [DVec3; 3],
-    /// Inward unit normals of the picture's edges, cube's axes.
-    edges: [DVec3; 4],
+    pictures: Vec<MappedPicture>,
+    kappa: f64,
+}
+
+/// A flat picture in the cube's axes.
+#[derive(Clone, Copy, Debug)]
+struct MappedPicture {
+    /// Right, up and forward of the picture.
+    axes: [DVec3; 3],
+    /// Sides of the picture.
+    sides: Sides,
     /// Pixels from the middle of the picture to its right and upper edge.
     half_size: DVec2,
     /// Tangents of the middle of the picture.
@@ -62,78 +70,90 @@ pub const FACES: [[DVec3; 3]; 6] = [
     [DVec3::Z, DVec3::X, DVec3::NEG_Y],
 ];
 
-/// A circle of directions with its inside, in the observer's frame.
-#[derive(Clone, Copy, Debug)]
-struct Cap {
-    middle: DVec3,
-    /// Angle from the middle to the circle, radians, at most π.
-    radius_rad: f64,
-}
-
 impl PictureMap {
-    /// Picture map of `camera` with `size` pixels, moving with `celerity`.
-    pub fn new(camera: &Camera, size: [u32; 2], celerity: Celerity) -> Self {
-        let axis = |eye: DVec3| camera.observer_from_eye * eye;
+    /// Map for pictures by an observer of this celerity: their cameras, and their sizes in pixels. There must be one.
+    pub fn new(pictures: &[(Camera, [u32; 2])], celerity: Celerity) -> Self {
+        // The cube has z along the motion, and x towards the middle of the first picture, if that is another direction.
+        let axis = |eye: DVec3| pictures[0].0.observer_from_eye * eye;
         let (forward, right, up) = (axis(DVec3::NEG_Z), axis(DVec3::X), axis(DVec3::Y));
-        let [width, height] = size.map(f64::from);
-        // Samples lie anywhere in a pixel, so the picture is taken one pixel wider all round.
-        let tangents = camera.tangents(size);
-        let focal_length = tangents.focal_length(size);
-        let (low, high) = (tangents.low - 1.0 / focal_length, tangents.high + 1.0 / focal_length);
-
-        // The cube has z along the motion, and x towards the middle of the picture, if that is another direction.
         let motion = celerity.vector().normalize_or(forward);
         let side = [forward, right, up].into_iter().map(|axis| axis - axis.dot(motion) * motion);
         let side = side.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let x = side.unwrap_or(right).normalize();
         let cube_from_world = DMat3::from_cols(x, motion.cross(x), motion).transpose();
 
-        let edge = |sideways: DVec3, extent: f64| cube_from_world * (sideways + extent * forward).normalize();
-        Self {
-            cube_from_world,
-            picture: [right, up, forward].map(|axis| cube_from_world * axis),
-            edges: [edge(right, -low.x), edge(-right, high.x), edge(up, -low.y), edge(-up, high.y)],
-            middle: tangents.middle(),
-            half_size: 0.5 * DVec2::new(width, height),
-            focal_length,
-            kappa: celerity.kappa(),
-        }
+        let kappa = celerity.kappa();
+        let mapped = |(camera, size): &(Camera, [u32; 2])| MappedPicture::new(camera, *size, &cube_from_world, kappa);
+        Self { cube_from_world, pictures: pictures.iter().map(mapped).collect(), kappa }
     }
 
-    /// True if any of a part may be in the picture.
+    /// True if any of a part may be in a picture.
     pub fn sees(&self, part: &CubePart) -> bool {
-        let cap = self.cap(part);
-        let reach = cap.radius_rad.min(std::f64::consts::FRAC_PI_2).sin();
-        self.edges.iter().all(|edge| edge.dot(cap.middle) >= -reach)
+        let cone = self.cone(part);
+        self.pictures.iter().any(|picture| picture.sides.may_show(&cone))
     }
 
-    /// Cap around a part of the cube, in the observer's frame.
-    fn cap(&self, part: &CubePart) -> Cap {
+    /// Size of a part in the pictures: in the one where it is largest. `None` if a grid on the part cannot tell it.
+    pub fn extent(&self, part: &CubePart) -> Option<Extent> {
+        let cone = self.cone(part);
+        let seeing = self.pictures.iter().filter(|picture| picture.sides.may_show(&cone));
+        seeing.map(|picture| picture.extent(part)).reduce(|one, other| Some(one?.or_larger(other?))).flatten()
+    }
+
+    /// Cone around a part of the cube as the observer sees it, cube's axes.
+    fn cone(&self, part: &CubePart) -> DirectionCone {
         let middle = part.direction(DVec2::ZERO);
         let corners = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
         let radius = corners.into_iter().map(|corner| angle(middle, part.direction(corner))).fold(0.0, f64::max);
 
         // Along the meridian from the motion through the middle, angles shrink as tan(θ'/2) = tan(θ/2) / κ, so both
-        // ends of the cap are known.
+        // ends of the cone are known.
         let from_motion = f64::atan2(middle.truncate().length(), middle.z);
         let seen = |world: f64| 2.0 * f64::atan2((0.5 * world).sin(), self.kappa * (0.5 * world).cos());
         let (near, far) = (seen(from_motion - radius), seen(from_motion + radius));
         let meridian = middle.truncate().normalize_or(DVec2::X);
         let (sine, cosine) = (0.5 * (near + far)).sin_cos();
-        Cap { middle: (meridian * sine).extend(cosine), radius_rad: 0.5 * (far - near) }
+        DirectionCone { axis: (meridian * sine).extend(cosine), radius_rad: 0.5 * (far - near) }
+    }
+}
+
+impl Extent {
+    fn or_larger(self, other: Self) -> Self {
+        Self {
+            most: self.most.max(other.most),
+            mean: self.mean.max(other.mean),
+            inside: self.inside || other.inside,
+        }
+    }
+}
+
+impl MappedPicture {
+    fn new(camera: &Camera, size: [u32; 2], cube_from_world: &DMat3, kappa: f64) -> Self {
+        let axis = |eye: DVec3| *cube_from_world * (camera.observer_from_eye * eye);
+        let tangents = camera.tangents(size);
+        let [width, height] = size.map(f64::from);
+        Self {
+            axes: [axis(DVec3::X), axis(DVec3::Y), axis(DVec3::NEG_Z)],
+            // Samples lie anywhere in a pixel, so the picture is taken one pixel wider all round.
+            sides: Sides::of(camera, size, 1.0).turned(cube_from_world),
+            middle: tangents.middle(),
+            half_size: 0.5 * DVec2::new(width, height),
+            focal_length: tangents.focal_length(size),
+            kappa,
+        }
     }
 
     /// Place of a world direction in the picture, pixels from the middle; `None` if it is behind the eye.
-    pub fn pixel(&self, world: DVec3) -> Option<DVec2> {
+    fn pixel(&self, world: DVec3) -> Option<DVec2> {
         // The boost scales the two light-cone coordinates. Their computation has no cancellation.
         let seen = LightConeCoordinates::of(world.z, world.truncate().length_squared()).boosted(self.kappa);
         let observed = world.truncate().extend(seen.along());
-        let [right, up, forward] = self.picture.map(|axis| axis.dot(observed));
+        let [right, up, forward] = self.axes.map(|axis| axis.dot(observed));
         (forward > 0.0).then(|| (DVec2::new(right, up) / forward - self.middle) * self.focal_length)
     }
 
     /// Size of a part in the picture. `None` if a grid on the part cannot tell it.
-    pub fn extent(&self, part: &CubePart) -> Option<Extent> {
+    fn extent(&self, part: &CubePart) -> Option<Extent> {
         const STEPS: usize = 4;
         let at = |column: usize, row: usize| {
             let place = DVec2::new(column as f64, row as f64) * (2.0 / STEPS as f64) - 1.0;

@@ -24,7 +24,7 @@ use crate::gpu::Gpu;
 use crate::method::{Method, Sample};
 use crate::moving_objects::Axes;
 use crate::stats::CutStats;
-use crate::world::{World, hand_over, stream_count, stream_stride};
+use crate::world::{DrawList, World, hand_over, stream_count, stream_stride};
 
 /// Largest number of triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;
@@ -80,6 +80,7 @@ struct Shown {
 /// A cut that is ready to be uploaded.
 struct Made {
     cut: Arc<Cut>,
+    list: DrawList,
     stats: CutStats,
 }
 
@@ -101,8 +102,8 @@ impl Adaptive {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
         };
-        if let Some(Made { cut, stats }) = made {
-            world.replace(gpu, &self.scene, &cut);
+        if let Some(Made { cut, list, stats }) = made {
+            world.replace(gpu, &self.scene, &cut, list);
             let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("photo-surface of a cut"),
                 size: stream_count(&self.scene.motions) * stream_stride(cut.vertices),
@@ -178,9 +179,10 @@ fn make(scene: &Scene, viewpoint: &CutViewpoint, tolerance: Tolerance, before: O
         },
     };
     let cut = Cut::new(scene, viewpoint, fineness, before);
+    let list = DrawList::of(scene, Some(&cut));
     let kept = cut.tolerance_px / fineness.tolerance_px * tolerance.pixels;
     let stats = CutStats { tolerance_px: kept, triangles: cut.triangles, duration: started.elapsed() };
-    Made { cut: Arc::new(cut), stats }
+    Made { cut: Arc::new(cut), list, stats }
 }
 
 /// Writes the apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated.

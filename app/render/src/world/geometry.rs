@@ -4,13 +4,12 @@
 //! Attributes that no mesh has take one vertex, which all share.
 
 use super::buffer_fill::{BufferFill, filled};
-use super::draw_list::{Draw, centre, groups_of, order, push_draw};
+use super::draw_list::{DrawList, corners};
 use crate::gpu::Gpu;
 use bytemuck::{Pod, Zeroable};
 use scene::cut::{Cut, CutMesh, CutVertex};
 use scene::motion::Motion;
-use scene::{Alpha, Mesh, Scene};
-use std::borrow::Cow;
+use scene::{Mesh, Scene};
 
 /// Place of a vertex and direction of its surface.
 #[repr(C)]
@@ -56,10 +55,8 @@ pub struct Geometry {
     pub colours: wgpu::Buffer,
     /// Indices, three u32 for each triangle.
     pub indices: wgpu::Buffer,
-    /// Opaque draws, in any order before the sky: one for each material and motion.
-    pub opaque: Vec<Draw>,
-    /// Blended draws, from far to near after the sky: one for each mesh.
-    pub blended: Vec<Draw>,
+    /// Draws of the triangles.
+    pub list: DrawList,
     /// Bytes from one stream of apparent positions to the next.
     pub stream_stride: u64,
 }
@@ -74,27 +71,9 @@ pub fn stream_count(motions: &[Motion]) -> u64 {
     if motions.iter().any(|motion| motion.animated().is_some()) { 4 } else { 3 }
 }
 
-/// Order of a scene's triangles on the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sorting {
-    /// Order of the scene, for views that see much of the world.
-    AsTheyCome,
-    /// Groups of triangles that lie close together, for views that see little of the world.
-    InGroups,
-}
-
 impl Geometry {
-    /// Uploads a scene.
-    pub fn of(gpu: &Gpu, scene: &Scene, own: OwnAttributes, sorting: Sorting) -> Self {
-        Self::upload(gpu, scene, own, None, sorting)
-    }
-
-    /// Uploads a scene that was cut.
-    pub fn of_cut(gpu: &Gpu, scene: &Scene, own: OwnAttributes, cut: &Cut) -> Self {
-        Self::upload(gpu, scene, own, Some(cut), Sorting::AsTheyCome)
-    }
-
-    fn upload(gpu: &Gpu, scene: &Scene, own: OwnAttributes, cut: Option<&Cut>, sorting: Sorting) -> Self {
+    /// Uploads a scene, or one of its cuts, with its draws.
+    pub fn new(gpu: &Gpu, scene: &Scene, own: OwnAttributes, cut: Option<&Cut>, list: DrawList) -> Self {
         let uncut = CutMesh::default();
         let cut_of = |mesh: usize| cut.map_or(&uncut, |cut| &cut.meshes[mesh]);
         let parts = || scene.meshes.iter().enumerate().map(|(number, mesh)| (mesh, cut_of(number)));
@@ -147,7 +126,7 @@ impl Geometry {
             filled(gpu, "colour of all", &[1.0_f32; 4], vertices)
         };
 
-        // Join the indices: opaque meshes by material, blended ones apart.
+        // Join the indices.
         let mut base = 0;
         let bases: Vec<u32> = parts()
             .map(|(mesh, cut)| {
@@ -156,52 +135,13 @@ impl Geometry {
                 first
             })
             .collect();
-        let drawn: Vec<Cow<'_, [u32]>> = parts()
-            .map(|(mesh, of_mesh)| if cut.is_some() { of_mesh.indices(mesh).into() } else { drawable(mesh) })
-            .collect();
-        let corners: usize = drawn.iter().map(|indices| indices.len()).sum();
-        let order = order(scene);
-        let (mut opaque, mut blended) = (Vec::new(), Vec::new());
-        let mut start = 0;
-        for &mesh in &order {
-            let end = start + drawn[mesh].len() as u32;
-            let source = &scene.meshes[mesh];
-            let blends = scene.materials[source.material].alpha == Alpha::Blend;
-            // Only blended draws are sorted by their distance.
-            let centre = if blends { scene.origin + centre(&source.positions) } else { scene.origin };
-            let draw = Draw {
-                material: source.material,
-                motion: source.motion,
-                indices: start..end,
-                centre,
-                groups: Vec::new(),
-            };
-            push_draw(&mut opaque, &mut blended, draw, blends);
-            start = end;
-        }
-        let of_mesh = |mesh: usize| {
-            let base = bases[mesh];
-            drawn[mesh].iter().map(move |index| index + base)
-        };
-        let mut fill = BufferFill::new(gpu, "indices", corners.max(1) * 4, wgpu::BufferUsages::INDEX);
-        match sorting {
-            Sorting::AsTheyCome => order.iter().for_each(|&mesh| fill.extend(of_mesh(mesh))),
-            Sorting::InGroups => {
-                let mut indices: Vec<u32> = order.iter().flat_map(|&mesh| of_mesh(mesh)).collect();
-                groups_of(scene, &mut indices, &mut opaque, &mut blended);
-                fill.extend(indices.into_iter());
-            }
+        let count_of_corners = 3 * list.triangle_count() as usize;
+        let mut fill = BufferFill::new(gpu, "indices", count_of_corners.max(1) * 4, wgpu::BufferUsages::INDEX);
+        for &mesh in &list.order {
+            let corners = corners(&scene.meshes[mesh], cut.map(|cut| &cut.meshes[mesh]));
+            fill.extend(corners.iter().map(|corner| corner + bases[mesh]));
         }
         let (indices, stream_stride) = (fill.finish(), stream_stride(count));
-        Self { surface, uvs, emissive_uvs, colours, indices, opaque, blended, stream_stride }
+        Self { surface, uvs, emissive_uvs, colours, indices, list, stream_stride }
     }
-}
-
-/// Indices of the triangles of a mesh that can be drawn: a corner without a finite place would be drawn at the eye.
-fn drawable(mesh: &Mesh) -> Cow<'_, [u32]> {
-    if mesh.positions.iter().all(|position| position.is_finite()) {
-        return Cow::Borrowed(&mesh.indices);
-    }
-    let finite = |corners: &&[u32; 3]| corners.iter().all(|&corner| mesh.positions[corner as usize].is_finite());
-    mesh.indices.as_chunks::<3>().0.iter().filter(finite).flatten().copied().collect()
 }

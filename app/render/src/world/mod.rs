@@ -5,15 +5,19 @@
 
 mod buffer_fill;
 mod draw_list;
+mod draws;
 mod geometry;
 mod materials;
 mod panorama;
 mod pipelines;
 mod scene_world;
+mod seen_draw;
 mod shadow_and_light;
 pub mod shift_table;
 
 pub use buffer_fill::hand_over;
-pub use geometry::{Sorting, stream_count, stream_stride};
+pub use draw_list::{DrawList, gather};
+pub use draws::{Draws, TargetPart};
+pub use geometry::{stream_count, stream_stride};
 pub use pipelines::{Mode, VertexSource, effect_constants, layout};
-pub use scene_world::{Draws, TargetPart, World, bind_group};
+pub use scene_world::{World, bind_group};

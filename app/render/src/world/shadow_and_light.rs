@@ -119,7 +119,7 @@ pub fn draw_map(
         pass.set_vertex_buffer(0, geometry.surface.slice(..));
         pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let casts = |draw: &&Draw| draw.motion.is_none() && casters[draw.material];
-        for draw in geometry.opaque.iter().filter(casts) {
+        for draw in geometry.list.opaque.iter().filter(casts) {
             pass.draw_indexed(draw.indices.clone(), 0, 0..1);
         }
     }

@@ -1,6 +1,7 @@
 //! Edges of animated bodies as drawn, and their errors, estimated from samples.
 
 use glam::DVec3;
+use physics::DirectionCone;
 
 use crate::motion::SeenPoint;
 
@@ -12,11 +13,9 @@ pub struct EdgeChord {
     pub error_rad: f64,
     /// Interpolation error of log2 D at the middle.
     pub error_log2_doppler: f64,
-    /// Direction in which the middle is seen: unit vector, observer's axes.
-    pub direction: DVec3,
-    /// Half-angle, radians, of a cone about that direction that holds all triangles of which this is the longest
-    /// edge.
-    pub radius_rad: f64,
+    /// Cone about the direction in which the middle is seen, observer's axes, that holds all triangles of which this is
+    /// the longest edge.
+    pub cone: DirectionCone,
     /// Angle between its ends, radians.
     pub length_rad: f64,
 }
@@ -40,27 +39,26 @@ impl EdgeChord {
         let mut chord = Self {
             error_rad: 0.0,
             error_log2_doppler: 0.0,
-            direction: straight(0.5).normalize_or_zero(),
-            radius_rad: length_rad,
+            cone: DirectionCone { axis: straight(0.5).normalize_or_zero(), radius_rad: length_rad },
             length_rad,
         };
         if length_rad <= small {
             return Some(chord);
         }
         let halfway = seen(middle)?;
-        chord.direction = halfway.apparent.normalize_or_zero();
+        chord.cone.axis = halfway.apparent.normalize_or_zero();
         chord.error_rad = angle(halfway.apparent, straight(0.5));
         chord.error_log2_doppler = (halfway.doppler.log2() - 0.5 * (from.doppler.log2() + to.doppler.log2())).abs();
-        let mut radius = angle(chord.direction, from.apparent).max(angle(chord.direction, to.apparent));
+        let mut radius = angle(chord.cone.axis, from.apparent).max(angle(chord.cone.axis, to.apparent));
         if length_rad > LONG_RAD {
             for (share, place) in [(0.25, 0.5 * a + 0.5 * middle), (0.75, 0.5 * middle + 0.5 * b)] {
                 let quarter = seen(place)?;
                 chord.error_rad = chord.error_rad.max(angle(quarter.apparent, straight(share)));
-                radius = radius.max(angle(chord.direction, quarter.apparent));
+                radius = radius.max(angle(chord.cone.axis, quarter.apparent));
             }
         }
         chord.error_rad *= INSIDE;
-        chord.radius_rad = 2.0 * radius;
+        chord.cone.radius_rad = 2.0 * radius;
         Some(chord)
     }
 }

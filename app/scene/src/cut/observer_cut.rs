@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DVec3, Vec3};
+use physics::DirectionCone;
 use physics::interpolation_error::InterpolationBound;
 use rayon::prelude::*;
 
@@ -117,8 +118,8 @@ impl<'a> CutRule<'a> {
     }
 
     /// Smallest allowed error of things within a cone over all pictures, radians.
-    fn allowed(&self, direction: DVec3, radius: f64) -> f64 {
-        let each = self.skies.iter().map(|sky| sky.allowed(direction, radius, &self.fineness));
+    fn allowed(&self, cone: &DirectionCone) -> f64 {
+        let each = self.skies.iter().map(|sky| sky.allowed(cone, &self.fineness));
         each.fold(f64::INFINITY, f64::min)
     }
 
@@ -141,7 +142,7 @@ impl<'a> CutRule<'a> {
         if self.is_short(sight, seen.length(), length) {
             return None;
         }
-        let InterpolationBound { error_rad, direction, radius_rad } = sight.bend.bound(seen, length);
+        let InterpolationBound { error_rad, cone } = sight.bend.bound(seen, length);
         let stays_unclaimed = || self.unclaimed == f64::INFINITY || length <= self.unclaimed * seen.length();
         if error_rad == 0.0 || error_rad == f64::INFINITY && stays_unclaimed() {
             return None;
@@ -149,7 +150,7 @@ impl<'a> CutRule<'a> {
         if error_rad == f64::INFINITY {
             self.unclaimed_cuts.fetch_add(1, Ordering::Relaxed);
         }
-        let allowed = self.allowed(sight.observer_from_group * direction, radius_rad);
+        let allowed = self.allowed(&cone.turned(sight.observer_from_group));
         let stays = || self.before.is_some_and(|before| before.split.contains(&edge_key(a, b)));
         (error_rad > allowed || error_rad > 0.5 * allowed && stays()).then_some(middle)
     }
@@ -192,7 +193,7 @@ impl<'a> CutRule<'a> {
     fn is_cut(&self, body: &ObservedBody, known: &SeenCache, ends: [DVec3; 2]) -> bool {
         let seen = |place| known.seen(body, place);
         let Some(chord) = EdgeChord::of(seen, ends, self.least_allowed) else { return false };
-        let allowed = self.allowed(chord.direction, chord.radius_rad);
+        let allowed = self.allowed(&chord.cone);
         let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;
         let error =
             if chord.length_rad > DOPPLER_LENGTH * allowed { chord.error_rad.max(doppler) } else { chord.error_rad };

@@ -1,7 +1,8 @@
 //! Part of the observer's sky that a picture shows, and the error that it allows.
 
 use glam::DVec3;
-use view::Camera;
+use physics::DirectionCone;
+use view::{Camera, Sides};
 
 use super::fineness::CutFineness;
 
@@ -13,8 +14,8 @@ const LARGEST_ERROR_RAD: f64 = 0.5;
 pub struct ShownSky {
     /// Direction straight ahead, unit vector, observer's axes.
     forward: DVec3,
-    /// Inward unit normals of the planes through the eye and the picture's sides.
-    planes: [DVec3; 4],
+    /// Sides of the picture.
+    sides: Sides,
     /// Focal length: pixels per radian straight ahead.
     focal_length: f64,
     /// Cosine of the angle from straight ahead to the farthest corner.
@@ -25,14 +26,11 @@ impl ShownSky {
     /// Sky of a camera's picture of `size` pixels.
     pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
         let tangents = camera.tangents(size);
-        let (low, high, farthest) = (tangents.low, tangents.high, tangents.farthest());
-        // Inward normal of the side where x or y is that tangent.
-        let side = |x: f64, y: f64, tan: f64| camera.observer_from_eye * DVec3::new(x, y, tan).normalize();
         Self {
             forward: camera.observer_from_eye * DVec3::NEG_Z,
-            planes: [side(1.0, 0.0, low.x), side(-1.0, 0.0, -high.x), side(0.0, 1.0, low.y), side(0.0, -1.0, -high.y)],
+            sides: Sides::of(camera, size, 0.0),
             focal_length: tangents.focal_length(size).max_element(),
-            corner_cosine: 1.0 / (1.0 + farthest.length_squared()).sqrt(),
+            corner_cosine: 1.0 / (1.0 + tangents.farthest().length_squared()).sqrt(),
         }
     }
 
@@ -43,13 +41,12 @@ impl ShownSky {
     }
 
     /// Allowed error of things within a cone, radians.
-    pub fn allowed(&self, direction: DVec3, radius: f64, fineness: &CutFineness) -> f64 {
+    pub fn allowed(&self, cone: &DirectionCone, fineness: &CutFineness) -> f64 {
         // A flat picture is a tangent of the angle from straight ahead: an angle there is 1/cos² as long.
-        let aside = self.forward.dot(direction).clamp(-1.0, 1.0).acos() + radius;
+        let aside = self.forward.dot(cone.axis).clamp(-1.0, 1.0).acos() + cone.radius_rad;
         let cosine = aside.min(0.5 * std::f64::consts::PI).cos().max(self.corner_cosine);
         let allowed = fineness.tolerance_px * cosine * cosine / self.focal_length;
-        let beyond = |plane: &DVec3| -plane.dot(direction).clamp(-1.0, 1.0).asin();
-        let gap = self.planes.iter().map(beyond).fold(f64::NEG_INFINITY, f64::max) - radius - fineness.turn_rad;
+        let gap = self.sides.gap(cone) - fineness.turn_rad;
         allowed.max(gap.min(LARGEST_ERROR_RAD))
     }
 }

@@ -1,0 +1,158 @@
+//! Draws of a world: its surfaces and its sky, into the parts of a target.
+
+use super::pipelines::{Mode, VertexSource};
+use super::scene_world::World;
+use super::seen_draw::SeenDraw;
+use crate::gpu::Gpu;
+use crate::target::Format;
+use scene::cut::SeenFrom;
+use std::ops::Range;
+use view::Sides;
+
+/// Largest number of parts in which depth is drawn first: small parts show little that is hidden, and each takes draws
+/// of its own. A map of the old town has 9 panes up to 0.5 c, where a frame gains by it, and 53 at 0.99 c, where it
+/// loses.
+const DEPTH_FIRST_PARTS: usize = 10;
+
+/// Settings of a draw.
+pub struct Draws<'a> {
+    /// Positions to draw: x, y and z streams, and one of log2 D if anything is animated, `stream_stride` bytes
+    /// apart. `None` stands for the world's own positions, relative to its origin.
+    pub streams: Option<&'a wgpu::Buffer>,
+    /// True if the vertex stage bends the vertices that the streams do not hold.
+    pub bends: bool,
+    /// Kind of values drawn: light, weights or places.
+    pub mode: Mode,
+    /// Format of the target.
+    pub format: Format,
+    /// Sight of the resting scene, as it is drawn, then of each motion, in the order of the views of each part. Without
+    /// those of the motions, moving bodies are not drawn.
+    pub sights: &'a [SeenFrom],
+    /// True if the sky is drawn where there is no opaque surface. Otherwise the target keeps its values there.
+    pub sky: bool,
+}
+
+/// A part of a target, with its own view.
+pub struct TargetPart {
+    /// Index of the view among those written.
+    pub view: u32,
+    /// Rectangle in the target: x, y, width and height in pixels. `None` stands for the whole target.
+    pub place: Option<[u32; 4]>,
+    /// Sides of the view, observer's axes: what lies beyond them is not drawn.
+    pub sides: Sides,
+}
+
+impl World {
+    /// Draws surfaces and sky into each part of a target.
+    pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, draws: &Draws<'_>, parts: &[TargetPart]) {
+        let source = match draws.streams {
+            None => VertexSource::Plain,
+            Some(_) if draws.bends => VertexSource::Bent,
+            Some(_) => VertexSource::Streams,
+        };
+        let Some(pipelines) = self.pipelines.get(draws.mode, source, draws.format) else { return };
+        let Some(geometry) = &self.geometry else { return };
+        let opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, source);
+        let mut blended = SeenDraw::all(&geometry.list.blended, draws.sights, source);
+        blended.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+
+        pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let is_animated = |motion: usize| self.animated[motion].is_some();
+        let stride = geometry.stream_stride;
+        if let Some(streams) = draws.streams {
+            for axis in 0..3 {
+                let start = stride * u64::from(axis);
+                pass.set_vertex_buffer(axis, streams.slice(start..start + stride));
+            }
+            if (0..draws.sights.len() - 1).any(is_animated) {
+                pass.set_vertex_buffer(4, streams.slice(3 * stride..));
+            }
+        }
+        let attributes = [&geometry.uvs, &geometry.emissive_uvs, &geometry.colours];
+        for (slot, buffer) in [(3, &geometry.surface)].into_iter().chain((5..).zip(attributes)) {
+            pass.set_vertex_buffer(slot, buffer.slice(..));
+        }
+
+        // Draw each material for all parts in turn: a change of part is cheap, a change of material is not.
+        let draw_all = |pass: &mut wgpu::RenderPass<'_>, seen: &SeenDraw<'_>| {
+            let (draw, mut bound) = (seen.draw, false);
+            for part in parts {
+                let ranges = seen.ranges(&part.sides);
+                if ranges.is_empty() {
+                    continue;
+                }
+                if !bound {
+                    bound = true;
+                    let animated = pipelines.animated.as_ref().filter(|_| draw.motion.is_some_and(is_animated));
+                    pass.set_pipeline(&animated.unwrap_or(&pipelines.surface)[draw.material]);
+                    pass.set_bind_group(shaders::MATERIAL_GROUP, &self.materials.bind_groups[draw.material], &[]);
+                }
+                self.go_to(gpu, pass, part, draw.motion);
+                ranges.into_iter().for_each(|indices| self.draw_range(pass, indices));
+            }
+        };
+        if let Some(depth) = pipelines.depth.as_ref().filter(|_| parts.len() <= DEPTH_FIRST_PARTS) {
+            for (sides, pipeline) in depth.by_sides.iter().enumerate() {
+                // What brings its own Doppler factors comes from other streams.
+                let hides = |seen: &&SeenDraw<'_>| {
+                    depth.of_material[seen.draw.material] == Some(sides) && !seen.draw.motion.is_some_and(is_animated)
+                };
+                let hiding: Vec<_> = opaque.iter().filter(hides).collect();
+                pass.set_pipeline(pipeline);
+                self.draw_depth(gpu, pass, draws.sights.len() - 1, parts, &hiding);
+            }
+        }
+        opaque.iter().for_each(|draw| draw_all(pass, draw));
+        if draws.sky {
+            pass.set_pipeline(&pipelines.sky);
+            for part in parts {
+                self.go_to(gpu, pass, part, None);
+                pass.draw(0..3, 0..1);
+            }
+        }
+        blended.iter().for_each(|draw| draw_all(pass, draw));
+    }
+
+    /// Draws the depth of draws with the pipeline that is set; ranges that follow each other take one call.
+    fn draw_depth(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        motions: usize,
+        parts: &[TargetPart],
+        drawn: &[&SeenDraw<'_>],
+    ) {
+        for part in parts {
+            for motion in std::iter::once(None).chain((0..motions).map(Some)) {
+                let mut seen = drawn
+                    .iter()
+                    .filter(|seen| seen.draw.motion == motion)
+                    .flat_map(|seen| seen.ranges(&part.sides))
+                    .peekable();
+                if seen.peek().is_none() {
+                    continue;
+                }
+                self.go_to(gpu, pass, part, motion);
+                while let Some(mut range) = seen.next() {
+                    while let Some(next) = seen.next_if(|next| next.start == range.end) {
+                        range.end = next.end;
+                    }
+                    self.draw_range(pass, range);
+                }
+            }
+        }
+    }
+
+    fn draw_range(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
+        self.drawn.set(self.drawn.get().with(indices.len() as u64 / 3));
+        pass.draw_indexed(indices, 0, 0..1);
+    }
+
+    fn go_to(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, part: &TargetPart, motion: Option<usize>) {
+        self.bind_view(gpu, pass, part.view, motion);
+        if let Some([x, y, width, height]) = part.place {
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+            pass.set_scissor_rect(x, y, width, height);
+        }
+    }
+}
