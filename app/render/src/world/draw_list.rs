@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// Largest number of triangles of a [`Group`]: enough that a draw of its own costs little in comparison.
-const GROUP_TRIANGLES: usize = 512;
+const GROUP_TRIANGLES: usize = 64;
 
 /// Parts of its radius and of its place by which a ball is taken to be larger than computed, so that rounding leaves
 /// nothing outside.
