@@ -8,8 +8,8 @@ use input::{Action, Sample};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// Time for which a turn waits for the windows' textures: several refreshes of any monitor, and less than the quarter of
-/// a second after which own time is not ridden.
+/// Time for which a turn waits for the windows' textures: several refreshes of any monitor, and less than the quarter
+/// of a second after which own time is not ridden.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
 /// Shortest time of a turn in which nothing is shown.
 const HELD_PAUSE: Duration = Duration::from_millis(10);
