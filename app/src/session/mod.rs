@@ -4,7 +4,6 @@
 pub mod gaps;
 pub mod interrupt;
 pub mod live;
-mod picture_cache;
 pub mod preferences;
 pub mod reel;
 pub mod scenes;

@@ -3,9 +3,9 @@
 use crate::command::{SceneChoice, WorldOptions};
 use crate::output::progress::{self, LateBar};
 use crate::output::say::tell;
-use crate::session::picture_cache::PictureCache;
 use built_in::lattice::Lattice;
 use built_in::{spectra, town};
+use picture_cache::PictureCache;
 use scene::{Scene, TooFast, ViewCamera};
 use scene_files::gltf::{LoadStage, ReadRules};
 use scene_files::read;

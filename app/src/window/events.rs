@@ -187,11 +187,9 @@ impl Open {
         self.ride.live.tell(format!("exposure: {exposure}"));
     }
 
-    pub(super) fn resize(&mut self, window: usize, size: PhysicalSize<u32>) {
-        if self.windows[window].resize(&self.gpu, size)
-            && let Canvas::Picture(picture) = &mut self.canvas
-        {
-            picture.resize(self.windows[window].size());
-        }
+    /// Takes over a window's new size. The texture that it holds has the size before.
+    fn resize(&mut self, window: usize, size: PhysicalSize<u32>) {
+        self.in_step.release(window);
+        self.windows[window].resize(&self.gpu, size);
     }
 }

@@ -3,9 +3,9 @@
 //! winit calls `application` for each event. A redraw advances the ride by one frame
 //! ([`RideInProgress::frame`](crate::frame::RideInProgress::frame)), shows it (`show`) and asks for the next. Keys go
 //! to the ride as samples (`events`), so that they are recorded like any device's. Settings that change the picture
-//! alone (field of view, effects, panels) stay here. A window that cannot be drawn in for the moment (hidden, being
-//! resized) is skipped, and a lost surface is made again. A room with screens has one window or several for its
-//! channels; they are drawn together, and the first has the interface.
+//! alone (field of view, effects, panels) stay here. A lost surface is made again. A room with screens has one window
+//! or several for its channels; they are drawn and presented together ([`WindowsInStep`](walls::WindowsInStep)), and
+//! the first has the interface.
 
 mod application;
 mod calibrate;
@@ -19,6 +19,7 @@ mod keys;
 mod open;
 mod panel;
 mod photo;
+mod place;
 mod readings;
 mod server_loss;
 mod show;

@@ -3,8 +3,9 @@
 use super::calibrating::Calibrating;
 use super::interface::Interface;
 use super::panel::Settings;
+use super::place::attributes;
 use super::server_loss;
-use super::window_surface::{WindowSurface, attributes};
+use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::command::{RideOptions, map_scale_of_windows};
 use crate::error::Error;
@@ -22,7 +23,7 @@ use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use view::Occasion;
-use walls::{FlatPicture, Quality, Walls};
+use walls::{FlatPicture, Quality, Walls, WindowsInStep};
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
 use winit::window::{Fullscreen, Window};
@@ -43,6 +44,9 @@ pub struct WaitingRide {
 /// Open windows, and everything that draws in them.
 pub struct Open {
     pub(super) gpu: Gpu,
+    // Dropped before the windows: textures belong to their surfaces.
+    /// Textures that windows hold for the next frame.
+    pub(super) in_step: WindowsInStep<wgpu::SurfaceTexture>,
     /// Windows; the first has the interface.
     pub(super) windows: Vec<WindowSurface>,
     pub(super) canvas: Canvas,
@@ -110,10 +114,9 @@ impl Open {
         };
         let first = surface_of(&instance, &windows[0])?;
         let gpu = Gpu::with_instance(instance, Some(&first))?;
-        let mut surfaces = vec![WindowSurface::new(&gpu, Arc::clone(&windows[0]), first, true)?];
+        let mut surfaces = vec![WindowSurface::new(&gpu, Arc::clone(&windows[0]), first)?];
         for window in &windows[1..] {
-            // One wait per frame is enough.
-            surfaces.push(WindowSurface::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?, false)?);
+            surfaces.push(WindowSurface::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?)?);
         }
         let screen_format = surfaces[0].configuration.format;
 
@@ -175,6 +178,7 @@ impl Open {
             ride: RideInProgress::new(renderer, begin()?, options.frame_rate.governor()),
             stop: interruption(),
             gpu,
+            in_step: WindowsInStep::new(surfaces.len()),
             windows: surfaces,
             interface,
         })

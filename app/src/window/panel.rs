@@ -37,6 +37,8 @@ pub struct PanelRide {
     pub devices: Vec<String>,
     /// Sentence about the renderer and the amount that it draws.
     pub drawing: String,
+    /// Sentence on how well several windows keep step.
+    pub in_step: Option<String>,
 }
 
 /// Vehicles, with their purposes.
@@ -150,7 +152,7 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
                 }
             });
             ui.separator();
-            for line in ride.devices.iter().chain([&ride.drawing]) {
+            for line in ride.devices.iter().chain([&ride.drawing]).chain(&ride.in_step) {
                 ui.label(RichText::new(line).small());
             }
         },

@@ -45,8 +45,8 @@ fn accuracy(ride: &RideInProgress) -> String {
     if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
 }
 
-/// State of the ride that the settings panel shows.
-pub fn panel(ride: &RideInProgress, gpu: &Gpu) -> PanelRide {
+/// State of the ride that the settings panel shows. `in_step`: sentence on the windows, if there are several.
+pub fn panel(ride: &RideInProgress, gpu: &Gpu, in_step: Option<String>) -> PanelRide {
     let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
     PanelRide {
         vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
@@ -59,5 +59,6 @@ pub fn panel(ride: &RideInProgress, gpu: &Gpu) -> PanelRide {
             ride.renderer.name(),
             gpu.description()
         ),
+        in_step,
     }
 }

@@ -1,15 +1,18 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
-use super::window_surface::Acquired;
 use super::{calibrating, hud, panel, photo, readings};
+use crate::canvas::Canvas;
 use crate::error::Error;
 use input::{Action, Sample};
 use std::sync::atomic::Ordering;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// Pause between two looks at windows that cannot be drawn in.
-const UNSEEN_PAUSE: Duration = Duration::from_millis(10);
+/// Time for which a turn waits for the windows' textures: several refreshes of any monitor, and less than the quarter
+/// of a second after which own time is not ridden.
+const LONGEST_WAIT: Duration = Duration::from_millis(100);
+/// Shortest time of a turn in which nothing is shown.
+const HELD_PAUSE: Duration = Duration::from_millis(10);
 
 impl Open {
     /// Draws one frame. Returns false when the ride is over.
@@ -21,43 +24,27 @@ impl Open {
         if self.stop.load(Ordering::Relaxed) {
             return Ok(false);
         }
-        // A window that cannot be drawn in for the moment is left out.
-        let mut screens = Vec::new();
-        for number in 0..self.windows.len() {
-            match self.windows[number].acquire(&self.gpu)? {
-                Acquired::Texture(texture) => screens.push((number, texture)),
-                Acquired::Resize(size) => self.resize(number, size),
-                Acquired::Nothing => {}
-            }
-        }
-        if screens.is_empty() {
-            // The ride goes on while no window can be drawn in.
-            std::thread::sleep(UNSEEN_PAUSE);
-            return Ok(self.ride.live.frame()?.is_some());
+        let began = Instant::now();
+        self.ask_for_textures(began + LONGEST_WAIT)?;
+        let Some(screens) = self.in_step.turn() else {
+            // The ride goes on while nothing can be shown.
+            let Some(frame) = self.ride.live.frame()? else { return Ok(false) };
+            self.carry_out(frame.controls.actions);
+            std::thread::sleep(HELD_PAUSE.saturating_sub(began.elapsed()));
+            return Ok(true);
+        };
+        if let Canvas::Picture(picture) = &mut self.canvas {
+            picture.resize(self.windows[0].size());
         }
 
         // Devices to light, on one page: frame.rs.
         let look = self.settings.look;
         let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &look)? else { return Ok(false) };
-        if self.ride.live.has_turned() {
-            self.settings = self.fresh.clone();
-        }
-        for action in actions {
-            match action {
-                Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
-                Action::ToggleHelp => self.settings.help = !self.settings.help,
-                Action::ToggleRecording => self.ride.live.toggle_recording(),
-                Action::Photo => {
-                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &look.development);
-                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
-                }
-                _ => {}
-            }
-        }
+        self.carry_out(actions);
 
         // Light to the windows, and the interface over the first.
         let readings = readings::readings(&self.ride, self.settings.kiosk);
-        let panel = readings::panel(&self.ride, &self.gpu);
+        let panel = readings::panel(&self.ride, &self.gpu, self.in_step.sentence());
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let settings = &mut self.settings;
         let mut wanted = Vec::new();
@@ -85,10 +72,52 @@ impl Open {
         for action in wanted {
             self.ride.live.say(|at| Sample::action(at, &action));
         }
+        // Everything is drawn before anything is presented, so that nothing comes between the presents.
+        if screens.len() > 1 {
+            self.gpu.wait()?;
+        }
+        let mut first = None;
+        let mut skew = Duration::ZERO;
         for (_, texture) in screens {
             self.gpu.queue.present(texture);
+            skew = first.get_or_insert_with(Instant::now).elapsed();
         }
+        self.in_step.presented(skew);
         self.ride.times.stage("show");
         Ok(true)
+    }
+
+    /// Asks every window that holds no texture for one. Windows that others wait for have until `until`.
+    fn ask_for_textures(&mut self, until: Instant) -> Result<(), Error> {
+        let lacking = self.in_step.lacking();
+        for &number in &lacking {
+            self.windows[number].ask()?;
+        }
+        for number in lacking {
+            let until = if self.in_step.is_left_out(number) { Instant::now() } else { until };
+            let answer = self.windows[number].answer(&self.gpu, until)?;
+            self.in_step.answer(number, answer);
+        }
+        Ok(())
+    }
+
+    /// Carries out the rider's actions that concern the program.
+    fn carry_out(&mut self, actions: Vec<Action>) {
+        if self.ride.live.has_turned() {
+            self.settings = self.fresh.clone();
+        }
+        let development = self.settings.look.development;
+        for action in actions {
+            match action {
+                Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
+                Action::ToggleHelp => self.settings.help = !self.settings.help,
+                Action::ToggleRecording => self.ride.live.toggle_recording(),
+                Action::Photo => {
+                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
+                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                }
+                _ => {}
+            }
+        }
     }
 }

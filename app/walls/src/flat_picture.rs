@@ -98,7 +98,9 @@ impl FlatPicture {
 
     /// Changes the size of the window, pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
-        (self.size, self.still, self.shown) = (size, None, None);
+        if self.size != size {
+            (self.size, self.still, self.shown) = (size, None, None);
+        }
     }
 
     /// Changes the shares of the window's width and height that are drawn.

@@ -12,6 +12,8 @@
 //!
 //! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
 //! (`governor`).
+//!
+//! All windows of a display present the same frame (`in_step`), and none keeps the others waiting (`texture_waiter`).
 
 pub mod calibration;
 mod combine;
@@ -21,15 +23,19 @@ mod flat_picture;
 mod gains;
 mod governor;
 mod head;
+mod in_step;
 mod picture;
 pub mod preview;
 mod quality;
 mod show;
 mod test_grid;
+mod texture_waiter;
 mod walls;
 
 pub use flat_picture::{Drawing, FlatPicture, PictureShares};
 pub use governor::Governor;
 pub use head::{Occupant, OccupantEye, RoomHead};
+pub use in_step::{TextureAnswer, WindowsInStep};
 pub use quality::Quality;
+pub use texture_waiter::{TextureWaiter, WaiterGone};
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

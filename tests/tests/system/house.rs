@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 21] = [
+const PLAN: [(&str, &[&str]); 22] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -27,6 +27,7 @@ const PLAN: [(&str, &[&str]); 21] = [
     ("panoramas", &["physics", "regular_file", "scene"]),
     ("scene_files", &["decoders", "gltf_text", "panoramas", "physics", "regular_file", "scene"]),
     ("built_in", &["physics", "scene"]),
+    ("picture_cache", &["built_in", "regular_file"]),
     ("room", &["regular_file", "view"]),
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
@@ -44,6 +45,7 @@ const PLAN: [(&str, &[&str]); 21] = [
             "measure",
             "panoramas",
             "physics",
+            "picture_cache",
             "probe",
             "regular_file",
             "render",
