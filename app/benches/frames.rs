@@ -54,11 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut words = Words::given();
     let time = Duration::from_secs_f64(words.seconds().unwrap_or(SECONDS));
     let speed = words.speeds(&[SPEED])?[0];
-    let sized = words.find(|word| {
-        let (width, height) = word.split_once('x')?;
-        Some([width.parse().ok().filter(|side| *side > 0)?, height.parse().ok().filter(|side| *side > 0)?])
-    });
-    let size = sized.unwrap_or(SIZE);
+    let size = words.size().unwrap_or(SIZE);
     words.end("beta=V, a size, as in 640x480, and seconds, as in 5s")?;
 
     let gpu = Gpu::new()?;

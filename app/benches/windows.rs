@@ -53,11 +53,7 @@ const WORDS: &str =
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = Words::given();
     let (quick, markdown) = (words.has("quick"), words.has("markdown"));
-    let sized = words.find(|word| {
-        let (width, height) = word.split_once('x')?;
-        Some([width.parse().ok().filter(|side| *side > 0)?, height.parse().ok().filter(|side| *side > 0)?])
-    });
-    let size = sized.unwrap_or([1280, 720]);
+    let size = words.size().unwrap_or([1280, 720]);
     let seconds = words.seconds().unwrap_or(SECONDS);
     let speeds = words.speeds(&SPEEDS)?;
     let scales = words.list("map")?;

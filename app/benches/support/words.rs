@@ -40,6 +40,15 @@ impl Words {
         self.find(|word| word.strip_suffix('s')?.parse().ok().filter(positive))
     }
 
+    /// Width and height, pixels, written `640x360`.
+    pub fn size(&mut self) -> Option<[u32; 2]> {
+        let side = |text: &str| text.parse().ok().filter(|side| (1..=16_384).contains(side));
+        self.find(|word| {
+            let (width, height) = word.split_once('x')?;
+            Some([side(width)?, side(height)?])
+        })
+    }
+
     /// Speeds of `beta=…`, fractions of c; `usual` if none are given.
     pub fn speeds(&mut self, usual: &[f64]) -> Result<Vec<f64>, String> {
         let speeds = self.list("beta")?;
