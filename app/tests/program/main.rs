@@ -8,6 +8,8 @@ mod check;
 mod first_view;
 mod kiosk;
 mod measure;
+#[cfg(target_os = "linux")]
+mod measure_gpu;
 mod models;
 #[cfg(target_os = "linux")]
 mod outputs;
