@@ -4,6 +4,7 @@
 pub mod gaps;
 pub mod interrupt;
 pub mod live;
+mod lost_time;
 mod picture_cache;
 pub mod preferences;
 pub mod reel;
