@@ -44,7 +44,8 @@ impl LostTime {
 
 #[cfg(test)]
 mod tests {
-    //! Law: whoever loses own time is told so when it happens, not for the rest of the ride, and of all of it at the end.
+    //! Law: whoever loses own time is told so when it happens, not for the rest of the ride, and of all of it at the
+    //! end.
 
     use super::*;
 
