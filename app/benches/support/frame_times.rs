@@ -46,7 +46,7 @@ impl FrameTimes {
     pub fn markdown(&self, cells: &[&str], other: &Self) -> String {
         let [_, ratio, _] = self.ratio(other);
         let [usual, slow] = [self.median_ms(), self.slow_ms()].map(|ms| 1e3 / ms);
-        format!("| {} | {usual:.1} | {slow:.1} | {ratio:.2} |", cells.join(" | "))
+        format!("| {} | {usual:.2} | {slow:.2} | {ratio:.2} |", cells.join(" | "))
     }
 }
 
