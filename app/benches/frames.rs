@@ -1,12 +1,14 @@
 //! The cost of relativity for a frame: the photo-surface against the plain draw of the same scene (W table 6.1).
 //!
-//! Three scenes have as many vertices and triangles as Weiskopf's. Each is drawn plainly, with the transform of the
-//! next frame overlapping the draw of this one, and with both in sequence (`--latency low`). The three ways take
-//! turns within one run, so that other load on the machine affects all alike. The eye moves at a hundredth of c: the
-//! kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that little drawing
+//! Three scenes have as many vertices and triangles as Weiskopf's. Each is drawn by the default path (the method that
+//! `auto` chooses, all effects), and plainly. Then, with edges that are not cut and geometry alone, it is drawn with the
+//! transform of the next frame overlapping the draw of this one, and with both in sequence (`--latency low`). The ways
+//! take turns within one run, so that other load on the machine affects all alike. The eye moves at a hundredth of c:
+//! the kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that little drawing
 //! hides the cost.
 //!
-//! `cargo bench -p rapidity --bench frames`
+//! `cargo bench -p rapidity --bench frames`, or with words after `--`: `beta=.9` for another speed, `640x480` for another
+//! size, `5s` for seconds for each scene.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
@@ -14,15 +16,18 @@ mod support;
 use built_in::lattice::Lattice;
 use glam::{DVec3, Vec3};
 use physics::photo_surface::Kernel;
-use physics::{Beta, Event, Observer};
+use physics::{Beta, Celerity, Event, Observer};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer, TransformReport};
 use scene::refine::{RefineError, refine};
 use scene::{Mesh, Scene};
 use std::error::Error;
-use std::time::{Duration, Instant};
-use support::{commit, median, milliseconds, processor, quantile};
-use view::{Camera, Dial, Effects, Occasion, Shot};
+use std::time::Duration;
+use support::default_path::DefaultPath;
+use support::figures::{commit, median, milliseconds, processor};
+use support::frame_times::{FrameTimes, rounds, turn};
+use support::words::Words;
+use view::{Camera, Dial, Effects, Occasion, PixelSample, Shot};
 
 /// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 1024];
@@ -33,131 +38,158 @@ const EDGE_M: f64 = 1.0;
 /// Numbers of vertices and triangles in W table 6.1.
 const SIZES: [[usize; 2]; 3] = [[21_198, 18_770], [135_907, 113_397], [20_786, 19_864]];
 
-/// Target for the frame rate of the overlapped relativistic draw, as a share of the plain one's.
-const GOAL: f64 = 0.98;
+/// Target for the frame time of the overlapped relativistic draw, as a share of the plain one's.
+const GOAL: f64 = 1.02;
 
 /// Number of frames drawn in one way before the next way has its turn.
 const FRAMES: usize = 4;
 
-/// Time for which each scene is measured.
-const TIME: Duration = Duration::from_secs(15);
+/// Time for which each scene is measured, seconds.
+const SECONDS: f64 = 20.0;
+
+/// Speed of the eye, fraction of c.
+const SPEED: f64 = 0.01;
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = Words::given();
+    let time = Duration::from_secs_f64(words.seconds().unwrap_or(SECONDS));
+    let speed = words.speeds(&[SPEED])?[0];
+    let size = words.size().unwrap_or(SIZE);
+    words.end("beta=V, a size, as in 640x480, and seconds, as in 5s")?;
+
     let gpu = Gpu::new()?;
     let cores = std::thread::available_parallelism()?;
     println!("commit {}, {}, {cores} cores, kernel {:?}", commit(), processor(), Kernel::default().instructions());
-    println!("{}, {} x {} pixels", gpu.description(), SIZE[0], SIZE[1]);
+    println!("{}, {} x {} pixels, {speed} c", gpu.description(), size[0], size[1]);
     if gpu.is_software() {
         println!("a software driver draws on the cores that transform: what overlaps also competes");
     }
     println!(
-        "medians; ratio = frame rate over that of the plain draw, with its quartiles; goal when overlapped: {GOAL}"
-    );
-    println!();
-    println!(
-        "vertices triangles | plain ms | overlap ms ratio               | low ms  ratio               | transform ms"
+        "medians; ratio = frame time over that of the plain draw, with its quartiles; goal when overlapped: {GOAL}"
     );
     for [vertices, triangles] in SIZES {
         let scene = scene_of(vertices, triangles)?;
         assert_eq!([scene.vertex_count(), scene.triangle_count()], [vertices, triangles]);
-        let [plain, overlap, low, transform] = Bench::new(&gpu, &scene)?.run()?;
-        let (hidden, shown) = (ratios(&plain, &overlap), ratios(&plain, &low));
-        println!(
-            "{vertices:8} {triangles:9} | {:8.2} | {:7.2}  {hidden} | {:7.2} {shown} | {:6.3}",
-            median(&plain),
-            median(&overlap),
-            median(&low),
-            median(&transform)
-        );
+        println!("\n{vertices} vertices, {triangles} triangles");
+        let default = DefaultPath::of(&gpu, &scene)?;
+        let eye = Eye::new(speed)?;
+        let uncut = Dial::edge(EDGE_M);
+        let mut ways = [
+            Way::new(&gpu, &scene, (default.name(), default.dial, default.effects), true, (default.format, size))?,
+            Way::new(&gpu, &scene, ("plain".to_owned(), uncut, Effects::NONE), true, (default.format, size))?,
+            Way::new(
+                &gpu,
+                &scene,
+                ("uncut, overlapped".to_owned(), uncut, Effects::GEOMETRY),
+                true,
+                (default.format, size),
+            )?,
+            Way::new(
+                &gpu,
+                &scene,
+                ("uncut, in sequence".to_owned(), uncut, Effects::GEOMETRY),
+                false,
+                (default.format, size),
+            )?,
+        ];
+        rounds(time, |counts| ways.iter_mut().try_for_each(|way| way.turn(&gpu, &eye, counts)))?;
+        for way in &ways {
+            let transform = match &way.transforms[..] {
+                [] => String::new(),
+                times => format!("; transform {:.3} ms", median(times)),
+            };
+            println!("{}{transform}", way.times.line(&way.name, &ways[PLAIN].times));
+        }
     }
     Ok(())
 }
 
-/// A scene on the device, an eye in its middle, and a target.
-struct Bench<'gpu> {
-    gpu: &'gpu Gpu,
-    renderer: SceneRenderer,
-    target: Radiance,
+/// Eye in the middle of a scene.
+struct Eye {
     camera: Camera,
     observer: Observer,
 }
 
-impl<'gpu> Bench<'gpu> {
-    fn new(gpu: &'gpu Gpu, scene: &Scene) -> Result<Self, Box<dyn Error>> {
-        let format = Format::fast(1);
+impl Eye {
+    fn new(speed: f64) -> Result<Self, Box<dyn Error>> {
+        let celerity = if speed > 0.0 { Beta::new(DVec3::NEG_Z * speed)?.celerity() } else { Celerity::ZERO };
         Ok(Self {
-            gpu,
-            renderer: SceneRenderer::new(gpu, scene.clone(), format, None, Dial::edge(EDGE_M), Occasion::Ride)?,
-            target: Radiance::new(gpu, SIZE, format),
             camera: Camera::looking(DVec3::NEG_Z, DVec3::Y, 70.0_f64.to_radians()),
-            observer: Observer {
-                event: Event { ct: 0.0, position: DVec3::new(0.3, 0.2, 0.1) },
-                celerity: Beta::new(DVec3::NEG_Z * 0.01)?.celerity(),
-            },
+            observer: Observer { event: Event { ct: 0.0, position: DVec3::new(0.3, 0.2, 0.1) }, celerity },
+        })
+    }
+}
+
+/// Number of the way that draws plainly.
+const PLAIN: usize = 1;
+
+/// One way to draw a scene, and its target.
+struct Way {
+    name: String,
+    renderer: SceneRenderer,
+    target: Radiance,
+    effects: Effects,
+    /// True if the transform of the next frame runs beside the draw of this one.
+    overlaps: bool,
+    under_way: Option<Pending>,
+    times: FrameTimes,
+    /// Times of the transforms, a median for each turn, milliseconds.
+    transforms: Vec<f64>,
+}
+
+impl Way {
+    fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        (name, dial, effects): (String, Dial, Effects),
+        overlaps: bool,
+        (format, size): (Format, [u32; 2]),
+    ) -> Result<Self, Box<dyn Error>> {
+        Ok(Self {
+            name,
+            renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
+            target: Radiance::new(gpu, size, format),
+            effects,
+            overlaps,
+            under_way: None,
+            times: FrameTimes::default(),
+            transforms: Vec::new(),
         })
     }
 
-    /// Times of a frame drawn plainly, overlapped and in sequence, and of a transform alone, milliseconds: a median
-    /// for each turn.
-    fn run(&mut self) -> Result<[Vec<f64>; 4], Box<dyn Error>> {
-        let mut medians = [const { Vec::new() }; 4];
-        let started = Instant::now();
-        let mut warm = false;
-        while !warm || started.elapsed() < TIME {
-            let plain = self.turn(|bench| bench.draw(Effects::NONE))?;
-
-            // The transform of the next frame begins before this one is drawn.
-            let mut next = self.submit()?;
-            let overlap = self.turn(|bench| {
-                let after = bench.submit()?;
-                bench.show(std::mem::replace(&mut next, after)).map(drop)
-            })?;
-            self.show(next)?;
-
-            let mut transforms = Vec::new();
-            let low = self.turn(|bench| {
-                let pending = bench.submit()?;
-                transforms.push(milliseconds(bench.show(pending)?.duration));
-                Ok(())
-            })?;
-
-            // The first turn compiles shaders and touches memory, so it does not count.
-            if warm {
-                for (turns, frames) in medians.iter_mut().zip([plain, overlap, low, transforms]) {
-                    turns.push(median(&frames));
-                }
-            }
-            warm = true;
+    fn turn(&mut self, gpu: &Gpu, eye: &Eye, counts: bool) -> Result<(), GpuError> {
+        let mut transforms = Vec::new();
+        if self.overlaps {
+            self.under_way = Some(self.renderer.submit(gpu, &eye.observer, self.effects)?);
         }
-        Ok(medians)
+        let times = turn(FRAMES, || {
+            transforms.push(milliseconds(self.frame(gpu, eye)?.duration));
+            Ok::<_, GpuError>(())
+        })?;
+        if let Some(last) = self.under_way.take() {
+            self.renderer.show(gpu, last)?;
+        }
+        self.renderer.settle();
+        if counts {
+            self.times.add(&times);
+            if transforms.iter().any(|time| *time > 0.0) {
+                self.transforms.push(median(&transforms));
+            }
+        }
+        Ok(())
     }
 
-    /// Times of the frames of a turn, milliseconds.
-    fn turn(&mut self, mut frame: impl FnMut(&mut Self) -> Result<(), GpuError>) -> Result<Vec<f64>, GpuError> {
-        let time = |_| {
-            let started = Instant::now();
-            frame(self)?;
-            Ok(milliseconds(started.elapsed()))
-        };
-        (0..FRAMES).map(time).collect()
-    }
-
-    fn submit(&mut self) -> Result<Pending, GpuError> {
-        self.renderer.submit(self.gpu, &self.observer, Effects::GEOMETRY)
-    }
-
-    fn show(&mut self, pending: Pending) -> Result<TransformReport, GpuError> {
-        let report = self.renderer.show(self.gpu, pending)?;
-        self.draw(Effects::GEOMETRY)?;
+    fn frame(&mut self, gpu: &Gpu, eye: &Eye) -> Result<TransformReport, GpuError> {
+        let newest = self.renderer.submit(gpu, &eye.observer, self.effects)?;
+        let shown = if self.overlaps { self.under_way.replace(newest).unwrap_or_default() } else { newest };
+        let report = self.renderer.show(gpu, shown)?;
+        let shot = Shot { camera: eye.camera, observer: eye.observer, effects: self.effects, stored_scale: None };
+        self.renderer.prepare(gpu, &shot, self.target.size);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.renderer.draw(gpu, &mut encoder, &self.target, &shot, PixelSample::WHOLE);
+        gpu.queue.submit([encoder.finish()]);
+        gpu.wait()?;
         Ok(report)
-    }
-
-    fn draw(&mut self, effects: Effects) -> Result<(), GpuError> {
-        let shot = Shot { camera: self.camera, observer: self.observer, effects, stored_scale: None };
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, view::PixelSample::WHOLE);
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.wait()
     }
 }
 
@@ -198,11 +230,4 @@ fn append(mesh: &mut Mesh, source: &Mesh, offset: Vec3) {
     mesh.uvs.extend(&source.uvs);
     mesh.colours.extend(&source.colours);
     mesh.indices.extend(source.indices.iter().map(|index| first + index));
-}
-
-/// Ratios of the second frame rate to the first, turn by turn, as text: median and quartiles.
-fn ratios(plain: &[f64], other: &[f64]) -> String {
-    let ratios: Vec<f64> = plain.iter().zip(other).map(|(plain, other)| plain / other).collect();
-    let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
-    format!("{middle:.3} ({low:.3} to {high:.3})")
 }

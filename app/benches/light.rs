@@ -1,15 +1,15 @@
-//! The cost of the image renderer and of each effect in the old town, over speed and over the map's resolution, and
-//! in memory.
+//! The cost of each effect in the old town, over speed and over the map's resolution, and in memory.
 //!
-//! In each table the alternatives take turns, a few frames each, so that other load on the machine affects all alike;
-//! ratios are of frame times in one round. A frame is drawn as in a window, without the window.
+//! Each table begins with the default path: the method that `auto` chooses, all effects. In each table the alternatives
+//! take turns, a few frames each, so that other load on the machine affects all alike; ratios are of frame times in one
+//! round, over those of the row that is drawn plainly. A frame is drawn as in a window, without the window.
 //!
-//! `cargo bench -p rapidity --bench light`
+//! `cargo bench -p rapidity --bench light`, or with words after `--`: `beta=.9` for another speed than 0.8 c, `640x360`
+//! for another size, `scene=lattice` or `scene=FILE.glb` for another scene, `5s` for seconds for each table.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
 
-use built_in::town;
 use glam::DVec3;
 use physics::{Beta, Celerity, Event, Observer};
 use render::display::{Adaptation, Developer, Development, Seen};
@@ -18,96 +18,137 @@ use render::{Gpu, GpuError, SceneRenderer};
 use scene::Scene;
 use scene::refine::refine;
 use std::error::Error;
-use std::time::{Duration, Instant};
-use support::{commit, median, milliseconds, processor, quantile};
-use view::{Camera, Dial, EYE_HEIGHT_M, Effects, Occasion, PixelSample, Shot};
+use std::time::Duration;
+use support::default_path::{self, DefaultPath, method};
+use support::figures::{commit, milliseconds, processor};
+use support::frame_times::{FrameTimes, rounds, turn};
+use support::words::Words;
+use view::{Camera, Dial, Effects, Occasion, PixelSample, Shot};
 
 /// Width and height of a frame, pixels.
 const SIZE: [u32; 2] = [1280, 720];
-/// Texels of the map for each pixel in a window that the CPU draws.
-const MAP_SCALE: f64 = 0.9;
+/// Speed, fraction of c.
+const SPEED: f64 = 0.8;
 /// Number of frames drawn in one way before the next way has its turn.
-const FRAMES: usize = 3;
-/// Time for which each table is measured.
-const TIME: Duration = Duration::from_secs(15);
-/// Longest edge of a triangle of the polygon renderer, metres: the program's default.
+const FRAMES: usize = 4;
+/// Time for which each table is measured, seconds.
+const SECONDS: f64 = 15.0;
+/// Longest edge of a triangle that is cut once, metres.
 const EDGE_M: f64 = 0.5;
+const WORDS: &str = "beta=V, a size, as in 640x360, scene=town, lattice or a file, and seconds, as in 5s";
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = Words::given();
+    let time = Duration::from_secs_f64(words.seconds().unwrap_or(SECONDS));
+    let speed = words.speeds(&[SPEED])?[0];
+    let size = words.size().unwrap_or(SIZE);
+    let name = words.list("scene")?.first().cloned().unwrap_or_else(|| "town".to_owned());
+    words.end(WORDS)?;
+
     let gpu = Gpu::new()?;
     let cores = std::thread::available_parallelism()?;
     println!("commit {}, {}, {cores} cores", commit(), processor());
-    println!("{}, {} x {} pixels, the old town from its start", gpu.description(), SIZE[0], SIZE[1]);
-    println!("medians; ratio = frame time over that of the table's first row, with its quartiles");
+    let scene = default_path::scene(&name)?;
+    let default = DefaultPath::of(&gpu, &scene)?;
+    println!("{}, {} x {} pixels, {} from its start", gpu.description(), size[0], size[1], scene.name);
+    println!("medians; ratio = frame time over that of the plain row, with its quartiles");
 
-    let town = town::build(1);
-    let refined = refine(&town, EDGE_M as f32)?;
-    let mut image = Stage::new(&gpu, &town, Dial::map(MAP_SCALE))?;
-    let mut polygon = Stage::new(&gpu, &refined, Dial::edge(EDGE_M))?;
+    let refined = refine(&scene, EDGE_M as f32)?;
+    let stage = |scene: &Scene, dial| Stage::new(&gpu, scene, dial, (default.format, size));
     let (doppler, searchlight) =
         (Effects { doppler: true, ..Effects::GEOMETRY }, Effects { searchlight: true, ..Effects::GEOMETRY });
-
-    println!("\nimage renderer at 0.8 c: what each effect costs");
-    let rows = [
+    let effects = [
         ("none (drawn plainly)", Effects::NONE),
         ("geometry", Effects::GEOMETRY),
         ("geometry, doppler", doppler),
         ("geometry, searchlight", searchlight),
         ("all", Effects::ALL),
     ];
-    table(&rows, |effects| image.frame(0.8, *effects))?;
-    println!("\npolygon renderer at 0.8 c, {} triangles; the photo-surface is not counted", refined.triangle_count());
-    table(&rows, |effects| polygon.frame(0.8, *effects))?;
 
-    println!("\nimage renderer, all effects: what speed costs");
-    let speeds = [0.0, 0.5, 0.8, 0.95, 0.99, 0.999].map(|beta| (format!("{beta} c"), beta));
-    table(&speeds, |beta| image.frame(*beta, Effects::ALL))?;
-    for (name, beta) in &speeds {
-        image.frame(*beta, Effects::ALL)?;
-        println!("  {name:>8}: {}", image.memory());
-    }
-
-    println!("\nimage renderer, all effects, at 0.8 c: what the map's fineness costs");
-    let scales = [0.5, 0.7, 0.9, 1.5, 3.0].map(|scale| (format!("{scale} texels a pixel"), scale));
+    // The photo-surface stays the same in this table; the benchmark `frames` measures its cost.
+    println!("\nwhat each effect costs at {speed} c, {} triangles", scene.triangle_count());
+    let mut usual = stage(&scene, default.dial)?;
+    let others = [default.other(), Dial::edge(EDGE_M)];
+    let scenes = [&scene, &refined];
     let mut stages = Vec::new();
-    for (_, texels_per_pixel) in &scales {
-        stages.push(Stage::new(&gpu, &town, Dial::map(*texels_per_pixel))?);
+    for (dial, scene) in others.into_iter().zip(scenes) {
+        stages.push((dial, stage(scene, dial)?));
     }
-    let numbered: Vec<_> = scales.iter().enumerate().map(|(number, (name, _))| (name.clone(), number)).collect();
-    table(&numbered, |number| stages[*number].frame(0.8, Effects::ALL))?;
-    for ((name, _), stage) in scales.iter().zip(&stages) {
-        println!("  {name:>22}: {}", stage.memory());
+    let mut rows = vec![Row::new(default.name(), 0, speed, default.effects)];
+    rows.extend(effects[..4].iter().map(|(name, effects)| Row::new((*name).to_owned(), 0, speed, *effects)));
+    table(&mut rows, time, 1, |row| usual.frame(row.speed, row.effects))?;
+    for (dial, stage) in &mut stages {
+        println!("\n{} beside it, {} triangles", method(*dial), stage.renderer.triangle_count());
+        let mut rows = vec![Row::new(default.name(), 0, speed, default.effects)];
+        rows.extend(effects.iter().map(|(name, effects)| Row::new((*name).to_owned(), 1, speed, *effects)));
+        table(&mut rows, time, 1, |row| match row.stage {
+            0 => usual.frame(row.speed, row.effects),
+            _ => stage.frame(row.speed, row.effects),
+        })?;
+    }
+
+    println!("\nwhat speed costs on the default path");
+    let speeds = [speed, 0.0, 0.5, 0.8, 0.95, 0.99, 0.999];
+    let mut rows: Vec<_> = speeds.map(|speed| Row::new(format!("{speed} c"), 0, speed, default.effects)).into();
+    rows[0].name = format!("{}, {speed} c", default.name());
+    rows.insert(1, Row::new("plain".to_owned(), 0, speed, Effects::NONE));
+    table(&mut rows, time, 1, |row| usual.frame(row.speed, row.effects))?;
+    for row in rows.iter().filter(|row| row.effects != Effects::NONE) {
+        usual.frame(row.speed, row.effects)?;
+        println!("  {:>42}: {}", row.name, usual.costs());
+    }
+
+    println!("\nimage renderer, all effects, at {speed} c: what the map's fineness costs");
+    let mut stages = vec![usual];
+    let mut rows = vec![
+        Row::new(default.name(), 0, speed, default.effects),
+        Row::new("plain".to_owned(), 0, speed, Effects::NONE),
+    ];
+    for texels_per_pixel in [0.5, 0.7, 0.9, 1.5, 3.0] {
+        rows.push(Row::new(format!("{texels_per_pixel} texels a pixel"), stages.len(), speed, Effects::ALL));
+        stages.push(stage(&scene, Dial::map(texels_per_pixel))?);
+    }
+    table(&mut rows, time, 1, |row| stages[row.stage].frame(row.speed, row.effects))?;
+    for row in rows.iter().filter(|row| row.effects != Effects::NONE) {
+        println!("  {:>42}: {}", row.name, stages[row.stage].costs());
     }
     Ok(())
 }
 
-/// Measures the rows in turns, and prints them.
-fn table<Row>(
-    rows: &[(impl AsRef<str>, Row)],
+/// Row of a table.
+struct Row {
+    name: String,
+    /// Number of the stage that draws it.
+    stage: usize,
+    speed: f64,
+    effects: Effects,
+    times: FrameTimes,
+}
+
+impl Row {
+    fn new(name: String, stage: usize, speed: f64, effects: Effects) -> Self {
+        Self { name, stage, speed, effects, times: FrameTimes::default() }
+    }
+}
+
+/// Measures the rows in turns, and prints them, with ratios to row number `plain`.
+fn table(
+    rows: &mut [Row],
+    time: Duration,
+    plain: usize,
     mut frame: impl FnMut(&Row) -> Result<(), GpuError>,
 ) -> Result<(), GpuError> {
-    let mut rounds = vec![Vec::new(); rows.len()];
-    let started = Instant::now();
-    let mut warm = false;
-    while !warm || started.elapsed() < TIME {
-        for ((_, row), medians) in rows.iter().zip(&mut rounds) {
-            let mut times = Vec::new();
-            for _ in 0..FRAMES {
-                let begun = Instant::now();
-                frame(row)?;
-                times.push(milliseconds(begun.elapsed()));
-            }
-            // The first round compiles shaders and touches memory, so it does not count.
-            if warm {
-                medians.push(median(&times));
+    rounds(time, |counts| {
+        for row in &mut *rows {
+            let times = turn(FRAMES, || frame(row))?;
+            if counts {
+                row.times.add(&times);
             }
         }
-        warm = true;
-    }
-    for ((name, _), medians) in rows.iter().zip(&rounds) {
-        let ratios: Vec<f64> = medians.iter().zip(&rounds[0]).map(|(time, first)| time / first).collect();
-        let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| quantile(&ratios, share));
-        println!("  {:>22}: {:7.1} ms, ratio {middle:.3} ({low:.3} to {high:.3})", name.as_ref(), median(medians));
+        Ok(())
+    })?;
+    for row in &*rows {
+        println!("{}", row.times.line(&row.name, &rows[plain].times));
     }
     Ok(())
 }
@@ -122,15 +163,19 @@ struct Stage<'gpu> {
     screen: wgpu::TextureView,
     eye: DVec3,
     look: DVec3,
+    up: DVec3,
 }
 
 impl<'gpu> Stage<'gpu> {
-    fn new(gpu: &'gpu Gpu, scene: &Scene, dial: Dial) -> Result<Self, Box<dyn Error>> {
-        let format = Format::fast(1);
-        let eye = scene.start.position + DVec3::Y * EYE_HEIGHT_M;
+    fn new(
+        gpu: &'gpu Gpu,
+        scene: &Scene,
+        dial: Dial,
+        (format, size): (Format, [u32; 2]),
+    ) -> Result<Self, Box<dyn Error>> {
+        let (eye, look, up) = (scene.start.eye(), scene.start.look, scene.start.up);
         let mut renderer = SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?;
-        // The photo-surface stays the same; the benchmark `frames` measures its cost.
-        let celerity = Celerity::new(scene.start.look * 0.8 / 0.6)?;
+        let celerity = Celerity::new(look * SPEED / (1.0 - SPEED * SPEED).sqrt())?;
         let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
         let pending = renderer.submit(gpu, &observer, Effects::ALL)?;
         renderer.show(gpu, pending)?;
@@ -138,21 +183,22 @@ impl<'gpu> Stage<'gpu> {
         Ok(Self {
             gpu,
             renderer,
-            target: Radiance::new(gpu, SIZE, format),
+            target: Radiance::new(gpu, size, format),
             developer: Developer::new(gpu, format.colour, screen),
             adaptation: Adaptation::new(gpu),
-            screen: texture(gpu, "screen", SIZE, screen, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
+            screen: texture(gpu, "screen", size, screen, 1, wgpu::TextureUsages::RENDER_ATTACHMENT),
             eye,
-            look: scene.start.look,
+            look,
+            up,
         })
     }
 
     fn frame(&mut self, beta: f64, effects: Effects) -> Result<(), GpuError> {
         let celerity = Beta::new(self.look * beta).expect("a speed below light's").celerity();
         let observer = Observer { event: Event { ct: 0.0, position: self.eye }, celerity };
-        let camera = Camera::looking(self.look, DVec3::Y, 60.0_f64.to_radians());
+        let camera = Camera::looking(self.look, self.up, 60.0_f64.to_radians());
         let shot = Shot { camera, observer, effects, stored_scale: None };
-        self.renderer.prepare(self.gpu, &shot, SIZE);
+        self.renderer.prepare(self.gpu, &shot, self.target.size);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, PixelSample::WHOLE);
         self.gpu.queue.submit([encoder.finish()]);
@@ -168,14 +214,21 @@ impl<'gpu> Stage<'gpu> {
         self.gpu.wait()
     }
 
-    fn memory(&self) -> String {
-        let stats = self.renderer.map_stats().unwrap_or_default();
-        format!(
-            "{} panes, {:.2} million texels, {:.1} MB, planned in {:.2} ms",
-            stats.panes,
-            stats.texels as f64 / 1e6,
-            stats.bytes as f64 / 1e6,
-            stats.plan_ms
-        )
+    /// Sizes of what was drawn last.
+    fn costs(&self) -> String {
+        let mut text = format!("{} triangles in all", self.renderer.triangle_count());
+        if let Some(map) = self.renderer.map_stats() {
+            text += &format!(
+                "; {} panes, {:.2} million texels, {:.1} MB, planned in {:.2} ms",
+                map.panes,
+                map.texels as f64 / 1e6,
+                map.bytes as f64 / 1e6,
+                map.plan_ms
+            );
+        }
+        if let Some(cut) = self.renderer.cut_stats() {
+            text += &format!("; cut of {} triangles in {:.2} ms", cut.triangles, milliseconds(cut.duration));
+        }
+        text
     }
 }

@@ -1,34 +1,35 @@
 //! The cost of relativity in a window, as it opens without options: all effects, on the default path.
 //!
-//! The old town is drawn plainly, by the method that `auto` chooses, and by the other one, from the same eye at the
-//! same moment. The ways take turns within one run, so that other load on the machine affects all alike. The eye moves
-//! on from frame to frame, along the street, by its own time of a frame at 30 frames per second. Time is counted twice:
-//! by the clock, and as time of all processors, where a software driver draws. Pictures are compared with 64 traced
-//! rays a pixel by FLIP, developed alike.
+//! The old town is drawn by the method that `auto` chooses (the default path), plainly, and by the other method, from
+//! the same eye at the same moment, with every pixel of the window (`--frame-rate off`). The ways take turns within one
+//! run, so that other load on the machine affects all alike. The eye moves on from frame to frame, along the street, by
+//! its own time of a frame at 30 frames per second. Time is counted twice: by the clock, and as time of all processors,
+//! where a software driver draws. Pictures are compared with 64 traced rays a pixel by FLIP, developed alike.
 //!
-//! `cargo bench -p rapidity --bench windows`, or with `-- 640x360` for another size, `-- lattice` for another scene,
-//! `-- quick` for no comparison with rays, `-- 60s` for
-//! more time, `-- map=1.5` for a finer map besides.
+//! `cargo bench -p rapidity --bench windows`, or with words after `--`:
+//! - `640x360`: size of the window; `beta=0,.8,.99`: speeds; `scene=lattice` or `scene=FILE.glb`: another scene;
+//! - `quick`: no comparison with rays; `60s`: seconds for each speed; `map=1.5`: a finer map besides;
+//! - `markdown`: only the default path and plain, without rays, as rows for Markdown.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;
 
-use built_in::lattice::Lattice;
-use built_in::town;
-use glam::DVec3;
 use measure::reference::Reference;
 use measure::views::further;
 use physics::{Beta, Celerity, Observer};
 use render::picture::{SCREEN_FORMAT, light};
-use render::target::{Format, Radiance};
+use render::target::Radiance;
 use render::{DrawCounts, Gpu, Pending, SceneRenderer};
 use scene::Scene;
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
-use support::{commit, median, milliseconds, processor};
+use support::default_path::{self, DefaultPath, method};
+use support::figures::{commit, median, milliseconds, processor};
+use support::frame_times::{FrameTimes, rounds};
+use support::words::Words;
 use trace::RayTracer;
-use view::{Camera, Dial, Effects, Occasion, PixelSample, Shot};
+use view::{Camera, Dial, Effects, Occasion, PixelSample, RendererName, Shot};
 use walls::FlatPicture;
 
 /// Speeds, fractions of c.
@@ -39,74 +40,91 @@ const FRAMES: u32 = 4;
 const SECONDS: f64 = 12.0;
 /// Rays a pixel of the picture that the others are compared with.
 const RAYS: u32 = 64;
-/// Own time of a frame, metres of light travel at 30 km/h.
-const OWN_M: f64 = 30.0 / 3.6 / 30.0;
+/// Frames per second of the eye's own time.
+const RATE_HZ: f64 = 30.0;
+/// Speed of light where the scene does not say, m/s.
+const LIGHT_M_S: f64 = 30.0 / 3.6;
 /// Vertical field of view, degrees.
 const FOV_DEG: f64 = 60.0;
 
+const WORDS: &str =
+    "a size, as in 640x360, beta=V,V…, scene=town, lattice or a file, map=N, quick, markdown, and seconds, as in 60s";
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let has = |word: &str| words.iter().any(|given| given == word);
-    let sized = words.iter().find_map(|word| {
-        let (width, height) = word.split_once('x')?;
-        Some([width.parse().ok()?, height.parse().ok()?])
-    });
-    let size = sized.unwrap_or([1280, 720]);
-    let seconds = words.iter().find_map(|word| word.strip_suffix('s')?.parse().ok()).unwrap_or(SECONDS);
+    let mut words = Words::given();
+    let (quick, markdown) = (words.has("quick"), words.has("markdown"));
+    let size = words.size().unwrap_or([1280, 720]);
+    let seconds = words.seconds().unwrap_or(SECONDS);
+    let speeds = words.speeds(&SPEEDS)?;
+    let scales = words.list("map")?;
+    let name = words.list("scene")?.first().cloned().unwrap_or_else(|| "town".to_owned());
+    words.end(WORDS)?;
+
     let gpu = Gpu::new()?;
-    let scene = if has("lattice") { Lattice::default().build() } else { town::build(town::TOWN_SEED) };
     let cores = std::thread::available_parallelism()?;
     println!("commit {}, {}, {cores} cores", commit(), processor());
-    println!("{}, {} at {} x {} pixels", gpu.description(), scene.name, size[0], size[1]);
-    println!("medians; ratios to the first way of the same speed\n");
-    println!("   v/c  way                      ms  ratio  processors ms  ratio    FLIP  triangles  calls");
-    let tracer = if has("quick") { None } else { Some(RayTracer::new(scene.clone(), None, false)?) };
-    let scales: Vec<f64> = words.iter().filter_map(|word| word.strip_prefix("map=")?.parse().ok()).collect();
-    let mut ways = ways(&gpu, &scene, size, &scales)?;
-    for speed in SPEEDS {
+    let scene = default_path::scene(&name)?;
+    let default = DefaultPath::of(&gpu, &scene)?;
+    println!("{}", gpu.description());
+    let samples = default.format.samples;
+    println!("{} at {} x {} pixels, {samples} samples a pixel", scene.name, size[0], size[1]);
+    if !markdown {
+        println!("medians; ratios to the plain way of the same speed\n");
+        println!("   v/c  way                             ms  95 % in  ratio  processors ms  ratio    FLIP  triangles  calls");
+    }
+    let tracer = if quick || markdown { None } else { Some(RayTracer::new(scene.clone(), None, false)?) };
+    let mut ways = ways(&gpu, &scene, size, default, &scales, markdown)?;
+    for speed in speeds {
         let shot = shot(&scene, speed)?;
         let stop = AtomicBool::new(false);
         let reference = tracer.as_ref().map(|tracer| Reference::trace(tracer, &shot, size, RAYS, &stop));
         for way in &mut ways {
             way.begin(&gpu, &shot, reference.as_ref())?;
         }
-        let resting = reference.as_ref().map(|reference| resting(&gpu, &scene, &shot, size, reference)).transpose()?;
-        let started = Instant::now();
-        while started.elapsed().as_secs_f64() < seconds {
-            for way in &mut ways {
-                way.turn(&gpu, &shot)?;
-            }
-        }
-        let first = ways[0].times();
+        let resting = reference.as_ref().filter(|_| default.dial.renderer == RendererName::Image);
+        let resting = resting.map(|rays| resting_flip(&gpu, &scene, &shot, size, default, rays)).transpose()?;
+        rounds(Duration::from_secs_f64(seconds), |counts| {
+            ways.iter_mut().try_for_each(|way| way.turn(&gpu, &shot, counts))
+        })?;
+        let plain = (ways[PLAIN].clock.clone(), median(&ways[PLAIN].processors));
         for way in &ways {
-            let [clock, processors] = way.times();
+            if markdown {
+                let size = format!("{} x {}", size[0], size[1]);
+                let cells = [&scene.name, "one window", &size, &format!("{speed}"), &way.name];
+                println!("{}", way.clock.markdown(&cells, &plain.0));
+                continue;
+            }
+            let ([_, ratio, _], processors) = (way.clock.ratio(&plain.0), median(&way.processors));
             println!(
-                "  {speed:4}  {:20} {clock:6.1} {:6.2} {processors:14.1} {:6.2}  {}  {:9}  {:5}",
+                "  {speed:4}  {:26} {:7.1} {:8.1} {ratio:6.2} {processors:14.1} {:6.2}  {}  {:9}  {:5}",
                 way.name,
-                clock / first[0],
-                processors / first[1],
+                way.clock.median_ms(),
+                way.clock.slow_ms(),
+                processors / plain.1,
                 way.flip.map_or("      ".to_owned(), |flip| format!("{flip:6.4}")),
                 way.drawn.triangles,
                 way.drawn.calls,
             );
         }
         if let Some(flip) = resting {
-            println!("  {speed:4}  image, nothing changes {:>37} {flip:6.4}", "");
+            println!("  {speed:4}  image, nothing changes {:>47} {flip:6.4}", "");
         }
     }
     Ok(())
 }
 
 /// FLIP of a window in which nothing has changed for a while.
-fn resting(
+fn resting_flip(
     gpu: &Gpu,
     scene: &Scene,
     shot: &Shot,
     size: [u32; 2],
+    default: DefaultPath,
     reference: &Reference,
 ) -> Result<f64, Box<dyn Error>> {
-    let (format, map) = (Format::fast(1), window_map(gpu));
-    let mut renderer = SceneRenderer::new(gpu, scene.clone(), format, None, Dial::map(map), Occasion::Ride)?;
+    let DefaultPath { dial, format, .. } = default;
+    let map = dial.map_scale.unwrap_or(1.0);
+    let mut renderer = SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?;
     let mut picture = FlatPicture::new(gpu, size, format, SCREEN_FORMAT, map);
     picture.draw(gpu, &mut renderer, shot, Pending::default())?;
     std::thread::sleep(Duration::from_millis(300));
@@ -118,17 +136,12 @@ fn resting(
     Ok(reference.compare(&light(gpu, whole, &stored)?).flip)
 }
 
-/// Texels of the map for each pixel of a window, along each axis, without options.
-fn window_map(gpu: &Gpu) -> f64 {
-    if gpu.is_software() { 0.9 } else { 1.5 }
-}
-
-/// Picture at a speed, from the scene's start or the outside of a lattice.
+/// Picture at a speed, from the scene's start.
 fn shot(scene: &Scene, speed: f64) -> Result<Shot, Box<dyn Error>> {
     let look = scene.start.look;
     let celerity = if speed > 0.0 { Beta::new(look * speed)?.celerity() } else { Celerity::ZERO };
     let event = physics::Event { ct: 0.0, position: scene.start.eye() };
-    let camera = Camera::looking(look, DVec3::Y, FOV_DEG.to_radians());
+    let camera = Camera::looking(look, scene.start.up, FOV_DEG.to_radians());
     Ok(Shot { camera, observer: Observer { event, celerity }, effects: Effects::ALL, stored_scale: None })
 }
 
@@ -139,47 +152,58 @@ struct Way {
     radiance: Radiance,
     effects: Effects,
     pending: Pending,
+    /// Own time of a frame, metres of light travel.
+    own_m: f64,
     frames: u32,
-    /// Times of the frames by the clock and of all processors, milliseconds.
-    clock: Vec<f64>,
+    /// Times of the frames by the clock.
+    clock: FrameTimes,
+    /// Times of all processors for a frame, a median for each turn, milliseconds.
     processors: Vec<f64>,
     flip: Option<f64>,
     /// Triangles and calls of the frame drawn last.
     drawn: DrawCounts,
 }
 
-fn ways(gpu: &Gpu, scene: &Scene, size: [u32; 2], scales: &[f64]) -> Result<Vec<Way>, Box<dyn Error>> {
-    let mut ways = Vec::new();
-    let map = window_map(gpu);
-    let mut named = vec![
-        ("plain", Dial::map(map), Effects::NONE, 1),
-        ("image", Dial::map(map), Effects::ALL, 1),
-        ("polygon", Dial::tolerance(1.5), Effects::ALL, 1),
-    ];
-    let finer: Vec<_> = scales.iter().map(|scale| (format!("image {scale}"), *scale)).collect();
-    named.extend(finer.iter().map(|(name, scale)| (name.as_str(), Dial::map(*scale), Effects::ALL, 1)));
-    for (name, dial, effects, samples) in named {
-        let format = Format::fast(samples);
-        ways.push(Way {
-            name: name.to_owned(),
+/// Number of the way that draws plainly.
+const PLAIN: usize = 1;
+
+/// The default path, plain, and, unless these are all, the other method and maps of other scales.
+fn ways(
+    gpu: &Gpu,
+    scene: &Scene,
+    size: [u32; 2],
+    default: DefaultPath,
+    scales: &[f64],
+    all: bool,
+) -> Result<Vec<Way>, Box<dyn Error>> {
+    let DefaultPath { dial, format, effects } = default;
+    let mut named = vec![(default.name(), dial, effects), ("plain".to_owned(), dial, Effects::NONE)];
+    if !all {
+        named.push((method(default.other()), default.other(), effects));
+    }
+    named.extend(scales.iter().map(|scale| (method(Dial::map(*scale)), Dial::map(*scale), effects)));
+    let way = |(name, dial, effects)| {
+        Ok(Way {
+            name,
             renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
             radiance: Radiance::new(gpu, size, format),
             effects,
             pending: Pending::default(),
+            own_m: scene.speed_of_light_m_s.unwrap_or(LIGHT_M_S) / RATE_HZ,
             frames: 0,
-            clock: Vec::new(),
+            clock: FrameTimes::default(),
             processors: Vec::new(),
             flip: None,
             drawn: DrawCounts::default(),
-        });
-    }
-    Ok(ways)
+        })
+    };
+    named.into_iter().map(way).collect()
 }
 
 impl Way {
     /// Draws the first frame at a speed, and compares it with rays.
     fn begin(&mut self, gpu: &Gpu, shot: &Shot, reference: Option<&Reference>) -> Result<(), Box<dyn Error>> {
-        (self.frames, self.clock, self.processors) = (0, Vec::new(), Vec::new());
+        (self.frames, self.clock, self.processors) = (0, FrameTimes::default(), Vec::new());
         // The first frames compile pipelines and wait for a cut of their own.
         for _ in 0..3 {
             self.draw(gpu, shot)?;
@@ -193,19 +217,24 @@ impl Way {
         Ok(())
     }
 
-    fn turn(&mut self, gpu: &Gpu, shot: &Shot) -> Result<(), Box<dyn Error>> {
+    /// Draws the frames of a turn; the first one, which comes after another way's, is not counted.
+    fn turn(&mut self, gpu: &Gpu, shot: &Shot, counts: bool) -> Result<(), Box<dyn Error>> {
         let (mut clock, mut processors) = (Vec::new(), Vec::new());
-        for _ in 0..FRAMES {
-            let shot = further(shot, f64::from(self.frames % 16) * OWN_M);
+        for number in 0..=FRAMES {
+            let shot = further(shot, f64::from(self.frames % 16) * self.own_m);
             let (started, before) = (Instant::now(), processor_time());
             self.draw(gpu, &shot)?;
-            clock.push(milliseconds(started.elapsed()));
-            processors.push(milliseconds(processor_time().saturating_sub(before)));
+            if number > 0 {
+                clock.push(milliseconds(started.elapsed()));
+                processors.push(milliseconds(processor_time().saturating_sub(before)));
+            }
             self.frames += 1;
         }
         self.renderer.settle();
-        self.clock.push(median(&clock));
-        self.processors.push(median(&processors));
+        if counts {
+            self.clock.add(&clock);
+            self.processors.push(median(&processors));
+        }
         Ok(())
     }
 
@@ -220,10 +249,6 @@ impl Way {
         gpu.queue.submit([encoder.finish()]);
         self.drawn = self.renderer.take_drawn();
         Ok(gpu.wait()?)
-    }
-
-    fn times(&self) -> [f64; 2] {
-        [median(&self.clock), median(&self.processors)]
     }
 }
 

@@ -1,9 +1,12 @@
-//! Large scenes for measuring how fast files open: `large_scenes FOLDER` writes meshes of up to 4 million triangles and
-//! twenty pictures of 4096 × 4096 pixels as ordinary `.glb` files, with nothing of this program's own in them.
+//! Large scenes for measuring how fast files open and are drawn: `large_scenes FOLDER` writes meshes of up to 4 million
+//! triangles and twenty pictures of 4096 × 4096 pixels as ordinary `.glb` files, with nothing of this program's own in
+//! them. `large_scenes FOLDER triangles-1e6` writes only that one, and so on.
 #![allow(clippy::unwrap_used, reason = "a faulty example ends with its fault")]
+#![allow(clippy::print_stderr, reason = "an example tells what it does not know")]
 
 use std::io::Cursor;
 use std::path::Path;
+use std::process::ExitCode;
 
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::FilterType;
@@ -22,21 +25,39 @@ const PIXELS: u32 = 4096;
 /// Quality of JPEG pictures, of 100.
 const QUALITY: u8 = 90;
 
-fn main() {
-    let folder = std::env::args_os().nth(1).expect("large_scenes FOLDER: the folder for the files");
+/// Scenes of triangles: name, number of triangles, number of meshes.
+const SHEETS: [(&str, usize, usize); 4] = [
+    ("triangles-1e5", 100_000, 1),
+    ("triangles-1e6", 1_000_000, 1),
+    ("triangles-4e6", 4_000_000, 1),
+    ("meshes-2000", 1_000_000, 2000),
+];
+
+/// Scenes of pictures.
+const PICTURE_SCENES: [(&str, ImageFormat); 2] =
+    [("pictures-png", ImageFormat::Png), ("pictures-jpeg", ImageFormat::Jpeg)];
+
+fn main() -> ExitCode {
+    let mut words = std::env::args_os().skip(1);
+    let folder = words.next().expect("large_scenes FOLDER [SCENE…]: the folder for the files");
     let folder = Path::new(&folder);
+    let chosen: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
+    let names: Vec<&str> =
+        SHEETS.iter().map(|(name, ..)| *name).chain(PICTURE_SCENES.iter().map(|(name, _)| *name)).collect();
+    if let Some(unknown) = chosen.iter().find(|name| !names.contains(&name.as_str())) {
+        eprintln!("{unknown} is none of the scenes: {}", names.join(", "));
+        return ExitCode::from(2);
+    }
+    let wanted = |name: &str| chosen.is_empty() || chosen.iter().any(|chosen| chosen == name);
+    let path = |name: &str| folder.join(name).with_extension("glb");
     std::fs::create_dir_all(folder).unwrap();
-    for (name, triangles, meshes) in [
-        ("triangles-1e5", 100_000, 1),
-        ("triangles-1e6", 1_000_000, 1),
-        ("triangles-4e6", 4_000_000, 1),
-        ("meshes-2000", 1_000_000, 2000),
-    ] {
-        sheets(triangles, meshes).write(&folder.join(name).with_extension("glb"));
+    for (name, triangles, meshes) in SHEETS.into_iter().filter(|(name, ..)| wanted(name)) {
+        sheets(triangles, meshes).write(&path(name));
     }
-    for (name, format) in [("pictures-png", ImageFormat::Png), ("pictures-jpeg", ImageFormat::Jpeg)] {
-        pictures(format).write(&folder.join(name).with_extension("glb"));
+    for (name, format) in PICTURE_SCENES.into_iter().filter(|(name, _)| wanted(name)) {
+        pictures(format).write(&path(name));
     }
+    ExitCode::SUCCESS
 }
 
 /// File under construction.

@@ -14,6 +14,9 @@ use input::TrackerUrl;
 use ride::{AssistMode, IntegratorKind, Nose};
 use view::{Dial, Occasion, RendererName};
 
+/// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
+const HARDWARE_SAMPLES: u32 = 4;
+
 /// Kind of vehicle that carries the observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum VehicleName {
@@ -126,6 +129,11 @@ impl RideOptions {
     /// Dial by which the frames of the ride are drawn; `software`: on the CPU.
     pub fn dial(&self, software: bool) -> Dial {
         self.dial.dial(Occasion::Ride, map_scale_of_windows(software))
+    }
+
+    /// Samples for each pixel of a frame in motion; `software`: on the CPU.
+    pub fn samples(&self, software: bool) -> u32 {
+        if software || self.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES }
     }
 }
 

@@ -54,6 +54,14 @@ fn clap_finds_no_fault_in_the_definitions() {
 }
 
 #[test]
+fn hardware_smooths_edges_unless_one_sample_is_asked_for() {
+    let samples = |options: &str| [true, false].map(|software| ride(options).samples(software));
+    assert_eq!(samples(""), [1, 4]);
+    assert_eq!(samples("--samples 1"), [1, 1]);
+    assert_eq!(samples("--samples 16"), [1, 4]);
+}
+
+#[test]
 fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
     let options = ride("");
     assert_eq!((&options.world.scene, options.world.scene()), (&None, SceneChoice::Town));

@@ -6,11 +6,12 @@
 use crate::output::files::unused;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
+use crate::session::lost_time::LostTime;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
 use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource};
 use kiosk::Kiosk;
-use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation, TICKS_PER_SECOND};
+use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
 
 /// Time for which a notice is shown.
@@ -19,9 +20,6 @@ const NOTICE_TIME: Nanos = 4 * SECOND;
 /// Sentence over the attract ride.
 const INVITATION: &str = "Press a key or start to pedal: the ride is yours";
 
-/// Own time that may be lost without a word, seconds: that of a first picture.
-const NOTICEABLE_S: f64 = 0.5;
-
 /// Ride in progress.
 pub struct Live {
     clock: Clock,
@@ -29,8 +27,8 @@ pub struct Live {
     end: Option<Nanos>,
     said: Vec<Sample>,
     told: Vec<(Nanos, String)>,
-    /// Own time that was not ridden because frames came too late, seconds.
-    lost_s: f64,
+    /// Own time that was not ridden because frames came too late.
+    lost: LostTime,
     /// Visitors, if the ride is for them.
     kiosk: Option<Box<Kiosk>>,
     /// True once another rider's turn has begun.
@@ -80,7 +78,7 @@ impl Live {
             end,
             said: Vec::new(),
             told: Vec::new(),
-            lost_s: 0.0,
+            lost: LostTime::default(),
             kiosk: None,
             turned: false,
             open: Vec::new(),
@@ -166,7 +164,7 @@ impl Live {
                     kiosk.take_fault().iter().for_each(tell);
                 }
                 devices.brake(frame.vehicle.resistance());
-                self.lost_s += frame.dropped_ticks as f64 / f64::from(TICKS_PER_SECOND);
+                self.lost.add(frame.dropped_ticks, now);
                 let unseen = unseen(simulation.desk(), &frame);
                 if unseen.is_some() != self.unseen.is_some() {
                     tell(unseen.as_deref().unwrap_or("the head is tracked"));
@@ -237,18 +235,10 @@ impl Live {
     pub fn told(&self) -> Vec<String> {
         let mut told: Vec<String> = self.told.iter().map(|(_, sentence)| sentence.clone()).collect();
         told.extend(self.unseen.clone());
-        if self.lost_s > NOTICEABLE_S && self.kiosk.is_none() {
-            told.push(self.loss());
+        if self.kiosk.is_none() {
+            told.extend(self.lost.notice(self.clock.now()));
         }
         told
-    }
-
-    fn loss(&self) -> String {
-        format!(
-            "{:.1} s of your own time were not ridden: frames took longer than a quarter of a second; a smaller \
-             picture helps",
-            self.lost_s
-        )
     }
 
     /// Sentences on the state of the devices, one each.
@@ -324,9 +314,7 @@ impl Live {
     /// # Errors
     /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
     pub fn finish(&mut self) -> Result<(), LogError> {
-        if self.lost_s > NOTICEABLE_S {
-            tell(self.loss());
-        }
+        self.lost.sentence().iter().for_each(tell);
         if let Some(kiosk) = &mut self.kiosk {
             kiosk.finish(self.clock.now());
         }

@@ -4,6 +4,7 @@
 pub mod gaps;
 pub mod interrupt;
 pub mod live;
+mod lost_time;
 pub mod preferences;
 pub mod reel;
 pub mod scenes;

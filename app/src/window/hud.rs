@@ -45,6 +45,9 @@ const ACCENT: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
 const ALERT: Color32 = Color32::from_rgb(0xff, 0x6b, 0x57);
 const BACKDROP: Color32 = Color32::from_rgba_premultiplied(0x0c, 0x0e, 0x12, 0xb8);
 
+/// Size of the smallest letters that can be read at a glance, points.
+const LEGIBLE: f32 = 10.0;
+
 /// Height of the bar at the bottom, points.
 const BAR_HEIGHT: f32 = 92.0;
 
@@ -65,7 +68,8 @@ pub fn show(ui: &Ui, readings: &Readings) {
     // One text at the left and one at the right of a field; both are made smaller if they would meet.
     let row = |area: Rect, y: f32, left: (&str, f32, Color32), right: (&str, f32, Color32)| {
         let laid = |(words, size, colour): (&str, f32, Color32), share: f32| {
-            painter.layout_no_wrap(words.to_owned(), FontId::proportional(size * scale * share), colour)
+            let size = (size * scale).max(LEGIBLE) * share;
+            painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour)
         };
         let wanted = laid(left, 1.0).size().x + laid(right, 1.0).size().x + 8.0 * scale;
         let share = (area.width() / wanted).min(1.0);
@@ -102,15 +106,9 @@ pub fn show(ui: &Ui, readings: &Readings) {
 
     // At the top right, the program's own pace; at the top left, state and notices, moved below the pace if they
     // would meet.
-    let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    let pace = format!(
-        "{}   {:.1} frames/s   {} ms   F1 help · F3 settings",
-        readings.certainty,
-        readings.frame_rate,
-        stages.join(" · ")
-    );
-    let pace = if readings.kiosk { "F1 help".to_owned() } else { pace };
-    let pace = painter.layout(pace, FontId::proportional(13.0), INK, screen.width() - 24.0);
+    let most = screen.width() - 24.0;
+    let laid = |words: &str, most| painter.layout(words.to_owned(), FontId::proportional(13.0), INK, most);
+    let pace = laid(&pace(readings, |words| laid(words, f32::INFINITY).size().x <= most), most);
     let words = [(readings.recording, "recording", ALERT), (readings.paused, "paused", ACCENT)];
     let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, words, colour)| (words, colour));
     let lines: Vec<_> = states
@@ -143,6 +141,19 @@ pub fn show(ui: &Ui, readings: &Readings) {
     let at = Pos2::new(screen.right() - pace.size().x - 12.0, screen.top() + 8.0);
     painter.rect_filled(Rect::from_min_size(at, pace.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
     painter.galley(at, pace, INK);
+}
+
+/// Text of the program's own pace; without the stages of a frame if one line has no room for them. `fits`: true if a
+/// line has room for a text.
+fn pace(readings: &Readings, fits: impl Fn(&str) -> bool) -> String {
+    const KEYS: &str = "F1 help · F3 settings";
+    if readings.kiosk {
+        return "F1 help".to_owned();
+    }
+    let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
+    let pace = format!("{}   {:.1} frames/s", readings.certainty, readings.frame_rate);
+    let whole = format!("{pace}   {} ms   {KEYS}", stages.join(" · "));
+    if fits(&whole) { whole } else { format!("{pace}   {KEYS}") }
 }
 
 /// Text of β with as many nines as it has: the number of digits follows 1 − β = 1/(γ² (1 + β)).
@@ -189,7 +200,7 @@ fn clock(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     //! Law under test: the readings never contradict the state. A speed below that of light never reads 1, and a
-    //! clock never reads 60 s.
+    //! clock never reads 60 s. What there is no room for does not hide the street.
 
     use super::*;
 
@@ -202,6 +213,21 @@ mod tests {
         }
         assert_eq!(beta(0.6, 1.25), "0.600");
         assert_eq!(beta(0.999_95, 100.001_25), "0.999950");
+    }
+
+    #[test]
+    fn a_small_window_shows_its_pace_in_one_line() {
+        let readings = Readings {
+            certainty: "±5.0 arcmin".to_owned(),
+            frame_rate: 30.0,
+            stages_ms: vec![("ride", 0.1), ("draw", 24.6)],
+            ..Readings::default()
+        };
+        let whole = pace(&readings, |_| true);
+        assert_eq!(whole, "±5.0 arcmin   30.0 frames/s   ride 0.1 · draw 24.6 ms   F1 help · F3 settings");
+        let short = pace(&readings, |words| words.len() < whole.len());
+        assert_eq!(short, "±5.0 arcmin   30.0 frames/s   F1 help · F3 settings");
+        assert_eq!(pace(&Readings { kiosk: true, ..readings }, |_| true), "F1 help");
     }
 
     #[test]

@@ -28,9 +28,6 @@ use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
 use winit::window::{Fullscreen, Window};
 
-/// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
-const HARDWARE_SAMPLES: u32 = 4;
-
 /// Ride for which the windows are opened.
 pub struct WaitingRide {
     /// Scene of the ride.
@@ -120,8 +117,7 @@ impl Open {
         }
         let screen_format = surfaces[0].configuration.format;
 
-        let samples = if gpu.is_software() || options.picture.samples == 1 { 1 } else { HARDWARE_SAMPLES };
-        let format = Format::fast(samples);
+        let format = Format::fast(options.samples(gpu.is_software()));
         let dial = options.dial(gpu.is_software());
         let spinner = progress::cutting(dial);
         let start = scene.start;

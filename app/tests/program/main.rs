@@ -8,6 +8,8 @@ mod check;
 mod first_view;
 mod kiosk;
 mod measure;
+#[cfg(target_os = "linux")]
+mod measure_gpu;
 mod models;
 #[cfg(target_os = "linux")]
 mod outputs;
@@ -21,6 +23,7 @@ mod runner;
 #[cfg(unix)]
 mod trace;
 mod tracker;
+mod turning_head;
 #[cfg(target_os = "linux")]
 mod virtual_display;
 #[cfg(target_os = "linux")]

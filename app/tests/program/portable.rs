@@ -4,16 +4,15 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
-use crate::runner::{rapidity, said, told};
+use crate::runner::{WITHOUT_FMA, rapidity, said, told};
+use crate::turning_head::{greeting, pose};
 use glam::DVec3;
 use input::head::{MouseButton, MouseEvent};
 use input::{Action, DeskConfig, HeadConfig, KeyboardKey, SECOND, Sample, SampleSource, VehicleKind};
 use ride::{LightSpeed, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use scene::collision::Collision;
-
-/// Setting that makes glibc take the processor for one without fused multiplication.
-const WITHOUT_FMA: (&str, &str) = ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F");
 
 /// Number of frames of a ride. The C library's functions differ for one argument in a thousand, so a minute of ticks
 /// meets some in each function.
@@ -21,6 +20,9 @@ const FRAMES: u64 = 3600;
 
 /// Number of frames after which the keys are pressed again.
 const CYCLE: u64 = 360;
+
+/// Tracker of a head that the mouse moves.
+const MOUSE: &str = "mouse";
 
 /// Samples of a ride by keys, with a handlebar and a head that never rest.
 fn samples() -> Vec<Sample> {
@@ -54,9 +56,15 @@ fn samples() -> Vec<Sample> {
     samples
 }
 
-/// Records a ride in the lattice, on this processor as it is.
-fn record(path: &Path, kind: VehicleKind, bicycle: bool) {
-    let head = HeadConfig::new("mouse".parse().unwrap());
+/// Bytes of a tracker up to this frame: a head that sways and turns.
+fn tracked(n: u64) -> Vec<u8> {
+    let newest = pose(Duration::from_nanos(n * SECOND / 60));
+    if n == 0 { [greeting(), newest].concat() } else { newest }
+}
+
+/// Records a ride in the lattice, on this processor as it is. `tracker`: address of the head's tracker.
+fn record(path: &Path, kind: VehicleKind, bicycle: bool, tracker: &str) {
+    let head = HeadConfig::new(tracker.parse().unwrap());
     let setup = Setup {
         light_speed: LightSpeed::OLD_TOWN,
         kind,
@@ -70,6 +78,7 @@ fn record(path: &Path, kind: VehicleKind, bicycle: bool) {
     log.record(path).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(lattice)).unwrap();
     let mut waiting = samples().into_iter().peekable();
+    let mut turned_by = 0.0_f64;
     for n in 0..FRAMES {
         let at = n * SECOND / 60 + n * 7919 % 2_000_000;
         let mut due = Vec::new();
@@ -82,9 +91,15 @@ fn record(path: &Path, kind: VehicleKind, bicycle: bool) {
             let sum = line.bytes().fold(0, |sum, byte| sum ^ byte);
             due.push(Sample::bytes(at, SampleSource::Bicycle, format!("{line}*{sum:02X}\r\n").into_bytes()));
         }
+        if tracker != MOUSE {
+            due.push(Sample::bytes(at, SampleSource::Vrpn, tracked(n)));
+        }
         let frame = simulation.frame(at, &due);
+        turned_by = turned_by.max(frame.controls.head.as_ref().map_or(0.0, |head| head.turn_rad_s.length()));
         log.frame(&due, &frame).unwrap();
     }
+    // A mouse turns the head in leaps, which are no motion.
+    assert!(turned_by > 1.0 || tracker == MOUSE, "a head that turns, by {turned_by} rad/s at most");
     let end = simulation.vehicle().state();
     let turned = end.orientation.angle_between(start.orientation);
     assert!(end.celerity.magnitude() > 0.1 && turned > 0.1, "a ride that turns, by {turned} rad: {end:?}");
@@ -92,15 +107,16 @@ fn record(path: &Path, kind: VehicleKind, bicycle: bool) {
 }
 
 #[test]
-fn a_steered_ride_has_the_same_bits_without_fused_multiplication() {
+fn a_steered_ride_with_a_head_that_turns_has_the_same_bits_without_fused_multiplication() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, kind, bicycle) in [
-        ("keys.mcap", VehicleKind::Bicycle, false),
-        ("bicycle.mcap", VehicleKind::Bicycle, true),
-        ("drive.mcap", VehicleKind::Drive, false),
-        ("fly.mcap", VehicleKind::Fly, false),
+    for (name, kind, bicycle, tracker) in [
+        ("keys.mcap", VehicleKind::Bicycle, false, MOUSE),
+        ("bicycle.mcap", VehicleKind::Bicycle, true, MOUSE),
+        ("drive.mcap", VehicleKind::Drive, false, MOUSE),
+        ("fly.mcap", VehicleKind::Fly, false, MOUSE),
+        ("tracked.mcap", VehicleKind::Bicycle, true, "vrpn://localhost/Head"),
     ] {
-        record(&folder.path().join(name), kind, bicycle);
+        record(&folder.path().join(name), kind, bicycle, tracker);
         for plain in [true, false] {
             let mut command = rapidity(folder.path(), &["ride", "--replay", name, "--verify"]);
             if !plain {

@@ -46,7 +46,8 @@ fn a_killed_ride_is_recorded_until_the_last_second() {
             [&SMALL[..], &["--record", "r.mcap", "--realtime", "--seconds", "60", "--out", "r.mp4"]].concat();
         let mut program = rapidity(folder.path(), &arguments).stderr(Stdio::null()).spawn().unwrap();
         let began = Instant::now();
-        while !(path.exists() && frames(&path) > 0) {
+        // At first there is no file, then an empty one.
+        while !(Recording::open(&path).is_ok() && frames(&path) > 0) {
             assert!(began.elapsed() < PATIENCE, "nothing was recorded");
             std::thread::sleep(Duration::from_millis(20));
         }

@@ -1,57 +1,15 @@
 //! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is part of the ride,
-//! and replays to the same bits. A program that lost the tracker on its way would have no head; one that read a clock
+//! and replays to the same bits, also where the C library has no fused multiplication. A program that lost the tracker on its way would have no head; one that read a clock
 //! would have another head the second time.
 
-use crate::runner::{run, said, told};
-use std::io::Write;
-use std::net::TcpListener;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use crate::runner::{WITHOUT_FMA, rapidity, run, said, told};
+use crate::turning_head::{SWAY, TURN, flood, pose, serve};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
 
-use input::head::Tracking;
+use input::head::{HeadState, Tracking};
 use input::recording::{Recording, RecordingEntry};
-use input::vrpn::{POSE, wire};
 use input::{Sample, Signal};
-
-/// Rate of poses, hertz.
-const RATE_HZ: u32 = 100;
-/// Sway of the head: amplitude, metres, and angular frequency, radians per second.
-const SWAY: (f64, f64) = (0.2, 3.0);
-
-/// Starts a server whose "Head" sways for every client until it disconnects; returns its address.
-fn serve() -> String {
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    let place = listener.local_addr().unwrap();
-    std::thread::spawn(move || {
-        for client in listener.incoming() {
-            let mut client = client.unwrap();
-            let names = [
-                wire::COOKIE.to_vec(),
-                wire::description(wire::DESCRIBES_SENDER, 1, "Head"),
-                wire::description(wire::DESCRIBES_TYPE, 4, POSE),
-            ];
-            let began = Instant::now();
-            let mut outcome = client.write_all(&names.concat());
-            while outcome.is_ok() {
-                outcome = client.write_all(&pose(began.elapsed()));
-                std::thread::sleep(Duration::from_secs(1) / RATE_HZ);
-            }
-        }
-    });
-    format!("vrpn://{place}/Head")
-}
-
-/// Payload with the pose of the head at this time.
-fn pose(time: Duration) -> Vec<u8> {
-    let x = SWAY.0 * (SWAY.1 * time.as_secs_f64()).sin();
-    let mut payload = vec![0; 8];
-    for value in [x, 1.6, 0.0, 0.0, 0.0, 0.0, 1.0] {
-        payload.extend_from_slice(&value.to_be_bytes());
-    }
-    let (seconds, microseconds) = (1_000_000 + time.as_secs() as u32, time.subsec_micros());
-    wire::VrpnMessage { seconds, microseconds, sender: 1, kind: 4, payload: &payload }.to_bytes()
-}
 
 #[test]
 fn a_tracked_head_is_listed() {
@@ -88,14 +46,21 @@ fn a_ride_with_a_tracked_head_replays_to_the_same_bits() {
         })
         .filter(|head| head.tracked == Tracking::Tracked)
         .collect();
-    let fastest = heads.iter().map(|head| head.velocity_m_s.x.abs()).fold(0.0, f64::max);
-    let expected = SWAY.0 * SWAY.1;
-    // The velocity is a mean of four frames, on a busy machine.
-    assert!((0.5 * expected..1.5 * expected).contains(&fastest), "{fastest} of {expected} in {} frames", heads.len());
+    let fastest = |rate: fn(&HeadState) -> f64| heads.iter().map(|head| rate(head).abs()).fold(0.0, f64::max);
+    // Both are means of four frames, on a busy machine.
+    for ((amplitude, rate), found) in
+        [(SWAY, fastest(|head| head.velocity_m_s.x)), (TURN, fastest(|head| head.turn_rad_s.y))]
+    {
+        let expected = amplitude * rate;
+        assert!((0.5 * expected..1.5 * expected).contains(&found), "{found} of {expected} in {} frames", heads.len());
+    }
 
-    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
-    assert!(verified.status.success(), "{}", told(&verified));
-    assert!(said(&verified).contains("identical to the bit"), "{}", said(&verified));
+    for (name, value) in [("RAPIDITY_TESTS", "as it is"), WITHOUT_FMA] {
+        let mut command = rapidity(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+        let verified = command.env(name, value).output().unwrap();
+        assert!(verified.status.success(), "{name}: {}", told(&verified));
+        assert!(said(&verified).contains("identical to the bit"), "{name}: {}", said(&verified));
+    }
 }
 
 #[test]
@@ -105,34 +70,6 @@ fn a_wrong_place_is_told_in_a_sentence() {
     assert_eq!(refused.status.code(), Some(2));
     let text = told(&refused);
     assert!(text.contains("names no device of the server") && text.lines().count() == 1, "{text}");
-}
-
-/// Starts a server that sends poses of "Head" to every client as fast as it takes them; returns its address, and the
-/// number of poses that were sent.
-fn flood() -> (String, Arc<AtomicU64>) {
-    /// Number of poses that are sent together.
-    const TOGETHER: u32 = 2000;
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    let place = listener.local_addr().unwrap();
-    let sent = Arc::new(AtomicU64::new(0));
-    let count = Arc::clone(&sent);
-    std::thread::spawn(move || {
-        for client in listener.incoming() {
-            let mut client = client.unwrap();
-            let names = [
-                wire::COOKIE.to_vec(),
-                wire::description(wire::DESCRIBES_SENDER, 1, "Head"),
-                wire::description(wire::DESCRIBES_TYPE, 4, POSE),
-            ];
-            let poses: Vec<u8> = (0..TOGETHER).flat_map(|n| pose(Duration::from_micros(u64::from(n)))).collect();
-            let mut outcome = client.write_all(&names.concat());
-            while outcome.is_ok() {
-                outcome = client.write_all(&poses);
-                count.fetch_add(u64::from(TOGETHER), Ordering::Relaxed);
-            }
-        }
-    });
-    (format!("vrpn://{place}/Head"), sent)
 }
 
 #[test]
