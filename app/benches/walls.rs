@@ -7,7 +7,8 @@
 //! windows. The vehicle moves on from frame to frame, by its own time of a frame at 30 frames per second.
 //!
 //! `cargo bench -p rapidity --bench walls`, or with words after `--`:
-//! - `beta=.9` sets the speed, `side=1920` the pixels of a wall, `scene=lattice` or `scene=FILE.glb` the scene;
+//! - `beta=.9` sets the speed, `side=1920` the pixels of a wall, `scene=lattice`, `scene=table1` to `table3` (of the
+//!   sizes of W table 6.1) or `scene=FILE.glb` the scene;
 //! - `walls=4` or `walls=6`: only four or six walls, for two eyes;
 //! - `quick`: only the first table; `5s`: seconds for each table; `markdown`: rows of the first table for Markdown.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
@@ -19,7 +20,7 @@ use physics::worldline::{Thrust, WorldlineState};
 use physics::{Beta, Celerity, Event};
 use render::display::Development;
 use render::target::texture;
-use render::{Gpu, SceneRenderer};
+use render::{DrawCounts, Gpu, SceneRenderer};
 use room::{Display, EyeSide, file};
 use scene::Scene;
 use scene::refine::refine;
@@ -50,8 +51,7 @@ const RATE_HZ: f64 = 30.0;
 /// Speed of light where the scene does not say, m/s.
 const LIGHT_M_S: f64 = 30.0 / 3.6;
 const SCREEN: wgpu::TextureFormat = wgpu::TextureFormat::Bgra8Unorm;
-const WORDS: &str =
-    "beta=V, side=N, walls=4 or 6, scene=town, lattice or a file, quick, markdown, and seconds, as in 5s";
+const WORDS: &str = "beta=V, side=N, walls=4 or 6, scene=town, lattice, table1 to table3 or a file, quick, markdown, and seconds, as in 5s";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = Words::given();
@@ -336,11 +336,14 @@ impl Row {
     /// Times of the stages of a frame, each waited for by itself, and sizes of what is drawn.
     fn stages(&mut self, gpu: &Gpu) -> Result<String, Box<dyn Error>> {
         let mut stages = [const { Vec::new() }; 4];
+        let mut counts = DrawCounts::default();
         for _ in 0..FRAMES {
             let submitted = self.submit(gpu)?;
+            self.renderer.take_drawn();
             let begun = Instant::now();
             let drawn = self.walls.draw(gpu, &mut self.renderer, submitted)?;
             let recorded = begun.elapsed().saturating_sub(drawn.transform);
+            counts = self.renderer.take_drawn();
             gpu.wait()?;
             let light = begun.elapsed().saturating_sub(drawn.transform + recorded);
             let begun = Instant::now();
@@ -353,8 +356,10 @@ impl Row {
         let [transform, recorded, light, shown] = stages.map(|times| median(&times));
         let mut text = format!(
             "transform {transform:.2} ms, draw {:.2} ({recorded:.2} until all is submitted), development {shown:.2}; {} \
-             triangles in all",
+             triangles drawn in {} calls, of {}",
             recorded + light,
+            counts.triangles,
+            counts.calls,
             self.renderer.triangle_count()
         );
         if let Some(map) = self.renderer.map_stats().filter(|map| map.panes > 0) {

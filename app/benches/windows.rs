@@ -70,7 +70,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{} at {} x {} pixels, {samples} samples a pixel", scene.name, size[0], size[1]);
     if !markdown {
         println!("medians; ratios to the plain way of the same speed\n");
-        println!("   v/c  way                             ms  95 % in  ratio  processors ms  ratio    FLIP  triangles  calls");
+        println!(
+            "   v/c  way                             ms  95 % in  ratio  processors ms  ratio    FLIP  triangles  calls"
+        );
     }
     let tracer = if quick || markdown { None } else { Some(RayTracer::new(scene.clone(), None, false)?) };
     let mut ways = ways(&gpu, &scene, size, default, &scales, markdown)?;

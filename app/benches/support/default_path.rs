@@ -1,5 +1,6 @@
 //! The way in which `rapidity ride` draws without options, and the scenes that are measured.
 
+use super::table_scenes::{SIZES, scene_of};
 use built_in::lattice::Lattice;
 use built_in::town;
 use rapidity::command::{Command, parse_from};
@@ -63,8 +64,12 @@ pub fn method(dial: Dial) -> String {
     }
 }
 
-/// Scene by name, `town` or `lattice`, or from a file.
+/// Scene by name: `town`, `lattice`, or `table1` to `table3` for those of W table 6.1; or from a file.
 pub fn scene(name: &str) -> Result<Scene, Box<dyn Error>> {
+    let number = name.strip_prefix("table").and_then(|number| number.parse::<usize>().ok());
+    if let Some([vertices, triangles]) = number.and_then(|number| SIZES.get(number.checked_sub(1)?)) {
+        return Ok(scene_of(*vertices, *triangles)?);
+    }
     match name {
         "town" => Ok(town::build(town::TOWN_SEED)),
         "lattice" => Ok(Lattice::default().build()),

@@ -4,4 +4,5 @@
 pub mod default_path;
 pub mod figures;
 pub mod frame_times;
+pub mod table_scenes;
 pub mod words;

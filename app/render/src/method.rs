@@ -44,8 +44,8 @@ pub trait Method {
     /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     fn prepare_eye(&mut self, _gpu: &Gpu, _world: &mut World, _shots: &[(Shot, [u32; 2])]) {}
 
-    /// True if the method can draw the whole picture of a screen that is not flat at once, so that each of its pixels is
-    /// looked up once.
+    /// True if the method can draw the whole picture of a screen that is not flat at once, so that each of its pixels
+    /// is looked up once.
     fn shows_bent_screens(&self) -> bool {
         false
     }

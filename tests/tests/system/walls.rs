@@ -36,6 +36,8 @@ const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
 const EDGE_M: f32 = 0.09;
 /// Largest share of pixels that may differ: the project's promise for pixels of walls.
 const SHARE_AT_MOST: f64 = 0.01;
+/// The same for a curved screen whose pixels are looked up in the map.
+const CURVED_AT_MOST: f64 = 0.003;
 /// Largest distance of an outline from its exact place, pixels.
 const REACH: f64 = 0.75;
 
@@ -154,7 +156,7 @@ fn compare(picture: &RgbaImage, exact: &ExactChannel<'_>) -> (f64, f64) {
     (share(wrong.len()), share(stray))
 }
 
-fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene) {
+fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene, most: f64) {
     let boxes = Boxes::of(&LATTICE, BACKGROUND);
     let display = display(name, coarser);
     let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
@@ -177,7 +179,7 @@ fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene) {
             let (share, stray) = compare(picture, &exact);
             let what = format!("{name} {} by {method}, head {}", channel.name, occupant.head.celerity.vector());
             println!("{what}: {share:.5} differ, {stray:.6} stray");
-            assert!(share < SHARE_AT_MOST, "{what}: {share} of the pixels differ");
+            assert!(share < most, "{what}: {share} of the pixels differ");
             assert!(stray < 1e-4, "{what}: {stray} of the pixels show what is nowhere near");
             colours.extend(picture.pixels().map(|pixel| pixel.0));
         }
@@ -187,28 +189,56 @@ fn assert_walls(name: &str, coarser: u32, method: Dial, scene: &Scene) {
 
 #[test]
 fn every_wall_of_a_cave_shows_what_each_eye_sees() {
-    assert_walls("cave4", 8, AS_GIVEN, &REFINED);
+    assert_walls("cave4", 8, AS_GIVEN, &REFINED, SHARE_AT_MOST);
 }
 
 #[test]
 fn every_wall_of_a_cave_shows_what_each_eye_sees_by_maps() {
-    assert_walls("cave4", 8, DEFAULT_MAP, &LATTICE.build());
+    assert_walls("cave4", 8, DEFAULT_MAP, &LATTICE.build(), SHARE_AT_MOST);
 }
 
 #[test]
 fn a_curved_screen_shows_what_the_eye_sees() {
-    assert_walls("curved", 6, AS_GIVEN, &REFINED);
+    assert_walls("curved", 6, AS_GIVEN, &REFINED, SHARE_AT_MOST);
 }
 
 #[test]
 fn a_curved_screen_shows_what_the_eye_sees_by_maps() {
-    assert_walls("curved", 6, DEFAULT_MAP, &LATTICE.build());
+    assert_walls("curved", 6, DEFAULT_MAP, &LATTICE.build(), CURVED_AT_MOST);
 }
 
 #[test]
 fn every_projector_of_a_dome_shows_what_the_eye_sees() {
     // Six pictures must agree where they overlap, if each is in its place.
-    assert_walls("dome6", 4, AS_GIVEN, &REFINED);
+    assert_walls("dome6", 4, AS_GIVEN, &REFINED, SHARE_AT_MOST);
+}
+
+#[test]
+fn the_walls_for_both_eyes_draw_little_more_than_the_world_around_them() {
+    // Four walls see less than the whole world, and each draws what its own pyramid holds. Without that, eight channels
+    // draw everything eight times.
+    let display = display("cave4", 8);
+    let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
+    let plain = Effects::NONE;
+    for method in [AS_GIVEN, Dial::tolerance(0.25)] {
+        for (celerity, effects) in [(DVec3::ZERO, plain), (DVec3::ZERO, Effects::GEOMETRY), (fast, Effects::GEOMETRY)] {
+            let _turn = turn();
+            let quality = Quality { format: Studio::format(gpu()), samples: 1, density: 1.0, smooth: false };
+            let occasion = Occasion::Still;
+            let mut renderer =
+                SceneRenderer::new(gpu(), REFINED.clone(), quality.format, None, method, occasion).unwrap();
+            let mut walls = Walls::new(gpu(), display.clone(), quality, SCREEN_FORMAT);
+            let head = head(&display.viewer, DVec3::ZERO);
+            let occupant = Occupant { vehicle: vehicle(celerity), thrust: Thrust::default(), head };
+            let submitted = walls.submit(gpu(), &mut renderer, &occupant, effects).unwrap();
+            walls.draw(gpu(), &mut renderer, submitted).unwrap();
+            let (drawn, all) = (renderer.take_drawn().triangles, renderer.triangle_count());
+            println!("{method} at u = {}: {drawn} triangles of {all}", celerity.length());
+            assert_eq!(display.channels.len(), 8);
+            assert!(drawn > all, "{drawn} triangles are too few for two eyes");
+            assert!(drawn <= 2 * all, "eight channels draw {drawn} triangles of {all}");
+        }
+    }
 }
 
 #[test]

@@ -453,8 +453,11 @@ mod tests {
         for gamma in [1.0, 1.2, 1.7, 3.0, 10.0, 100.0, 1e4] {
             let celerity = Celerity::new(DVec3::NEG_Z * f64::sqrt(gamma * gamma - 1.0)).expect("a finite celerity");
             for look in looks() {
-                let plan =
-                    PictureMap::new(&[(Camera::looking(look, DVec3::Y, 1.1), SIZE)], celerity).plan(mean, MANY, 1 << 20);
+                let plan = PictureMap::new(&[(Camera::looking(look, DVec3::Y, 1.1), SIZE)], celerity).plan(
+                    mean,
+                    MANY,
+                    1 << 20,
+                );
                 let texels: f64 = plan.placed.iter().map(Placed::texels).sum();
                 assert!(texels < 3.0 * pixels, "{texels} texels for {pixels} pixels at γ = {gamma} looking to {look}");
             }
@@ -493,8 +496,11 @@ mod tests {
     #[test]
     fn panes_do_not_overlap_in_the_atlas() {
         let celerity = Celerity::new(DVec3::new(1.0, 0.0, -2.0)).expect("a finite celerity");
-        let plan =
-            PictureMap::new(&[(Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE)], celerity).plan(EXACT, MANY, 1 << 20);
+        let plan = PictureMap::new(&[(Camera::looking(DVec3::NEG_Z, DVec3::Y, 1.5), SIZE)], celerity).plan(
+            EXACT,
+            MANY,
+            1 << 20,
+        );
         assert!(plan.placed.len() > 3);
         for (number, one) in plan.placed.iter().enumerate() {
             for other in &plan.placed[..number] {

@@ -12,8 +12,8 @@ use view::{Camera, Sides};
 /// Largest ratio of the greatest enlargement to the mean at which the grid on a part is trusted.
 const BENT: f64 = 2.0;
 
-/// Directions that flat pictures by one observer in motion see, and their sizes in them. The pictures together may stand
-/// for one that is not flat.
+/// Directions that flat pictures by one observer in motion see, and their sizes in them. The pictures together may
+/// stand for one that is not flat.
 #[derive(Clone, Debug)]
 pub struct PictureMap {
     /// Rotation from the axes of world and observer to those of the cube.
@@ -119,11 +119,7 @@ impl PictureMap {
 
 impl Extent {
     fn or_larger(self, other: Self) -> Self {
-        Self {
-            most: self.most.max(other.most),
-            mean: self.mean.max(other.mean),
-            inside: self.inside || other.inside,
-        }
+        Self { most: self.most.max(other.most), mean: self.mean.max(other.mean), inside: self.inside || other.inside }
     }
 }
 
