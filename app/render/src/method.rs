@@ -132,6 +132,11 @@ impl Sample<'_> {
         }
     }
 
+    /// Number of pixels of the target.
+    pub fn pixels(&self) -> f64 {
+        self.target.size.map(f64::from).iter().product()
+    }
+
     /// Whole target, with the view written first.
     pub fn whole(&self) -> TargetPart {
         TargetPart { view: 0, place: None, sides: self.sides }
@@ -154,7 +159,8 @@ impl Sample<'_> {
         };
         self.world.prepare(gpu, mode, source, self.format);
         self.world.write_views(gpu, &self.views);
-        let draws = Draws { streams, bends, mode, format: self.format, sights: self.sights, sky: true };
+        let draws =
+            Draws { streams, bends, mode, format: self.format, sights: self.sights, pixels: self.pixels(), sky: true };
         self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[self.whole()]);
     }
 }

@@ -69,6 +69,7 @@ impl MovingParts {
             mode: sample.mode(),
             format: sample.format,
             sights: sample.sights,
+            pixels: sample.pixels(),
             sky: false,
         };
         self.world.draw(gpu, pass, &draws, &[sample.whole()]);
