@@ -183,7 +183,7 @@ impl Kiosk {
     pub fn head(&mut self, now: Nanos, lost: Option<&str>) {
         match self.head.step(now, lost.is_some()) {
             Some(HeadNews::Lost(seconds)) => {
-                self.fault(&format!("{}; not seen for {seconds:.0} s", lost.unwrap_or_default()));
+                self.fault(&format!("for {seconds:.0} s: {}", lost.unwrap_or_default()));
             }
             Some(HeadNews::Found(seconds)) => {
                 self.fault(&format!("the head is tracked again; it was lost for {seconds:.0} s"));

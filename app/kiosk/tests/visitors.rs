@@ -93,7 +93,7 @@ fn a_lost_head_and_its_return_stand_in_the_log_once() {
     let entries = log(folder.path());
     let faults: Vec<_> = entries.iter().filter(|entry| entry["event"] == "fault").collect();
     let sentences: Vec<_> = faults.iter().map(|fault| fault["sentence"].as_str().unwrap()).collect();
-    let expected = ["the head is lost; not seen for 5 s", "the head is tracked again; it was lost for 190 s"];
+    let expected = ["for 5 s: the head is lost", "the head is tracked again; it was lost for 190 s"];
     assert_eq!(sentences, expected);
     assert!(faults.iter().all(|fault| fault["at"].as_str().unwrap().ends_with('Z')));
 }
