@@ -46,7 +46,8 @@ pub fn filling(events: &ActiveEventLoop, wanted: Option<&Monitor>, size: [u32; 2
     attributes.with_fullscreen(Some(Fullscreen::Borderless(monitor)))
 }
 
-/// Fits what a kiosk shows into the windows that fill their monitors. Screens that nobody has measured take their shape.
+/// Fits what a kiosk shows into the windows that fill their monitors. Screens that nobody has measured take their
+/// shape.
 pub fn fit(display: &mut Display, windows: &[Arc<Window>], unmeasured: bool) {
     for (index, window) in windows.iter().enumerate() {
         if display.windows[index].fullscreen {
