@@ -35,6 +35,11 @@ pub enum DayEvent<'a> {
         /// Largest speed as a fraction of the speed of light.
         top_beta: f64,
     },
+    /// Ride that has left the scene behind, and goes back to its start.
+    Strayed {
+        /// Distance from the scene's middle, metres.
+        metres: f64,
+    },
     /// Fault that staff should know of.
     Fault {
         /// Sentence on the fault.

@@ -3,6 +3,9 @@
 
 mod attract;
 mod day_log;
+mod frame_tally;
+mod head_watch;
+mod reach;
 mod turns;
 mod visitors;
 

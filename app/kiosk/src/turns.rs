@@ -40,17 +40,19 @@ impl Turns {
         self.since
     }
 
-    /// Turn that begins at the time `now`, if one does; `touched`: a control was touched since the last call.
-    pub fn step(&mut self, now: Nanos, touched: bool) -> Option<Turn> {
+    /// Turn that begins at the time `now`, if one does; `touched`: a control was touched since the last call;
+    /// `strayed`: the ride has left the scene behind, and ends like that of a visitor who has left.
+    pub fn step(&mut self, now: Nanos, touched: bool, strayed: bool) -> Option<Turn> {
         let waited = now.saturating_sub(self.since);
         let begins = match (self.present, touched) {
+            (Some(Turn::Visitor), _) if strayed => Some(Turn::Attract),
             (Some(Turn::Visitor), true) => {
                 self.since = now;
                 None
             }
             (Some(Turn::Visitor), false) => (waited >= self.idle).then_some(Turn::Attract),
             (Some(Turn::Attract) | None, true) => Some(Turn::Visitor),
-            (Some(Turn::Attract), false) => (waited >= self.longest).then_some(Turn::Attract),
+            (Some(Turn::Attract), false) => (strayed || waited >= self.longest).then_some(Turn::Attract),
             (None, false) => Some(Turn::Attract),
         };
         if begins.is_some() {
@@ -63,7 +65,8 @@ impl Turns {
 #[cfg(test)]
 mod tests {
     //! Laws: a visitor keeps the ride as long as the touches are less than the idle time apart, and loses it exactly
-    //! then; whoever touches a control while nobody rides gets a fresh ride at once; no touch restarts one's own ride.
+    //! then; whoever touches a control while nobody rides gets a fresh ride at once; no touch restarts one's own ride;
+    //! a ride that has left the scene behind ends at once.
 
     use super::*;
     use input::SECOND;
@@ -74,25 +77,37 @@ mod tests {
 
     #[test]
     fn nobody_is_there_at_first() {
-        assert_eq!(Turns::new(IDLE, LONGEST).step(0, false), Some(Turn::Attract));
-        assert_eq!(Turns::new(IDLE, LONGEST).step(0, true), Some(Turn::Visitor));
+        assert_eq!(Turns::new(IDLE, LONGEST).step(0, false, false), Some(Turn::Attract));
+        assert_eq!(Turns::new(IDLE, LONGEST).step(0, true, false), Some(Turn::Visitor));
     }
 
     #[test]
     fn a_visitor_has_left_after_the_idle_time_and_not_before() {
         let mut turns = Turns::new(IDLE, LONGEST);
-        turns.step(0, false);
-        assert_eq!(turns.step(5 * SECOND, true), Some(Turn::Visitor));
-        assert_eq!(turns.step(5 * SECOND + IDLE - 1, false), None);
-        assert_eq!(turns.step(5 * SECOND + IDLE, false), Some(Turn::Attract));
+        turns.step(0, false, false);
+        assert_eq!(turns.step(5 * SECOND, true, false), Some(Turn::Visitor));
+        assert_eq!(turns.step(5 * SECOND + IDLE - 1, false, false), None);
+        assert_eq!(turns.step(5 * SECOND + IDLE, false, false), Some(Turn::Attract));
     }
 
     #[test]
     fn attract_rides_begin_anew_before_they_go_too_far() {
         let mut turns = Turns::new(IDLE, LONGEST);
-        turns.step(0, false);
-        assert_eq!(turns.step(LONGEST - 1, false), None);
-        assert_eq!(turns.step(LONGEST, false), Some(Turn::Attract));
+        turns.step(0, false, false);
+        assert_eq!(turns.step(LONGEST - 1, false, false), None);
+        assert_eq!(turns.step(LONGEST, false, false), Some(Turn::Attract));
+    }
+
+    #[test]
+    fn a_ride_that_has_strayed_ends_whoever_rides() {
+        for touched in [false, true] {
+            let mut turns = Turns::new(IDLE, LONGEST);
+            assert_eq!(turns.step(0, true, false), Some(Turn::Visitor));
+            assert_eq!(turns.step(SECOND, touched, true), Some(Turn::Attract));
+            assert_eq!(turns.step(2 * SECOND, false, true), Some(Turn::Attract));
+            // A key that is still held begins a fresh ride.
+            assert_eq!(turns.step(3 * SECOND, true, false), Some(Turn::Visitor));
+        }
     }
 
     #[test]
@@ -103,7 +118,7 @@ mod tests {
         for _ in 0..100_000 {
             now += dice.random_range(0..10 * SECOND);
             let touched = dice.random_range(0..6) == 0;
-            let turn = turns.step(now, touched);
+            let turn = turns.step(now, touched, false);
             match (riding, touched) {
                 (true, true) => assert_eq!(turn, None, "one's own ride goes on"),
                 (true, false) => assert_eq!(turn == Some(Turn::Attract), now - touch >= IDLE),

@@ -7,6 +7,9 @@
 
 use crate::attract::Attract;
 use crate::day_log::{DayEvent, DayLog, DayLogError};
+use crate::frame_tally::FrameTally;
+use crate::head_watch::{HeadNews, HeadWatch};
+use crate::reach::Reach;
 use crate::turns::{Turn, Turns};
 use glam::DVec3;
 use input::{Action, ConfigError, Controls, Desk, Nanos, SECOND, Sample, SampleSource, Signal};
@@ -18,10 +21,6 @@ use std::collections::BTreeSet;
 const DRIFT: f64 = 0.15;
 /// Turn of the handlebar that is a touch, radians. A handlebar may lean in any position.
 const TURNED_RAD: f64 = 0.1;
-/// Time between two entries on frame times.
-const SUMMARY: Nanos = 60 * SECOND;
-/// Longest frame that a rider does not notice, nanoseconds.
-const LATE: Nanos = SECOND / 20;
 
 /// Sequence of visitors.
 pub struct Kiosk {
@@ -50,12 +49,12 @@ pub struct Kiosk {
     /// Odometer at the last frame of the visitor, metres.
     odometer_m: f64,
     top_beta: f64,
-    /// Frames since the last summary: their number, those that were late, the longest, and the last frame's time.
-    frames: u64,
-    late: u64,
-    longest: Nanos,
-    before: Option<Nanos>,
-    summed: Nanos,
+    /// Ball within which a visitor finds the scene again, if the scene has an extent.
+    reach: Option<Reach>,
+    /// Distance from the scene's middle at which the ride has left it behind, metres.
+    strayed: Option<f64>,
+    head: HeadWatch,
+    tally: FrameTally,
 }
 
 impl Kiosk {
@@ -88,14 +87,20 @@ impl Kiosk {
             road_m: 0.0,
             odometer_m: f64::INFINITY,
             top_beta: 0.0,
-            frames: 0,
-            late: 0,
-            longest: 0,
-            before: None,
-            summed: 0,
+            reach: None,
+            strayed: None,
+            head: HeadWatch::default(),
+            tally: FrameTally::default(),
         };
         kiosk.note(&DayEvent::Start { version: env!("CARGO_PKG_VERSION") });
         Ok(kiosk)
+    }
+
+    /// The same kiosk for a scene given by the middle and the radius of its extent, world metres. A ride from which
+    /// nothing of it can be found again goes back to the start. `start` is that of the ride.
+    pub fn round_scene(mut self, middle: DVec3, radius_m: f64, start: DVec3) -> Self {
+        self.reach = Reach::new(middle, radius_m, start);
+        self
     }
 
     /// True while the attract ride is shown.
@@ -113,11 +118,18 @@ impl Kiosk {
     pub fn samples(&mut self, now: Nanos, samples: Vec<Sample>, vehicle: &Vehicle) -> (Vec<Sample>, Option<Turn>) {
         let touched = self.is_touched(now, &samples) | std::mem::take(&mut self.touched);
         let (rode, last_touch) = (!self.turns.attracts(), self.turns.last_touch());
-        let turn = self.turns.step(now, touched);
+        let strayed = self.strayed.take();
+        let turn = self.turns.step(now, touched, strayed.is_some());
+        if let (Some(_), Some(reach)) = (turn, &mut self.reach) {
+            reach.begin();
+        }
         let mut passed = Vec::new();
         match turn {
             Some(Turn::Attract) => {
                 if rode && self.began > 0 {
+                    if let Some(metres) = strayed {
+                        self.note(&DayEvent::Strayed { metres });
+                    }
                     self.ridden_until(last_touch);
                 }
                 passed.extend(self.attract.begin(now));
@@ -158,14 +170,25 @@ impl Kiosk {
             self.odometer_m = road_m;
             self.top_beta = self.top_beta.max(frame.gaze.observer.celerity.beta().vector().length());
         }
-        if let Some(before) = self.before.replace(now) {
-            let time = now.saturating_sub(before);
-            self.frames += 1;
-            self.late += u64::from(time > LATE);
-            self.longest = self.longest.max(time);
+        if let Some(reach) = &mut self.reach {
+            self.strayed = reach.left_at(frame.gaze.observer.event.position);
         }
-        if now.saturating_sub(self.summed) >= SUMMARY {
+        self.tally.add(now);
+        if self.tally.is_due(now) {
             self.sum_up(now);
+        }
+    }
+
+    /// Takes note of a tracked head at the time `now`; `lost` is the sentence on one that is not seen.
+    pub fn head(&mut self, now: Nanos, lost: Option<&str>) {
+        match self.head.step(now, lost.is_some()) {
+            Some(HeadNews::Lost(seconds)) => {
+                self.fault(&format!("for {seconds:.0} s: {}", lost.unwrap_or_default()));
+            }
+            Some(HeadNews::Found(seconds)) => {
+                self.fault(&format!("the head is tracked again; it was lost for {seconds:.0} s"));
+            }
+            None => {}
         }
     }
 
@@ -233,13 +256,9 @@ impl Kiosk {
     }
 
     fn sum_up(&mut self, now: Nanos) {
-        let elapsed = now.saturating_sub(self.summed);
-        if self.frames > 0 {
-            let mean_ms = elapsed as f64 / self.frames as f64 / 1e6;
-            let (frames, late, longest_ms) = (self.frames, self.late, self.longest as f64 / 1e6);
-            self.note(&DayEvent::Frames { frames, mean_ms, longest_ms, late });
+        if let Some(frames) = self.tally.take(now) {
+            self.note(&frames);
         }
-        (self.frames, self.late, self.longest, self.summed) = (0, 0, 0, now);
     }
 
     fn note(&mut self, event: &DayEvent<'_>) {

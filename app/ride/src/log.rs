@@ -2,10 +2,13 @@
 //!
 //! A recording that starts in the middle could not be replayed, because later states depend on earlier input. Every
 //! entry is therefore kept in memory until a file is wanted, and is written to the file as well from then on.
+//!
+//! A file is not created before there is a frame to be written: windows take their time to open, and a program that
+//! is ended meanwhile would leave a recording of nothing.
 
 use crate::frame::RideFrame;
-use input::Sample;
 use input::recording::{ControlsRecord, Recorder, RecordingEntry, RecordingError, RideHeader};
+use input::{Nanos, Sample};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use thiserror::Error;
@@ -40,6 +43,8 @@ pub struct RideLog {
     /// Beginning of the ride, nanoseconds since 1970, once it has begun.
     began: Option<u64>,
     file: Option<(PathBuf, Recorder)>,
+    /// Path of a recording that is created with the ride's first frame.
+    awaited: Option<PathBuf>,
     /// First recording that has failed.
     failed: Option<PathBuf>,
 }
@@ -47,12 +52,17 @@ pub struct RideLog {
 impl RideLog {
     /// Creates the log at the beginning of the ride.
     pub fn new(header: RideHeader) -> Self {
-        Self { header, kept: Some(Vec::new()), remembered: 0, began: None, file: None, failed: None }
+        Self { header, kept: Some(Vec::new()), remembered: 0, began: None, file: None, awaited: None, failed: None }
     }
 
-    /// True if a file is being written.
+    /// True if the ride is being recorded, from its first frame on.
     pub fn is_recording(&self) -> bool {
-        self.file.is_some()
+        self.file.is_some() || self.awaited.is_some()
+    }
+
+    /// Path of a recording that is created with the ride's first frame; there is no file yet.
+    pub fn awaited(&self) -> Option<&Path> {
+        self.awaited.as_deref()
     }
 
     /// Keeps nothing of the past in memory from now on, for rides that nobody records from their beginning later.
@@ -67,17 +77,30 @@ impl RideLog {
     /// is kept.
     pub fn frame(&mut self, samples: &[Sample], frame: &RideFrame) -> Result<(), LogError> {
         let (number, at) = (frame.record.frame, frame.record.at);
-        if self.began.is_none() {
-            let began = unix_now().saturating_sub(at);
-            self.began = Some(began);
-            self.write(|recorder| recorder.began(began))?;
-        }
+        let begun = if self.began.is_none() { self.begin(at) } else { Ok(()) };
         self.remember(samples, frame);
+        begun?;
         self.write(|recorder| {
             samples.iter().try_for_each(|sample| recorder.sample(sample))?;
             recorder.controls(number, at, &frame.controls)?;
             recorder.frame(&frame.record)
         })
+    }
+
+    /// Begins the ride, whose clock shows `at`, and the recording that waits for it.
+    fn begin(&mut self, at: Nanos) -> Result<(), LogError> {
+        let began = unix_now().saturating_sub(at);
+        self.began = Some(began);
+        if let Some(path) = self.awaited.take() {
+            match Recorder::create(&path, &self.header) {
+                Ok(recorder) => self.file = Some((path, recorder)),
+                Err(error) => {
+                    self.failed.get_or_insert(path);
+                    return Err(error.into());
+                }
+            }
+        }
+        self.write(|recorder| recorder.began(began))
     }
 
     /// Keeps the entries of a frame in memory, as long as there is room.
@@ -110,29 +133,34 @@ impl RideLog {
         }
     }
 
-    /// Writes the ride so far into a new file, and from now on everything that follows.
+    /// Writes the ride so far into a new file, and from now on everything that follows. Before the first frame the
+    /// file is only made sure of.
     ///
     /// # Errors
     /// [`LogError`] if the file cannot be written, or the ride has become too long to be kept in memory.
     pub fn record(&mut self, path: &Path) -> Result<(), LogError> {
-        if self.file.is_some() {
+        if self.is_recording() {
             return Ok(());
         }
+        let Some(began) = self.began else {
+            Recorder::check(path)?;
+            self.awaited = Some(path.to_owned());
+            return Ok(());
+        };
         let entries = self.kept.as_ref().ok_or(LogError::NotRemembered)?;
         let mut recorder = Recorder::create(path, &self.header)?;
-        if let Some(began) = self.began {
-            recorder.began(began)?;
-        }
+        recorder.began(began)?;
         recorder.past(entries.clone())?;
         self.file = Some((path.to_owned(), recorder));
         Ok(())
     }
 
-    /// Completes the file, if one is being written; the ride goes on.
+    /// Completes the file, if one is being written; the ride goes on. No file is left of a ride without a frame.
     ///
     /// # Errors
     /// [`LogError`] if the rest cannot be written.
     pub fn stop(&mut self) -> Result<(), LogError> {
+        self.awaited = None;
         let Some((path, recorder)) = self.file.take() else { return Ok(()) };
         recorder.finish().map_err(|error| {
             self.failed.get_or_insert(path);

@@ -45,13 +45,13 @@ mod projector;
 mod read;
 mod reflection;
 mod report;
-mod shrink;
 pub mod surface;
 mod turning;
 mod unit_square;
 mod viewer;
 mod warp;
 mod window;
+mod window_sizes;
 
 pub use channel::{Channel, ChannelPart};
 pub use display::{Display, Screen};

@@ -10,6 +10,7 @@
 pub mod carriers;
 pub mod collision;
 pub mod cut;
+mod extent;
 pub mod irradiance;
 mod lamp;
 mod lighting;

@@ -166,6 +166,9 @@ impl Live {
                 devices.brake(frame.vehicle.resistance());
                 self.lost.add(frame.dropped_ticks, now);
                 let unseen = unseen(simulation.desk(), &frame);
+                if let Some(kiosk) = &mut self.kiosk {
+                    kiosk.head(now, unseen.as_deref());
+                }
                 if unseen.is_some() != self.unseen.is_some() {
                     tell(unseen.as_deref().unwrap_or("the head is tracked"));
                 }
@@ -319,7 +322,13 @@ impl Live {
             kiosk.finish(self.clock.now());
         }
         match &mut self.rider {
-            Rider::Present { log, .. } => log.finish(),
+            Rider::Present { log, .. } => {
+                if let Some(path) = log.awaited() {
+                    let path = path.display();
+                    tell(format_args!("{path}: the ride ended before its first frame, so there is no recording"));
+                }
+                log.finish()
+            }
             Rider::Recorded { .. } => Ok(()),
         }
     }

@@ -17,6 +17,7 @@ use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSet
 use room::Display;
 use scene::Scene;
 use scene::collision::Collision;
+use scene::motion::Ball;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -75,7 +76,12 @@ pub fn kiosk(options: &RideOptions, setup: &Setup, scene: &Scene) -> Result<Opti
         None => usual_log_folder().and_then(|folder| DayLog::in_folder(&folder).map_err(tell).ok()),
     };
     let scale = options.vehicle.time_scale;
-    Ok(Some(Kiosk::new(options.kiosk.idle_s, setup, scale, &scene.circuit, log)?))
+    let kiosk = Kiosk::new(options.kiosk.idle_s, setup, scale, &scene.circuit, log)?;
+    let start = DVec3::from_array(setup.start.position);
+    Ok(Some(match scene.extent() {
+        Some(Ball { centre, radius }) => kiosk.round_scene(centre, radius, start),
+        None => kiosk,
+    }))
 }
 
 /// Folder of a kiosk's log in the user's folder for states; `None` if the system names none.

@@ -3,7 +3,7 @@
 use super::calibrating::Calibrating;
 use super::interface::Interface;
 use super::panel::Settings;
-use super::place::attributes;
+use super::place::{attributes, filling, fit};
 use super::server_loss;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
@@ -14,11 +14,12 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
-use crate::session::start::RideRoom;
+use crate::session::start::{RideRoom, WINDOW};
 use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
+use room::WindowPlace;
 use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -26,7 +27,7 @@ use view::Occasion;
 use walls::{FlatPicture, Quality, Walls, WindowsInStep};
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
-use winit::window::{Fullscreen, Window};
+use winit::window::Window;
 
 /// Ride for which the windows are opened.
 pub struct WaitingRide {
@@ -80,26 +81,36 @@ impl Open {
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
         let turns = room.display.as_ref().is_none_or(|display| display.viewer.turns_pictures && !options.preview);
         let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
-        let display = room.display;
+        let kiosk = options.kiosk.kiosk;
+        let mut display = room.display;
+        if let Some(display) = display.as_mut().filter(|_| kiosk) {
+            display.fill_monitors();
+        }
         let title = format!("Rapidity: {}", scene.name);
         let attributes = match &display {
             Some(display) if !options.preview => {
                 display.notices.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
-                display.windows.iter().map(|place| attributes(events, place, &title)).collect()
+                let of_place = |place: &WindowPlace| match kiosk && place.fullscreen {
+                    true => filling(events, place.monitor.as_ref(), place.size, &format!("{title}: {}", place.name)),
+                    false => attributes(events, place, &title),
+                };
+                display.windows.iter().map(of_place).collect()
             }
+            _ if kiosk => vec![filling(events, None, options.picture.size, &title)],
             _ => {
                 let [width, height] = options.picture.size;
                 let size = PhysicalSize::new(width, height);
-                let fullscreen = options.kiosk.kiosk.then_some(Fullscreen::Borderless(None));
-                let attributes = Window::default_attributes().with_title(&title).with_inner_size(size);
-                vec![attributes.with_fullscreen(fullscreen)]
+                vec![Window::default_attributes().with_title(&title).with_inner_size(size)]
             }
         };
         let mut windows = Vec::new();
         for attributes in attributes {
             let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
-            window.set_cursor_visible(!options.kiosk.kiosk);
+            window.set_cursor_visible(!kiosk);
             windows.push(Arc::new(window));
+        }
+        if let Some(display) = display.as_mut().filter(|_| kiosk) {
+            fit(display, &windows, options.display.as_deref().is_none_or(|name| name == WINDOW));
         }
 
         server_loss::outlive(&windows[0]);
@@ -159,7 +170,7 @@ impl Open {
         let spinner = progress::spinner("drawing the first picture");
         canvas.warm_up(&gpu, &mut renderer, &start, (look.effects, look.fov_deg, &look.development), &screens)?;
         spinner.finish_and_clear();
-        let fresh = Settings { open: false, help: false, kiosk: options.kiosk.kiosk, readings: true, look };
+        let fresh = Settings { open: false, help: false, kiosk, readings: true, look };
         Ok(Self {
             canvas,
             settings: fresh.clone(),

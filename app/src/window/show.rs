@@ -65,6 +65,10 @@ impl Open {
                         hud::show(ui, &readings);
                     }
                     wanted.extend(panel::show(ui, settings, &panel));
+                    if settings.kiosk {
+                        // The interface would show the pointer again.
+                        ui.ctx().set_cursor_icon(egui::CursorIcon::None);
+                    }
                 });
             }
             self.gpu.queue.submit([encoder.finish()]);

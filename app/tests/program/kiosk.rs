@@ -1,5 +1,6 @@
 //! Law: a kiosk runs until a signal, whatever visitors press. It shows an attract ride, gives whoever touches a control
-//! a fresh ride at the start, and takes it back when the touches end. Its log and its recording are complete.
+//! a fresh ride at the start, and takes it back when the touches end. It fills its screen, with or without a window
+//! manager. Its log and its recording are complete.
 
 use crate::runner::{rapidity, run, told};
 use crate::virtual_display::{VirtualDisplay, wait_for};
@@ -63,6 +64,41 @@ fn visitors_come_and_go_and_only_a_signal_ends_it() {
     assert_eq!(files, ["log", "r.mcap"], "visitors leave no files");
     let verified = run(folder, &["ride", "--replay", "r.mcap", "--verify"]);
     assert!(verified.status.success(), "{}", told(&verified));
+}
+
+/// With a tracker the ride is shown in a display, and its tracker here has never seen a head.
+#[test]
+fn a_kiosk_fills_its_screen_and_logs_a_head_that_is_not_seen() {
+    for tracker in [&[][..], &["--tracker", "vrpn://127.0.0.1:9/Head"]] {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let display = VirtualDisplay::open([400, 300]);
+        let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "64x36", "--kiosk", "--log", "log"];
+        let arguments = [&arguments[..], tracker].concat();
+        let mut program = display.rapidity(folder, &arguments).stderr(Stdio::piped()).spawn().unwrap();
+        let place = || display.tool(&["search", "--name", "Rapidity", "getwindowgeometry"]).filter(|of| !of.is_empty());
+        let place = wait_for("window", place);
+        assert!(place.contains("Position: 0,0") && place.contains("Geometry: 400x300"), "{tracker:?}: {place}");
+
+        // The scene is drawn up to the edges: what is not has one colour.
+        wait_for("picture", || {
+            assert!(program.try_wait().unwrap().is_none(), "the kiosk has ended");
+            let picture = display.picture()?;
+            // Beside the edges, where no word stands.
+            let many = |x: u32| {
+                let part = image::imageops::crop_imm(&picture, x, 60, 40, 100).to_image();
+                part.pixels().collect::<std::collections::HashSet<_>>().len() > 4
+            };
+            (many(0) && many(360)).then_some(())
+        });
+        let unseen = |entry: &Value| entry["sentence"].as_str().is_some_and(|told| told.contains("has not been seen"));
+        if !tracker.is_empty() {
+            wait_for("word of the head", || log(folder).iter().any(unseen).then_some(()));
+        }
+        assert_eq!(log(folder).iter().filter(|entry| unseen(entry)).count(), usize::from(!tracker.is_empty()));
+        Command::new("kill").args(["-TERM", &program.id().to_string()]).status().unwrap();
+        assert!(program.wait().unwrap().success());
+    }
 }
 
 #[test]

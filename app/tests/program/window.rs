@@ -67,3 +67,21 @@ fn a_display_that_goes_leaves_the_recording() {
     assert!(told(&output).contains("rapidity: "), "{}", told(&output));
     assert!(verified.status.success() && all_told.contains("identical to the bit"), "{all_told}");
 }
+
+/// Windows of this size take seconds to open, and nothing is ridden meanwhile.
+#[test]
+fn a_ride_that_is_ended_while_its_windows_open_leaves_no_broken_recording() {
+    let display = VirtualDisplay::open([640, 480]);
+    for pause_ms in [200, 600, 1500] {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = ["ride", "--scene", "lattice", "--edge", "4", "--size", "8192x4096", "--record", "r.mcap"];
+        let mut program = display.rapidity(folder.path(), &arguments).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(pause_ms));
+        std::process::Command::new("kill").args(["-TERM", &program.id().to_string()]).status().unwrap();
+        program.wait().unwrap();
+        if folder.path().join("r.mcap").exists() {
+            let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+            assert!(verified.status.success(), "{pause_ms} ms: {}", told(&verified));
+        }
+    }
+}

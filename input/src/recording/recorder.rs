@@ -5,7 +5,7 @@
 //! recording with a gap would not replay, so recording then stops with an error, rather than losing entries or stopping
 //! the ride.
 
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,17 +50,22 @@ pub struct Recorder {
 }
 
 impl Recorder {
+    /// Checks that a recording could be created at this place, and leaves nothing there.
+    ///
+    /// # Errors
+    /// Errors of [`create`](Self::create).
+    pub fn check(path: &Path) -> Result<(), RecordingError> {
+        drop(new_file(path)?);
+        std::fs::remove_file(path).map_err(|cause| RecordingError::io(path, "remove", cause))
+    }
+
     /// Creates the file and writes the header.
     ///
     /// # Errors
     /// A file that exists already, or that the system does not allow to create or write.
     pub fn create(path: &Path, header: &RideHeader) -> Result<Self, RecordingError> {
         let header = text(header).map_err(|error| failure(path, McapError::Io(error.into())))?;
-        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
-            io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
-            io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
-            _ => RecordingError::io(path, "create", cause),
-        })?;
+        let file = new_file(path)?;
         let mut writer = RecordingWriter::new(file, path, header).map_err(|error| failure(path, error))?;
         let (queue, messages) = bounded(QUEUE);
         let queued = Arc::new(AtomicUsize::new(0));
@@ -175,6 +180,15 @@ impl Drop for Recorder {
     fn drop(&mut self) {
         let _ = self.close();
     }
+}
+
+/// File that was not there before.
+fn new_file(path: &Path) -> Result<File, RecordingError> {
+    OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
+        io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
+        io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
+        _ => RecordingError::io(path, "create", cause),
+    })
 }
 
 /// Header as JSON. A number that is not finite is written as null, so the text is read back to check it.

@@ -38,11 +38,14 @@
 
 mod bicycle;
 mod flight;
+mod flying;
 mod ground;
 mod hull;
+mod integration;
 mod light_speed;
 mod notice;
 mod odometer;
+mod riding;
 mod safe_controls;
 mod settings;
 #[expect(clippy::module_inception, reason = "the type that the folder is named after")]

@@ -28,6 +28,8 @@ const SHORTEST_STRIDE_M: f64 = 0.01;
 pub(super) const DEFLECTION_RADIUS_M: f64 = 0.5;
 /// Fastest turn along a wall that a rider can follow, radians per second of own time.
 pub(super) const FASTEST_DEFLECTION_RAD_S: f64 = 3.0;
+/// Largest number of strides between walls for one piece of a step.
+pub(super) const MOST_STRIDES: usize = 64;
 /// Accuracy of distances, metres.
 const ROUNDING_M: f64 = 1e-6;
 

@@ -1,5 +1,5 @@
 //! Law: a log that cannot be written any further says so once when it happens, and again at the end of the ride; and
-//! the memory of a ride is bounded by bytes, not by entries.
+//! the memory of a ride is bounded by bytes, not by entries. A recording has frames, or is not there.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -87,6 +87,50 @@ fn a_recording_that_is_whole_ends_without_a_word() {
     ride.frame(1).unwrap();
     ride.log.finish().unwrap();
     assert_eq!(frames(&path), 2);
+}
+
+/// A program that is ended while its windows open has ridden nothing: whoever ends it, and however.
+#[test]
+fn a_ride_without_a_frame_leaves_no_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ride.mcap");
+    let mut ride = LoggedRide::new();
+    ride.log.record(&path).unwrap();
+    assert!(ride.log.is_recording() && ride.log.awaited() == Some(&path) && !path.exists());
+    ride.log.finish().unwrap();
+    assert!(!ride.log.is_recording() && !path.exists());
+
+    ride.log.record(&path).unwrap();
+    ride.frame(1).unwrap();
+    assert!(ride.log.is_recording() && ride.log.awaited().is_none());
+    ride.log.finish().unwrap();
+    assert_eq!(frames(&path), 1);
+}
+
+#[test]
+fn a_place_where_nothing_can_be_recorded_is_told_before_the_ride() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ride.mcap");
+    std::fs::write(&path, "another").unwrap();
+    let mut ride = LoggedRide::new();
+    for (path, expected) in [
+        (&path, "exists already"),
+        (&folder.path().to_owned(), "is a directory"),
+        (&path.join("none"), "cannot create"),
+    ] {
+        let told = ride.log.record(path).unwrap_err().to_string();
+        assert!(told.contains(expected), "{told}");
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "another");
+
+    // A file that comes in between is told with the first frame and at the end, and stays.
+    let other = folder.path().join("other.mcap");
+    ride.log.record(&other).unwrap();
+    std::fs::write(&other, "another").unwrap();
+    assert!(ride.frame(1).unwrap_err().to_string().contains("exists already"));
+    ride.frame(1).unwrap();
+    assert!(matches!(ride.log.finish(), Err(LogError::Incomplete { path }) if path == other));
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "another");
 }
 
 /// A device that sends megabytes must not fill the memory: the ride is no longer remembered then.

@@ -74,17 +74,3 @@ fn display_files_are_known_by_their_endings_in_any_case() {
         assert!(!room::is_display(Path::new(name)), "{name}");
     }
 }
-
-#[test]
-fn a_window_beyond_the_device_keeps_all_of_its_channels() {
-    let mut display = Display::built_in("cave4").unwrap();
-    let whole = display.clone();
-    assert_eq!((display.shrink_to(2560).len(), &display), (0, &whole), "it fits");
-    let notices = display.shrink_to(1000);
-    assert_eq!(notices.len(), 2, "{notices:?}");
-    assert!(notices[0].contains("2560 × 640") && notices[0].contains("1000 × 640"), "{notices:?}");
-    let viewports: Vec<_> = display.channels.iter().map(|channel| channel.viewport).collect();
-    for (viewport, before) in viewports.iter().zip(&whole.channels) {
-        assert_eq!(*viewport, [before.viewport[0] * 1000 / 2560, 0, 250, 640]);
-    }
-}

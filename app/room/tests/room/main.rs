@@ -12,3 +12,4 @@ mod ndisplay;
 mod paraview;
 mod projectors;
 mod surfaces;
+mod window_sizes;
