@@ -20,6 +20,7 @@ mod combine;
 mod curved;
 mod facet;
 mod flat_picture;
+mod frame_cost;
 mod gains;
 mod governor;
 mod head;
