@@ -57,11 +57,11 @@ pub struct RideInProgress {
     pub certainty: Certainty,
     /// Times of the stages of a frame.
     pub times: StageTimes,
-    /// Governor of the window's resolution; `None` if every pixel is drawn however long it takes.
+    /// Governor of the windows' resolution; `None` if every pixel is drawn however long it takes.
     governor: Option<Governor>,
     /// Time at which the frame before was drawn in motion.
     moved_at: Option<Instant>,
-    /// Share of the window's width and height that is drawn.
+    /// Share of the windows' width and height that is drawn.
     pub share: f64,
 }
 
@@ -136,22 +136,34 @@ impl RideInProgress {
 }
 
 impl RideInProgress {
-    /// Sets the resolution of the next frame of a flat picture, so that the frame rate is held. Pictures at rest take
-    /// the time that they need.
+    /// Begins with a resolution by the time that a frame with every pixel took which nobody saw.
+    pub fn begin(&mut self, canvas: &mut Canvas, took: Duration) {
+        if let Some(governor) = &mut self.governor {
+            governor.begin(took);
+            canvas.set_shares(shares(governor));
+        }
+    }
+
+    /// Sets the resolution of the next frame, so that the frame rate is held. Pictures at rest take the time that they
+    /// need.
     fn govern(&mut self, canvas: &mut Canvas) {
-        let Canvas::Picture(picture) = canvas else { return };
-        self.share = picture.share();
+        self.share = canvas.share();
         let Some(governor) = &mut self.governor else { return };
         let now = Instant::now();
         let before = self.moved_at.take();
-        if picture.drawing() == Drawing::Moving {
+        if canvas.drawing() == Drawing::Moving {
             self.moved_at = Some(now);
             if let Some(before) = before {
                 governor.frame(now - before);
-                picture.set_shares(PictureShares { moving: governor.share(), resting: governor.share_within(STILL) });
+                canvas.set_shares(shares(governor));
             }
         }
     }
+}
+
+/// Shares of the pictures' width and height that are drawn.
+fn shares(governor: &Governor) -> PictureShares {
+    PictureShares { moving: governor.share(), resting: governor.share_within(STILL) }
 }
 
 /// Time in which an eye adapts, seconds: the rider's own, or real time while the ride is paused.
