@@ -11,7 +11,8 @@
 //!    developed, multiplied by its projector's gains, and put into its window.
 //!
 //! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
-//! (`governor`). A room draws as many of its channels' pixels (`governed`), and enlarges their light (`enlarged_light`).
+//! (`governor`). A room draws as many of its channels' pixels (`governed`), and enlarges their light
+//! (`enlarged_light`).
 //!
 //! All windows of a display present the same frame (`in_step`), and none keeps the others waiting (`texture_waiter`).
 
