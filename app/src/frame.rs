@@ -25,6 +25,8 @@ use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
 const STILL: Duration = Duration::from_millis(120);
+/// Time of a room's frame at rest after which rest is given up.
+const LONGEST_STILL: Duration = Duration::from_millis(225);
 
 /// Settings of a frame that no recording depends on.
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +61,10 @@ pub struct RideInProgress {
     pub times: StageTimes,
     /// Governor of the windows' resolution; `None` if every pixel is drawn however long it takes.
     governor: Option<Governor>,
-    /// Time at which the frame before was drawn in motion.
-    moved_at: Option<Instant>,
+    /// Time at which the frame before was drawn, and the way.
+    drawn_before: Option<(Instant, Drawing)>,
+    /// True if a room at rest took too long: it is drawn as in motion from then on.
+    coarse_rest: bool,
     /// Share of the windows' width and height that is drawn.
     pub share: f64,
 }
@@ -78,7 +82,8 @@ impl RideInProgress {
             certainty: Certainty::default(),
             times: StageTimes::default(),
             governor,
-            moved_at: None,
+            drawn_before: None,
+            coarse_rest: false,
             share: 1.0,
         }
     }
@@ -140,7 +145,7 @@ impl RideInProgress {
     pub fn begin(&mut self, canvas: &mut Canvas, took: Duration) {
         if let Some(governor) = &mut self.governor {
             governor.begin(took);
-            canvas.set_shares(shares(governor));
+            canvas.set_shares(shares(governor, false));
         }
     }
 
@@ -149,21 +154,26 @@ impl RideInProgress {
     fn govern(&mut self, canvas: &mut Canvas) {
         self.share = canvas.share();
         let Some(governor) = &mut self.governor else { return };
-        let now = Instant::now();
-        let before = self.moved_at.take();
-        if canvas.drawing() == Drawing::Moving {
-            self.moved_at = Some(now);
-            if let Some(before) = before {
-                governor.frame(now - before);
-                canvas.set_shares(shares(governor));
-            }
+        let (now, drawing) = (Instant::now(), canvas.drawing());
+        let before = self.drawn_before.replace((now, drawing));
+        // The time between two frames of a kind is that of the second.
+        let Some((before, _)) = before.filter(|(_, before)| *before == drawing) else { return };
+        if drawing == Drawing::Moving {
+            governor.frame(now - before);
+        } else if !matches!(canvas, Canvas::Picture(_)) && now - before > LONGEST_STILL {
+            // A room is drawn again and again at rest, and own time must not be lost in it.
+            self.coarse_rest = true;
+        } else {
+            return;
         }
+        canvas.set_shares(shares(governor, self.coarse_rest));
     }
 }
 
-/// Shares of the pictures' width and height that are drawn.
-fn shares(governor: &Governor) -> PictureShares {
-    PictureShares { moving: governor.share(), resting: governor.share_within(STILL) }
+/// Shares of the pictures' width and height that are drawn. `coarse_rest`: at rest no more than in motion.
+fn shares(governor: &Governor, coarse_rest: bool) -> PictureShares {
+    let moving = governor.share();
+    PictureShares { moving, resting: if coarse_rest { moving } else { governor.share_within(STILL) } }
 }
 
 /// Time in which an eye adapts, seconds: the rider's own, or real time while the ride is paused.

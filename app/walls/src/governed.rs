@@ -20,7 +20,8 @@ impl Walls {
         self.share
     }
 
-    /// Way in which the frame was drawn last. Test grids are at rest.
+    /// Way in which the frame was drawn last. A room at rest with no more pixels than in motion counts as moving; test
+    /// grids are at rest.
     pub fn drawing(&self) -> Drawing {
         if self.rests || self.grids.is_some() { Drawing::Resting } else { Drawing::Moving }
     }
@@ -41,7 +42,7 @@ impl Walls {
     pub(crate) fn fit(&mut self, gpu: &Gpu, renderer: &SceneRenderer, room: &SubmittedRoom) {
         let eyes = room.eyes.iter().map(|eye| eye.eye).collect();
         let rest = RoomRest::after(self.rest.take().filter(|_| renderer.is_still()), eyes, room.effects);
-        self.rests = rest.is_still();
+        self.rests = rest.is_still() && self.shares.resting > self.shares.moving;
         self.rest = Some(rest);
         self.shown = Some((room.occupant, room.effects));
         self.share = if self.rests { self.shares.resting } else { self.shares.moving };
