@@ -9,9 +9,10 @@ use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event, Observer};
 use render::display::Development;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
+use std::time::{Duration, Instant};
 use view::{Camera, Effects, Gaze, Shot};
 use walls::preview::{Preview, RoomOnlooker};
-use walls::{DrawnChannels, FlatPicture, Occupant, SubmittedRoom, Walls};
+use walls::{Drawing, DrawnChannels, FlatPicture, Occupant, PictureShares, SubmittedRoom, Walls};
 
 /// Target of a ride's frames.
 pub enum Canvas {
@@ -91,8 +92,35 @@ impl Canvas {
         }
     }
 
+    /// Changes the shares of the pictures' width and height that are drawn.
+    pub fn set_shares(&mut self, shares: PictureShares) {
+        match self {
+            Self::Picture(picture) => picture.set_shares(shares),
+            Self::Room(walls) => walls.set_shares(shares),
+            Self::Preview(room) => room.walls.set_shares(shares),
+        }
+    }
+
+    /// Share of the pictures' width and height that the frame drawn last has.
+    pub fn share(&self) -> f64 {
+        match self {
+            Self::Picture(picture) => picture.share(),
+            Self::Room(walls) => walls.share(),
+            Self::Preview(room) => room.walls.share(),
+        }
+    }
+
+    /// Way in which the frame was drawn last.
+    pub fn drawing(&self) -> Drawing {
+        match self {
+            Self::Picture(picture) => picture.drawing(),
+            Self::Room(walls) => walls.drawing(),
+            Self::Preview(room) => room.walls.drawing(),
+        }
+    }
+
     /// Draws frames from the scene's start that nobody sees, so that the first frames of the ride wait for no pipeline,
-    /// map or cut: its clock would run on meanwhile.
+    /// map or cut: its clock would run on meanwhile. Returns the time of the last of them, as it was drawn and shown.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
@@ -103,7 +131,7 @@ impl Canvas {
         start: &scene::Start,
         (effects, fov_deg, development): (Effects, f64, &Development),
         screens: &[wgpu::TextureView],
-    ) -> Result<(), GpuError> {
+    ) -> Result<Duration, GpuError> {
         let orientation = Camera::looking(start.look, DVec3::Y, 1.0).observer_from_eye;
         let event = Event { ct: 0.0, position: start.eye() };
         let observer = Observer { event, celerity: Celerity::ZERO };
@@ -114,18 +142,25 @@ impl Canvas {
             head: None,
             look: FreeLook::default(),
         };
+        let mut took = Duration::ZERO;
         for _ in 0..2 {
+            if let Self::Picture(picture) = self {
+                picture.begin_anew();
+            }
+            let began = Instant::now();
             let submitted = self.submit(gpu, renderer, &watcher, effects, fov_deg)?;
             self.draw(gpu, renderer, submitted)?;
+            self.adapt(gpu, development, None);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            for (window, screen) in screens.iter().enumerate() {
+                self.show(gpu, &mut encoder, window, development, screen, [0, 0]);
+            }
+            gpu.queue.submit([encoder.finish()]);
+            gpu.wait()?;
+            took = began.elapsed();
             renderer.settle();
         }
-        self.adapt(gpu, development, None);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        for (window, screen) in screens.iter().enumerate() {
-            self.show(gpu, &mut encoder, window, development, screen, [0, 0]);
-        }
-        gpu.queue.submit([encoder.finish()]);
-        gpu.wait()
+        Ok(took)
     }
 
     /// Begins the photo-surfaces of a frame, in parallel with other drawing. `fov_deg`: vertical field of view of a

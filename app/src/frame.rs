@@ -25,6 +25,8 @@ use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
 const STILL: Duration = Duration::from_millis(120);
+/// Time of a room's frame at rest after which rest is given up.
+const LONGEST_STILL: Duration = Duration::from_millis(225);
 
 /// Settings of a frame that no recording depends on.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,8 @@ pub struct RideInProgress {
     pub renderer: SceneRenderer,
     /// Frames submitted and not yet drawn, oldest first.
     under_way: VecDeque<Submitted>,
+    /// True if photo-surfaces are computed beside the drawing, so that frames may overlap.
+    pub overlaps: bool,
     /// Newest frame of the ride.
     pub frame: Option<RideFrame>,
     /// Vertices without a finite apparent position in the picture drawn last.
@@ -57,11 +61,13 @@ pub struct RideInProgress {
     pub certainty: Certainty,
     /// Times of the stages of a frame.
     pub times: StageTimes,
-    /// Governor of the window's resolution; `None` if every pixel is drawn however long it takes.
+    /// Governor of the windows' resolution; `None` if every pixel is drawn however long it takes.
     governor: Option<Governor>,
-    /// Time at which the frame before was drawn in motion.
-    moved_at: Option<Instant>,
-    /// Share of the window's width and height that is drawn.
+    /// Time at which the frame before was drawn, and the way.
+    drawn_before: Option<(Instant, Drawing)>,
+    /// True if a room at rest took too long: it is drawn as in motion from then on.
+    coarse_rest: bool,
+    /// Share of the windows' width and height that is drawn.
     pub share: f64,
 }
 
@@ -72,13 +78,15 @@ impl RideInProgress {
             live,
             renderer,
             under_way: VecDeque::new(),
+            overlaps: false,
             frame: None,
             not_finite: 0,
             behind: None,
             certainty: Certainty::default(),
             times: StageTimes::default(),
             governor,
-            moved_at: None,
+            drawn_before: None,
+            coarse_rest: false,
             share: 1.0,
         }
     }
@@ -110,7 +118,8 @@ impl RideInProgress {
         // Observer to photo-surfaces, on their own thread. The frame shown is this one, or with overlap the one
         // before it.
         let newest = canvas.submit(gpu, &mut self.renderer, &watcher, look.effects, look.fov_deg)?;
-        let ahead = usize::from(look.latency == Latency::Overlap && newest.is_under_way());
+        self.overlaps = newest.is_under_way();
+        let ahead = usize::from(look.latency == Latency::Overlap && self.overlaps);
         self.under_way.push_back(newest);
         self.under_way.drain(..self.under_way.len().saturating_sub(1 + ahead));
         while self.under_way.len() <= ahead {
@@ -136,22 +145,39 @@ impl RideInProgress {
 }
 
 impl RideInProgress {
-    /// Sets the resolution of the next frame of a flat picture, so that the frame rate is held. Pictures at rest take
-    /// the time that they need.
-    fn govern(&mut self, canvas: &mut Canvas) {
-        let Canvas::Picture(picture) = canvas else { return };
-        self.share = picture.share();
-        let Some(governor) = &mut self.governor else { return };
-        let now = Instant::now();
-        let before = self.moved_at.take();
-        if picture.drawing() == Drawing::Moving {
-            self.moved_at = Some(now);
-            if let Some(before) = before {
-                governor.frame(now - before);
-                picture.set_shares(PictureShares { moving: governor.share(), resting: governor.share_within(STILL) });
-            }
+    /// Begins with a resolution by the time that a frame with every pixel took which nobody saw.
+    pub fn begin(&mut self, canvas: &mut Canvas, took: Duration) {
+        if let Some(governor) = &mut self.governor {
+            governor.begin(took);
+            canvas.set_shares(shares(governor, false));
         }
     }
+
+    /// Sets the resolution of the next frame, so that the frame rate is held. Pictures at rest take the time that they
+    /// need.
+    fn govern(&mut self, canvas: &mut Canvas) {
+        self.share = canvas.share();
+        let Some(governor) = &mut self.governor else { return };
+        let (now, drawing) = (Instant::now(), canvas.drawing());
+        let before = self.drawn_before.replace((now, drawing));
+        // The time between two frames of a kind is that of the second.
+        let Some((before, _)) = before.filter(|(_, before)| *before == drawing) else { return };
+        if drawing == Drawing::Moving {
+            governor.frame(now - before);
+        } else if !matches!(canvas, Canvas::Picture(_)) && now - before > LONGEST_STILL {
+            // A room is drawn again and again at rest, and own time must not be lost in it.
+            self.coarse_rest = true;
+        } else {
+            return;
+        }
+        canvas.set_shares(shares(governor, self.coarse_rest));
+    }
+}
+
+/// Shares of the pictures' width and height that are drawn. `coarse_rest`: at rest no more than in motion.
+fn shares(governor: &Governor, coarse_rest: bool) -> PictureShares {
+    let moving = governor.share();
+    PictureShares { moving, resting: if coarse_rest { moving } else { governor.share_within(STILL) } }
 }
 
 /// Time in which an eye adapts, seconds: the rider's own, or real time while the ride is paused.

@@ -1,8 +1,8 @@
-//! Frame rate that a window holds by its resolution.
+//! Frame rate that a window or a room holds by its resolution.
 
 use walls::Governor;
 
-/// Frame rate that a window holds.
+/// Frame rate that a window or a room holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrameRate {
     /// Frames per second.

@@ -83,11 +83,6 @@ impl RideOptions {
                 "a window takes 1 or 4 samples a pixel; it takes 4",
             );
             if self.display.is_some() {
-                passed.note(
-                    self.frame_rate != FrameRate::default(),
-                    "--frame-rate",
-                    "the screens of a room have every pixel drawn",
-                );
                 self.picture.pass_over_sizes(self.preview, &mut passed);
             }
         }

@@ -83,8 +83,8 @@ pub struct RideOptions {
     /// Order of transforming and drawing within a frame.
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
-    /// Frames per second that a window holds, by drawing fewer pixels and enlarging them; `off` draws every pixel
-    /// however long it takes. At rest the picture is drawn to the full. In a room (--display) every pixel is drawn.
+    /// Frames per second that a window or a room holds, by drawing fewer pixels and enlarging them; `off` draws every
+    /// pixel however long it takes. At rest the picture is drawn to the full.
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: FrameRate,
     /// Room in whose windows the ride is shown: window, stereo-wall, cave4, cave6, curved, dome6, or a display file

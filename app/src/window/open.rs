@@ -168,8 +168,11 @@ impl Open {
         let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
         let screens: Vec<_> = surfaces.iter().map(screen).collect();
         let spinner = progress::spinner("drawing the first picture");
-        canvas.warm_up(&gpu, &mut renderer, &start, (look.effects, look.fov_deg, &look.development), &screens)?;
+        let shown = (look.effects, look.fov_deg, &look.development);
+        let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &screens)?;
         spinner.finish_and_clear();
+        let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
+        ride.begin(&mut canvas, took);
         let fresh = Settings { open: false, help: false, kiosk, readings: true, look };
         Ok(Self {
             canvas,
@@ -182,7 +185,7 @@ impl Open {
             display_name: options.display.clone(),
             calibrating: None,
             cursor: None,
-            ride: RideInProgress::new(renderer, begin()?, options.frame_rate.governor()),
+            ride,
             stop: interruption(),
             gpu,
             in_step: WindowsInStep::new(surfaces.len()),

@@ -37,6 +37,8 @@ pub struct PanelRide {
     pub devices: Vec<String>,
     /// Sentence about the renderer and the amount that it draws.
     pub drawing: String,
+    /// True if frames may overlap, so that their order can be chosen.
+    pub overlaps: bool,
     /// Sentence on how well several windows keep step.
     pub in_step: Option<String>,
 }
@@ -133,15 +135,17 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
                 Controls::new(ui).slider(range.clamping(egui::SliderClamping::Edits), purpose);
                 ui.end_row();
 
-                ui.label("Frames");
-                ui.horizontal(|ui| {
-                    for (latency, name, purpose) in LATENCIES {
-                        if Controls::new(ui).choice(settings.look.latency == latency, name, purpose) {
-                            settings.look.latency = latency;
+                if ride.overlaps {
+                    ui.label("Frames");
+                    ui.horizontal(|ui| {
+                        for (latency, name, purpose) in LATENCIES {
+                            if Controls::new(ui).choice(settings.look.latency == latency, name, purpose) {
+                                settings.look.latency = latency;
+                            }
                         }
-                    }
-                });
-                ui.end_row();
+                    });
+                    ui.end_row();
+                }
             });
             ui.separator();
             ui.horizontal(|ui| {

@@ -21,8 +21,8 @@ pub fn take(
 ) -> Result<String, Error> {
     match canvas {
         Canvas::Picture(picture) => take_picture(gpu, renderer, picture, development),
-        Canvas::Room(walls) => take_room(gpu, walls, development),
-        Canvas::Preview(room) => take_room(gpu, &mut room.walls, development),
+        Canvas::Room(walls) => take_room(gpu, renderer, walls, development),
+        Canvas::Preview(room) => take_room(gpu, renderer, &mut room.walls, development),
     }
 }
 
@@ -41,7 +41,13 @@ fn take_picture(
     Ok(format!("photo: {}", path.display()))
 }
 
-fn take_room(gpu: &Gpu, walls: &mut Walls, development: &Development) -> Result<String, Error> {
+fn take_room(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    walls: &mut Walls,
+    development: &Development,
+) -> Result<String, Error> {
+    walls.draw_whole(gpu, renderer)?;
     let mut told = Vec::new();
     for window in 0..walls.display.windows.len() {
         let picture = walls.develop_window(gpu, window, development)?;

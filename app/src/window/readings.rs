@@ -59,6 +59,7 @@ pub fn panel(ride: &RideInProgress, gpu: &Gpu, in_step: Option<String>) -> Panel
             ride.renderer.name(),
             gpu.description()
         ),
+        overlaps: ride.overlaps,
         in_step,
     }
 }

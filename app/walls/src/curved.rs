@@ -16,8 +16,10 @@ const GRID: usize = 48;
 
 /// Map from a viewport's pixels to points of the room, and the flat pictures seen in these directions.
 pub struct Curved {
-    /// Point of the room for each pixel, metres.
+    /// Point of the room for each pixel that is drawn, metres.
     pub points: wgpu::TextureView,
+    /// Points of all pixels, kept while fewer are drawn.
+    whole_points: wgpu::TextureView,
     grid: SurfaceGrid,
     /// Flat pictures in which the screen is seen.
     pub facets: Vec<Facet>,
@@ -32,10 +34,7 @@ impl Curved {
     /// Creates the map of a channel. The points of its pixels do not depend on the eye and are computed only once.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
         let size @ [width, height] = channel.size();
-        let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
-        let texels: Vec<[f32; 4]> = channel.points(display, size).into_iter().map(texel).collect();
-        let (format_of_points, bytes) = (wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels));
-        let points = view_from_rows(gpu, "points", [width, height, 1], format_of_points, bytes);
+        let points = points(gpu, display, channel, size);
 
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
         let place = |index: usize| channel.point(display, DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
@@ -45,7 +44,17 @@ impl Curved {
             pixels: DVec2::new(f64::from(width), f64::from(height)) / GRID as f64,
         };
         let shown = Radiance::new(gpu, size, format);
-        Self { points, grid, facets: Vec::new(), targets: Vec::new(), shown }
+        Self { whole_points: points.clone(), points, grid, facets: Vec::new(), targets: Vec::new(), shown }
+    }
+
+    /// Draws with this number of pixels from now on.
+    pub fn fit(&mut self, gpu: &Gpu, display: &Display, channel: &Channel, size: [u32; 2]) {
+        if self.shown.size == size {
+            return;
+        }
+        let whole = size == channel.size();
+        self.points = if whole { self.whole_points.clone() } else { points(gpu, display, channel, size) };
+        self.shown = Radiance::new(gpu, size, self.shown.format);
     }
 
     /// Chooses facets for an eye in the room. `density`: texels for each pixel of the screen, along each axis.
@@ -92,4 +101,12 @@ impl Curved {
             pass.draw_part(gpu, encoder, self.shown.result(), &resources, [0, 0, width, height], number > 0);
         }
     }
+}
+
+/// Texture of the room's points for `size` pixels spread evenly over a channel.
+fn points(gpu: &Gpu, display: &Display, channel: &Channel, size @ [width, height]: [u32; 2]) -> wgpu::TextureView {
+    let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
+    let texels: Vec<[f32; 4]> = channel.points(display, size).into_iter().map(texel).collect();
+    let (format, bytes) = (wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels));
+    view_from_rows(gpu, "points", [width, height, 1], format, bytes)
 }

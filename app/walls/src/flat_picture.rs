@@ -1,5 +1,6 @@
 //! Flat picture of a window: drawn with as many pixels as there is time for, and to the full when nothing moves.
 
+use crate::picture_shares::{Drawing, PictureShares, STILL_AFTER, part};
 use crate::walls::DrawnChannels;
 use glam::{DVec2, Vec2Swizzles};
 use render::certainty::Certainty;
@@ -17,9 +18,6 @@ const STILL_MAP: f64 = 1.4;
 const STILL_FRAME: Duration = Duration::from_millis(200);
 /// Number of frames for which a complete picture at rest is still developed anew, while the eye adapts.
 const ADAPTING_FRAMES: u32 = 20;
-/// Time without any change after which a picture is at rest.
-const STILL_AFTER: Duration = Duration::from_millis(250);
-
 /// One picture, and the eye that is adapted to it.
 pub struct FlatPicture {
     /// Width and height of the window, pixels.
@@ -52,30 +50,6 @@ struct Still {
     /// Time of the sample before, and the longest time from one to the next.
     sampled: Option<Instant>,
     longest: Duration,
-}
-
-/// Shares of a window's width and height that are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PictureShares {
-    /// Share while anything changes.
-    pub moving: f64,
-    /// Share at rest.
-    pub resting: f64,
-}
-
-impl Default for PictureShares {
-    fn default() -> Self {
-        Self { moving: 1.0, resting: 1.0 }
-    }
-}
-
-/// Way in which a frame of a flat picture was drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drawing {
-    /// A frame of a ride.
-    Moving,
-    /// A sample of a picture at rest, or nothing, since all of them are there.
-    Resting,
 }
 
 impl FlatPicture {
@@ -118,6 +92,11 @@ impl FlatPicture {
         if self.still.is_some() { Drawing::Resting } else { Drawing::Moving }
     }
 
+    /// Begins anew, as if nothing had been drawn: the next frame is not at rest.
+    pub fn begin_anew(&mut self) {
+        (self.still, self.shown) = (None, None);
+    }
+
     /// Draws the light of a frame, or adds a sample to the picture if nothing has changed for a while.
     ///
     /// # Errors
@@ -139,7 +118,7 @@ impl FlatPicture {
         } else {
             self.still = None;
             renderer.set_map_texels(self.map_scale, DVec2::ZERO);
-            self.fit(gpu, self.part(self.shares.moving));
+            self.fit(gpu, part(self.size, self.shares.moving));
             renderer.prepare(gpu, shot, self.radiance.size);
             self.expose(gpu, renderer, shot, PixelSample::WHOLE);
             self.certainty = renderer.certainty(shot, self.radiance.size);
@@ -165,7 +144,7 @@ impl FlatPicture {
             self.still = None;
         }
         if self.still.is_none() {
-            self.fit(gpu, self.part(self.shares.resting));
+            self.fit(gpu, part(self.size, self.shares.resting));
         }
         let size = self.radiance.size;
         let mut still = self.still.take().unwrap_or_else(|| Still {
@@ -206,11 +185,6 @@ impl FlatPicture {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         renderer.draw(gpu, &mut encoder, &self.radiance, shot, sample);
         gpu.queue.submit([encoder.finish()]);
-    }
-
-    /// Part of the window's width and height, pixels.
-    fn part(&self, share: f64) -> [u32; 2] {
-        self.size.map(|side| ((f64::from(side) * share).round() as u32).max(1))
     }
 
     /// Gives the target this size.

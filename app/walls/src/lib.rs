@@ -11,31 +11,38 @@
 //!    developed, multiplied by its projector's gains, and put into its window.
 //!
 //! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
-//! (`governor`).
+//! (`governor`). A room draws as many of its channels' pixels (`governed`), and enlarges their light
+//! (`enlarged_light`).
 //!
 //! All windows of a display present the same frame (`in_step`), and none keeps the others waiting (`texture_waiter`).
 
 pub mod calibration;
 mod combine;
 mod curved;
+mod enlarged_light;
 mod facet;
 mod flat_picture;
+mod frame_cost;
 mod gains;
+mod governed;
 mod governor;
 mod head;
 mod in_step;
 mod picture;
+mod picture_shares;
 pub mod preview;
 mod quality;
+mod room_rest;
 mod show;
 mod test_grid;
 mod texture_waiter;
 mod walls;
 
-pub use flat_picture::{Drawing, FlatPicture, PictureShares};
+pub use flat_picture::FlatPicture;
 pub use governor::Governor;
 pub use head::{Occupant, OccupantEye, RoomHead};
 pub use in_step::{TextureAnswer, WindowsInStep};
+pub use picture_shares::{Drawing, PictureShares};
 pub use quality::Quality;
 pub use texture_waiter::{TextureWaiter, WaiterGone};
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

@@ -1,14 +1,16 @@
 //! One channel's picture: its targets, and how it is drawn for an eye.
 
 use crate::curved::Curved;
+use crate::enlarged_light::LightEnlarger;
 use crate::facet::Facet;
 use crate::gains;
 use crate::head::OccupantEye;
+use crate::picture_shares::part;
 use crate::quality::Quality;
 use glam::{DMat3, DQuat};
 use render::certainty::Certainty;
 use render::display::{Accumulator, Developer, Pass, clear};
-use render::target::Radiance;
+use render::target::{Radiance, texture};
 use render::{BentScreen, Gpu, SceneRenderer};
 use room::{Channel, Display, EyeBehind, frustum};
 use view::{Camera, Effects, Field, PixelSample, Shot, Stored, Tangents};
@@ -19,6 +21,8 @@ const COARSER_GAINS: u32 = 4;
 /// Light of one channel.
 pub struct ChannelPicture {
     target: PictureTarget,
+    /// Light of all pixels, while fewer are drawn.
+    enlarged: Option<wgpu::TextureView>,
     sum: Option<Accumulator>,
     /// Gains that the pixels are multiplied by.
     pub gains: Option<wgpu::TextureView>,
@@ -46,6 +50,8 @@ pub struct EyeContext<'a> {
     pub quality: &'a Quality,
     /// Passes that add up samples.
     pub passes: &'a Developer,
+    /// Pass that enlarges light, where its format allows that.
+    pub enlarger: Option<&'a LightEnlarger>,
     /// Pass that resamples flat pictures onto a curved surface.
     pub resample: &'a Pass,
     /// Eye of the occupant.
@@ -76,7 +82,7 @@ impl ChannelPicture {
             None => PictureTarget::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
         };
         let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
-        let mut picture = Self { target, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
+        let mut picture = Self { target, enlarged: None, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
         picture.update_gains(gpu, display, channel);
         picture
     }
@@ -89,12 +95,31 @@ impl ChannelPicture {
         self.gains = channel.gains(display, finest).map(|gains| gains::upload(gpu, &gains));
     }
 
-    /// Light of the newest sample.
-    fn sample(&self) -> &wgpu::TextureView {
+    /// Draws with this share of the channel's width and height from now on.
+    pub fn fit(&mut self, gpu: &Gpu, display: &Display, channel: &Channel, share: f64) {
+        let size = part(channel.size(), share);
+        match &mut self.target {
+            PictureTarget::Flat(target) if target.size == size => {}
+            PictureTarget::Flat(target) => **target = Radiance::new(gpu, size, target.format),
+            PictureTarget::Curved(curved) => curved.fit(gpu, display, channel, size),
+        }
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let made = |format| texture(gpu, "enlarged light", channel.size(), format, 1, usage);
+        let format = self.drawn().texture().format();
+        self.enlarged = (size != channel.size()).then(|| self.enlarged.take().unwrap_or_else(|| made(format)));
+    }
+
+    /// Light as it was drawn.
+    fn drawn(&self) -> &wgpu::TextureView {
         match &self.target {
             PictureTarget::Flat(target) => target.result(),
             PictureTarget::Curved(curved) => curved.shown.result(),
         }
+    }
+
+    /// Light of the newest sample.
+    fn sample(&self) -> &wgpu::TextureView {
+        self.enlarged.as_ref().unwrap_or_else(|| self.drawn())
     }
 
     /// Light of the channel: the sum of its samples.
@@ -178,6 +203,9 @@ impl ChannelPicture {
                     curved.resample(gpu, &mut encoder, context.resample, context.eye.place_m);
                 }
             }
+            if let (Some(enlarger), Some(whole)) = (context.enlarger, &self.enlarged) {
+                enlarger.enlarge(gpu, &mut encoder, self.drawn(), whole);
+            }
             submit(encoder);
             if let Some(mut sum) = self.sum.take() {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -204,11 +232,12 @@ impl ChannelPicture {
                 Ok(vec![(context.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
             PictureTarget::Curved(curved) => {
+                let share = f64::from(curved.shown.size[0]) / f64::from(channel.size()[0]);
                 if renderer.shows_bent_screens(context.effects) {
-                    curved.look_from(context.gpu, place_m, 1.0);
+                    curved.look_from(context.gpu, place_m, share);
                     curved.targets.clear();
                 } else {
-                    curved.look_from(context.gpu, place_m, context.quality.density);
+                    curved.look_from(context.gpu, place_m, share * context.quality.density);
                     curved.make_targets(context.gpu, context.quality.format);
                 }
                 let shot = |facet: &Facet| (context.shot(facet.room_from_facet, facet.tangents), facet.size);
@@ -223,6 +252,9 @@ impl ChannelPicture {
         match &self.target {
             PictureTarget::Flat(target) => drop(target.begin(&mut encoder)),
             PictureTarget::Curved(curved) => drop(clear(&mut encoder, curved.shown.result())),
+        }
+        if let Some(enlarged) = &self.enlarged {
+            drop(clear(&mut encoder, enlarged));
         }
         if let Some(sum) = &self.sum {
             sum.blacken(&mut encoder);

@@ -2,9 +2,12 @@
 
 use crate::calibration::Calibration;
 use crate::combine::Combiner;
+use crate::enlarged_light::LightEnlarger;
 use crate::head::{Occupant, OccupantEye};
 use crate::picture::{ChannelPicture, EyeContext};
+use crate::picture_shares::PictureShares;
 use crate::quality::Quality;
+use crate::room_rest::RoomRest;
 use crate::test_grid::TestGrids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
@@ -31,13 +34,14 @@ pub struct DrawnChannels {
 pub struct SubmittedRoom {
     /// Occupant that looks.
     pub occupant: Occupant,
-    effects: Effects,
-    eyes: Vec<SubmittedEye>,
+    pub(crate) effects: Effects,
+    pub(crate) eyes: Vec<SubmittedEye>,
 }
 
-struct SubmittedEye {
+/// Photo-surface of one eye under way.
+pub(crate) struct SubmittedEye {
     side: EyeSide,
-    eye: OccupantEye,
+    pub(crate) eye: OccupantEye,
     pending: Pending,
 }
 
@@ -61,6 +65,15 @@ pub struct Walls {
     /// Combiners of both eyes' pictures, one entry per window.
     pub(crate) combiners: Vec<Option<Combiner>>,
     pub(crate) resample: Pass,
+    /// Pass that enlarges the channels' light; `None` if it is always drawn to the full.
+    pub(crate) enlarger: Option<LightEnlarger>,
+    /// Shares of the channels' width and height that are drawn, and the one drawn last.
+    pub(crate) shares: PictureShares,
+    pub(crate) share: f64,
+    /// Room that was drawn last: its occupant, and its eyes' rest.
+    pub(crate) shown: Option<(Occupant, Effects)>,
+    pub(crate) rest: Option<RoomRest>,
+    pub(crate) rests: bool,
     pub(crate) adaptation: Adaptation,
     /// Test grids that are shown instead of light.
     pub(crate) grids: Option<TestGrids>,
@@ -78,6 +91,12 @@ impl Walls {
             combiners: display.windows.iter().map(combiner).collect(),
             linear_passes: Developer::new(gpu, colour, LINEAR_FORMAT),
             resample: resample(gpu, colour, quality.smooth),
+            enlarger: (!quality.format.is_exact()).then(|| LightEnlarger::new(gpu, colour)).flatten(),
+            shares: PictureShares::default(),
+            share: 1.0,
+            shown: None,
+            rest: None,
+            rests: false,
             adaptation: Adaptation::new(gpu),
             grids: None,
             passes,
@@ -122,13 +141,15 @@ impl Walls {
         if self.grids.is_some() {
             return Ok(drawn);
         }
+        self.fit(gpu, renderer, &submitted);
         let SubmittedRoom { effects, eyes, .. } = submitted;
-        let Self { display, quality, passes, resample, .. } = self;
+        let Self { display, quality, passes, resample, enlarger, .. } = self;
+        let enlarger = enlarger.as_ref();
         for SubmittedEye { side, eye, pending } in eyes {
             let transformed = renderer.show(gpu, pending)?;
             drawn.transform += transformed.duration;
             drawn.not_finite += transformed.not_finite;
-            let context = EyeContext { gpu, display, quality, passes, resample, eye, effects };
+            let context = EyeContext { gpu, display, quality, passes, enlarger, resample, eye, effects };
             let of_eye = context.display.channels.iter().zip(&mut self.pictures);
             let mut aimed = Vec::new();
             for (channel, picture) in of_eye.filter(|(channel, _)| channel.eye == side) {

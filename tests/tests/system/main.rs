@@ -5,6 +5,7 @@ mod aberration_twin;
 mod adaptive;
 mod animated;
 mod camera;
+mod coarser_rooms;
 mod colour;
 mod directions;
 mod display;
