@@ -159,8 +159,16 @@ impl Sample<'_> {
         };
         self.world.prepare(gpu, mode, source, self.format);
         self.world.write_views(gpu, &self.views);
-        let draws =
-            Draws { streams, bends, mode, format: self.format, sights: self.sights, pixels: self.pixels(), sky: true };
+        let draws = Draws {
+            streams,
+            bends,
+            mode,
+            format: self.format,
+            sights: self.sights,
+            pixels: self.pixels(),
+            further_carrier: None,
+            sky: true,
+        };
         self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[self.whole()]);
     }
 }

@@ -7,13 +7,14 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use glam::DVec3;
+use physics::colour::Spectrum;
 use physics::{Beta, Celerity, Event};
 use scene::motion::{Motion, Uniform};
 use scene::{Alpha, Lighting, Material, Mesh, Scene};
 use system_tests::bodies::cuboid;
-use system_tests::photographer::{AS_GIVEN, Photographer};
+use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer};
 use system_tests::view::View;
-use view::Effects;
+use view::{Dial, Effects};
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -73,4 +74,30 @@ fn a_window_shows_the_surfaces_of_a_picture_that_is_kept() {
         assert!(colours.len() > 20, "the picture is empty: {}", colours.len());
         assert!(differing * 1000 <= (SIZE[0] * SIZE[1]) as usize, "{beta}: {differing} pixels");
     }
+}
+
+#[test]
+fn surfaces_of_several_spectra_hide_each_other_in_a_map() {
+    // The map holds the light of each carrier by itself. A program that draws only the surfaces that shine on it shows
+    // light through the others.
+    let mut scene = Scene { motions: Vec::new(), ..scene() };
+    scene.meshes.iter_mut().for_each(|mesh| mesh.motion = None);
+    for (material, kelvin) in [(0, 2500.0), (1, 9000.0), (3, 4000.0), (4, 6000.0)] {
+        scene.materials[material].spectrum = Some(Spectrum::planck(kelvin).unwrap());
+    }
+    let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 70.0, size: SIZE };
+    let celerity = Beta::new(DVec3::NEG_Z * 0.5).unwrap().celerity();
+    let light = |method| {
+        Photographer::with(&scene, SIZE, 1, None, method).light(&view, DVec3::ZERO, celerity, Effects::ALL)
+    };
+    let (by_map, drawn) = (light(DEFAULT_MAP), light(Dial::tolerance(0.1)));
+    let differs = |(one, other): (&image::Rgb<f32>, &image::Rgb<f32>)| {
+        one.0.iter().zip(other.0).any(|(one, other)| (one - other).abs() > 0.02 * (one.abs() + other.abs()) + 1e-4)
+    };
+    let differing = by_map.pixels().zip(drawn.pixels()).filter(|(one, other)| differs((one, other))).count();
+    let colours: std::collections::HashSet<_> =
+        drawn.pixels().map(|pixel| pixel.0.map(|value| (value * 50.0) as i32)).collect();
+    assert!(colours.len() > 20, "the picture is empty: {}", colours.len());
+    // Outlines may lie a part of a pixel elsewhere.
+    assert!(differing * 100 <= (SIZE[0] * SIZE[1]) as usize, "{differing} pixels");
 }

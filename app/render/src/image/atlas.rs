@@ -81,15 +81,16 @@ impl Atlas {
             && (0..2).all(|axis| size[axis] <= self.size[axis] && self.size[axis] <= 2 * size[axis].max(64))
     }
 
-    /// Begins drawing the panes of one layer over a cleared texture.
+    /// Begins drawing the panes of one layer over a cleared texture. The first layer begins with a cleared depth, the
+    /// others with the depth of the one before, which is that of the same surfaces.
     pub fn begin<'encoder>(
         &self,
         encoder: &'encoder mut wgpu::CommandEncoder,
         layer: u32,
     ) -> wgpu::RenderPass<'encoder> {
-        // Each layer is drawn from the same surfaces, so the depth of the last one is that of all.
         let last = layer as usize + 1 == self.layers.len();
-        let store = if self.keeps_depth && last { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
+        let store = if self.keeps_depth || !last { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
+        let load = if layer == 0 { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("map"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -100,7 +101,7 @@ impl Atlas {
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }),
+                depth_ops: Some(wgpu::Operations { load, store }),
                 stencil_ops: None,
             }),
             ..Default::default()

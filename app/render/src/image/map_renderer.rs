@@ -171,9 +171,17 @@ impl MapRenderer {
         // The map is of directions in the world, whatever the observer's motion.
         let observer = Observer { celerity: Celerity::ZERO, ..shot.observer };
         let at_rest = SeenFrom::of(world.origin, &[], &observer, None);
-        let draws =
-            Draws { streams: None, bends: false, mode, format, sights: &[at_rest], pixels: plan.texels(), sky: true };
         for layer in 0..layers {
+            let draws = Draws {
+                streams: None,
+                bends: false,
+                mode,
+                format,
+                sights: std::slice::from_ref(&at_rest),
+                pixels: plan.texels(),
+                further_carrier: (layer > 0).then_some(layer as usize),
+                sky: true,
+            };
             let part = |(number, (pane, (_, sides))): (usize, (&Placed, &(_, Sides)))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
                 let view = layer * views.len() as u32 + number as u32;

@@ -70,6 +70,7 @@ impl MovingParts {
             format: sample.format,
             sights: sample.sights,
             pixels: sample.pixels(),
+            further_carrier: None,
             sky: false,
         };
         self.world.draw(gpu, pass, &draws, &[sample.whole()]);

@@ -6,6 +6,7 @@ use super::scene_world::World;
 use super::seen_draw::SeenDraw;
 use crate::gpu::Gpu;
 use crate::target::Format;
+use scene::carriers::WHITE;
 use scene::cut::SeenFrom;
 use std::ops::Range;
 use view::Sides;
@@ -31,6 +32,9 @@ pub struct Draws<'a> {
     pub sights: &'a [SeenFrom],
     /// Number of pixels of all parts.
     pub pixels: f64,
+    /// Carrier of which weights are drawn, over the depth that a draw of another carrier has left: opaque surfaces
+    /// without light on it are left out. `None` draws all over a cleared depth.
+    pub further_carrier: Option<usize>,
     /// True if the sky is drawn where there is no opaque surface. Otherwise the target keeps its values there.
     pub sky: bool,
 }
@@ -72,7 +76,10 @@ impl World {
         };
         let Some(pipelines) = self.pipelines.get(draws.mode, source, draws.format) else { return };
         let Some(geometry) = &self.geometry else { return };
-        let opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, source);
+        let mut opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, source);
+        if let Some(carrier) = draws.further_carrier {
+            opaque.retain(|seen| self.spectra.materials[seen.draw.material] == carrier || carrier == WHITE);
+        }
         let mut blended = SeenDraw::all(&geometry.list.blended, draws.sights, source);
         blended.sort_by(|a, b| b.distance.total_cmp(&a.distance));
         let opaque: Vec<_> = opaque.into_iter().map(|seen| SeenInParts::new(seen, parts)).collect();
@@ -113,7 +120,7 @@ impl World {
             }
         };
         let triangles: usize = opaque.iter().map(SeenInParts::triangle_count).sum();
-        let pays = draws.pixels >= DEPTH_FIRST_PIXELS * triangles as f64;
+        let pays = draws.further_carrier.is_none() && draws.pixels >= DEPTH_FIRST_PIXELS * triangles as f64;
         if let Some(depth) = pipelines.depth.as_ref().filter(|_| pays) {
             for (sides, pipeline) in depth.by_sides.iter().enumerate() {
                 // What brings its own Doppler factors comes from other streams.

@@ -219,7 +219,7 @@ impl Pipelines {
         }
         let texture_bias = if format.is_exact() { 0.0 } else { WINDOW_TEXTURE_BIAS };
         // Where depth is there already, the surface that it belongs to must pass.
-        let depth_compare = if self.is_depth_first(mode, source, format) {
+        let depth_compare = if mode == Mode::Weights || self.is_depth_first(mode, source, format) {
             wgpu::CompareFunction::GreaterEqual
         } else {
             wgpu::CompareFunction::Greater
