@@ -87,9 +87,8 @@ fn surfaces_of_several_spectra_hide_each_other_in_a_map() {
     }
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 70.0, size: SIZE };
     let celerity = Beta::new(DVec3::NEG_Z * 0.5).unwrap().celerity();
-    let light = |method| {
-        Photographer::with(&scene, SIZE, 1, None, method).light(&view, DVec3::ZERO, celerity, Effects::ALL)
-    };
+    let light =
+        |method| Photographer::with(&scene, SIZE, 1, None, method).light(&view, DVec3::ZERO, celerity, Effects::ALL);
     let (by_map, drawn) = (light(DEFAULT_MAP), light(Dial::tolerance(0.1)));
     let differs = |(one, other): (&image::Rgb<f32>, &image::Rgb<f32>)| {
         one.0.iter().zip(other.0).any(|(one, other)| (one - other).abs() > 0.02 * (one.abs() + other.abs()) + 1e-4)
