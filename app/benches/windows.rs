@@ -38,6 +38,8 @@ const SPEEDS: [f64; 5] = [0.0, 0.5, 0.8, 0.9, 0.99];
 const FRAMES: u32 = 4;
 /// Time for which each speed is measured, seconds.
 const SECONDS: f64 = 12.0;
+/// Pause after which a thread that cuts takes up the next cut.
+const CUT_REST: Duration = Duration::from_millis(400);
 /// Rays a pixel of the picture that the others are compared with.
 const RAYS: u32 = 64;
 /// Frames per second of the eye's own time.
@@ -206,10 +208,12 @@ impl Way {
     /// Draws the first frame at a speed, and compares it with rays.
     fn begin(&mut self, gpu: &Gpu, shot: &Shot, reference: Option<&Reference>) -> Result<(), Box<dyn Error>> {
         (self.frames, self.clock, self.processors) = (0, FrameTimes::default(), Vec::new());
-        // The first frames compile pipelines and wait for a cut of their own.
-        for _ in 0..3 {
+        // The first frames compile pipelines. The thread that cuts rests after each cut; then it makes one for this
+        // speed.
+        for _ in 0..5 {
             self.draw(gpu, shot)?;
             self.renderer.settle();
+            std::thread::sleep(CUT_REST);
         }
         self.flip = None;
         if let Some(reference) = reference.filter(|_| self.effects == Effects::ALL) {
