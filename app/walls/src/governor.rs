@@ -164,11 +164,11 @@ impl Governor {
     /// Goes back to more pixels, where fewer were drawn in vain for a while; true if it does.
     fn regains_pixels(&mut self, parts: FrameParts) -> bool {
         let [_, few] = UNSURE;
-        let back = self.pixels() < few * worth(parts) && self.quiet_s > self.patience_s;
+        let back = self.pixels() < few * self.worth(parts) && self.quiet_s > self.patience_s;
         if back {
             self.in_vain = true;
             self.wait_longer();
-            self.change(worth(parts), SMALLEST_SHARE, 1.0);
+            self.change(self.worth(parts), SMALLEST_SHARE, 1.0);
         }
         back
     }
@@ -177,7 +177,7 @@ impl Governor {
     fn slow(&mut self, parts: FrameParts, median_s: f64) {
         // A screen that waits for its refresh hides what pixels gain until the rate is held: they are worth a trial.
         let near = self.share > SMALL_SHARE && median_s < NEAR * self.wanted_s && !self.in_vain;
-        let least = if near { 0.0 } else { worth(parts) };
+        let least = if near { 0.0 } else { self.worth(parts) };
         let ([many, _], [fewest, _]) = (UNSURE, FACTORS);
         if self.pixels() > many * least {
             self.fail();
@@ -198,7 +198,7 @@ impl Governor {
         let [fewest, _] = FACTORS;
         // The whole rate, as far as one change goes; but no time lost, whatever that takes.
         let wanted = parts.pixels_within(AIM * self.longest_s()).max(fewest * self.pixels());
-        let wanted = wanted.max(worth(parts));
+        let wanted = wanted.max(self.worth(parts));
         let kept = in_pixels.pixels_within(ROOM * LOST_S).min(parts.pixels_within(ROOM * LOST_S));
         self.fail();
         self.change(wanted.min(kept).min(self.pixels()), SMALLEST_SHARE, 1.0);
@@ -219,6 +219,13 @@ impl Governor {
         self.patience_s = (2.0 * self.patience_s).min(QUIET_S[1]);
     }
 
+    /// Share of all pixels below which fewer gain little. Half of the rate goes before, where pixels can hold it.
+    fn worth(&self, parts: FrameParts) -> f64 {
+        let gains_much = parts.pixels_that_take(WORTH).min(parts.pixels_within(ROOM * LOST_S));
+        let half_s = 2.0 * self.wanted_s;
+        if parts.fixed_s < 0.8 * half_s { gains_much.min(parts.pixels_within(AIM * half_s)) } else { gains_much }
+    }
+
     /// True if a share that was too slow lately is near, and would take too long still, by the pixels that it has more.
     fn would_fail(&self, parts: FrameParts, aimed_s: f64) -> bool {
         let near = self.too_slow.filter(|slow| self.quiet_s < self.patience_s && self.share * TRIED.sqrt() >= *slow);
@@ -237,11 +244,6 @@ impl Governor {
             self.changed = true;
         }
     }
-}
-
-/// Share of all pixels below which fewer gain too little. Where own time would be lost, any gain counts.
-fn worth(parts: FrameParts) -> f64 {
-    parts.pixels_that_take(WORTH).min(parts.pixels_within(ROOM * LOST_S))
 }
 
 #[cfg(test)]
@@ -342,10 +344,15 @@ mod tests {
     fn no_picture_is_coarser_than_gains_much_and_it_rests_there() {
         // At half of the width and height, pixels take a third of the frame's time.
         let mut governor = Governor::new(30.0);
-        let frames = ride(&mut governor, [0.050, 0.100, 0.0], 120.0);
+        let frames = ride(&mut governor, [0.080, 0.160, 0.0], 120.0);
         assert!(frames.iter().all(|(share, _)| *share > 0.475), "{}", governor.share());
         let late = &frames[frames.len() / 4..];
         assert!(late.iter().all(|(share, _)| *share == late[0].0 && *share < 0.6), "{}", governor.share());
+        // But where fewer pixels hold half of the rate, nobody must steer with less.
+        let mut governor = Governor::new(30.0);
+        let frames = ride(&mut governor, [0.050, 0.100, 0.0], 60.0);
+        let late = frames[frames.len() / 2..].iter().map(|(_, took)| *took).collect();
+        assert!(median(late) <= 1.07 * 2.0 / 30.0, "{}", governor.share());
         // Where pixels cost next to nothing, all of them are drawn, in spite of a first trial with fewer.
         let mut governor = Governor::new(30.0);
         let frames = ride(&mut governor, [0.100, 0.002, 0.0], 60.0);
