@@ -1,14 +1,14 @@
 //! The cost of relativity for a frame: the photo-surface against the plain draw of the same scene (W table 6.1).
 //!
 //! Three scenes have as many vertices and triangles as Weiskopf's. Each is drawn by the default path (the method that
-//! `auto` chooses, all effects), and plainly. Then, with edges that are not cut and geometry alone, it is drawn with the
-//! transform of the next frame overlapping the draw of this one, and with both in sequence (`--latency low`). The ways
-//! take turns within one run, so that other load on the machine affects all alike. The eye moves at a hundredth of c:
-//! the kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that little drawing
-//! hides the cost.
+//! `auto` chooses, all effects), and plainly. Then, with edges that are not cut and geometry alone, it is drawn with
+//! the transform of the next frame overlapping the draw of this one, and with both in sequence (`--latency low`). The
+//! ways take turns within one run, so that other load on the machine affects all alike. The eye moves at a hundredth
+//! of c: the kernel does all of its work, and the pictures show the same triangles. Surfaces are unlit, so that little
+//! drawing hides the cost.
 //!
-//! `cargo bench -p rapidity --bench frames`, or with words after `--`: `beta=.9` for another speed, `640x480` for another
-//! size, `5s` for seconds for each scene.
+//! `cargo bench -p rapidity --bench frames`, or with words after `--`: `beta=.9` for another speed, `640x480` for
+//! another size, `5s` for seconds for each scene.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
 
 mod support;

@@ -231,8 +231,8 @@ impl GamepadDecoder {
         }
     }
 
-    /// Deflection of the second stick where it turns the look: to the left and up, each −1 to 1. `always`: even if the
-    /// stick is not pressed down.
+    /// Deflection of the second stick where it turns the look: to the left and up, each −1 to 1. `always`: even if
+    /// the stick is not pressed down.
     pub fn look(&self, always: bool) -> [f64; 2] {
         if !self.is_joystick && (always || self.looks()) { self.second_stick() } else { [0.0; 2] }
     }

@@ -42,7 +42,8 @@ impl FrameTimes {
         format!("  {name:>42}: {median:7.2} ms, 95 % in {slow:7.2} ms, ratio {middle:.3} ({low:.3} to {high:.3})")
     }
 
-    /// Row of a Markdown table: `cells`, frames per second at the median and at the 95 % quantile, ratio to another way.
+    /// Row of a Markdown table: `cells`, frames per second at the median and at the 95 % quantile, ratio to another
+    /// way.
     pub fn markdown(&self, cells: &[&str], other: &Self) -> String {
         let [_, ratio, _] = self.ratio(other);
         let [usual, slow] = [self.median_ms(), self.slow_ms()].map(|ms| 1e3 / ms);

@@ -1,6 +1,6 @@
 //! Law: a head that a VRPN server tracks, through a real socket and the real program, is listed, is part of the ride,
-//! and replays to the same bits, also where the C library has no fused multiplication. A program that lost the tracker on its way would have no head; one that read a clock
-//! would have another head the second time.
+//! and replays to the same bits, also where the C library has no fused multiplication. A program that lost the tracker
+//! on its way would have no head; one that read a clock would have another head the second time.
 
 use crate::runner::{WITHOUT_FMA, rapidity, run, said, told};
 use crate::turning_head::{SWAY, TURN, flood, pose, serve};

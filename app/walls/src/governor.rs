@@ -223,7 +223,7 @@ impl Governor {
     fn worth(&self, parts: FrameParts) -> f64 {
         let gains_much = parts.pixels_that_take(WORTH).min(parts.pixels_within(ROOM * LOST_S));
         let half_s = 2.0 * self.wanted_s;
-        if parts.fixed_s < 0.8 * half_s { gains_much.min(parts.pixels_within(AIM * half_s)) } else { gains_much }
+        if parts.fixed_s < AIM * half_s { gains_much.min(parts.pixels_within(AIM * half_s)) } else { gains_much }
     }
 
     /// True if a share that was too slow lately is near, and would take too long still, by the pixels that it has more.

@@ -98,9 +98,7 @@ impl Plan {
     pub fn texels(&self) -> f64 {
         self.placed.iter().map(Placed::texels).sum()
     }
-}
 
-impl Plan {
     /// The same panes with all texels moved to the right and up by parts of a texel, at most a half: another sample of
     /// what they show.
     pub fn shifted(mut self, texels: DVec2) -> Self {

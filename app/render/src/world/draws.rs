@@ -6,14 +6,13 @@ use super::scene_world::World;
 use super::seen_draw::SeenDraw;
 use crate::gpu::Gpu;
 use crate::target::Format;
-use scene::carriers::WHITE;
 use scene::cut::SeenFrom;
 use std::ops::Range;
 use view::Sides;
 
 /// Number of pixels for each triangle above which depth is drawn first: it saves the light of hidden pixels, and takes
-/// the triangles once more. On a software driver frames of the old town, 1280 × 720 pixels, gain by it with 10 pixels a
-/// triangle, and lose with fewer than 8.
+/// the triangles once more. On a software driver frames of the old town, 1280 × 720 pixels, gain by it with 10 pixels
+/// a triangle and more, and not with 7 and fewer.
 const DEPTH_FIRST_PIXELS: f64 = 8.0;
 
 /// Settings of a draw.
@@ -78,7 +77,7 @@ impl World {
         let Some(geometry) = &self.geometry else { return };
         let mut opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, source);
         if let Some(carrier) = draws.further_carrier {
-            opaque.retain(|seen| self.spectra.materials[seen.draw.material] == carrier || carrier == WHITE);
+            opaque.retain(|seen| self.spectra.materials[seen.draw.material] == carrier);
         }
         let mut blended = SeenDraw::all(&geometry.list.blended, draws.sights, source);
         blended.sort_by(|a, b| b.distance.total_cmp(&a.distance));
