@@ -2,8 +2,8 @@
 //!
 //! Frames are kept by their number of pixels, in classes half an octave wide. Each class holds a mean of pixels and
 //! times, which lies on the line that its frames lie on. A line needs classes that differ by nearly two: nearer
-//! ones differ less than their noise. Frames that are far from the line show that the load has changed; what was seen
-//! before says nothing then.
+//! ones differ less than their noise. A load that grows or falls slowly scales all that was seen before. Frames that are
+//! far from the line show that the load has changed; what was seen before says nothing then.
 
 /// Number of classes: two for each octave, down to a sixteenth of all pixels.
 const CLASSES: usize = 9;
@@ -13,6 +13,8 @@ const NEWEST: f64 = 0.05;
 const SPREAD: f64 = 1.8;
 /// Largest ratio of a time to the expected one, or its reciprocal, under an unchanged load.
 const SURPRISE: f64 = 1.4;
+/// Part of a deviation from the expected time that is taken to be a growing or falling load, and not noise.
+const DRIFT: f64 = 0.2;
 
 /// Times of frames by their number of pixels.
 #[derive(Clone, Debug, Default)]
@@ -72,6 +74,9 @@ impl FrameCost {
         let certain = self.has_spread() || self.newest.is_some_and(|newest| newest.pixels == pixels);
         if certain && !(SURPRISE.recip()..=SURPRISE).contains(&surprise) {
             *self = Self::default();
+        } else if certain {
+            let drift = surprise.powf(DRIFT);
+            self.classes.iter_mut().flatten().for_each(|seen| seen.time_s *= drift);
         }
         let class = &mut self.classes[((-2.0 * pixels.log2()).round().max(0.0) as usize).min(CLASSES - 1)];
         let now = SeenFrames { pixels, time_s, next: 0.5 };
@@ -155,6 +160,17 @@ mod tests {
         let parts = seen(&[(0.5, 0.10), (0.35, 0.10)]).parts().unwrap();
         assert_eq!(parts.fixed_s, 0.0);
         assert!((parts.time_s(0.35) - 0.10).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_load_that_grows_slowly_scales_what_was_seen_before() {
+        let mut cost = seen(&[(1.0, 0.15), (0.4, 0.09), (1.0, 0.15), (0.4, 0.09)]);
+        for step in 1..=100 {
+            cost.see(0.4, 0.09 * (1.0 + 0.01 * f64::from(step)));
+        }
+        let parts = cost.parts().unwrap();
+        assert!((parts.time_s(1.0) / 0.30 - 1.0).abs() < 0.15, "{parts:?}");
+        assert!((parts.time_s(0.4) / 0.18 - 1.0).abs() < 0.08, "{parts:?}");
     }
 
     #[test]
