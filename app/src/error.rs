@@ -1,9 +1,11 @@
 //! Errors of the program as a whole. Every part has an error of its own; here they meet, so that `main` reports once.
 
+use crate::commands::calibrate::CalibratingError;
 use crate::output::files::WriteError;
 use crate::output::film::FilmError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
+use crate::session::set_up::SetUpError;
 use crate::session::tracker::TrackerError;
 use kiosk::DayLogError;
 use measure::MeasureError;
@@ -55,6 +57,12 @@ pub enum Error {
         /// Position of the eye behind the screen.
         behind: EyeBehind,
     },
+    /// A calibration of a bicycle that ends without a file.
+    #[error(transparent)]
+    Calibrating(#[from] CalibratingError),
+    /// A set-up of hardware that cannot be used.
+    #[error(transparent)]
+    SetUp(#[from] SetUpError),
     /// A tracker that cannot be used.
     #[error(transparent)]
     Tracker(#[from] TrackerError),

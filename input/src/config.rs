@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::axis_table::AxisTable;
 use crate::bicycle::config::BicycleConfig;
 use crate::config_error::ConfigError;
+use crate::gamepad_map::GamepadMap;
 use crate::head::config::HeadConfig;
+use crate::key_map::KeyMap;
 use crate::rider_config::RiderConfig;
 
 /// Settings of all decoders.
@@ -22,6 +24,12 @@ pub struct DeskConfig {
     pub space_mouse: AxisTable,
     /// Axes of a SpaceMouse read through spacenavd.
     pub spacenavd: AxisTable,
+    /// Work of a gamepad's axes and buttons.
+    #[serde(skip_serializing_if = "GamepadMap::is_usual")]
+    pub gamepad: GamepadMap,
+    /// Keys that do the work of others.
+    #[serde(skip_serializing_if = "KeyMap::is_empty")]
+    pub keys: KeyMap,
     /// Settings of the tracked head; `None` without a tracker, and in recordings made before heads were tracked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub head: Option<HeadConfig>,
@@ -41,6 +49,8 @@ impl Default for DeskConfig {
             rider: RiderConfig::default(),
             space_mouse: AxisTable::RAW,
             spacenavd: AxisTable::SPACENAVD,
+            gamepad: GamepadMap::default(),
+            keys: KeyMap::default(),
             head: None,
             free_look: true,
         }
@@ -57,6 +67,8 @@ impl DeskConfig {
         self.rider.check()?;
         self.space_mouse.check("space_mouse")?;
         self.spacenavd.check("spacenavd")?;
+        self.gamepad.check()?;
+        self.keys.check()?;
         self.head.as_ref().map_or(Ok(()), HeadConfig::check)
     }
 }

@@ -27,13 +27,10 @@ use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 use crate::filters::with_dead_zone;
+use crate::gamepad_map::GamepadMap;
 
-/// Part of the range within which a stick counts as centred: worn ones rest off centre.
-const STICK_DEAD_ZONE: f64 = 0.12;
-/// Part of the range within which a trigger counts as released.
-const TRIGGER_DEAD_ZONE: f64 = 0.04;
 /// Number of absolute axes in evdev.
-const AXES: usize = 64;
+pub(crate) const AXES: usize = 64;
 
 /// Codes of Linux's `input-event-codes.h`.
 pub mod codes {
@@ -41,26 +38,26 @@ pub mod codes {
     pub const KEY: u16 = 1;
     /// Event type: an axis.
     pub const ABSOLUTE: u16 = 3;
-    pub(super) const X: u16 = 0;
-    pub(super) const Y: u16 = 1;
-    pub(super) const Z: u16 = 2;
-    pub(super) const RX: u16 = 3;
-    pub(super) const RY: u16 = 4;
-    pub(super) const RZ: u16 = 5;
-    pub(super) const HAT_X: u16 = 16;
-    pub(super) const HAT_Y: u16 = 17;
+    pub(crate) const X: u16 = 0;
+    pub(crate) const Y: u16 = 1;
+    pub(crate) const Z: u16 = 2;
+    pub(crate) const RX: u16 = 3;
+    pub(crate) const RY: u16 = 4;
+    pub(crate) const RZ: u16 = 5;
+    pub(crate) const HAT_X: u16 = 16;
+    pub(crate) const HAT_Y: u16 = 17;
     /// First button of a joystick.
     pub const TRIGGER: u16 = 0x120;
-    pub(super) const THUMB: u16 = 0x121;
+    pub(crate) const THUMB: u16 = 0x121;
     /// First button of a gamepad.
     pub const SOUTH: u16 = 0x130;
-    pub(super) const NORTH: u16 = 0x133;
-    pub(super) const WEST: u16 = 0x134;
-    pub(super) const LEFT_SHOULDER: u16 = 0x136;
-    pub(super) const RIGHT_SHOULDER: u16 = 0x137;
-    pub(super) const SELECT: u16 = 0x13a;
-    pub(super) const START: u16 = 0x13b;
-    pub(super) const RIGHT_STICK: u16 = 0x13e;
+    pub(crate) const NORTH: u16 = 0x133;
+    pub(crate) const WEST: u16 = 0x134;
+    pub(crate) const LEFT_SHOULDER: u16 = 0x136;
+    pub(crate) const RIGHT_SHOULDER: u16 = 0x137;
+    pub(crate) const SELECT: u16 = 0x13a;
+    pub(crate) const START: u16 = 0x13b;
+    pub(crate) const RIGHT_STICK: u16 = 0x13e;
 }
 
 /// Item of a gamepad's bytes.
@@ -153,17 +150,21 @@ struct GamepadAxis {
     value: f64,
     least: f64,
     most: f64,
+    /// True if the axis counts the other way.
+    reversed: bool,
 }
 
 impl GamepadAxis {
     /// Deflection of a stick, −1 to 1 about the middle of its range.
-    fn stick(self) -> f64 {
-        with_dead_zone((2.0 * self.value - self.least - self.most) / (self.most - self.least), STICK_DEAD_ZONE)
+    fn stick(self, dead_zone: f64) -> f64 {
+        let deflection = (2.0 * self.value - self.least - self.most) / (self.most - self.least);
+        with_dead_zone(if self.reversed { -deflection } else { deflection }, dead_zone)
     }
 
     /// Deflection of a trigger, 0 to 1 from its lower end.
-    fn trigger(self) -> f64 {
-        with_dead_zone(((self.value - self.least) / (self.most - self.least)).max(0.0), TRIGGER_DEAD_ZONE)
+    fn trigger(self, dead_zone: f64) -> f64 {
+        let share = (self.value - self.least) / (self.most - self.least);
+        with_dead_zone((if self.reversed { 1.0 - share } else { share }).max(0.0), dead_zone)
     }
 }
 
@@ -176,6 +177,8 @@ pub struct GamepadDecoder {
     pedalled: bool,
     /// True if the second stick, pressed down, turns the look.
     looks_round: bool,
+    /// Work of the axes and buttons.
+    map: GamepadMap,
     faults: Faults,
 }
 
@@ -187,6 +190,7 @@ impl Default for GamepadDecoder {
             held: Vec::new(),
             pedalled: false,
             looks_round: false,
+            map: GamepadMap::default(),
             faults: Faults::default(),
         }
     }
@@ -197,8 +201,8 @@ impl GamepadDecoder {
     const MOST_HELD: usize = 64;
 
     /// Gamepad at rest; `looks_round`: its second stick, pressed down, turns the look.
-    pub fn new(looks_round: bool) -> Self {
-        Self { looks_round, ..Self::default() }
+    pub fn new(looks_round: bool, map: GamepadMap) -> Self {
+        Self { looks_round, map, ..Self::default() }
     }
 
     /// Strength of pedalling, 0 to 1; `None` before the first.
@@ -252,11 +256,11 @@ impl GamepadDecoder {
     }
 
     fn stick(&self, code: u16) -> f64 {
-        self.axes[usize::from(code)].map_or(0.0, GamepadAxis::stick)
+        self.axes[usize::from(code)].map_or(0.0, |axis| axis.stick(self.map.stick_dead_zone))
     }
 
     fn trigger(&self, code: u16) -> f64 {
-        self.axes[usize::from(code)].map_or(0.0, GamepadAxis::trigger)
+        self.axes[usize::from(code)].map_or(0.0, |axis| axis.trigger(self.map.trigger_dead_zone))
     }
 
     fn button(&self, code: u16) -> f64 {
@@ -264,6 +268,7 @@ impl GamepadDecoder {
     }
 
     fn press(&mut self, code: u16, pressed: bool, actions: &mut Actions) {
+        let code = self.map.button(code);
         let was_held = self.held.contains(&code);
         if pressed && !was_held && self.held.len() < Self::MOST_HELD {
             self.held.push(code);
@@ -288,12 +293,14 @@ impl GamepadDecoder {
             }
             GamepadItem::Axis { code, value, least, most } if usize::from(code) < AXES && least < most => {
                 let [value, least, most] = [value, least, most].map(f64::from);
-                self.axes[usize::from(code)] = Some(GamepadAxis { value, least, most });
+                let work = self.map.axis(code);
+                let axis = GamepadAxis { value, least, most, reversed: work.reversed };
+                self.axes[usize::from(work.code)] = Some(axis);
             }
             GamepadItem::Axis { code, least, most, .. } => {
                 self.faults.count(format!("axis {code} that goes from {least} to {most}"));
             }
-            GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(code)) {
+            GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(self.map.axis(code).code)) {
                 Some(Some(axis)) => axis.value = f64::from(value),
                 _ => self.faults.count(format!("axis {code}, which was not announced")),
             },
@@ -307,7 +314,8 @@ impl GamepadDecoder {
 
 impl Decoder for GamepadDecoder {
     fn reset(&mut self, _at: Nanos) {
-        *self = Self { faults: std::mem::take(&mut self.faults), ..Self::new(self.looks_round) };
+        let (faults, map) = (std::mem::take(&mut self.faults), std::mem::take(&mut self.map));
+        *self = Self { faults, ..Self::new(self.looks_round, map) };
     }
 
     fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
@@ -374,7 +382,7 @@ mod tests {
 
     #[test]
     fn the_second_stick_looks_where_it_is_free_or_pressed_down() {
-        let mut pad = GamepadDecoder::new(true);
+        let mut pad = GamepadDecoder::new(true, GamepadMap::default());
         let mut actions = Actions::default();
         let pushed = [GamepadItem::Gamepad, axis(codes::RX, -32768), axis(codes::RY, 32767)];
         feed(&mut pad, &pushed, &mut actions);
@@ -399,6 +407,34 @@ mod tests {
         ]);
         let [_, _, back, nose_up, _, roll_left] = pad.deflection();
         assert_eq!([back, nose_up, roll_left], [-1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn axes_and_buttons_do_the_work_that_they_are_given() {
+        let named = |pairs: &[(&str, &str)]| {
+            pairs.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect()
+        };
+        let map = GamepadMap {
+            axes: named(&[("z", "-x"), ("9", "rz")]),
+            buttons: named(&[("south", "start"), ("300", "select")]),
+            stick_dead_zone: 0.5,
+            ..GamepadMap::default()
+        };
+        assert_eq!(map.check(), Ok(()));
+        let mut pad = GamepadDecoder::new(false, map);
+        let mut actions = Actions::default();
+        let axis = |code, value| GamepadItem::Axis { code, value, least: -100, most: 100 };
+        feed(&mut pad, &[GamepadItem::Gamepad, axis(2, 75), axis(9, -100)], &mut actions);
+        assert_eq!((pad.steer(), pad.pedal()), (0.5, None));
+        let pressed = [event(codes::ABSOLUTE, 2, -100), event(codes::ABSOLUTE, 9, 100)];
+        feed(&mut pad, &pressed, &mut actions);
+        assert_eq!((pad.steer(), pad.pedal()), (-1.0, Some(1.0)));
+        feed(&mut pad, &[event(codes::KEY, codes::SOUTH, 1), event(codes::KEY, 300, 1)], &mut actions);
+        assert_eq!(actions.take(), [Action::TogglePause, Action::ToggleHelp]);
+        // The pad comes back with the same map.
+        pad.reset(0);
+        feed(&mut pad, &[GamepadItem::Gamepad, axis(2, 100)], &mut actions);
+        assert_eq!(pad.steer(), 1.0);
     }
 
     #[test]

@@ -1,11 +1,11 @@
-//! Keys with a meaning, and the bytes of a key event.
+//! Keys that a ride may use, and the bytes of a key event.
 //!
 //! A key event is two bytes: the key's number on the USB (HID usage page 7, the same on every system) and 1 for
 //! pressed, 0 for released. Several may follow one another in a sample.
 
 macro_rules! keys {
     ($($(#[$doc:meta])* $name:ident = $code:literal),* $(,)?) => {
-        /// Key with a meaning, by its place on the USB keyboard.
+        /// Key that a ride may use, by its place on the USB keyboard.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u8)]
         pub enum KeyboardKey {
@@ -13,12 +13,24 @@ macro_rules! keys {
         }
 
         impl KeyboardKey {
-            /// All keys with a meaning.
+            /// All keys that a ride may use.
             pub const ALL: &[Self] = &[$(Self::$name),*];
 
             /// Bytes of a key event.
             pub fn to_bytes(self, pressed: bool) -> [u8; 2] {
                 [self as u8, u8::from(pressed)]
+            }
+
+            /// Name of the key in a set-up file.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => stringify!($name)),*
+                }
+            }
+
+            /// Key of this name, whatever its capitals.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|key| key.name().eq_ignore_ascii_case(name))
             }
 
             /// Key with this number on the USB.
@@ -35,6 +47,8 @@ macro_rules! keys {
 keys! {
     /// The key A.
     A = 0x04,
+    /// The key B, which does nothing unless a set-up gives it another key's work.
+    B = 0x05,
     /// The key C.
     C = 0x06,
     /// The key D.
@@ -43,6 +57,8 @@ keys! {
     E = 0x08,
     /// The key F.
     F = 0x09,
+    /// The key G, which does nothing unless a set-up gives it another key's work.
+    G = 0x0a,
     /// The key H.
     H = 0x0b,
     /// The key I.
@@ -55,6 +71,8 @@ keys! {
     L = 0x0f,
     /// The key M.
     M = 0x10,
+    /// The key N, which does nothing unless a set-up gives it another key's work.
+    N = 0x11,
     /// The key O.
     O = 0x12,
     /// The key P.
@@ -65,16 +83,30 @@ keys! {
     R = 0x15,
     /// The key S.
     S = 0x16,
+    /// The key T, which does nothing unless a set-up gives it another key's work.
+    T = 0x17,
+    /// The key U, which does nothing unless a set-up gives it another key's work.
+    U = 0x18,
     /// The key V.
     V = 0x19,
     /// The key W.
     W = 0x1a,
+    /// The key X, which does nothing unless a set-up gives it another key's work.
+    X = 0x1b,
+    /// The key Y, which does nothing unless a set-up gives it another key's work.
+    Y = 0x1c,
+    /// The key Z, which does nothing unless a set-up gives it another key's work.
+    Z = 0x1d,
     /// The key 1 above the letters.
     One = 0x1e,
     /// The key 2 above the letters.
     Two = 0x1f,
     /// The key 3 above the letters.
     Three = 0x20,
+    /// The enter key, which does nothing unless a set-up gives it another key's work.
+    Enter = 0x28,
+    /// The tabulator key, which does nothing unless a set-up gives it another key's work.
+    Tab = 0x2b,
     /// The backspace key.
     Backspace = 0x2a,
     /// The space bar.
@@ -107,6 +139,7 @@ mod tests {
     fn every_key_survives_its_bytes() {
         for &key in KeyboardKey::ALL {
             assert_eq!(KeyboardKey::from_code(key.to_bytes(true)[0]), Some(key));
+            assert_eq!(KeyboardKey::named(&key.name().to_lowercase()), Some(key));
         }
     }
 }

@@ -23,6 +23,7 @@ use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 use crate::key::KeyboardKey;
+use crate::key_map::KeyMap;
 use crate::ramp::Ramp;
 use crate::rider_config::RiderConfig;
 
@@ -75,6 +76,8 @@ impl HeldKeys {
 #[derive(Debug)]
 pub struct KeyboardDecoder {
     rider: RiderConfig,
+    /// Key whose work each key does, by their numbers.
+    works: [u8; 256],
     held: HeldKeys,
     pedalled: bool,
     wheel: Ramp,
@@ -87,9 +90,10 @@ pub struct KeyboardDecoder {
 
 impl KeyboardDecoder {
     /// Keyboard without a pressed key.
-    pub fn new(rider: RiderConfig) -> Self {
+    pub fn new(rider: RiderConfig, keys: &KeyMap) -> Self {
         Self {
             rider,
+            works: keys.works(),
             held: HeldKeys([false; 256]),
             pedalled: false,
             wheel: Ramp::default(),
@@ -189,7 +193,9 @@ impl Decoder for KeyboardDecoder {
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], actions: &mut Actions) {
         let (events, rest) = bytes.as_chunks::<2>();
+        let works = self.works;
         for &[code, state] in events {
+            let code = works[usize::from(code)];
             match (KeyboardKey::from_code(code), state) {
                 (Some(key), 0 | 1) => {
                     let held = &mut self.held.0[usize::from(code)];
@@ -206,7 +212,7 @@ impl Decoder for KeyboardDecoder {
             self.faults.count("half a key event");
         }
         // A ramp that is aimed again goes the same way but for rounding: whoever looks round leaves the ride its bits.
-        if events.is_empty() || !events.iter().all(|[code, _]| looks(*code)) {
+        if events.is_empty() || !events.iter().all(|[code, _]| looks(works[usize::from(*code)])) {
             self.aim(at);
         }
     }
@@ -224,7 +230,7 @@ mod tests {
     use crate::clock::SECOND;
 
     fn keyboard() -> (KeyboardDecoder, Actions) {
-        (KeyboardDecoder::new(RiderConfig::default()), Actions::default())
+        (KeyboardDecoder::new(RiderConfig::default(), &KeyMap::default()), Actions::default())
     }
 
     #[test]
@@ -278,6 +284,22 @@ mod tests {
             keys.bytes(0, &KeyboardKey::P.to_bytes(state), &mut actions);
         }
         assert_eq!(actions.take(), [Action::TogglePause, Action::TogglePause]);
+    }
+
+    #[test]
+    fn a_key_does_the_work_that_it_is_given() {
+        let swapped = [("a", "D"), ("D", "A"), ("Enter", "W"), ("X", "P")];
+        let map = KeyMap(swapped.map(|(key, work)| (key.to_owned(), work.to_owned())).into());
+        assert_eq!(map.check(), Ok(()));
+        let mut keys = KeyboardDecoder::new(RiderConfig::default(), &map);
+        let mut actions = Actions::default();
+        for key in [KeyboardKey::A, KeyboardKey::Enter, KeyboardKey::X] {
+            keys.bytes(0, &key.to_bytes(true), &mut actions);
+        }
+        assert_eq!((keys.steer(SECOND), keys.wheel_speed(SECOND)), (-1.0, Some(2.0)));
+        assert_eq!(actions.take(), [Action::TogglePause]);
+        let bad = KeyMap([("Enter".to_owned(), "pedal".to_owned())].into());
+        assert!(bad.check().unwrap_err().to_string().contains("keys is \"pedal\": expected the name of a key"));
     }
 
     #[test]

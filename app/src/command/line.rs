@@ -77,6 +77,13 @@ pub struct TownOptions {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct DevicesOptions {
+    /// File that describes the rider's hardware, as for `rapidity ride`.
+    #[arg(long, value_name = "FILE.toml")]
+    pub set_up: Option<PathBuf>,
+    /// Walk through the calibration of the bicycle, step by step, and write this set-up file. What others wrote into
+    /// the file stays.
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "seconds")]
+    pub calibrate: Option<PathBuf>,
     /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,

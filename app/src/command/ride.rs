@@ -65,7 +65,7 @@ pub struct RideOptions {
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
     #[arg(conflicts_with_all = ["assist", "through_walls"])]
-    #[arg(conflicts_with_all = ["bicycle", "spacemouse", "tracker"])]
+    #[arg(conflicts_with_all = ["set_up", "bicycle", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
     /// Compare only: compute the recorded ride again, show nothing, and fail at the first frame that is not equal to
     /// the last bit.
@@ -168,6 +168,10 @@ pub struct VehicleOptions {
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 #[command(next_help_heading = "Devices")]
 pub struct DeviceOptions {
+    /// File that describes the rider's hardware: tables [bicycle], [rider], [axes], [gamepad], [keys] and [tracker].
+    /// `rapidity devices --calibrate FILE` writes one.
+    #[arg(long, value_name = "FILE.toml")]
+    pub set_up: Option<PathBuf>,
     /// Serial port of the instrumented bicycle, such as /dev/ttyUSB0.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
@@ -178,4 +182,11 @@ pub struct DeviceOptions {
     /// move the head. Its turn turns the picture of the display window.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
+}
+
+impl DeviceOptions {
+    /// True if a device that is ridden is named, which a film without a window has to follow.
+    pub fn are_ridden(&self) -> bool {
+        self.set_up.is_some() || self.bicycle.is_some() || self.spacemouse
+    }
 }

@@ -1,8 +1,10 @@
 //! `rapidity devices`: lists the devices that are plugged in, and their present values.
 
 use crate::command::DevicesOptions;
+use crate::commands::calibrate::calibrate;
 use crate::error::Error;
 use crate::session::interrupt::interrupted;
+use crate::session::set_up::{BicyclePort, SetUp};
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
@@ -24,15 +26,24 @@ const UNATTENDED_SECONDS: f64 = 2.0;
 /// # Errors
 /// [`Error`] of a thread that cannot be started, or of a closed output.
 pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
+    let file = options.set_up.as_deref().or(options.calibrate.as_deref().filter(|file| file.exists()));
+    let set_up = SetUp::of(None, file)?;
+    let of_file = set_up.port()?;
+    let port = BicyclePort { port: options.bicycle.clone().or(of_file.port), ..of_file };
+    if let Some(file) = &options.calibrate {
+        return calibrate(file, &set_up, port);
+    }
     let mut out = std::io::stdout();
     let terminal = out.is_terminal();
     writeln!(out, "{}", plugged(&plugged_in()))?;
 
     let clock = Clock::start();
-    let (bicycle, tracker) = (options.bicycle.clone(), options.tracker.clone());
+    let tracker = options.tracker.clone();
     let head = tracker.clone().map(HeadConfig::new);
-    let mut desk = Desk::new(DeskConfig { head, ..Default::default() })?;
-    let live = Devices::open(&DevicesConfig { bicycle, tracker, ..Default::default() }, clock)?;
+    let mut desk = Desk::new(DeskConfig { head, ..set_up.desk()? })?;
+    let usual = DevicesConfig::default();
+    let baud = port.baud.unwrap_or(usual.baud);
+    let live = Devices::open(&DevicesConfig { bicycle: port.port, baud, tracker, ..usual }, clock)?;
     let stop = interrupted();
     let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
     let mut shown = 0;

@@ -1,6 +1,7 @@
 //! The commands of the program, a file each.
 
 mod cameraman;
+pub mod calibrate;
 pub mod check;
 pub mod devices;
 pub mod measure;

@@ -11,7 +11,6 @@ use crate::session::preferences;
 use crate::session::scenes;
 use crate::session::start::{RideRoom, has_display, kiosk, prepared, present, recorded};
 use crate::window;
-use input::HeadConfig;
 use input::recording::RecordingError;
 use scene::Scene;
 use std::path::{Path, PathBuf};
@@ -32,7 +31,7 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
     let options = &preferences::applied(options)?;
     if !films {
         let room = RideRoom::of(options)?;
-        let (scene, begin) = begin(options, room.head.clone())?;
+        let (scene, begin) = begin(options, &room)?;
         return window::run(options, scene, room, begin);
     }
     if options.kiosk.kiosk {
@@ -62,19 +61,19 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
 }
 
 /// Scene, and the function that begins a live or a recorded ride in it.
-fn begin(options: &RideOptions, head: Option<HeadConfig>) -> Result<(Scene, window::Begin), Error> {
+fn begin(options: &RideOptions, room: &RideRoom) -> Result<(Scene, window::Begin), Error> {
     let seconds = options.seconds;
     if let Some(path) = &options.replay {
         let (scene, replay) = recorded(path, &options.world)?;
         return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
     }
     let world = scenes::load(&options.world)?;
-    let (simulation, mut log) = prepared(options, &world, head)?;
+    let (simulation, mut log) = prepared(options, &world, &room.set_up, room.head.clone())?;
     let scene = world.scene;
     let kiosk = kiosk(options, simulation.setup(), &scene)?;
     if let Some(path) = &options.record {
         log.record(path)?;
     }
-    let options = options.clone();
-    Ok((scene, Box::new(move || present(&options, simulation, log, kiosk))))
+    let (options, set_up) = (options.clone(), room.set_up.clone());
+    Ok((scene, Box::new(move || present(&options, &set_up, simulation, log, kiosk))))
 }

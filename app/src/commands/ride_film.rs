@@ -11,6 +11,7 @@ use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
 use crate::session::reel::{Reel, Ridden, reel};
 use crate::session::scenes;
+use crate::session::set_up::SetUp;
 use crate::session::start::{RideRoom, first_actions, prepared, present};
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
 use render::Gpu;
@@ -43,14 +44,14 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
         }
         None => {
             let world = scenes::load(&options.world)?;
-            let (simulation, mut log) = prepared(options, &world, RideRoom::of(options)?.head)?;
+            let room = RideRoom::of(options)?;
+            let (simulation, mut log) = prepared(options, &world, &room.set_up, room.head)?;
             let scene = world.scene;
             if let Some(path) = &options.record {
                 log.record(path)?;
             }
-            let has_devices = options.devices.bicycle.is_some() || options.devices.spacemouse;
-            let (reel, recorded) = if has_devices || options.realtime {
-                follow(options, simulation, log, seconds)?
+            let (reel, recorded) = if options.devices.are_ridden() || options.realtime {
+                follow(options, &room.set_up, simulation, log, seconds)?
             } else {
                 demonstrate(options, &scene, simulation, log, seconds)?
             };
@@ -68,9 +69,15 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
 type Followed = (Reel, Result<(), LogError>);
 
 /// Follows a live ride in real time.
-fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: f64) -> Result<Followed, Error> {
+fn follow(
+    options: &RideOptions,
+    set_up: &SetUp,
+    simulation: Simulation,
+    log: RideLog,
+    seconds: f64,
+) -> Result<Followed, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
-    let mut live = present(&options, simulation, log, None)?;
+    let mut live = present(&options, set_up, simulation, log, None)?;
     let stop = interrupted();
     let spinner = progress::spinner("riding");
     let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);

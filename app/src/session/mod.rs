@@ -8,5 +8,6 @@ mod lost_time;
 pub mod preferences;
 pub mod reel;
 pub mod scenes;
+pub mod set_up;
 pub mod start;
 pub mod tracker;

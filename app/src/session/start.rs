@@ -6,6 +6,7 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
+use crate::session::set_up::SetUp;
 use crate::session::tracker;
 use directories::ProjectDirs;
 use glam::DVec3;
@@ -38,6 +39,8 @@ pub struct RideRoom {
     pub display: Option<Display>,
     /// Tracking of the head, if it is tracked.
     pub head: Option<HeadConfig>,
+    /// Set-up of the rider's hardware.
+    pub set_up: SetUp,
 }
 
 impl RideRoom {
@@ -46,15 +49,21 @@ impl RideRoom {
     /// # Errors
     /// A display or a tracker that cannot be used.
     pub fn of(options: &RideOptions) -> Result<Self, Error> {
-        let tracked = options.devices.tracker.as_ref().map(|_| WINDOW);
+        let file = options.devices.set_up.as_deref();
+        let own = SetUp::of(None, file)?;
+        let tracked = (options.devices.tracker.is_some() || own.tracker().is_some()).then_some(WINDOW);
         let budget = options.world.reading.budget();
         let named = |name| Display::named_or_file_within(name, &budget);
-        let display = options.display.as_deref().or(tracked).map(named).transpose()?;
+        let mut display = options.display.as_deref().or(tracked).map(named).transpose()?;
+        if let (Some(display), Some(tracker)) = (&mut display, own.tracker()) {
+            display.tracker = Some(tracker.clone());
+        }
         let head = match &display {
             Some(display) => tracker::head_config(display, options.devices.tracker.as_ref())?,
             None => None,
         };
-        Ok(Self { display, head })
+        let set_up = SetUp::of(display.as_ref(), file)?;
+        Ok(Self { display, head, set_up })
     }
 
     /// True if the mouse moves the head.
@@ -96,12 +105,13 @@ fn usual_log_folder() -> Option<PathBuf> {
 /// Devices that cannot be read.
 pub fn present(
     options: &RideOptions,
+    set_up: &SetUp,
     simulation: Simulation,
     log: RideLog,
     kiosk: Option<Kiosk>,
 ) -> Result<Live, Error> {
     let clock = Clock::start();
-    let devices = Devices::open(&devices_config(options, &simulation.setup().desk), clock)?;
+    let devices = Devices::open(&devices_config(options, set_up, &simulation.setup().desk)?, clock)?;
     let mut live = Live::present(simulation, devices, clock, log, options.seconds);
     if let Some(kiosk) = kiosk {
         return Ok(live.for_visitors(kiosk));
@@ -139,10 +149,11 @@ pub fn recorded(path: &Path, options: &WorldOptions) -> Result<(Scene, Replay), 
 pub fn prepared(
     options: &RideOptions,
     world: &World,
+    set_up: &SetUp,
     head: Option<HeadConfig>,
 ) -> Result<(Simulation, RideLog), Error> {
     let scene = &world.scene;
-    let setup = setup(options, world, head)?;
+    let setup = setup(options, world, DeskConfig { head, ..set_up.desk()? })?;
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     let collision = Arc::new(Collision::new(scene)?);
@@ -163,7 +174,7 @@ pub fn has_display() -> bool {
             .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
 }
 
-fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Result<Setup, Error> {
+fn setup(options: &RideOptions, world: &World, desk: DeskConfig) -> Result<Setup, Error> {
     let start = &world.scene.start;
     // A bicycle belongs to scenes made for it; other places are to show something within seconds.
     let usual = match (start.is_on_ground(), world.scene.speed_of_light_m_s) {
@@ -190,7 +201,7 @@ fn setup(options: &RideOptions, world: &World, head: Option<HeadConfig>) -> Resu
         kind,
         start: RideStart::at_rest(place, start.look, start.up),
         vehicle,
-        desk: DeskConfig { head, ..Default::default() },
+        desk,
     })
 }
 
@@ -214,12 +225,15 @@ pub fn first_actions(options: &RideOptions) -> Vec<Action> {
     if scale == 1.0 { Vec::new() } else { vec![Action::TimeScale(scale)] }
 }
 
-/// Devices that the command line names.
-fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
-    DevicesConfig {
-        bicycle: options.devices.bicycle.clone(),
+/// Devices that the command line or the set-up names.
+fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> Result<DevicesConfig, Error> {
+    let port = set_up.port()?;
+    let usual = DevicesConfig::default();
+    Ok(DevicesConfig {
+        bicycle: options.devices.bicycle.clone().or(port.port),
+        baud: port.baud.unwrap_or(usual.baud),
         space_mouse: options.devices.spacemouse || has_display(),
         tracker: desk.head.as_ref().map(|head| head.url.clone()),
-        ..Default::default()
-    }
+        ..usual
+    })
 }

@@ -7,6 +7,8 @@ use physics::Celerity;
 use room::Display;
 use serde::Deserialize;
 use thiserror::Error;
+
+use crate::session::set_up::one_line;
 use walls::RoomHead;
 
 /// Reason why a head cannot be tracked.
@@ -73,11 +75,6 @@ pub fn head(state: &HeadState, speed_of_light: f64) -> RoomHead {
         celerity: Celerity::new(state.velocity_m_s / speed_of_light).unwrap_or_default(),
         turn_rate: if turn_rate.is_finite() { turn_rate } else { DVec3::ZERO },
     }
-}
-
-/// Report of several lines as a single line.
-fn one_line(report: &str) -> String {
-    report.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Decoder of the bicycle's lines.
 
 use super::belief::SpeedBelief;
-use super::config::{BareNumber, BicycleConfig};
+use super::config::{BareNumber, BicycleConfig, SpeedSource};
 use super::protocol::{BicycleLine, PulseCount};
 use crate::clock::{Nanos, seconds_between};
 use crate::decoder::{Actions, Decoder};
@@ -66,6 +66,7 @@ impl PulseCounter {
 enum WheelSpeed {
     Unknown,
     Pulses,
+    Cadence,
     Bare { metres_per_second: f64, at: Nanos },
 }
 
@@ -108,6 +109,11 @@ impl BicycleDecoder {
         match self.speed {
             WheelSpeed::Unknown => None,
             WheelSpeed::Pulses => Some(self.wheel.rate.rate_hz(at) * self.config.metres_per_pulse()),
+            WheelSpeed::Cadence => {
+                let config = &self.config;
+                let turns_hz = self.crank.rate.rate_hz(at) / config.pulses_per_crank_turn;
+                Some((turns_hz * config.metres_per_crank_turn).min(config.fastest_m_s))
+            }
             WheelSpeed::Bare { metres_per_second, at: said_at } => {
                 let fading_s = (self.config.stop_after_s - BARE_SPEED_HOLDS_S).max(f64::MIN_POSITIVE);
                 let left_s = self.config.stop_after_s - seconds_between(said_at, at);
@@ -138,7 +144,10 @@ impl BicycleDecoder {
                 self.wheel.update(at, now_us, wheel);
                 self.crank.update(at, now_us, crank);
                 self.has_crank |= self.crank.rate.last_pulse().is_some();
-                self.speed = WheelSpeed::Pulses;
+                self.speed = match self.config.speed_from {
+                    SpeedSource::Wheel => WheelSpeed::Pulses,
+                    SpeedSource::Cadence => WheelSpeed::Cadence,
+                };
                 let config = &self.config;
                 self.turn_handlebar((steer - config.steer_straight) * config.steer_rad_per_unit);
                 let config = &self.config;
@@ -187,13 +196,18 @@ impl BicycleDecoder {
         Ok(())
     }
 
-    /// Sets the angle of the handlebar, radians, limited to a right angle.
+    /// Sets the angle of the handlebar, radians, less its dead zone and limited to a right angle.
     fn turn_handlebar(&mut self, steer_rad: f64) {
-        self.steer_rad = steer_rad.clamp(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2);
+        let dead_rad = self.config.steer_dead_rad;
+        // Without a dead zone, −0 stays what it is.
+        let beyond = if dead_rad > 0.0 { steer_rad - steer_rad.clamp(-dead_rad, dead_rad) } else { steer_rad };
+        self.steer_rad = beyond.clamp(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2);
     }
 
-    fn pull_brake(&mut self, brake: f64) {
-        self.brake = brake.clamp(0.0, 1.0);
+    /// Sets the brake from the lever's way, 0 to 1.
+    fn pull_brake(&mut self, way: f64) {
+        let (way, curve) = (way.clamp(0.0, 1.0), self.config.brake_curve);
+        self.brake = if curve == 1.0 { way } else { libm::pow(way, curve) };
     }
 }
 

@@ -203,3 +203,67 @@ fn unplugging_lets_go_of_everything() {
     assert_eq!(bicycle.wheel_speed(4 * SECOND), Some(10.0));
     assert_eq!(bicycle.faults().number(), 0);
 }
+
+/// Bicycle of these settings after ten seconds of a box that counts the crank alone, once a second.
+fn crank_only(config: BicycleConfig) -> BicycleDecoder {
+    let mut bicycle = BicycleDecoder::new(config);
+    for n in 0..=500_u32 {
+        let elapsed_us = n * 20_000;
+        let turns = elapsed_us / 1_000_000;
+        let line = pulses(n, elapsed_us, (0, 0), (turns, turns * 1_000_000), 512, 0);
+        feed(&mut bicycle, u64::from(elapsed_us) * 1000, &line);
+    }
+    bicycle
+}
+
+#[test]
+fn the_pedals_alone_give_the_speed_where_the_set_up_says_so() {
+    let cadence = BicycleConfig { speed_from: SpeedSource::Cadence, ..BicycleConfig::default() };
+    let speed = crank_only(cadence.clone()).wheel_speed(10 * SECOND).unwrap();
+    assert!((speed - 5.5).abs() < ROUNDING, "{speed}");
+    let geared = BicycleConfig { metres_per_crank_turn: 3.0, pulses_per_crank_turn: 2.0, ..cadence.clone() };
+    let speed = crank_only(geared).wheel_speed(10 * SECOND).unwrap();
+    assert!((speed - 1.5).abs() < ROUNDING, "{speed}");
+    // Pedals that rest let the bicycle stop; without the setting they drive nothing.
+    assert_eq!(crank_only(cadence).wheel_speed(20 * SECOND), Some(0.0));
+    assert_eq!(crank_only(BicycleConfig::default()).wheel_speed(10 * SECOND), Some(0.0));
+}
+
+#[test]
+fn a_strange_converter_steers_and_brakes_by_its_set_up() {
+    // 12 bits, growing to the left, 0.1 degrees for each unit; a brake lever that reads less when it is pulled.
+    let config = BicycleConfig {
+        steer_straight: 1900.0,
+        steer_rad_per_unit: 0.1_f64.to_radians(),
+        steer_dead_rad: 2_f64.to_radians(),
+        brake_released: 3000.0,
+        brake_full: 1000.0,
+        brake_curve: 2.0,
+        ..BicycleConfig::default()
+    };
+    for (steer, brake, degrees, braked) in
+        [(1900, 3000, 0.0, 0.0), (1915, 3100, 0.0, 0.0), (2220, 2000, 30.0, 0.25), (1580, 900, -30.0, 1.0)]
+    {
+        let mut bicycle = BicycleDecoder::new(config.clone());
+        feed(&mut bicycle, 0, &pulses(0, 0, (0, 0), (0, 0), steer, brake));
+        let turned = bicycle.steer_rad().to_degrees();
+        assert!((turned - degrees).abs() < 1e-9, "{turned} for {degrees}");
+        assert!((bicycle.brake() - braked).abs() < 1e-12, "{} for {braked}", bicycle.brake());
+    }
+}
+
+#[test]
+fn a_header_from_before_cadence_and_curves_means_what_it_meant() {
+    let mut header = serde_json::to_value(BicycleConfig::default()).unwrap();
+    for key in ["speed_from", "metres_per_crank_turn", "steer_dead_rad", "brake_curve"] {
+        assert!(header.as_object_mut().unwrap().remove(key).is_some(), "{key}");
+    }
+    let old: BicycleConfig = serde_json::from_value(header).unwrap();
+    let mut bicycle = BicycleDecoder::new(old);
+    for (steer, brake) in [(513, 1), (500, 333), (200, 1000)] {
+        feed(&mut bicycle, 0, &pulses(0, 0, (0, 0), (0, 0), steer, brake));
+        let per_unit = -270.0_f64.to_radians() / 1023.0;
+        assert_eq!(bicycle.steer_rad().to_bits(), ((f64::from(steer) - 512.0) * per_unit).to_bits());
+        assert_eq!(bicycle.brake().to_bits(), (f64::from(brake) / 1023.0).to_bits());
+    }
+}

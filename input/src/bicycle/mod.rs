@@ -17,9 +17,11 @@
 //! from the speed before it, until three lines in a row say it. In silence the wheel slows down and stops.
 
 mod belief;
+mod calibration;
 pub(crate) mod config;
 pub(crate) mod decoder;
 mod protocol;
 
+pub use calibration::{BicycleLineKind, BicyclePositions, CalibrationError, RawReadings, SteadyReading};
 pub use decoder::BicycleDecoder;
 pub use protocol::{BicycleLine, PulseCount};

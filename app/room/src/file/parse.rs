@@ -50,6 +50,7 @@ pub fn parse_within(text: &str, name: &str, folder: &Path, budget: &Budget) -> R
         projectors,
         windows,
         channels,
+        set_up: file.set_up(),
         tracker: file.tracker.clone(),
         notices: Vec::new(),
     };

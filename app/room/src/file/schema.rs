@@ -19,6 +19,21 @@ pub(super) struct DisplayTables {
     #[serde(default)]
     pub channel: Vec<Spanned<ChannelTable>>,
     pub tracker: Option<Value>,
+    pub bicycle: Option<Value>,
+    pub rider: Option<Value>,
+    pub axes: Option<Value>,
+    pub gamepad: Option<Value>,
+    pub keys: Option<Value>,
+}
+
+impl DisplayTables {
+    /// Tables about the rider's hardware, unchanged.
+    pub(super) fn set_up(&self) -> toml::Table {
+        let Self { bicycle, rider, axes, gamepad, keys, .. } = self;
+        let tables =
+            [("bicycle", bicycle), ("rider", rider), ("axes", axes), ("gamepad", gamepad), ("keys", keys)];
+        tables.into_iter().filter_map(|(name, table)| Some((name.to_owned(), table.clone()?))).collect()
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -13,6 +13,7 @@ pub(super) fn blank(head_m: DVec3) -> Display {
         projectors: Vec::new(),
         windows: Vec::new(),
         channels: Vec::new(),
+        set_up: toml::Table::new(),
         tracker: None,
         notices: Vec::new(),
     }

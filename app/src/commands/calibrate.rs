@@ -1,0 +1,303 @@
+//! `rapidity devices --calibrate`: walks through the calibration of a bicycle, and writes its set-up file.
+
+use crate::error::Error;
+use crate::output::files::{WriteError, whole, writable};
+use crate::output::say::say;
+use crate::session::interrupt::interrupted;
+use crate::session::set_up::{BicyclePort, SetUp};
+use input::bicycle::{BicycleLineKind, BicyclePositions, CalibrationError, RawReadings, SteadyReading};
+use input::devices::{DeviceState, Devices, DevicesConfig};
+use input::{BicycleConfig, Clock, Signal};
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+use toml_edit::{DocumentMut, Item, Table, value};
+
+/// Time between two looks at the box.
+const INTERVAL: Duration = Duration::from_millis(100);
+/// Time for which a position is read once the rider holds it.
+const READING: Duration = Duration::from_millis(700);
+/// Longest wait for the first good line of the box.
+const FIRST_LINE: Duration = Duration::from_secs(10);
+/// Angle of the handlebar that is asked for, degrees.
+const ANGLE_DEG: f64 = 45.0;
+
+/// Reason why a calibration ends without a file.
+#[derive(Debug, Error)]
+pub enum CalibratingError {
+    /// No port named.
+    #[error("which bicycle? Name its port with --bicycle, such as --bicycle /dev/ttyUSB0; `rapidity devices` lists them")]
+    NoPort,
+    /// A box that sends nothing that can be read.
+    #[error("{port}: no good line within {} s: {why}", FIRST_LINE.as_secs())]
+    Silent {
+        /// Port of the bicycle.
+        port: String,
+        /// State of the port, or the fault of the last line.
+        why: String,
+    },
+    /// A box without sensors.
+    #[error("{port}: each line is one number, a speed: there is nothing to calibrate; set bare_number in [bicycle]")]
+    Bare {
+        /// Port of the bicycle.
+        port: String,
+    },
+    /// An end of the answers, or an interruption.
+    #[error("the calibration was ended before its last step; nothing was written")]
+    Ended,
+    /// Readings that give no settings.
+    #[error("{0} Nothing was written")]
+    Readings(#[from] CalibrationError),
+    /// A file with text that is no set-up.
+    #[error("{file}: it is no set-up file: {reason}; name another file")]
+    File {
+        /// File to be written.
+        file: String,
+        /// Reason, as the reader of the text words it.
+        reason: String,
+    },
+}
+
+/// Conversation with the rider, beside the live readings.
+struct Dialogue {
+    devices: Devices,
+    readings: RawReadings,
+    answers: Receiver<String>,
+    stop: Arc<AtomicBool>,
+    terminal: bool,
+}
+
+/// Walks through the calibration of the bicycle at `port` and writes `file`; tables of others in it stay.
+///
+/// # Errors
+/// A box that cannot be read, answers that end, or a file that cannot be written.
+pub fn calibrate(file: &Path, set_up: &SetUp, port: BicyclePort) -> Result<(), Error> {
+    writable(file)?;
+    let mut document = document(file)?;
+    let name = port.port.clone().ok_or(CalibratingError::NoPort)?;
+    let before = set_up.desk()?.bicycle;
+    let mut dialogue = Dialogue::begin(&name, port.baud)?;
+    say(format_args!("The bicycle at {name} is calibrated. Enter goes on, Ctrl-C ends without a file."))?;
+    let kind = dialogue.first_line(&name)?;
+    let positions = dialogue.walk(kind, &before)?;
+    let config = positions.settings(&before).map_err(CalibratingError::from)?;
+    if positions.is_lopsided() {
+        say("The sensor goes much further to one side than to the other: was the handlebar straight, and were the angles right?")?;
+    }
+    write(&mut document, &name, port.baud, &config);
+    let text = document.to_string();
+    whole(file, |temporary| std::fs::write(temporary, &text)).map_err(|error| WriteError::new(file, error))?;
+    let file = file.display();
+    say(format_args!("Written: {file}. Check it with `rapidity devices --set-up {file}`, ride with `rapidity ride --set-up {file}`."))?;
+    Ok(())
+}
+
+impl Dialogue {
+    fn begin(port: &str, baud: Option<u32>) -> Result<Self, Error> {
+        let usual = DevicesConfig::default();
+        let config = DevicesConfig {
+            bicycle: Some(port.to_owned()),
+            baud: baud.unwrap_or(usual.baud),
+            space_mouse: false,
+            gamepad: false,
+            ..usual
+        };
+        let (answered, answers) = channel();
+        // The thread ends with the program: nothing wakes a reader of standard input.
+        thread::spawn(move || {
+            let lines = std::io::stdin().lines().map_while(Result::ok);
+            lines.map_while(|line| answered.send(line).ok()).for_each(drop);
+        });
+        Ok(Self {
+            devices: Devices::open(&config, Clock::start())?,
+            readings: RawReadings::default(),
+            answers,
+            stop: interrupted(),
+            terminal: std::io::stdout().is_terminal(),
+        })
+    }
+
+    /// Takes what the box has sent.
+    fn look(&mut self) {
+        for sample in self.devices.drain() {
+            if let Signal::Bytes(bytes) = &sample.signal {
+                self.readings.bytes(bytes);
+            }
+        }
+    }
+
+    /// Kind of the box's lines, once one is good.
+    fn first_line(&mut self, port: &str) -> Result<BicycleLineKind, CalibratingError> {
+        let began = Instant::now();
+        loop {
+            self.look();
+            match self.readings.kind() {
+                Some(BicycleLineKind::Bare) => return Err(CalibratingError::Bare { port: port.to_owned() }),
+                Some(kind) => return Ok(kind),
+                None if began.elapsed() > FIRST_LINE => break,
+                None if self.stop.load(Ordering::Relaxed) => return Err(CalibratingError::Ended),
+                None => thread::sleep(INTERVAL),
+            }
+        }
+        let state = self.devices.status().into_iter().next().map(|status| status.state);
+        let why = match (state, self.readings.last_fault()) {
+            (Some(DeviceState::Absent(why)), _) => why,
+            (_, Some(fault)) => fault.to_owned(),
+            _ => "it is silent; is the box on, and the baud rate right?".to_owned(),
+        };
+        Err(CalibratingError::Silent { port: port.to_owned(), why })
+    }
+
+    /// Asks for an answer, and shows live values until it comes.
+    fn ask(&mut self, question: &str, live: impl Fn(&RawReadings) -> String) -> Result<String, Error> {
+        say(format_args!("\n{question}"))?;
+        let mut out = std::io::stdout();
+        loop {
+            self.look();
+            if self.terminal {
+                write!(out, "\r\x1b[K  {}  > ", live(&self.readings))?;
+                out.flush()?;
+            }
+            match self.answers.recv_timeout(INTERVAL) {
+                _ if self.stop.load(Ordering::Relaxed) => return Err(CalibratingError::Ended.into()),
+                Ok(answer) => return Ok(answer.trim().to_owned()),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Err(CalibratingError::Ended.into()),
+            }
+        }
+    }
+
+    /// Asks for a number; an empty answer is the usual one.
+    fn number(&mut self, question: &str, usual: f64, live: impl Fn(&RawReadings) -> String) -> Result<f64, Error> {
+        loop {
+            let answer = self.ask(question, &live)?;
+            if answer.is_empty() {
+                return Ok(usual);
+            }
+            match answer.replace(',', ".").parse::<f64>() {
+                Ok(number) if (1e-3..=1e3).contains(&number) => return Ok(number),
+                _ => say(format_args!("{answer:?} is no number from 0.001 to 1000; Enter alone takes {usual}"))?,
+            }
+        }
+    }
+
+    /// Reads a position that the rider holds.
+    fn hold(&mut self) -> Result<(), CalibratingError> {
+        self.readings.settle();
+        let began = Instant::now();
+        while began.elapsed() < READING {
+            thread::sleep(INTERVAL);
+            self.look();
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(CalibratingError::Ended);
+            }
+        }
+        Ok(())
+    }
+
+    /// Walks through the positions, and reads each.
+    fn walk(&mut self, kind: BicycleLineKind, before: &BicycleConfig) -> Result<BicyclePositions, Error> {
+        let none = SteadyReading { median: 0.0, spread: 0.0 };
+        let steer = |readings: &RawReadings| format!("steering sensor {}", shown(readings.steer()));
+        let brake = |readings: &RawReadings| format!("brake sensor {}", shown(readings.brake()));
+        let pulses = |readings: &RawReadings| {
+            let [wheel, crank] = readings.pulses();
+            format!("pulses: wheel {wheel}, crank {crank}")
+        };
+
+        self.ask("1. Hold the handlebar straight, let go of the brake, and press Enter.", steer)?;
+        self.hold()?;
+        let straight = self.readings.steer().unwrap_or(none);
+        let released = self.readings.brake().unwrap_or(none).median;
+
+        let mut sides = Vec::new();
+        for (step, side) in [(2, "left"), (3, "right")] {
+            let question = format!(
+                "{step}. Turn the handlebar {ANGLE_DEG} degrees to the {side}, hold it there, and press Enter; or type the angle at \
+                 which you hold it. (No sensor there? Type none.)"
+            );
+            let degrees = loop {
+                let answer = self.ask(&question, steer)?;
+                match answer.replace(',', ".").parse::<f64>() {
+                    _ if answer.is_empty() => break Some(ANGLE_DEG),
+                    _ if answer == "none" => break None,
+                    Ok(degrees) if (1.0..=120.0).contains(&degrees) => break Some(degrees),
+                    _ => say(format_args!("{answer:?} is no angle from 1 to 120 degrees"))?,
+                }
+            };
+            let Some(degrees) = degrees else { break };
+            self.hold()?;
+            sides.push((self.readings.steer().unwrap_or(none).median, degrees.to_radians()));
+        }
+
+        let answer = self.ask("4. Pull the brake lever through, and press Enter. (No sensor there? Type none.)", brake)?;
+        if answer != "none" {
+            self.hold()?;
+        }
+        let full = self.readings.brake().unwrap_or(none).median;
+
+        let still = self.readings.pulses();
+        self.ask("5. Turn the wheel by one whole turn, with the pedals at rest if they can be, and press Enter.", pulses)?;
+        self.hold()?;
+        let turned = self.readings.pulses();
+        self.ask("6. Turn the pedals by one whole turn, and press Enter.", pulses)?;
+        self.hold()?;
+        let pedalled = self.readings.pulses();
+        let (wheel, crank) = (turned[0] - still[0], pedalled[1] - turned[1]);
+
+        let metres = |what: &str, usual: f64| format!("How many metres is one turn of the {what}? [{usual}]");
+        let per_wheel = self.number(&metres("wheel", before.wheel_circumference_m), before.wheel_circumference_m, pulses)?;
+        let per_crank = if wheel == 0 && crank > 0 {
+            let usual = before.metres_per_crank_turn;
+            say("The wheel sends nothing, so the speed is made from the pedals.")?;
+            self.number(&metres("pedals", usual), usual, pulses)?
+        } else {
+            before.metres_per_crank_turn
+        };
+        Ok(BicyclePositions {
+            kind,
+            straight,
+            left: sides.first().copied(),
+            right: sides.get(1).copied(),
+            brake: (answer != "none").then_some([released, full]),
+            pulses_per_turn: [wheel, crank],
+            metres_per_turn: [per_wheel, per_crank],
+        })
+    }
+}
+
+fn shown(reading: Option<SteadyReading>) -> String {
+    reading.map_or_else(|| "silent".to_owned(), |reading| format!("{}", reading.median))
+}
+
+/// Text of the file as it is, to keep what others wrote in it; an empty one if there is none.
+fn document(file: &Path) -> Result<DocumentMut, CalibratingError> {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    text.parse().map_err(|error: toml_edit::TomlError| CalibratingError::File {
+        file: file.display().to_string(),
+        reason: error.message().lines().collect::<Vec<_>>().join(" "),
+    })
+}
+
+/// Puts the settings into the table `[bicycle]`.
+fn write(document: &mut DocumentMut, port: &str, baud: Option<u32>, config: &BicycleConfig) {
+    let table = document.entry("bicycle").or_insert(Item::Table(Table::new()));
+    table["port"] = value(port);
+    if let Some(baud) = baud {
+        table["baud"] = value(i64::from(baud));
+    }
+    // The text of every setting, as the reader of the file knows them.
+    let settings = toml::Table::try_from(config).unwrap_or_default();
+    for (key, setting) in settings {
+        match setting {
+            toml::Value::Float(number) => table[key.as_str()] = value(number),
+            toml::Value::String(text) => table[key.as_str()] = value(text),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! Set-up of a rider's hardware: the tables of a set-up file, or of a display's file.
+//!
+//! ```toml
+//! [bicycle]
+//! port = "/dev/ttyACM0"
+//! wheel_circumference_m = 2.1
+//!
+//! [axes]
+//! space_mouse = [1, -3, 2, 4, -6, 5]
+//!
+//! [tracker]
+//! url = "vrpn://192.168.0.10/Head"
+//! ```
+//!
+//! A table of the set-up file replaces the display's table of the same name as a whole; the command line names other
+//! ports and trackers.
+
+use input::{AxisTable, ConfigError, DeskConfig};
+use regular_file::FileFault;
+use room::Display;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use toml::{Table, Value};
+
+/// Largest size of a set-up file, bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// Names of the tables.
+const TABLES: [&str; 6] = ["bicycle", "rider", "axes", "gamepad", "keys", "tracker"];
+
+/// Reason why a set-up cannot be used.
+#[derive(Debug, Error)]
+pub enum SetUpError {
+    /// A file that cannot be read.
+    #[error("{}: the set-up cannot be read: {fault}; check the name and the permissions", path.display())]
+    Unreadable {
+        /// Path of the file.
+        path: PathBuf,
+        /// Reason, as the system words it.
+        fault: FileFault,
+    },
+    /// A text that is no TOML, or has a table that is none of a set-up.
+    #[error("{place}: {reason}")]
+    Text {
+        /// File and line.
+        place: String,
+        /// Reason, as the reader of the text words it.
+        reason: String,
+    },
+    /// A table that cannot be understood.
+    #[error("{place}, [{table}]: {reason}")]
+    Table {
+        /// File of the table.
+        place: String,
+        /// Name of the table.
+        table: &'static str,
+        /// Reason, as the reader of the table words it.
+        reason: String,
+    },
+    /// A setting with a value that is not allowed.
+    #[error("{place}: {source}")]
+    Setting {
+        /// File of the setting.
+        place: String,
+        /// Setting, and the reason.
+        source: ConfigError,
+    },
+}
+
+/// Tables of a set-up, each with the name of its file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SetUp {
+    tables: Vec<(&'static str, String, Value)>,
+}
+
+/// Port of the bicycle, which is no setting of its decoder.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(default)]
+pub struct BicyclePort {
+    /// Serial port, such as /dev/ttyACM0.
+    pub port: Option<String>,
+    /// Speed of the port, baud.
+    pub baud: Option<u32>,
+}
+
+/// Axes of the SpaceMouse, by the way in which it is read.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct SpaceMouseAxes {
+    space_mouse: AxisTable,
+    spacenavd: AxisTable,
+}
+
+impl Default for SpaceMouseAxes {
+    fn default() -> Self {
+        Self { space_mouse: AxisTable::RAW, spacenavd: AxisTable::SPACENAVD }
+    }
+}
+
+impl SetUp {
+    /// Set-up of a display's file, if there is one, and of a set-up file, whose tables go before.
+    ///
+    /// # Errors
+    /// [`SetUpError`] of a file that cannot be read.
+    pub fn of(display: Option<&Display>, file: Option<&Path>) -> Result<Self, SetUpError> {
+        let mut set_up = Self::default();
+        if let Some(display) = display {
+            set_up.add(&format!("display {}", display.name), display.set_up.clone())?;
+        }
+        if let Some(path) = file {
+            let fault = |fault| SetUpError::Unreadable { path: path.to_owned(), fault };
+            let bytes = regular_file::read(path, LONGEST).map_err(fault)?;
+            set_up.add_text(&path.display().to_string(), &String::from_utf8_lossy(&bytes))?;
+        }
+        Ok(set_up)
+    }
+
+    fn add_text(&mut self, place: &str, text: &str) -> Result<(), SetUpError> {
+        let tables = toml::from_str(text).map_err(|error| {
+            let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+            let place = line.map_or_else(|| place.to_owned(), |line| format!("{place}, line {line}"));
+            SetUpError::Text { place, reason: one_line(error.message()) }
+        })?;
+        self.add(place, tables)
+    }
+
+    /// Adds the tables of a file, in place of those of the same name.
+    fn add(&mut self, place: &str, tables: Table) -> Result<(), SetUpError> {
+        for (name, table) in tables {
+            let Some(known) = TABLES.into_iter().find(|known| *known == name) else {
+                let tables = TABLES.map(|name| format!("[{name}]")).join(", ");
+                let reason = format!("{name:?} is no table of a set-up: expected {tables}");
+                return Err(SetUpError::Text { place: place.to_owned(), reason });
+            };
+            self.tables.retain(|(other, ..)| *other != known);
+            self.tables.push((known, place.to_owned(), table));
+        }
+        Ok(())
+    }
+
+    fn find(&self, name: &str) -> Option<&(&'static str, String, Value)> {
+        self.tables.iter().find(|(known, ..)| *known == name)
+    }
+
+    /// Table as its settings; the usual ones if it is missing.
+    fn table<T: DeserializeOwned + Default>(&self, name: &str) -> Result<T, SetUpError> {
+        let Some((table, place, value)) = self.find(name) else { return Ok(T::default()) };
+        settings(table, place, value.clone())
+    }
+
+    /// Table of the tracker, if there is one.
+    pub fn tracker(&self) -> Option<&Value> {
+        self.find("tracker").map(|(_, _, value)| value)
+    }
+
+    /// Port of the bicycle.
+    ///
+    /// # Errors
+    /// A table that cannot be understood.
+    pub fn port(&self) -> Result<BicyclePort, SetUpError> {
+        self.table("bicycle")
+    }
+
+    /// Settings of the decoders but for the tracker, checked.
+    ///
+    /// # Errors
+    /// A table that cannot be understood, or a setting that cannot be used.
+    pub fn desk(&self) -> Result<DeskConfig, SetUpError> {
+        let bicycle = match self.find("bicycle") {
+            None => Default::default(),
+            Some((table, place, value)) => {
+                let mut value = value.clone();
+                if let Some(table) = value.as_table_mut() {
+                    ["port", "baud"].iter().for_each(|key| drop(table.remove(*key)));
+                }
+                settings(table, place, value)?
+            }
+        };
+        let SpaceMouseAxes { space_mouse, spacenavd } = self.table("axes")?;
+        let desk = DeskConfig {
+            bicycle,
+            rider: self.table("rider")?,
+            space_mouse,
+            spacenavd,
+            gamepad: self.table("gamepad")?,
+            keys: self.table("keys")?,
+            ..DeskConfig::default()
+        };
+        desk.check().map_err(|source| {
+            let table = source.key.split('.').next().unwrap_or_default();
+            let table = if ["space_mouse", "spacenavd"].contains(&table) { "axes" } else { table };
+            let place = self.find(table).map_or_else(String::new, |(_, place, _)| place.clone());
+            SetUpError::Setting { place, source }
+        })?;
+        Ok(desk)
+    }
+}
+
+/// Value of a table as its settings.
+fn settings<T: DeserializeOwned>(table: &'static str, place: &str, value: Value) -> Result<T, SetUpError> {
+    T::deserialize(value).map_err(|error| SetUpError::Table {
+        place: place.to_owned(),
+        table,
+        reason: one_line(&error.to_string()),
+    })
+}
+
+/// Report of several lines as a single line.
+pub fn one_line(report: &str) -> String {
+    report.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law under test: a set-up file says how devices are read, before what the display says; what cannot be used is
+    //! told with file, table and key.
+    #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+    use super::*;
+    use input::{GamepadMap, SpeedSource};
+
+    fn file(text: &str) -> Result<SetUp, SetUpError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("museum.toml");
+        std::fs::write(&path, text).unwrap();
+        SetUp::of(None, Some(&path))
+    }
+
+    #[test]
+    fn every_table_reaches_its_decoder() {
+        let set_up = file(
+            "[bicycle]\nport = \"/dev/ttyUSB7\"\nbaud = 9600\nspeed_from = \"cadence\"\nmetres_per_crank_turn = 4.5\n\
+             [rider]\ncruise_m_s = 4.0\n[axes]\nspace_mouse = [2, 1, 3, 4, 5, 6]\n[gamepad]\naxes = { z = \"rx\" }\n\
+             [keys]\nEnter = \"W\"\n[tracker]\nurl = \"mouse\"\n",
+        )
+        .unwrap();
+        let port = BicyclePort { port: Some("/dev/ttyUSB7".to_owned()), baud: Some(9600) };
+        assert_eq!(set_up.port().unwrap(), port);
+        let desk = set_up.desk().unwrap();
+        assert_eq!((desk.bicycle.speed_from, desk.bicycle.metres_per_crank_turn), (SpeedSource::Cadence, 4.5));
+        assert_eq!((desk.rider.cruise_m_s, desk.space_mouse), (4.0, AxisTable([2, 1, 3, 4, 5, 6])));
+        assert_eq!(desk.spacenavd, AxisTable::SPACENAVD);
+        assert!(desk.gamepad != GamepadMap::default() && !desk.keys.is_empty());
+        assert_eq!(set_up.tracker().unwrap()["url"].as_str(), Some("mouse"));
+        let nothing = SetUp::of(None, None).unwrap();
+        assert_eq!((nothing.desk().unwrap(), nothing.port().unwrap()), Default::default());
+    }
+
+    #[test]
+    fn a_table_of_the_file_replaces_the_display_s() {
+        let mut display = Display::built_in("cave4").unwrap();
+        display.set_up = toml::from_str("[bicycle]\nport = \"a\"\nbaud = 1200\n[rider]\ncruise_m_s = 3.0").unwrap();
+        let of_display = SetUp::of(Some(&display), None).unwrap();
+        assert_eq!(of_display.port().unwrap().baud, Some(1200));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        std::fs::write(&path, "[bicycle]\nport = \"b\"").unwrap();
+        let both = SetUp::of(Some(&display), Some(&path)).unwrap();
+        assert_eq!(both.port().unwrap(), BicyclePort { port: Some("b".to_owned()), baud: None });
+        assert_eq!(both.desk().unwrap().rider.cruise_m_s, 3.0);
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_told_with_file_table_and_key() {
+        for (text, told) in [
+            ("[bicycle]\nwheel = 2.1", "museum.toml, [bicycle]: unknown field `wheel`"),
+            ("[bicycle]\nwheel_circumference_m = 0", "museum.toml, [bicycle]: invalid type: integer `0`"),
+            ("[bicycle]\nwheel_circumference_m = 0.0", "museum.toml: bicycle.wheel_circumference_m is 0"),
+            ("[bicycle]\nspeed_from = \"legs\"", "unknown variant `legs`, expected `wheel` or `cadence`"),
+            ("[bicycle]\nbaud = -1", "[bicycle]: invalid value"),
+            ("[axes]\nspace_mouse = [1, 2, 3]", "[axes]: "),
+            ("[axes]\nspacenavd = [1, 2, 3, 4, 5, 9]", "museum.toml: spacenavd is [1, 2, 3, 4, 5, 9]"),
+            ("[keys]\nQwerty = \"W\"", "museum.toml: keys is \"Qwerty\""),
+            ("[bike]\n", "museum.toml: \"bike\" is no table of a set-up: expected [bicycle], [rider]"),
+            ("bicycle = 3", "[bicycle]: invalid type: integer `3`"),
+            ("[bicycle\n", "museum.toml, line 1: "),
+        ] {
+            let error = file(text).and_then(|set_up| set_up.desk().and(set_up.port())).unwrap_err().to_string();
+            assert!(error.contains(told), "{text}: {error}");
+        }
+        let missing = SetUp::of(None, Some(Path::new("/nowhere/at all.toml"))).unwrap_err().to_string();
+        assert!(missing.starts_with("/nowhere/at all.toml: the set-up cannot be read"), "{missing}");
+    }
+}
