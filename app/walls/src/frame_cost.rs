@@ -2,8 +2,8 @@
 //!
 //! Frames are kept by their number of pixels, in classes half an octave wide. Each class holds a mean of pixels and
 //! times, which lies on the line that its frames lie on. A line needs classes that differ by nearly two: nearer
-//! ones differ less than their noise. A load that grows or falls slowly scales all that was seen before. Frames that are
-//! far from the line show that the load has changed; what was seen before says nothing then.
+//! ones differ less than their noise. A load that grows or falls slowly scales all that was seen before. Frames that
+//! are far from the line show that the load has changed; what was seen before says nothing then.
 
 /// Number of classes: two for each octave, down to a sixteenth of all pixels.
 const CLASSES: usize = 9;
