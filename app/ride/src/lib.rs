@@ -4,6 +4,7 @@
 mod assist;
 mod frame;
 mod log;
+mod past;
 mod replay;
 mod route;
 mod setup;

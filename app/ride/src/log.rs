@@ -1,20 +1,22 @@
 //! Log of a ride, so that it can be recorded at any moment from its beginning.
 //!
 //! A recording that starts in the middle could not be replayed, because later states depend on earlier input. Every
-//! entry is therefore kept in memory until a file is wanted, and is written to the file as well from then on.
+//! entry is therefore kept until a file is wanted, and is written to the file as well from then on. A short past is in
+//! memory, a long one in a temporary recording on the disk (`past`), so that memory stays flat and hours can still be
+//! recorded.
 //!
 //! A file is not created before there is a frame to be written: windows take their time to open, and a program that
 //! is ended meanwhile would leave a recording of nothing.
 
 use crate::frame::RideFrame;
-use input::recording::{ControlsRecord, Recorder, RecordingEntry, RecordingError, RideHeader};
+use crate::past::Past;
+use input::recording::{
+    ControlsRecord, Recorder, RecordingEntry, RecordingError, RecordingFollower, RideHeader,
+};
 use input::{Nanos, Sample};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use thiserror::Error;
-
-/// Largest memory of the entries that are kept, bytes: about an hour at sixty frames per second.
-const MOST_REMEMBERED: usize = 256 << 20;
 
 /// Reason why a ride is not recorded.
 #[derive(Debug, Error)]
@@ -22,9 +24,14 @@ pub enum LogError {
     /// A file that cannot be written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// A ride too long to be recorded from its beginning.
-    #[error("the ride so far is no longer remembered, so it cannot be recorded; start the program with --record FILE")]
-    NotRemembered,
+    /// A ride whose past is not known.
+    #[error(
+        "the ride so far is no longer remembered ({why}), so it cannot be recorded; start the program with --record FILE"
+    )]
+    NotRemembered {
+        /// Reason why it is not.
+        why: String,
+    },
     /// A recording that has failed during the ride.
     #[error("{}: the ride was not recorded to its end", path.display())]
     Incomplete {
@@ -33,16 +40,23 @@ pub enum LogError {
     },
 }
 
-/// Log of the ride so far: in memory as long as it is short enough, and in a file if one is wanted.
+/// File into which the ride is recorded.
+enum WrittenFile {
+    /// Recording that gets every entry.
+    Entries(Recorder),
+    /// Copy of the temporary recording, which follows it.
+    Copy(RecordingFollower),
+}
+
+/// Log of the ride so far, and of its file if one is wanted.
 pub struct RideLog {
     header: RideHeader,
-    /// Entries since the beginning; `None` once there were too many.
-    kept: Option<Vec<RecordingEntry>>,
-    /// Memory of the kept entries, bytes.
-    remembered: usize,
+    past: Past,
+    /// Folder of the temporary recording of a long past.
+    folder: PathBuf,
     /// Beginning of the ride, nanoseconds since 1970, once it has begun.
     began: Option<u64>,
-    file: Option<(PathBuf, Recorder)>,
+    file: Option<(PathBuf, WrittenFile)>,
     /// Path of a recording that is created with the ride's first frame.
     awaited: Option<PathBuf>,
     /// First recording that has failed.
@@ -50,9 +64,23 @@ pub struct RideLog {
 }
 
 impl RideLog {
-    /// Creates the log at the beginning of the ride.
+    /// Creates the log at the beginning of the ride. A long past is kept in the system's folder for temporary files.
     pub fn new(header: RideHeader) -> Self {
-        Self { header, kept: Some(Vec::new()), remembered: 0, began: None, file: None, awaited: None, failed: None }
+        Self {
+            header,
+            past: Past::new(),
+            folder: std::env::temp_dir(),
+            began: None,
+            file: None,
+            awaited: None,
+            failed: None,
+        }
+    }
+
+    /// The same log with a long past in this folder, which is made when it is needed.
+    pub fn keep_past_in(mut self, folder: PathBuf) -> Self {
+        self.folder = folder;
+        self
     }
 
     /// True if the ride is being recorded, from its first frame on.
@@ -65,9 +93,9 @@ impl RideLog {
         self.awaited.as_deref()
     }
 
-    /// Keeps nothing of the past in memory from now on, for rides that nobody records from their beginning later.
+    /// Keeps nothing of the past from now on, for rides that nobody records from their beginning later.
     pub fn forget(&mut self) {
-        self.kept = None;
+        self.past = Past::Gone("it is not kept in a kiosk".to_owned());
     }
 
     /// Adds the samples of one frame and the frame's result.
@@ -76,15 +104,25 @@ impl RideLog {
     /// [`LogError`] if the file cannot be written any further. Recording has stopped then, and the part already written
     /// is kept.
     pub fn frame(&mut self, samples: &[Sample], frame: &RideFrame) -> Result<(), LogError> {
-        let (number, at) = (frame.record.frame, frame.record.at);
+        let at = frame.record.at;
         let begun = if self.began.is_none() { self.begin(at) } else { Ok(()) };
-        self.remember(samples, frame);
-        begun?;
-        self.write(|recorder| {
-            samples.iter().try_for_each(|sample| recorder.sample(sample))?;
-            recorder.controls(number, at, &frame.controls)?;
-            recorder.frame(&frame.record)
-        })
+        let entries = entries(samples, frame);
+        let written = begun.and_then(|()| self.write(|file| file.add(&entries)));
+        self.past.add(entries, &self.header, self.began, &self.folder);
+        written.and_then(|()| self.follows())
+    }
+
+    /// Gives up a copy whose past is lost.
+    fn follows(&mut self) -> Result<(), LogError> {
+        match (&self.past, &self.file) {
+            (Past::Gone(why), Some((path, WrittenFile::Copy(_)))) => {
+                let (why, path) = (why.clone(), path.clone());
+                self.file = None;
+                self.failed.get_or_insert(path);
+                Err(LogError::NotRemembered { why })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Begins the ride, whose clock shows `at`, and the recording that waits for it.
@@ -93,37 +131,22 @@ impl RideLog {
         self.began = Some(began);
         if let Some(path) = self.awaited.take() {
             match Recorder::create(&path, &self.header) {
-                Ok(recorder) => self.file = Some((path, recorder)),
+                Ok(recorder) => self.file = Some((path, WrittenFile::Entries(recorder))),
                 Err(error) => {
                     self.failed.get_or_insert(path);
                     return Err(error.into());
                 }
             }
         }
-        self.write(|recorder| recorder.began(began))
-    }
-
-    /// Keeps the entries of a frame in memory, as long as there is room.
-    fn remember(&mut self, samples: &[Sample], frame: &RideFrame) {
-        let Some(kept) = &mut self.kept else { return };
-        let (number, at) = (frame.record.frame, frame.record.at);
-        let first = kept.len();
-        kept.extend(samples.iter().cloned().map(RecordingEntry::Sample));
-        let controls = frame.controls.clone();
-        kept.push(RecordingEntry::Controls(ControlsRecord { frame: number, at, controls }));
-        kept.push(RecordingEntry::Frame(frame.record.clone()));
-        self.remembered += kept[first..].iter().map(RecordingEntry::memory).sum::<usize>();
-        if self.remembered > MOST_REMEMBERED {
-            self.kept = None;
-        }
+        self.write(|file| file.begin(began))
     }
 
     /// Writes into the file, if there is one. The file is given up at the first error.
-    fn write(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), RecordingError>) -> Result<(), LogError> {
-        let Some((path, mut recorder)) = self.file.take() else { return Ok(()) };
-        match write(&mut recorder) {
+    fn write(&mut self, write: impl FnOnce(&mut WrittenFile) -> Result<(), RecordingError>) -> Result<(), LogError> {
+        let Some((path, mut file)) = self.file.take() else { return Ok(()) };
+        match write(&mut file) {
             Ok(()) => {
-                self.file = Some((path, recorder));
+                self.file = Some((path, file));
                 Ok(())
             }
             Err(error) => {
@@ -137,7 +160,7 @@ impl RideLog {
     /// file is only made sure of.
     ///
     /// # Errors
-    /// [`LogError`] if the file cannot be written, or the ride has become too long to be kept in memory.
+    /// [`LogError`] if the file cannot be written, or the past of the ride is not known.
     pub fn record(&mut self, path: &Path) -> Result<(), LogError> {
         if self.is_recording() {
             return Ok(());
@@ -147,11 +170,17 @@ impl RideLog {
             self.awaited = Some(path.to_owned());
             return Ok(());
         };
-        let entries = self.kept.as_ref().ok_or(LogError::NotRemembered)?;
-        let mut recorder = Recorder::create(path, &self.header)?;
-        recorder.began(began)?;
-        recorder.past(entries.clone())?;
-        self.file = Some((path.to_owned(), recorder));
+        let file = match &self.past {
+            Past::Memory { entries, .. } => {
+                let mut recorder = Recorder::create(path, &self.header)?;
+                recorder.began(began)?;
+                recorder.past(entries.clone())?;
+                WrittenFile::Entries(recorder)
+            }
+            Past::Disk(disk) => WrittenFile::Copy(RecordingFollower::begin(&disk.path, path)?),
+            Past::Gone(why) => return Err(LogError::NotRemembered { why: why.clone() }),
+        };
+        self.file = Some((path.to_owned(), file));
         Ok(())
     }
 
@@ -161,8 +190,16 @@ impl RideLog {
     /// [`LogError`] if the rest cannot be written.
     pub fn stop(&mut self) -> Result<(), LogError> {
         self.awaited = None;
-        let Some((path, recorder)) = self.file.take() else { return Ok(()) };
-        recorder.finish().map_err(|error| {
+        let Some((path, file)) = self.file.take() else { return Ok(()) };
+        let finished = match (file, &mut self.past) {
+            (WrittenFile::Entries(recorder), _) => recorder.finish(),
+            (WrittenFile::Copy(copy), Past::Disk(disk)) => {
+                disk.recorder.flush().and_then(|length| copy.finish(length))
+            }
+            // What was copied until the past was lost can be replayed.
+            (WrittenFile::Copy(_), _) => Err(RecordingError::Stopped { path: path.clone() }),
+        };
+        finished.map_err(|error| {
             self.failed.get_or_insert(path);
             error.into()
         })
@@ -176,6 +213,32 @@ impl RideLog {
         self.stop()?;
         self.failed.take().map_or(Ok(()), |path| Err(LogError::Incomplete { path }))
     }
+}
+
+impl WrittenFile {
+    /// Dates the ride, before its first entry.
+    fn begin(&mut self, began: u64) -> Result<(), RecordingError> {
+        match self {
+            Self::Entries(recorder) => recorder.began(began),
+            Self::Copy(_) => Ok(()),
+        }
+    }
+
+    /// Adds the entries of a frame. A copy follows by itself.
+    fn add(&mut self, entries: &[RecordingEntry]) -> Result<(), RecordingError> {
+        match self {
+            Self::Entries(recorder) => entries.iter().try_for_each(|entry| recorder.entry(entry.clone())),
+            Self::Copy(copy) => copy.check(),
+        }
+    }
+}
+
+/// Entries of a frame, in the order of the replay.
+fn entries(samples: &[Sample], frame: &RideFrame) -> Vec<RecordingEntry> {
+    let (number, at) = (frame.record.frame, frame.record.at);
+    let controls = ControlsRecord { frame: number, at, controls: frame.controls.clone() };
+    let samples = samples.iter().cloned().map(RecordingEntry::Sample);
+    samples.chain([RecordingEntry::Controls(controls), RecordingEntry::Frame(frame.record.clone())]).collect()
 }
 
 /// Present moment, nanoseconds since 1970.

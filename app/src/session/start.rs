@@ -11,7 +11,7 @@ use crate::session::tracker;
 use directories::ProjectDirs;
 use glam::DVec3;
 use input::devices::{Devices, DevicesConfig};
-use input::recording::Recording;
+use input::recording::{Recording, RideHeader};
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
 use kiosk::{DayLog, Kiosk};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
@@ -163,7 +163,16 @@ pub fn prepared(
         collision.prepare();
         spinner.finish_and_clear();
     }
-    Ok((Simulation::new(setup, collision)?, RideLog::new(header)))
+    Ok((Simulation::new(setup, collision)?, log(header)))
+}
+
+/// Log of a ride, whose long past is kept in the user's folder for caches.
+fn log(header: RideHeader) -> RideLog {
+    let log = RideLog::new(header);
+    match ProjectDirs::from("", "", "rapidity") {
+        Some(directories) => log.keep_past_in(directories.cache_dir().join("rides")),
+        None => log,
+    }
 }
 
 /// True if there is a graphical session to open a window in.

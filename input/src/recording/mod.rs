@@ -26,6 +26,7 @@ mod assembly;
 mod chunk;
 mod content;
 mod error;
+mod follower;
 mod header;
 mod outer_records;
 mod parse;
@@ -39,6 +40,7 @@ mod topic;
 mod writer;
 
 pub use error::RecordingError;
+pub use follower::RecordingFollower;
 pub use header::RideHeader;
 pub use reader::Recording;
 pub use record::{ControlsRecord, FrameDifference, FrameRecord, RecordingEntry};

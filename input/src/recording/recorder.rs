@@ -34,6 +34,8 @@ enum Queued {
     Many(Vec<RecordingEntry>),
     /// Beginning of the ride, nanoseconds since 1970.
     Began(u64),
+    /// Request for the length of the file once everything before is in it.
+    Flush(Sender<u64>),
 }
 
 /// Recording that is being made.
@@ -91,7 +93,7 @@ impl Recorder {
     /// # Errors
     /// A failed write, or a disk that does not keep up. The recording has then stopped.
     pub fn sample(&mut self, sample: &Sample) -> Result<(), RecordingError> {
-        self.push(Queued::One(Box::new(RecordingEntry::Sample(sample.clone()))))
+        self.entry(RecordingEntry::Sample(sample.clone()))
     }
 
     /// Records the controls of a frame.
@@ -99,11 +101,7 @@ impl Recorder {
     /// # Errors
     /// Errors of [`sample`](Self::sample).
     pub fn controls(&mut self, frame: u64, at: Nanos, controls: &Controls) -> Result<(), RecordingError> {
-        self.push(Queued::One(Box::new(RecordingEntry::Controls(ControlsRecord {
-            frame,
-            at,
-            controls: controls.clone(),
-        }))))
+        self.entry(RecordingEntry::Controls(ControlsRecord { frame, at, controls: controls.clone() }))
     }
 
     /// Records the observer after a frame.
@@ -111,8 +109,18 @@ impl Recorder {
     /// # Errors
     /// A number that is not finite, and errors of [`sample`](Self::sample).
     pub fn frame(&mut self, record: &FrameRecord) -> Result<(), RecordingError> {
-        check(record)?;
-        self.push(Queued::One(Box::new(RecordingEntry::Frame(record.clone()))))
+        self.entry(RecordingEntry::Frame(record.clone()))
+    }
+
+    /// Records an entry of any kind.
+    ///
+    /// # Errors
+    /// Errors of [`frame`](Self::frame).
+    pub fn entry(&mut self, entry: RecordingEntry) -> Result<(), RecordingError> {
+        if let RecordingEntry::Frame(record) = &entry {
+            check(record)?;
+        }
+        self.push(Queued::One(Box::new(entry)))
     }
 
     /// Records all entries from before the file was created, however many; called first.
@@ -126,6 +134,19 @@ impl Recorder {
             }
         }
         self.push(Queued::Many(entries))
+    }
+
+    /// Length of the file, bytes, once everything so far is in it. Waits for the disk.
+    ///
+    /// # Errors
+    /// Errors of [`sample`](Self::sample).
+    pub fn flush(&mut self) -> Result<u64, RecordingError> {
+        let (told, length) = bounded(1);
+        self.push(Queued::Flush(told))?;
+        length.recv().or_else(|_| {
+            self.close()?;
+            Err(RecordingError::Stopped { path: self.path.clone() })
+        })
     }
 
     /// Writes the waiting entries, the index and the end of the file.
@@ -183,7 +204,7 @@ impl Drop for Recorder {
 }
 
 /// File that was not there before.
-fn new_file(path: &Path) -> Result<File, RecordingError> {
+pub(super) fn new_file(path: &Path) -> Result<File, RecordingError> {
     OpenOptions::new().write(true).create_new(true).open(path).map_err(|cause| match cause.kind() {
         io::ErrorKind::AlreadyExists if path.is_dir() => RecordingError::Directory { path: path.to_owned() },
         io::ErrorKind::AlreadyExists => RecordingError::Exists { path: path.to_owned() },
@@ -241,6 +262,10 @@ fn write_until_closed(
             Ok(Queued::One(entry)) => {
                 queued.fetch_sub(entry.memory(), Ordering::Relaxed);
                 writer.write(&entry)?;
+            }
+            Ok(Queued::Flush(told)) => {
+                // A recorder that no longer waits needs no answer.
+                let _ = told.send(writer.settled()?);
             }
             Ok(Queued::Many(entries)) => entries.iter().try_for_each(|entry| writer.write(entry))?,
             Err(RecvTimeoutError::Timeout) => writer.flush()?,

@@ -157,6 +157,15 @@ impl RecordingWriter {
         Ok(())
     }
 
+    /// Length of the file once everything so far is in it, bytes.
+    ///
+    /// # Errors
+    /// Errors of [`flush`](Self::flush).
+    pub(super) fn settled(&mut self) -> Result<u64, McapError> {
+        self.flush()?;
+        Ok(self.file.metadata()?.len())
+    }
+
     /// Writes the index and the end of the file.
     ///
     /// # Errors

@@ -1,12 +1,12 @@
 //! Law: a log that cannot be written any further says so once when it happens, and again at the end of the ride; and
-//! the memory of a ride is bounded by bytes, not by entries. A recording has frames, or is not there.
+//! the memory of a ride is bounded by bytes, and its past reaches back to its beginning. A recording has frames, or is not there.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use input::recording::Recording;
+use input::recording::{Recording, RecordingEntry};
 use input::{DeskConfig, SECOND, Sample, SampleSource, VehicleKind};
 use ride::{LightSpeed, LogError, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use scene::OpenPlane;
@@ -43,7 +43,7 @@ impl LoggedRide {
 
 fn frames(path: &Path) -> usize {
     let entries = Recording::open(path).unwrap();
-    entries.filter(|entry| matches!(entry, Ok(input::recording::RecordingEntry::Frame(_)))).count()
+    entries.filter(|entry| matches!(entry, Ok(RecordingEntry::Frame(_)))).count()
 }
 
 /// A file that is removed while it is written takes the ride with it.
@@ -133,15 +133,93 @@ fn a_place_where_nothing_can_be_recorded_is_told_before_the_ride() {
     assert_eq!(std::fs::read_to_string(&other).unwrap(), "another");
 }
 
-/// A device that sends megabytes must not fill the memory: the ride is no longer remembered then.
-#[test]
-fn a_ride_is_remembered_by_its_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+/// Ride whose past of so many megabytes is kept in this folder.
+fn long_ride(folder: &Path, megabytes: u64) -> LoggedRide {
     let mut ride = LoggedRide::new();
-    (0..40).for_each(|_| ride.frame(4 << 20).unwrap());
-    ride.log.record(&folder.path().join("early.mcap")).unwrap();
+    ride.log = ride.log.keep_past_in(folder.to_owned());
+    (0..megabytes / 4).for_each(|_| ride.frame(4 << 20).unwrap());
+    ride
+}
+
+fn entries(path: &Path) -> Vec<RecordingEntry> {
+    Recording::open(path).unwrap().collect::<Result<_, _>>().unwrap()
+}
+
+/// A device that sends megabytes must not fill the memory, and hours must be recorded all the same.
+#[test]
+fn a_long_ride_is_recorded_from_its_beginning_at_any_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let past = folder.path().join("past");
+    let mut ride = LoggedRide::new();
+    ride.log = ride.log.keep_past_in(past.clone());
+    let whole = folder.path().join("whole.mcap");
+    ride.log.record(&whole).unwrap();
+    let kept = |expected: usize| {
+        let files = std::fs::read_dir(&past).map_or(0, Iterator::count);
+        assert_eq!(files, expected, "temporary recordings");
+    };
+    (0..10).for_each(|_| ride.frame(4 << 20).unwrap());
+    kept(0);
+    (0..10).for_each(|_| ride.frame(4 << 20).unwrap());
+    kept(1);
     ride.log.stop().unwrap();
-    (0..40).for_each(|_| ride.frame(4 << 20).unwrap());
-    let refused = ride.log.record(&folder.path().join("late.mcap"));
-    assert!(matches!(refused, Err(LogError::NotRemembered)));
+
+    let [early, late] = ["early.mcap", "late.mcap"].map(|name| folder.path().join(name));
+    ride.log.record(&early).unwrap();
+    (0..3).for_each(|_| ride.frame(100).unwrap());
+    ride.log.stop().unwrap();
+    (0..3).for_each(|_| ride.frame(100).unwrap());
+    ride.log.record(&late).unwrap();
+    ride.log.finish().unwrap();
+    assert_eq!((frames(&whole), frames(&early), frames(&late)), (20, 23, 26));
+    // The same entries to the last bit, whatever way they took.
+    let (whole, late) = (entries(&whole), entries(&late));
+    assert!(late.len() == 26 * 3 && whole == late[..whole.len()]);
+    drop(ride);
+    kept(0);
+}
+
+#[test]
+fn a_copy_that_is_removed_is_told_when_it_happens() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ride = long_ride(folder.path(), 80);
+    let path = folder.path().join("late.mcap");
+    ride.log.record(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let began = Instant::now();
+    let told = loop {
+        match ride.frame(1) {
+            Ok(()) => assert!(began.elapsed() < Duration::from_secs(20), "nothing was told"),
+            Err(error) => break error.to_string(),
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    };
+    assert!(told.contains("was removed or replaced"), "{told}");
+    assert!(matches!(ride.log.finish(), Err(LogError::Incomplete { path: told }) if told == path));
+}
+
+#[test]
+fn a_past_that_has_no_place_is_told_when_it_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocked = folder.path().join("a file");
+    std::fs::write(&blocked, "").unwrap();
+    let mut ride = long_ride(&blocked, 80);
+    let told = ride.log.record(&folder.path().join("late.mcap")).unwrap_err().to_string();
+    assert!(told.contains("no longer remembered (cannot create") && told.contains("--record FILE"), "{told}");
+}
+
+/// A program that was killed leaves its temporary recording; the next one removes it, but none that is in use.
+#[test]
+fn remnants_of_other_programs_are_removed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [old, used, other] = ["past-ride-1-0.mcap", "past-ride-2-0.mcap", "my ride.mcap"].map(|name| {
+        let path = folder.path().join(name);
+        let file = std::fs::File::create(&path).unwrap();
+        file.set_modified(std::time::SystemTime::now() - Duration::from_secs(3600)).unwrap();
+        (path, file)
+    });
+    used.1.lock_shared().unwrap();
+    let ride = long_ride(folder.path(), 80);
+    assert!(!old.0.exists() && used.0.exists() && other.0.exists());
+    drop(ride);
 }
