@@ -300,10 +300,12 @@ impl GamepadDecoder {
             GamepadItem::Axis { code, least, most, .. } => {
                 self.faults.count(format!("axis {code} that goes from {least} to {most}"));
             }
-            GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => match self.axes.get_mut(usize::from(self.map.axis(code).code)) {
-                Some(Some(axis)) => axis.value = f64::from(value),
-                _ => self.faults.count(format!("axis {code}, which was not announced")),
-            },
+            GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => {
+                match self.axes.get_mut(usize::from(self.map.axis(code).code)) {
+                    Some(Some(axis)) => axis.value = f64::from(value),
+                    _ => self.faults.count(format!("axis {code}, which was not announced")),
+                }
+            }
             // The value 2 is a repetition.
             GamepadItem::Event { kind: codes::KEY, code, value } => self.press(code, value != 0, actions),
             GamepadItem::Event { .. } => {}
@@ -411,9 +413,8 @@ mod tests {
 
     #[test]
     fn axes_and_buttons_do_the_work_that_they_are_given() {
-        let named = |pairs: &[(&str, &str)]| {
-            pairs.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect()
-        };
+        let named =
+            |pairs: &[(&str, &str)]| pairs.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect();
         let map = GamepadMap {
             axes: named(&[("z", "-x"), ("9", "rz")]),
             buttons: named(&[("south", "start"), ("300", "select")]),

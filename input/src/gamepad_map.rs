@@ -117,10 +117,9 @@ impl GamepadMap {
                             right_trigger, select, start, left_stick, right_stick, trigger, thumb or a number";
             return bad("gamepad.buttons", name, expected);
         }
-        for (key, zone) in [
-            ("gamepad.stick_dead_zone", self.stick_dead_zone),
-            ("gamepad.trigger_dead_zone", self.trigger_dead_zone),
-        ] {
+        for (key, zone) in
+            [("gamepad.stick_dead_zone", self.stick_dead_zone), ("gamepad.trigger_dead_zone", self.trigger_dead_zone)]
+        {
             if !(0.0..=0.9).contains(&zone) {
                 return Err(ConfigError { key, value: zone.to_string(), expected: "a share from 0 to 0.9" });
             }
@@ -148,12 +147,9 @@ mod tests {
 
     #[test]
     fn what_is_no_axis_or_button_is_told() {
-        for (axis, work, told) in [
-            ("q", "x", "gamepad.axes is \"q\""),
-            ("x", "--y", "\"-y\""),
-            ("64", "x", "\"64\""),
-            ("x", "-", "\"\""),
-        ] {
+        for (axis, work, told) in
+            [("q", "x", "gamepad.axes is \"q\""), ("x", "--y", "\"-y\""), ("64", "x", "\"64\""), ("x", "-", "\"\"")]
+        {
             let map =
                 GamepadMap { axes: BTreeMap::from([(axis.to_owned(), work.to_owned())]), ..GamepadMap::default() };
             let error = map.check().unwrap_err().to_string();

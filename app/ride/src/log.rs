@@ -10,9 +10,7 @@
 
 use crate::frame::RideFrame;
 use crate::past::Past;
-use input::recording::{
-    ControlsRecord, Recorder, RecordingEntry, RecordingError, RecordingFollower, RideHeader,
-};
+use input::recording::{ControlsRecord, Recorder, RecordingEntry, RecordingError, RecordingFollower, RideHeader};
 use input::{Nanos, Sample};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -193,9 +191,7 @@ impl RideLog {
         let Some((path, file)) = self.file.take() else { return Ok(()) };
         let finished = match (file, &mut self.past) {
             (WrittenFile::Entries(recorder), _) => recorder.finish(),
-            (WrittenFile::Copy(copy), Past::Disk(disk)) => {
-                disk.recorder.flush().and_then(|length| copy.finish(length))
-            }
+            (WrittenFile::Copy(copy), Past::Disk(disk)) => disk.recorder.flush().and_then(|length| copy.finish(length)),
             // What was copied until the past was lost can be replayed.
             (WrittenFile::Copy(_), _) => Err(RecordingError::Stopped { path: path.clone() }),
         };

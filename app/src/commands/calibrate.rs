@@ -31,7 +31,9 @@ const ANGLE_DEG: f64 = 45.0;
 #[derive(Debug, Error)]
 pub enum CalibratingError {
     /// No port named.
-    #[error("which bicycle? Name its port with --bicycle, such as --bicycle /dev/ttyUSB0; `rapidity devices` lists them")]
+    #[error(
+        "which bicycle? Name its port with --bicycle, such as --bicycle /dev/ttyUSB0; `rapidity devices` lists them"
+    )]
     NoPort,
     /// A box that sends nothing that can be read.
     #[error("{port}: no good line within {} s: {why}", FIRST_LINE.as_secs())]
@@ -87,13 +89,17 @@ pub fn calibrate(file: &Path, set_up: &SetUp, port: BicyclePort) -> Result<(), E
     let positions = dialogue.walk(kind, &before)?;
     let config = positions.settings(&before).map_err(CalibratingError::from)?;
     if positions.is_lopsided() {
-        say("The sensor goes much further to one side than to the other: was the handlebar straight, and were the angles right?")?;
+        say(
+            "The sensor goes much further to one side than to the other: was the handlebar straight, and were the angles right?",
+        )?;
     }
     write(&mut document, &name, port.baud, &config);
     let text = document.to_string();
     whole(file, |temporary| std::fs::write(temporary, &text)).map_err(|error| WriteError::new(file, error))?;
     let file = file.display();
-    say(format_args!("Written: {file}. Check it with `rapidity devices --set-up {file}`, ride with `rapidity ride --set-up {file}`."))?;
+    say(format_args!(
+        "Written: {file}. Check it with `rapidity devices --set-up {file}`, ride with `rapidity ride --set-up {file}`."
+    ))?;
     Ok(())
 }
 
@@ -235,14 +241,18 @@ impl Dialogue {
             sides.push((self.readings.steer().unwrap_or(none).median, degrees.to_radians()));
         }
 
-        let answer = self.ask("4. Pull the brake lever through, and press Enter. (No sensor there? Type none.)", brake)?;
+        let answer =
+            self.ask("4. Pull the brake lever through, and press Enter. (No sensor there? Type none.)", brake)?;
         if answer != "none" {
             self.hold()?;
         }
         let full = self.readings.brake().unwrap_or(none).median;
 
         let still = self.readings.pulses();
-        self.ask("5. Turn the wheel by one whole turn, with the pedals at rest if they can be, and press Enter.", pulses)?;
+        self.ask(
+            "5. Turn the wheel by one whole turn, with the pedals at rest if they can be, and press Enter.",
+            pulses,
+        )?;
         self.hold()?;
         let turned = self.readings.pulses();
         self.ask("6. Turn the pedals by one whole turn, and press Enter.", pulses)?;
@@ -251,7 +261,8 @@ impl Dialogue {
         let (wheel, crank) = (turned[0] - still[0], pedalled[1] - turned[1]);
 
         let metres = |what: &str, usual: f64| format!("How many metres is one turn of the {what}? [{usual}]");
-        let per_wheel = self.number(&metres("wheel", before.wheel_circumference_m), before.wheel_circumference_m, pulses)?;
+        let per_wheel =
+            self.number(&metres("wheel", before.wheel_circumference_m), before.wheel_circumference_m, pulses)?;
         let per_crank = if wheel == 0 && crank > 0 {
             let usual = before.metres_per_crank_turn;
             say("The wheel sends nothing, so the speed is made from the pedals.")?;
@@ -286,7 +297,13 @@ fn document(file: &Path) -> Result<DocumentMut, CalibratingError> {
 
 /// Puts the settings into the table `[bicycle]`.
 fn write(document: &mut DocumentMut, port: &str, baud: Option<u32>, config: &BicycleConfig) {
-    let table = document.entry("bicycle").or_insert(Item::Table(Table::new()));
+    let table = document.entry("bicycle").or_insert_with(|| {
+        let mut table = Table::new();
+        table
+            .decor_mut()
+            .set_prefix("# Written by `rapidity devices --calibrate`; docs/DEVICES.md explains every key.\n");
+        Item::Table(table)
+    });
     table["port"] = value(port);
     if let Some(baud) = baud {
         table["baud"] = value(i64::from(baud));

@@ -1,7 +1,7 @@
 //! The commands of the program, a file each.
 
-mod cameraman;
 pub mod calibrate;
+mod cameraman;
 pub mod check;
 pub mod devices;
 pub mod measure;

@@ -1,6 +1,8 @@
 //! Tests of the program as a process, one module a subject.
 #![allow(clippy::unwrap_used, reason = "what cannot be read or started is a failed test")]
 
+#[cfg(unix)]
+mod bicycle_set_up;
 #[cfg(target_os = "linux")]
 mod cache;
 mod calibration;

@@ -30,8 +30,7 @@ impl DisplayTables {
     /// Tables about the rider's hardware, unchanged.
     pub(super) fn set_up(&self) -> toml::Table {
         let Self { bicycle, rider, axes, gamepad, keys, .. } = self;
-        let tables =
-            [("bicycle", bicycle), ("rider", rider), ("axes", axes), ("gamepad", gamepad), ("keys", keys)];
+        let tables = [("bicycle", bicycle), ("rider", rider), ("axes", axes), ("gamepad", gamepad), ("keys", keys)];
         tables.into_iter().filter_map(|(name, table)| Some((name.to_owned(), table.clone()?))).collect()
     }
 }
