@@ -31,6 +31,7 @@ pub mod dtrack;
 mod faults;
 pub mod filters;
 pub mod gamepad;
+mod glide;
 pub mod head;
 mod key;
 pub mod keyboard;

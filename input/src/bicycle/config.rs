@@ -43,6 +43,14 @@ pub struct BicycleConfig {
     pub four_field_brake_full: f64,
     /// Meaning of a line with a single number.
     pub bare_number: BareNumber,
+    /// True if the speed glides from one bare number to the next. False, as in recordings made before it did: each
+    /// holds for half a second and then fades, which saws where numbers come less often than twice a second.
+    #[serde(default = "not_in_old_recordings")]
+    pub bare_number_glides: bool,
+}
+
+fn not_in_old_recordings() -> bool {
+    false
 }
 
 impl Default for BicycleConfig {
@@ -62,6 +70,7 @@ impl Default for BicycleConfig {
             four_field_steer_rad: -0.6,
             four_field_brake_full: 1.0,
             bare_number: BareNumber::default(),
+            bare_number_glides: true,
         }
     }
 }
@@ -86,5 +95,18 @@ impl BicycleConfig {
             return Err(ConfigError { key: "bicycle.steer_straight", value, expected: "a finite number" });
         }
         not_zero("bicycle.brake_full - bicycle.brake_released", self.brake_full - self.brake_released)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: the header of an old recording means what it meant.
+    use super::*;
+
+    #[test]
+    fn bare_numbers_glide_but_in_old_recordings() {
+        assert!(BicycleConfig::default().bare_number_glides);
+        let old: BicycleConfig = serde_json::from_str("{}").unwrap();
+        assert_eq!(old, BicycleConfig { bare_number_glides: false, ..Default::default() });
     }
 }

@@ -130,8 +130,23 @@ fn an_interval_that_four_fields_repeat_counts_once() {
 }
 
 #[test]
-fn a_bare_number_is_a_speed_that_fades() {
-    let mut bicycle = bicycle();
+fn a_bare_number_once_a_second_is_a_steady_speed() {
+    for gap in [2 * SECOND, SECOND, SECOND / 4] {
+        let mut bicycle = bicycle();
+        for n in 0..20 {
+            feed(&mut bicycle, n * gap, "36\r\n");
+            for look in 0..100 {
+                let speed = bicycle.wheel_speed(n * gap + look * gap / 100).unwrap();
+                assert!((speed - 10.0).abs() < 0.1, "{speed} after number {n}");
+            }
+        }
+        assert_eq!(bicycle.wheel_speed(25 * gap + 4 * SECOND), Some(0.0));
+    }
+}
+
+#[test]
+fn a_bare_number_of_an_old_recording_is_a_speed_that_fades() {
+    let mut bicycle = BicycleDecoder::new(BicycleConfig { bare_number_glides: false, ..Default::default() });
     assert_eq!(bicycle.wheel_speed(0), None);
     feed(&mut bicycle, SECOND, "36\r\n");
     assert_eq!(bicycle.wheel_speed(SECOND), Some(10.0));
