@@ -9,6 +9,7 @@ use crate::bicycle::config::BicycleConfig;
 use crate::config_error::ConfigError;
 use crate::head::config::HeadConfig;
 use crate::rider_config::RiderConfig;
+use crate::trainer::config::TrainerConfig;
 
 /// Settings of all decoders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +17,8 @@ use crate::rider_config::RiderConfig;
 pub struct DeskConfig {
     /// Settings of the instrumented bicycle.
     pub bicycle: BicycleConfig,
+    /// Settings of the trainer.
+    pub trainer: TrainerConfig,
     /// Settings for riding the bicycle with keys or a gamepad.
     pub rider: RiderConfig,
     /// Axes of a SpaceMouse read as raw HID.
@@ -38,6 +41,7 @@ impl Default for DeskConfig {
     fn default() -> Self {
         Self {
             bicycle: BicycleConfig::default(),
+            trainer: TrainerConfig::default(),
             rider: RiderConfig::default(),
             space_mouse: AxisTable::RAW,
             spacenavd: AxisTable::SPACENAVD,
@@ -54,6 +58,7 @@ impl DeskConfig {
     /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.bicycle.check()?;
+        self.trainer.check()?;
         self.rider.check()?;
         self.space_mouse.check("space_mouse")?;
         self.spacenavd.check("spacenavd")?;

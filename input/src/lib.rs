@@ -45,6 +45,7 @@ mod sample;
 pub mod settings;
 pub mod spacemouse;
 pub mod spacenavd;
+pub mod trainer;
 pub mod vrpn;
 
 pub use action::{Action, VehicleKind};
@@ -63,3 +64,4 @@ pub use key::KeyboardKey;
 pub use look::{FreeLook, LookDecoder, STEEPEST_LOOK_RAD};
 pub use rider_config::RiderConfig;
 pub use sample::{Sample, SampleSource, Signal};
+pub use trainer::{RoadLoad, TrainerConfig, TrainerUrl};
