@@ -11,6 +11,7 @@ use crate::gamepad_map::GamepadMap;
 use crate::head::config::HeadConfig;
 use crate::key_map::KeyMap;
 use crate::rider_config::RiderConfig;
+use crate::trainer::config::TrainerConfig;
 
 /// Settings of all decoders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,8 @@ use crate::rider_config::RiderConfig;
 pub struct DeskConfig {
     /// Settings of the instrumented bicycle.
     pub bicycle: BicycleConfig,
+    /// Settings of the trainer.
+    pub trainer: TrainerConfig,
     /// Settings for riding the bicycle with keys or a gamepad.
     pub rider: RiderConfig,
     /// Axes of a SpaceMouse read as raw HID.
@@ -46,6 +49,7 @@ impl Default for DeskConfig {
     fn default() -> Self {
         Self {
             bicycle: BicycleConfig::default(),
+            trainer: TrainerConfig::default(),
             rider: RiderConfig::default(),
             space_mouse: AxisTable::RAW,
             spacenavd: AxisTable::SPACENAVD,
@@ -64,6 +68,7 @@ impl DeskConfig {
     /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.bicycle.check()?;
+        self.trainer.check()?;
         self.rider.check()?;
         self.space_mouse.check("space_mouse")?;
         self.spacenavd.check("spacenavd")?;

@@ -4,7 +4,7 @@
 //! depends on nothing else, so the samples and frame times of a recording give the same bits.
 //!
 //! Several devices may be used at once. Deflections add up and are clamped; the stronger brake wins; the wheel speed
-//! is the faster of the measured and the simulated one. Keys and sticks turn the handlebar only as far as a rider
+//! is the fastest of the measured ones and the simulated one. Keys and sticks turn the handlebar only as far as a rider
 //! would lean: at the speed v no further than tan δ = a L / v².
 //!
 //! Keys, the mouse and a gamepad's second stick turn the rider's look, unless a tracked head decides where it goes.
@@ -34,6 +34,7 @@ use crate::sample::{Sample, SampleSource, Signal};
 use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
 use crate::spacenavd::SpacenavdDecoder;
+use crate::trainer::decoder::TrainerDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
 use glam::DVec3;
 
@@ -46,6 +47,7 @@ pub struct Desk {
     space_mouse: SpaceMouseDecoder,
     spacenavd: SpacenavdDecoder,
     bicycle: BicycleDecoder,
+    trainer: TrainerDecoder,
     vrpn: VrpnDecoder,
     dtrack: DtrackDecoder,
     mouse: MouseDecoder,
@@ -84,6 +86,7 @@ impl Desk {
             space_mouse: SpaceMouseDecoder::new(config.space_mouse),
             spacenavd: SpacenavdDecoder::new(config.spacenavd),
             bicycle: BicycleDecoder::new(config.bicycle.clone()),
+            trainer: TrainerDecoder::new(config.trainer.clone()),
             settings: ActionDecoder::default(),
             actions: Actions::default(),
             config,
@@ -103,6 +106,7 @@ impl Desk {
             SampleSource::SpaceMouse => &mut self.space_mouse,
             SampleSource::Spacenavd => &mut self.spacenavd,
             SampleSource::Bicycle => &mut self.bicycle,
+            SampleSource::Trainer => &mut self.trainer,
             SampleSource::Vrpn => &mut self.vrpn,
             SampleSource::Dtrack => &mut self.dtrack,
             SampleSource::Mouse if self.mouse_looks() => &mut self.look,
@@ -182,6 +186,11 @@ impl Desk {
         self.head.as_ref()
     }
 
+    /// Decoder of the trainer, with the rider's power.
+    pub fn trainer(&self) -> &TrainerDecoder {
+        &self.trainer
+    }
+
     /// Decoder of the VRPN server, with the server's descriptions.
     pub fn vrpn(&self) -> &VrpnDecoder {
         &self.vrpn
@@ -199,6 +208,7 @@ impl Desk {
         let rider = &self.config.rider;
         let wheel_speed = [
             self.bicycle.wheel_speed(at),
+            self.trainer.wheel_speed(at),
             self.keyboard.wheel_speed(at),
             self.gamepad.pedal().map(|pedal| pedal * rider.cruise_m_s),
         ]
@@ -221,7 +231,7 @@ impl Desk {
         let actions = self.actions.take();
         Controls {
             wheel_speed,
-            cadence_hz: self.bicycle.cadence_hz(at),
+            cadence_hz: self.bicycle.cadence_hz(at).or_else(|| self.trainer.cadence_hz(at)),
             steer_rad,
             brake: self.bicycle.brake().max(self.keyboard.brake(at)).max(self.gamepad.brake()),
             thrust: [deflection(0), deflection(1), deflection(2)],
@@ -240,6 +250,7 @@ impl Desk {
             SampleSource::SpaceMouse => self.space_mouse.faults(),
             SampleSource::Spacenavd => self.spacenavd.faults(),
             SampleSource::Bicycle => self.bicycle.faults(),
+            SampleSource::Trainer => self.trainer.faults(),
             SampleSource::Vrpn => self.vrpn.faults(),
             SampleSource::Dtrack => self.dtrack.faults(),
             SampleSource::Mouse if self.mouse_looks() => self.look.faults(),
@@ -284,6 +295,25 @@ mod tests {
         desk.feed(&Sample::key(SECOND, KeyboardKey::D, true));
         desk.feed(&push_right(3 * SECOND));
         assert_eq!(desk.controls(3 * SECOND).thrust[0], 1.0);
+    }
+
+    #[test]
+    fn a_trainer_pedals_and_its_crank_counts_where_no_other_sensor_does() {
+        use crate::trainer::wire::{DirectConnectMessage, INDOOR_BIKE_DATA, NOTIFICATION, uuid};
+        let mut desk = desk();
+        // 36 km/h and 90 turns a minute.
+        let data = [&uuid(INDOOR_BIKE_DATA)[..], &[4, 0, 0x10, 0x0e, 180, 0]].concat();
+        let message = DirectConnectMessage { kind: NOTIFICATION, sequence: 0, response: 0, data: &data };
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Trainer, message.to_bytes()));
+        desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"18\n"));
+        let controls = desk.controls(SECOND);
+        assert!((controls.wheel_speed.unwrap() - 10.0).abs() < 1e-9);
+        assert_eq!(controls.cadence_hz, Some(1.5));
+        // It has no handlebar: whoever steers by keys is still helped.
+        desk.feed(&Sample::closed(SECOND, SampleSource::Bicycle));
+        assert!(!desk.is_steered_by_hand());
+        desk.feed(&Sample::closed(SECOND, SampleSource::Trainer));
+        assert_eq!(desk.controls(SECOND).wheel_speed, None);
     }
 
     #[test]

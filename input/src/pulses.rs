@@ -2,7 +2,7 @@
 //!
 //! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the age of the last
 //! pulse is measured on this machine's. Between pulses the estimate is capped by the silence (at a higher rate the
-//! next pulse would be here already). So it decays by itself, and after a while of silence it is zero.
+//! next pulse would be here already, unless its message is late). So it decays by itself, and after a while of silence it is zero.
 
 use crate::clock::{Nanos, seconds_between};
 use crate::filters::{MedianOfThree, OneEuro};
@@ -21,6 +21,8 @@ pub struct PulseRate {
     shortest_interval_s: f64,
     /// Silence after which the rate is zero, seconds.
     stop_after_s: f64,
+    /// Delay of a pulse's message that is allowed for before silence lowers the rate, seconds.
+    late_s: f64,
     last_pulse: Option<Nanos>,
     rate_hz: f64,
     median: MedianOfThree,
@@ -29,10 +31,11 @@ pub struct PulseRate {
 
 impl PulseRate {
     /// Estimator at rest until it has seen two pulses.
-    pub fn new(shortest_interval_s: f64, stop_after_s: f64) -> Self {
+    pub fn new(shortest_interval_s: f64, stop_after_s: f64, late_s: f64) -> Self {
         Self {
             shortest_interval_s,
             stop_after_s,
+            late_s,
             last_pulse: None,
             rate_hz: 0.0,
             median: MedianOfThree::default(),
@@ -42,7 +45,7 @@ impl PulseRate {
 
     /// Forgets all pulses.
     pub fn reset(&mut self) {
-        *self = Self::new(self.shortest_interval_s, self.stop_after_s);
+        *self = Self::new(self.shortest_interval_s, self.stop_after_s, self.late_s);
     }
 
     /// Takes `count` new pulses, the last of them at `at`, which took `interval_s` since the last one before them.
@@ -75,7 +78,8 @@ impl PulseRate {
     /// Pulses a second at the time `at`.
     pub fn rate_hz(&self, at: Nanos) -> f64 {
         let silence_s = self.last_pulse.map_or(f64::INFINITY, |last| seconds_between(last, at));
-        if silence_s > self.stop_after_s { 0.0 } else { self.rate_hz.min(1.0 / silence_s) }
+        let missing_s = if self.late_s > 0.0 { (silence_s - self.late_s).max(0.0) } else { silence_s };
+        if silence_s > self.stop_after_s { 0.0 } else { self.rate_hz.min(1.0 / missing_s) }
     }
 }
 
@@ -90,11 +94,22 @@ mod tests {
     const ROUNDING: f64 = 1e-12;
 
     fn steady(interval: Nanos, pulses: u64) -> PulseRate {
-        let mut rate = PulseRate::new(0.02, 2.0);
+        let mut rate = PulseRate::new(0.02, 2.0, 0.0);
         for n in 0..pulses {
             assert!(rate.pulses(n * interval, 1, interval as f64 * 1e-9));
         }
         rate
+    }
+
+    /// A box sends lines, not pulses: the next pulse is known up to a line later.
+    #[test]
+    fn a_message_that_is_late_lowers_no_rate() {
+        let mut rate = PulseRate::new(0.02, 2.0, 0.06);
+        assert!((0..10).all(|n| rate.pulses(n * SECOND / 4, 1, 0.25)));
+        let after = |silence_s: f64| rate.rate_hz(9 * SECOND / 4 + (silence_s * 1e9) as Nanos);
+        assert!((after(0.30) - 4.0).abs() < ROUNDING, "{}", after(0.30));
+        assert!((after(0.56) - 2.0).abs() < 1e-6, "{}", after(0.56));
+        assert_eq!(after(2.01), 0.0);
     }
 
     #[test]
@@ -110,7 +125,7 @@ mod tests {
 
     #[test]
     fn several_pulses_at_once_read_like_single_ones() {
-        let mut rate = PulseRate::new(0.02, 2.0);
+        let mut rate = PulseRate::new(0.02, 2.0, 0.0);
         rate.pulses(0, 1, 0.1);
         rate.pulses(SECOND / 2, 5, 0.5);
         assert!((rate.rate_hz(SECOND / 2) - 10.0).abs() < ROUNDING);

@@ -27,6 +27,8 @@ pub enum SampleSource {
     Spacenavd,
     /// An instrumented bicycle on a serial port: [`crate::bicycle`].
     Bicycle,
+    /// A motor-braked trainer over the network: [`crate::trainer`].
+    Trainer,
     /// A tracker through a VRPN server: [`crate::vrpn`].
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
@@ -40,12 +42,13 @@ pub enum SampleSource {
 
 impl SampleSource {
     /// All sources, in the order of the listing.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Keyboard,
         Self::Gamepad,
         Self::SpaceMouse,
         Self::Spacenavd,
         Self::Bicycle,
+        Self::Trainer,
         Self::Vrpn,
         Self::Dtrack,
         Self::Mouse,
@@ -60,6 +63,7 @@ impl SampleSource {
             Self::SpaceMouse => "space_mouse",
             Self::Spacenavd => "spacenavd",
             Self::Bicycle => "bicycle",
+            Self::Trainer => "trainer",
             Self::Vrpn => "vrpn",
             Self::Dtrack => "dtrack",
             Self::Mouse => "mouse",

@@ -18,8 +18,8 @@
 use input::{AxisTable, ConfigError, DeskConfig};
 use regular_file::FileFault;
 use room::Display;
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml::{Table, Value};
@@ -76,7 +76,7 @@ pub struct SetUp {
 }
 
 /// Port of the bicycle, which is no setting of its decoder.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct BicyclePort {
     /// Serial port, such as /dev/ttyACM0.
@@ -86,7 +86,7 @@ pub struct BicyclePort {
 }
 
 /// Axes of the SpaceMouse, by the way in which it is read.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct SpaceMouseAxes {
     space_mouse: AxisTable,
@@ -145,7 +145,7 @@ impl SetUp {
     }
 
     /// Table as its settings; the usual ones if it is missing.
-    fn table<T: DeserializeOwned + Default>(&self, name: &str) -> Result<T, SetUpError> {
+    fn table<T: DeserializeOwned + Default + Serialize>(&self, name: &str) -> Result<T, SetUpError> {
         let Some((table, place, value)) = self.find(name) else { return Ok(T::default()) };
         settings(table, place, value.clone())
     }
@@ -198,9 +198,20 @@ impl SetUp {
     }
 }
 
-/// Value of a table as its settings.
-fn settings<T: DeserializeOwned>(table: &'static str, place: &str, value: Value) -> Result<T, SetUpError> {
-    T::deserialize(value).map_err(|error| SetUpError::Table {
+/// Value of a table as its settings. A missing key has its present usual value, not that of old recordings.
+fn settings<T: DeserializeOwned + Default + Serialize>(
+    table: &'static str,
+    place: &str,
+    value: Value,
+) -> Result<T, SetUpError> {
+    let whole = match (Table::try_from(T::default()), value) {
+        (Ok(mut usual), Value::Table(given)) => {
+            usual.extend(given);
+            Value::Table(usual)
+        }
+        (_, value) => value,
+    };
+    T::deserialize(whole).map_err(|error| SetUpError::Table {
         place: place.to_owned(),
         table,
         reason: one_line(&error.to_string()),
@@ -239,6 +250,8 @@ mod tests {
         let port = BicyclePort { port: Some("/dev/ttyUSB7".to_owned()), baud: Some(9600) };
         assert_eq!(set_up.port().unwrap(), port);
         let desk = set_up.desk().unwrap();
+        // A key that the file lacks is as in a ride without a file, not as in an old recording.
+        assert!(desk.bicycle.bare_number_glides && desk.bicycle.late_s > 0.0);
         assert_eq!((desk.bicycle.speed_from, desk.bicycle.metres_per_crank_turn), (SpeedSource::Cadence, 4.5));
         assert_eq!((desk.rider.cruise_m_s, desk.space_mouse), (4.0, AxisTable([2, 1, 3, 4, 5, 6])));
         assert_eq!(desk.spacenavd, AxisTable::SPACENAVD);

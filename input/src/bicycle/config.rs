@@ -44,6 +44,10 @@ pub struct BicycleConfig {
     pub fastest_m_s: f64,
     /// Time without a pulse or a number after which the wheel counts as standing, seconds.
     pub stop_after_s: f64,
+    /// Delay of a line that is allowed for before a missing pulse slows the wheel down, seconds: a box that sends
+    /// fifty lines a second tells a pulse up to a fiftieth late. 0, as in recordings made before: none.
+    #[serde(default = "none_in_old_recordings")]
+    pub late_s: f64,
     /// Reading of the steering sensor straight ahead.
     pub steer_straight: f64,
     /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
@@ -63,6 +67,18 @@ pub struct BicycleConfig {
     pub four_field_brake_full: f64,
     /// Meaning of a line with a single number.
     pub bare_number: BareNumber,
+    /// True if the speed glides from one bare number to the next. False, as in recordings made before it did: each
+    /// holds for half a second and then fades, which saws where numbers come less often than twice a second.
+    #[serde(default = "not_in_old_recordings")]
+    pub bare_number_glides: bool,
+}
+
+fn not_in_old_recordings() -> bool {
+    false
+}
+
+fn none_in_old_recordings() -> f64 {
+    0.0
 }
 
 impl Default for BicycleConfig {
@@ -77,6 +93,7 @@ impl Default for BicycleConfig {
             metres_per_crank_turn: 5.5,
             fastest_m_s: 30.0,
             stop_after_s: 2.0,
+            late_s: 0.06,
             steer_straight: 512.0,
             steer_rad_per_unit: -270.0_f64.to_radians() / 1023.0,
             steer_dead_rad: 0.0,
@@ -86,6 +103,7 @@ impl Default for BicycleConfig {
             four_field_steer_rad: -0.6,
             four_field_brake_full: 1.0,
             bare_number: BareNumber::default(),
+            bare_number_glides: true,
         }
     }
 }
@@ -103,6 +121,10 @@ impl BicycleConfig {
         positive("bicycle.metres_per_crank_turn", self.metres_per_crank_turn)?;
         positive("bicycle.fastest_m_s", self.fastest_m_s)?;
         positive("bicycle.stop_after_s", self.stop_after_s)?;
+        if !(0.0..=1.0).contains(&self.late_s) {
+            let value = self.late_s.to_string();
+            return Err(ConfigError { key: "bicycle.late_s", value, expected: "a time from 0 to 1 second" });
+        }
         not_zero("bicycle.steer_rad_per_unit", self.steer_rad_per_unit)?;
         not_zero("bicycle.four_field_steer_rad", self.four_field_steer_rad)?;
         if !(0.0..1.0).contains(&self.steer_dead_rad) {
@@ -119,5 +141,18 @@ impl BicycleConfig {
             return Err(ConfigError { key: "bicycle.steer_straight", value, expected: "a finite number" });
         }
         not_zero("bicycle.brake_full - bicycle.brake_released", self.brake_full - self.brake_released)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: the header of an old recording means what it meant.
+    use super::*;
+
+    #[test]
+    fn bare_numbers_glide_and_lines_may_be_late_but_in_old_recordings() {
+        assert!(BicycleConfig::default().bare_number_glides && BicycleConfig::default().late_s > 0.0);
+        let old: BicycleConfig = serde_json::from_str("{}").unwrap();
+        assert_eq!(old, BicycleConfig { bare_number_glides: false, late_s: 0.0, ..Default::default() });
     }
 }

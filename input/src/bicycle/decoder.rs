@@ -6,6 +6,7 @@ use super::protocol::{BicycleLine, PulseCount};
 use crate::clock::{Nanos, seconds_between};
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
+use crate::glide::Glide;
 use crate::line::{LineError, Lines};
 use crate::pulses::PulseRate;
 
@@ -13,7 +14,7 @@ use crate::pulses::PulseRate;
 const FASTEST_CADENCE_HZ: f64 = 5.0;
 /// Largest possible jump of the counter; beyond it the box has restarted.
 const MOST_PULSES_AT_ONCE: u32 = 1000;
-/// Time for which a bare speed holds before it begins to fade, seconds.
+/// Time for which a bare speed that does not glide holds before it begins to fade, seconds.
 const BARE_SPEED_HOLDS_S: f64 = 0.5;
 
 /// Cumulative counter and the rate that it gives.
@@ -24,8 +25,8 @@ struct PulseCounter {
 }
 
 impl PulseCounter {
-    fn new(shortest_interval_s: f64, stop_after_s: f64) -> Self {
-        Self { rate: PulseRate::new(shortest_interval_s, stop_after_s), last: None }
+    fn new(shortest_interval_s: f64, config: &BicycleConfig) -> Self {
+        Self { rate: PulseRate::new(shortest_interval_s, config.stop_after_s, config.late_s), last: None }
     }
 
     fn reset(&mut self) {
@@ -68,6 +69,7 @@ enum WheelSpeed {
     Pulses,
     Cadence,
     Bare { metres_per_second: f64, at: Nanos },
+    Glides,
 }
 
 /// Decoder of [`SampleSource::Bicycle`](crate::SampleSource::Bicycle).
@@ -81,6 +83,8 @@ pub struct BicycleDecoder {
     has_crank: bool,
     belief: SpeedBelief,
     speed: WheelSpeed,
+    /// Speed between bare numbers, m/s.
+    glide: Glide,
     steer_rad: f64,
     brake: f64,
 }
@@ -88,9 +92,10 @@ pub struct BicycleDecoder {
 impl BicycleDecoder {
     /// Decoder without any line yet.
     pub fn new(config: BicycleConfig) -> Self {
-        let wheel = PulseCounter::new(config.metres_per_pulse() / config.fastest_m_s, config.stop_after_s);
-        let crank = PulseCounter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), config.stop_after_s);
+        let wheel = PulseCounter::new(config.metres_per_pulse() / config.fastest_m_s, &config);
+        let crank = PulseCounter::new(1.0 / (FASTEST_CADENCE_HZ * config.pulses_per_crank_turn), &config);
         Self {
+            glide: Glide::new(config.stop_after_s),
             config,
             lines: Lines::default(),
             faults: Faults::default(),
@@ -114,6 +119,7 @@ impl BicycleDecoder {
                 let turns_hz = self.crank.rate.rate_hz(at) / config.pulses_per_crank_turn;
                 Some((turns_hz * config.metres_per_crank_turn).min(config.fastest_m_s))
             }
+            WheelSpeed::Glides => self.glide.speed(at),
             WheelSpeed::Bare { metres_per_second, at: said_at } => {
                 let fading_s = (self.config.stop_after_s - BARE_SPEED_HOLDS_S).max(f64::MIN_POSITIVE);
                 let left_s = self.config.stop_after_s - seconds_between(said_at, at);
@@ -190,7 +196,12 @@ impl BicycleDecoder {
                         expected: "a speed that a rider reaches from the one before, or the same again in three lines",
                     });
                 }
-                self.speed = WheelSpeed::Bare { metres_per_second, at };
+                self.speed = if self.config.bare_number_glides {
+                    self.glide.read(at, metres_per_second);
+                    WheelSpeed::Glides
+                } else {
+                    WheelSpeed::Bare { metres_per_second, at }
+                };
             }
         }
         Ok(())
@@ -219,6 +230,7 @@ impl Decoder for BicycleDecoder {
         self.has_crank = false;
         self.belief = SpeedBelief::default();
         self.speed = WheelSpeed::Unknown;
+        self.glide.reset();
         self.steer_rad = 0.0;
         self.brake = 0.0;
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::head::url::TrackerUrl;
+use crate::trainer::url::TrainerUrl;
 
 /// Devices to look for, and their places.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,6 +12,10 @@ pub struct DevicesConfig {
     pub bicycle: Option<String>,
     /// Speed of the serial port, baud.
     pub baud: u32,
+    /// Trainer over the network.
+    pub trainer: Option<TrainerUrl>,
+    /// Share of the road's slope that the trainer makes felt, percent.
+    pub slope_felt_percent: u8,
     /// True if a SpaceMouse is looked for.
     pub space_mouse: bool,
     /// Socket of spacenavd, for a SpaceMouse that may not be read directly.
@@ -26,6 +31,8 @@ impl Default for DevicesConfig {
         Self {
             bicycle: None,
             baud: 115_200,
+            trainer: None,
+            slope_felt_percent: 100,
             space_mouse: true,
             spacenavd_socket: PathBuf::from("/run/spnav.sock"),
             gamepad: true,

@@ -44,6 +44,11 @@ pub(super) trait DeviceConnection {
         0
     }
 
+    /// Sentence on a device that is open and yet does not do all that it should.
+    fn note(&self) -> Option<&str> {
+        None
+    }
+
     /// Asks for a full report: samples had to be dropped, and this device may report only changes.
     fn report_all(&mut self) {}
 }
@@ -68,6 +73,8 @@ pub struct DeviceStatus {
     pub path: String,
     /// State of the device: open, or the reason why not.
     pub state: DeviceState,
+    /// Sentence on a device that is open and yet does not do all that it should.
+    pub note: Option<String>,
     /// Samples a second, over the last second.
     pub rate_hz: f64,
     /// Number of samples so far.
@@ -128,6 +135,7 @@ impl DeviceFeed {
             name: source.name().to_owned(),
             path: String::new(),
             state: DeviceState::Absent("being looked for".to_owned()),
+            note: None,
             rate_hz: 0.0,
             samples: 0,
             dropped: 0,
@@ -167,6 +175,7 @@ impl DeviceFeed {
     /// Reads until the device goes or the program ends; returns the reason.
     fn read(&self, source: SampleSource, connection: &mut dyn DeviceConnection) -> String {
         let mut bytes = Vec::new();
+        let mut noted: Option<String> = None;
         while !self.is_stopped() {
             bytes.clear();
             if let Err(error) = connection.read(&mut bytes) {
@@ -175,6 +184,10 @@ impl DeviceFeed {
             let passed_over = connection.passed_over();
             if passed_over > 0 {
                 lock(&self.live).status.dropped += passed_over;
+            }
+            if connection.note() != noted.as_deref() {
+                noted = connection.note().map(str::to_owned);
+                lock(&self.live).status.note.clone_from(&noted);
             }
             if !bytes.is_empty() && self.bytes(source, &bytes) {
                 connection.report_all();
@@ -198,6 +211,7 @@ impl DeviceFeed {
     fn absent(&self, why: String) {
         let mut live = lock(&self.live);
         live.status.state = DeviceState::Absent(why);
+        live.status.note = None;
         live.status.rate_hz = 0.0;
     }
 

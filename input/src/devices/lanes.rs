@@ -1,6 +1,7 @@
 //! All devices that are looked for, each with its thread and its queue.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicI16, Ordering};
 use std::thread::{self, JoinHandle};
 
 use crossbeam_channel::{Receiver, Sender, bounded};
@@ -11,10 +12,12 @@ use super::dtrack::DtrackPort;
 use super::feed::{DeviceFeed, DevicePort, DeviceStatus, SharedNews, status};
 use super::puck::PuckPort;
 use super::serial::{BrakeSlot, SerialPort};
+use super::trainer::TrainerPort;
 use super::vrpn::VrpnPort;
 use crate::clock::Clock;
 use crate::head::url::TrackerUrl;
 use crate::sample::{Sample, SampleSource};
+use crate::trainer::RoadLoad;
 
 /// Length of a device's queue, samples: several seconds of the fastest device.
 const QUEUE: usize = 4096;
@@ -48,6 +51,10 @@ pub struct Devices {
     clock: Clock,
     lanes: Vec<DeviceLane>,
     brake: Arc<BrakeSlot>,
+    /// Grade that the trainer simulates, in 0.01 %.
+    grade: Arc<AtomicI16>,
+    /// Share of the slope that the trainer makes felt.
+    slope_felt: f64,
     /// Channel that is closed to end the threads.
     stop: Option<Sender<()>>,
 }
@@ -60,9 +67,20 @@ impl Devices {
     pub fn open(config: &DevicesConfig, clock: Clock) -> Result<Self, DevicesError> {
         let (stop, stopped) = bounded(0);
         let brake = Arc::new(BrakeSlot::default());
-        let mut devices = Self { clock, lanes: Vec::new(), brake: brake.clone(), stop: Some(stop) };
+        let mut devices = Self {
+            clock,
+            lanes: Vec::new(),
+            brake: brake.clone(),
+            grade: Arc::default(),
+            slope_felt: f64::from(config.slope_felt_percent) / 100.0,
+            stop: Some(stop),
+        };
         if let Some(path) = &config.bicycle {
             devices.start(SampleSource::Bicycle, SerialPort::new(path, config.baud, brake), QUEUE, &stopped)?;
+        }
+        if let Some(url) = &config.trainer {
+            let port = TrainerPort::new(url.clone(), devices.grade.clone());
+            devices.start(SampleSource::Trainer, port, TRACKER_QUEUE, &stopped)?;
         }
         if config.space_mouse {
             devices.start(SampleSource::SpaceMouse, PuckPort::new(config.spacenavd_socket.clone()), QUEUE, &stopped)?;
@@ -114,6 +132,11 @@ impl Devices {
     /// most fifty a second.
     pub fn brake(&self, brake: f64) {
         self.brake.set(brake);
+    }
+
+    /// Tells the trainer the road. This may be called every frame: a grade that changes is sent a few times a second.
+    pub fn load(&self, load: RoadLoad) {
+        self.grade.store(load.grade(self.slope_felt), Ordering::Relaxed);
     }
 
     /// Status of each device.

@@ -22,6 +22,7 @@ mod puck;
 mod serial;
 #[cfg(unix)]
 mod socket;
+mod trainer;
 mod vrpn;
 
 pub use config::DevicesConfig;

@@ -113,7 +113,7 @@ impl FromStr for TrackerUrl {
 }
 
 /// Splits `HOST[:PORT]`; an IPv6 address stands in brackets.
-fn host_and_port<'a>(url: &str, place: &'a str, usual: u16) -> Result<(&'a str, u16), TrackerUrlError> {
+pub(crate) fn host_and_port<'a>(url: &str, place: &'a str, usual: u16) -> Result<(&'a str, u16), TrackerUrlError> {
     let (host, port) = match place.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
         Some((host, "")) => (host, None),
         // A text without its colon is no port.
