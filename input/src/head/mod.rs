@@ -15,6 +15,7 @@
 //! confirms the leap. A head that is lost keeps its place, and its velocity fades. It is never moved to the origin.
 
 pub(crate) mod config;
+pub(crate) mod heard;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
 mod placement;
@@ -29,6 +30,7 @@ pub(crate) mod url;
 mod velocity;
 
 pub use config::{HEAD_EDITION, HeadConfig, TrackingMode, VelocityFilter};
+pub use heard::{HeardKind, HeardSensor, MOST_HEARD};
 pub use mouse::MouseDecoder;
 pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::AxesPlacement;
