@@ -22,6 +22,7 @@ use crate::dtrack::DtrackDecoder;
 use crate::faults::Faults;
 use crate::gamepad::GamepadDecoder;
 use crate::head::config::HeadConfig;
+use crate::head::heard::HeardSensor;
 use crate::head::mouse::MouseDecoder;
 use crate::head::state::HeadState;
 use crate::head::tracked_head::TrackedHead;
@@ -202,6 +203,27 @@ impl Desk {
     /// Decoder of the VRPN server, with the server's descriptions.
     pub fn vrpn(&self) -> &VrpnDecoder {
         &self.vrpn
+    }
+
+    /// Things that the tracker of this source has been heard to send: sensors, bodies, buttons, axes.
+    pub fn heard(&self, source: SampleSource) -> &[HeardSensor] {
+        match source {
+            SampleSource::Vrpn => self.vrpn.heard(),
+            SampleSource::Dtrack => self.dtrack.heard(),
+            SampleSource::Opentrack => self.opentrack.heard(),
+            _ => &[],
+        }
+    }
+
+    /// Sentence about a tracker that is open at the time `at` but does not show what is wanted of it: names what it
+    /// does show. `None` while all is well.
+    pub fn tracker_advice(&self, at: Nanos) -> Option<String> {
+        let head = self.head.as_ref()?;
+        match head.config().url.source() {
+            SampleSource::Vrpn => self.vrpn.advice(at, head.config()),
+            SampleSource::Dtrack => self.dtrack.advice(at, head.config()),
+            _ => None,
+        }
     }
 
     /// Head at the time `at`, reduced to the parts that its mode uses.

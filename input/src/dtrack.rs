@@ -25,6 +25,8 @@ use thiserror::Error;
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
+use crate::head::config::HeadConfig;
+use crate::head::heard::{HeardSensor, HeardSensors};
 use crate::head::tracked_pose::TrackedPose;
 
 /// Usual port of DTrack.
@@ -70,6 +72,7 @@ struct DtrackStamp {
 #[derive(Debug, Default)]
 pub struct DtrackDecoder {
     poses: Vec<TrackedPose>,
+    heard: HeardSensors,
     faults: Faults,
 }
 
@@ -77,6 +80,16 @@ impl DtrackDecoder {
     /// Poses of the datagram fed last: the bodies that were seen.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
+    }
+
+    /// Bodies and flysticks that the controller has sent since the socket was opened.
+    pub fn heard(&self) -> &[HeardSensor] {
+        self.heard.sensors()
+    }
+
+    /// Sentence for a body that is not seen, naming those that are; `None` while it is seen.
+    pub fn advice(&self, _at: Nanos, _config: &HeadConfig) -> Option<String> {
+        None
     }
 
     fn datagram(&mut self, at: Nanos, bytes: &[u8]) -> Result<(), DtrackError> {

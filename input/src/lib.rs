@@ -46,6 +46,7 @@ pub mod settings;
 pub mod spacemouse;
 pub mod spacenavd;
 pub mod vrpn;
+pub mod wand;
 
 pub use action::{Action, VehicleKind};
 pub use axis_table::AxisTable;
@@ -58,8 +59,9 @@ pub use controls::Controls;
 pub use desk::Desk;
 pub use devices::{Devices, DevicesConfig};
 pub use faults::Faults;
-pub use head::{HeadConfig, HeadState, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
+pub use head::{HeadConfig, HeadState, HeardKind, HeardSensor, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
 pub use key::KeyboardKey;
 pub use look::{FreeLook, LookDecoder, STEEPEST_LOOK_RAD};
 pub use rider_config::RiderConfig;
 pub use sample::{Sample, SampleSource, Signal};
+pub use wand::HeldButtons;

@@ -29,6 +29,7 @@ use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
 use crate::head::flip::FlipAxis;
+use crate::head::heard::{HeardKind, HeardSensor, HeardSensors};
 use crate::head::tracked_pose::TrackedPose;
 
 /// Usual port of opentrack's output "UDP over network".
@@ -66,6 +67,7 @@ pub struct OpentrackDecoder {
     /// Signs of yaw, pitch and roll, each 1 or −1.
     signs: [f64; 3],
     poses: Vec<TrackedPose>,
+    heard: HeardSensors,
     faults: Faults,
 }
 
@@ -81,12 +83,17 @@ impl OpentrackDecoder {
     pub fn new(flipped: &[FlipAxis]) -> Self {
         let angles = [FlipAxis::Yaw, FlipAxis::Pitch, FlipAxis::Roll];
         let signs = angles.map(|angle| if flipped.contains(&angle) { -1.0 } else { 1.0 });
-        Self { signs, poses: Vec::new(), faults: Faults::default() }
+        Self { signs, poses: Vec::new(), heard: HeardSensors::default(), faults: Faults::default() }
     }
 
     /// Pose of the datagram fed last.
     pub fn take_poses(&mut self) -> Vec<TrackedPose> {
         std::mem::take(&mut self.poses)
+    }
+
+    /// Head that has been heard of since the socket was opened.
+    pub fn heard(&self) -> &[HeardSensor] {
+        self.heard.sensors()
     }
 
     fn pose(&self, at: Nanos, datagram: &[u8]) -> Result<TrackedPose, OpentrackError> {
@@ -136,11 +143,18 @@ fn about(axis: DVec3, angle: f64) -> DQuat {
 }
 
 impl Decoder for OpentrackDecoder {
-    fn reset(&mut self, _at: Nanos) {}
+    fn reset(&mut self, _at: Nanos) {
+        self.heard.forget();
+    }
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
         match self.pose(at, bytes) {
-            Ok(pose) => self.poses.push(pose),
+            Ok(pose) => {
+                if let Some(heard) = self.heard.report(at, HeardKind::Sensor, "opentrack", pose.sensor) {
+                    heard.pose = Some((pose.position_m, pose.orientation));
+                }
+                self.poses.push(pose);
+            }
             Err(error) => self.faults.count(error.to_string()),
         }
     }

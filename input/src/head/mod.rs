@@ -20,6 +20,7 @@
 
 pub(crate) mod config;
 pub(crate) mod flip;
+pub(crate) mod heard;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
 mod placement;
@@ -38,6 +39,7 @@ mod velocity;
 
 pub use config::{HEAD_EDITION, HeadConfig, Recentring, TrackingMode, VelocityFilter};
 pub use flip::FlipAxis;
+pub use heard::{HeardKind, HeardSensor, MOST_HEARD};
 pub use mouse::MouseDecoder;
 pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::AxesPlacement;

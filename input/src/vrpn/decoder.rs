@@ -8,6 +8,8 @@ use super::wire::{VrpnMessage, VrpnPiece, VrpnPieces};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
+use crate::head::config::HeadConfig;
+use crate::head::heard::{HeardSensor, HeardSensors};
 use crate::head::tracked_pose::TrackedPose;
 
 const POSE_LENGTH: usize = 64;
@@ -22,6 +24,7 @@ pub struct VrpnDecoder {
     numbers: VrpnNumbers,
     velocities: Vec<(i32, DVec3)>,
     poses: Vec<TrackedPose>,
+    heard: HeardSensors,
     faults: Faults,
 }
 
@@ -33,8 +36,19 @@ impl VrpnDecoder {
             numbers: VrpnNumbers::new(device),
             velocities: Vec::new(),
             poses: Vec::new(),
+            heard: HeardSensors::default(),
             faults: Faults::default(),
         }
+    }
+
+    /// Sensors, buttons and axes of all devices that the server has sent since the connection was opened.
+    pub fn heard(&self) -> &[HeardSensor] {
+        self.heard.sensors()
+    }
+
+    /// Sentence for a device that the server does not have; `None` while it sends or answers.
+    pub fn advice(&self, _at: Nanos, _config: &HeadConfig) -> Option<String> {
+        None
     }
 
     /// Descriptions by the server.
