@@ -57,10 +57,11 @@ const LATENCIES: [(Latency, &str, &str); 2] = [
 ];
 
 /// Buttons, with their purposes.
-const BUTTONS: [(&str, Action, &str); 5] = [
+const BUTTONS: [(&str, Action, &str); 6] = [
     ("Pause", Action::TogglePause, "Stops the world, or lets it go on."),
     ("Step", Action::Step, "Moves the world on by one small step while it is paused."),
     ("To the start", Action::Restart, "Takes you back to where the ride began."),
+    ("Straighten", Action::Recentre, "Makes where your tracked head is and looks now the middle. U does the same."),
     ("Photo", Action::Photo, "Saves the picture as a file, photo-001.png and so on."),
     ("Record", Action::ToggleRecording, "Saves the whole ride as a file, ride-001.mcap and so on, or ends the file."),
 ];
