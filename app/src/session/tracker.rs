@@ -130,9 +130,8 @@ mod tests {
 
     #[test]
     fn a_window_that_turns_with_the_head_stands_before_it_and_a_room_stands_where_it_is() {
-        let recentre = |display: &Display, url: &str| {
-            head_config(display, Some(&url.parse().unwrap())).unwrap().unwrap().recentre
-        };
+        let recentre =
+            |display: &Display, url: &str| head_config(display, Some(&url.parse().unwrap())).unwrap().unwrap().recentre;
         for (name, url, expected) in [
             ("window", "vrpn://lab/Head", Recentring::Start),
             ("desk", "dtrack://:5000", Recentring::Start),
@@ -155,9 +154,8 @@ mod tests {
 
     #[test]
     fn the_noise_of_a_desks_camera_is_filtered_unless_the_display_says_how() {
-        let velocity = |display: &Display| {
-            head_config(display, Some(&"opentrack://".parse().unwrap())).unwrap().unwrap().velocity
-        };
+        let velocity =
+            |display: &Display| head_config(display, Some(&"opentrack://".parse().unwrap())).unwrap().unwrap().velocity;
         let desk = Display::built_in("desk").unwrap();
         assert_eq!(velocity(&desk), VelocityFilter::LeastSquares { window_s: 0.1 });
         assert_eq!(velocity(&display("url = \"mouse\"\nvelocity = { filter = \"off\" }")), VelocityFilter::Off);
