@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
-use crate::dtrack::LONGEST_DATAGRAM;
+use crate::dtrack::wire::LONGEST_DATAGRAM;
 use crate::sample::SampleSource;
 
 /// Longest wait of a read.
