@@ -31,6 +31,7 @@ use crate::head::url::TrackerUrl;
 use crate::keyboard::KeyboardDecoder;
 use crate::look::decoder::LookDecoder;
 use crate::look::free_look::FreeLook;
+use crate::opentrack::OpentrackDecoder;
 use crate::sample::{Sample, SampleSource, Signal};
 use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
@@ -50,6 +51,7 @@ pub struct Desk {
     bicycle: BicycleDecoder,
     vrpn: VrpnDecoder,
     dtrack: DtrackDecoder,
+    opentrack: OpentrackDecoder,
     mouse: MouseDecoder,
     look: LookDecoder,
     /// Vehicle that is ridden, on which the meaning of the gamepad's second stick depends.
@@ -78,6 +80,7 @@ impl Desk {
         Ok(Self {
             vrpn: VrpnDecoder::with_wand(device, wand),
             dtrack: config.head.as_ref().map_or_else(DtrackDecoder::default, DtrackDecoder::of_head),
+            opentrack: OpentrackDecoder::new(config.head.as_ref().map_or(&[], |head| &head.flip)),
             mouse: MouseDecoder::new(home),
             look: LookDecoder::default(),
             vehicle: VehicleKind::default(),
@@ -110,18 +113,31 @@ impl Desk {
             SampleSource::Bicycle => &mut self.bicycle,
             SampleSource::Vrpn => &mut self.vrpn,
             SampleSource::Dtrack => &mut self.dtrack,
+            SampleSource::Opentrack => &mut self.opentrack,
             SampleSource::Mouse if self.mouse_looks() => &mut self.look,
             SampleSource::Mouse => &mut self.mouse,
             SampleSource::Settings => &mut self.settings,
         };
+        let waiting = self.actions.number();
         match &sample.signal {
             Signal::Opened | Signal::Closed => decoder.reset(sample.at),
             Signal::Bytes(bytes) => decoder.bytes(sample.at, bytes, &mut self.actions),
+        }
+        if self.actions.after(waiting).contains(&Action::Recentre) {
+            self.recentre(sample.at);
         }
         self.track(sample);
         self.note_hand(sample);
         if matches!(sample.source, SampleSource::Keyboard) {
             self.look.hold(sample.at, self.keyboard.look(), self.keyboard.looks_back());
+        }
+    }
+
+    /// Makes the present pose of the head the straight one.
+    fn recentre(&mut self, at: Nanos) {
+        self.mouse.go_home(at);
+        if let Some(head) = &mut self.head {
+            head.recentre();
         }
     }
 
@@ -171,6 +187,7 @@ impl Desk {
         let (poses, signals): (Vec<TrackedPose>, _) = match sample.source {
             SampleSource::Vrpn => (self.vrpn.take_poses(), self.vrpn.take_wand_signals()),
             SampleSource::Dtrack => (self.dtrack.take_poses(), self.dtrack.take_wand_signals()),
+            SampleSource::Opentrack => (self.opentrack.take_poses(), Vec::new()),
             _ => return,
         };
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
@@ -208,6 +225,7 @@ impl Desk {
         match source {
             SampleSource::Vrpn => self.vrpn.heard(),
             SampleSource::Dtrack => self.dtrack.heard(),
+            SampleSource::Opentrack => self.opentrack.heard(),
             _ => &[],
         }
     }
@@ -279,6 +297,7 @@ impl Desk {
             SampleSource::Bicycle => self.bicycle.faults(),
             SampleSource::Vrpn => self.vrpn.faults(),
             SampleSource::Dtrack => self.dtrack.faults(),
+            SampleSource::Opentrack => self.opentrack.faults(),
             SampleSource::Mouse if self.mouse_looks() => self.look.faults(),
             SampleSource::Mouse => self.mouse.faults(),
             SampleSource::Settings => self.settings.faults(),

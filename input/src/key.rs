@@ -65,6 +65,8 @@ keys! {
     R = 0x15,
     /// The key S.
     S = 0x16,
+    /// The key U.
+    U = 0x18,
     /// The key V.
     V = 0x19,
     /// The key W.

@@ -36,6 +36,7 @@ mod key;
 pub mod keyboard;
 pub mod line;
 mod look;
+pub mod opentrack;
 pub mod pulses;
 mod ramp;
 pub mod recording;

@@ -31,6 +31,8 @@ pub enum SampleSource {
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
     Dtrack,
+    /// A head that opentrack follows: [`crate::opentrack`].
+    Opentrack,
     /// The mouse in the window: it moves the head ([`crate::head::MouseDecoder`]) or turns the look
     /// ([`crate::LookDecoder`]).
     Mouse,
@@ -40,7 +42,7 @@ pub enum SampleSource {
 
 impl SampleSource {
     /// All sources, in the order of the listing.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Keyboard,
         Self::Gamepad,
         Self::SpaceMouse,
@@ -48,6 +50,7 @@ impl SampleSource {
         Self::Bicycle,
         Self::Vrpn,
         Self::Dtrack,
+        Self::Opentrack,
         Self::Mouse,
         Self::Settings,
     ];
@@ -62,6 +65,7 @@ impl SampleSource {
             Self::Bicycle => "bicycle",
             Self::Vrpn => "vrpn",
             Self::Dtrack => "dtrack",
+            Self::Opentrack => "opentrack",
             Self::Mouse => "mouse",
             Self::Settings => "settings",
         }

@@ -23,6 +23,13 @@ use std::sync::Arc;
 
 /// Name of the display for a tracked head if no display is named.
 pub const WINDOW: &str = "window";
+/// Name of the display for a head that opentrack follows if no display is named.
+pub const DESK: &str = "desk";
+
+/// Name of the display for this tracker if no display is named.
+pub fn usual_display(tracker: &TrackerUrl) -> &'static str {
+    if matches!(tracker, TrackerUrl::Opentrack { .. }) { DESK } else { WINDOW }
+}
 
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
@@ -34,7 +41,7 @@ fn fingerprint(scene: &Scene) -> String {
 /// Room in which a ride is shown, and the tracking of the head in it.
 #[derive(Clone)]
 pub struct RideRoom {
-    /// Display, if the ride is shown in a room. A tracked head without a named display gets the built-in window.
+    /// Display, if the ride is shown in a room. A tracked head without a named display gets a built-in window.
     pub display: Option<Display>,
     /// Tracking of the head, if it is tracked.
     pub head: Option<HeadConfig>,
@@ -46,7 +53,7 @@ impl RideRoom {
     /// # Errors
     /// A display or a tracker that cannot be used.
     pub fn of(options: &RideOptions) -> Result<Self, Error> {
-        let tracked = options.devices.tracker.as_ref().map(|_| WINDOW);
+        let tracked = options.devices.tracker.as_ref().map(usual_display);
         let budget = options.world.reading.budget();
         let named = |name| Display::named_or_file_within(name, &budget);
         let display = options.display.as_deref().or(tracked).map(named).transpose()?;

@@ -9,6 +9,7 @@ use thiserror::Error;
 use super::config::DevicesConfig;
 use super::dtrack::DtrackPort;
 use super::feed::{DeviceFeed, DevicePort, DeviceStatus, SharedNews, status};
+use super::opentrack::OpentrackPort;
 use super::puck::PuckPort;
 use super::serial::{BrakeSlot, SerialPort};
 use super::vrpn::VrpnPort;
@@ -82,6 +83,9 @@ impl Devices {
             }
             Some(TrackerUrl::Dtrack { address, port }) => {
                 devices.start(SampleSource::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Opentrack { address, port }) => {
+                devices.start(SampleSource::Opentrack, OpentrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
             }
             Some(TrackerUrl::Mouse) | None => {}
         }

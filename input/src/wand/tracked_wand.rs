@@ -40,6 +40,7 @@ impl TrackedWand {
         let hand = TrackedHead::new(HeadConfig {
             sensor: config.sensor,
             head_from_sensor: config.wand_from_sensor,
+            recentre: Default::default(),
             wand: None,
             ..head.clone()
         })?;
