@@ -18,7 +18,7 @@ use crate::config::DeskConfig;
 use crate::config_error::ConfigError;
 use crate::controls::Controls;
 use crate::decoder::{Actions, Decoder};
-use crate::dtrack::DtrackDecoder;
+use crate::dtrack::decoder::DtrackDecoder;
 use crate::faults::Faults;
 use crate::gamepad::GamepadDecoder;
 use crate::head::config::HeadConfig;
@@ -37,6 +37,7 @@ use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
 use crate::spacenavd::SpacenavdDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
+use crate::wand::tracked_wand::TrackedWand;
 use glam::DVec3;
 
 /// Decoders of all devices, and the state that they share.
@@ -58,6 +59,7 @@ pub struct Desk {
     /// True if a handlebar, a stick or a SpaceMouse steers, false if keys do.
     by_hand: bool,
     head: Option<TrackedHead>,
+    wand: Option<TrackedWand>,
     settings: ActionDecoder,
     actions: Actions,
 }
@@ -73,16 +75,18 @@ impl Desk {
             Some(TrackerUrl::Vrpn { device, .. }) => device,
             _ => "",
         };
+        let wand = config.head.as_ref().and_then(|head| head.wand.as_ref());
         let home = config.head.as_ref().map_or(DVec3::ZERO, |head| DVec3::from_array(head.home));
         Ok(Self {
-            vrpn: VrpnDecoder::new(device),
-            dtrack: DtrackDecoder::default(),
+            vrpn: VrpnDecoder::with_wand(device, wand),
+            dtrack: config.head.as_ref().map_or_else(DtrackDecoder::default, DtrackDecoder::of_head),
             opentrack: OpentrackDecoder::new(config.head.as_ref().map_or(&[], |head| &head.flip)),
             mouse: MouseDecoder::new(home),
             look: LookDecoder::default(),
             vehicle: VehicleKind::default(),
             by_hand: false,
             head: config.head.clone().map(TrackedHead::new).transpose()?,
+            wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
             keyboard: KeyboardDecoder::new(config.rider.clone()),
             gamepad: GamepadDecoder::new(config.free_look),
             space_mouse: SpaceMouseDecoder::new(config.space_mouse),
@@ -180,10 +184,10 @@ impl Desk {
 
     /// Passes a tracker's poses to the head, if the head listens to that tracker.
     fn track(&mut self, sample: &Sample) {
-        let poses: Vec<TrackedPose> = match sample.source {
-            SampleSource::Vrpn => self.vrpn.take_poses(),
-            SampleSource::Dtrack => self.dtrack.take_poses(),
-            SampleSource::Opentrack => self.opentrack.take_poses(),
+        let (poses, signals): (Vec<TrackedPose>, _) = match sample.source {
+            SampleSource::Vrpn => (self.vrpn.take_poses(), self.vrpn.take_wand_signals()),
+            SampleSource::Dtrack => (self.dtrack.take_poses(), self.dtrack.take_wand_signals()),
+            SampleSource::Opentrack => (self.opentrack.take_poses(), Vec::new()),
             _ => return,
         };
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
@@ -193,11 +197,22 @@ impl Desk {
         if !matches!(sample.signal, Signal::Bytes(_)) {
             head.gone(sample.at);
         }
+        if let Some(wand) = &mut self.wand {
+            signals.into_iter().for_each(|signal| wand.signal(sample.at, signal));
+            if !matches!(sample.signal, Signal::Bytes(_)) {
+                wand.gone(sample.at);
+            }
+        }
     }
 
     /// Tracked head, if one is configured.
     pub fn head(&self) -> Option<&TrackedHead> {
         self.head.as_ref()
+    }
+
+    /// Tracked wand, if one is configured.
+    pub fn wand(&self) -> Option<&TrackedWand> {
+        self.wand.as_ref()
     }
 
     /// Decoder of the VRPN server, with the server's descriptions.
@@ -266,6 +281,7 @@ impl Desk {
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
+            wand: self.wand.as_ref().map(|wand| wand.state(at)),
             look: self.free_look(at, &actions),
             actions,
         }

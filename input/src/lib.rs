@@ -64,4 +64,4 @@ pub use key::KeyboardKey;
 pub use look::{FreeLook, LookDecoder, STEEPEST_LOOK_RAD};
 pub use rider_config::RiderConfig;
 pub use sample::{Sample, SampleSource, Signal};
-pub use wand::HeldButtons;
+pub use wand::{HeldButtons, WandConfig, WandState};

@@ -19,6 +19,8 @@ pub struct DevicesConfig {
     pub gamepad: bool,
     /// Tracker of the head.
     pub tracker: Option<TrackerUrl>,
+    /// VRPN devices of the wand: [`HeadConfig::wand_devices`](crate::HeadConfig::wand_devices).
+    pub wand_devices: Vec<String>,
 }
 
 impl Default for DevicesConfig {
@@ -30,6 +32,7 @@ impl Default for DevicesConfig {
             spacenavd_socket: PathBuf::from("/run/spnav.sock"),
             gamepad: true,
             tracker: None,
+            wand_devices: Vec::new(),
         }
     }
 }

@@ -74,7 +74,12 @@ impl Devices {
         }
         match &config.tracker {
             Some(TrackerUrl::Vrpn { host, port, device }) => {
-                devices.start(SampleSource::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
+                devices.start(
+                    SampleSource::Vrpn,
+                    VrpnPort::new(host, *port, device, &config.wand_devices),
+                    TRACKER_QUEUE,
+                    &stopped,
+                )?;
             }
             Some(TrackerUrl::Dtrack { address, port }) => {
                 devices.start(SampleSource::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;

@@ -16,6 +16,7 @@ mod dtrack;
 mod feed;
 mod flood_gate;
 mod lanes;
+mod multicast;
 mod opentrack;
 #[cfg(target_os = "linux")]
 mod pad;

@@ -23,6 +23,7 @@ use super::state::HeadState;
 use super::unit::LengthUnit;
 use super::url::TrackerUrl;
 use crate::config_error::{ConfigError, positive};
+use crate::wand::config::WandConfig;
 
 /// Settings of the tracked head.
 ///
@@ -48,6 +49,9 @@ pub struct HeadConfig {
     /// Placement of the sensor's axes in the head's, whose origin is midway between the eyes.
     #[serde(default)]
     pub head_from_sensor: AxesPlacement,
+    /// True if `sensor` is the number of one of DTrack's inertial bodies: line `6di` instead of `6d`.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub inertial: bool,
     /// Parts of the head's state that are used.
     #[serde(default)]
     pub mode: TrackingMode,
@@ -68,6 +72,13 @@ pub struct HeadConfig {
     /// it are of edition 1.
     #[serde(default = "first_edition")]
     pub edition: u32,
+    /// Settings of a wand that the same tracker sees; `None` without one, and in recordings made before wands were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wand: Option<WandConfig>,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// Present edition of the rules by which the poses of the head count.
@@ -248,18 +259,35 @@ impl HeadConfig {
             flip: Vec::new(),
             room_from_tracker: AxesPlacement::default(),
             head_from_sensor: AxesPlacement::default(),
+            inertial: false,
             mode: TrackingMode::default(),
             velocity: VelocityFilter::default(),
             fade_s: fade_s(),
             home: home(),
             recentre: Recentring::default(),
             edition: HEAD_EDITION,
+            wand: None,
         }
     }
 
     /// True if the turn of the head moves the eyes, and real time is the head's own.
     pub fn counts_turn_and_clock(&self) -> bool {
         self.edition >= HEAD_EDITION
+    }
+
+    /// VRPN devices of the wand other than the head's, each once; none without a wand or a server.
+    pub fn wand_devices(&self) -> Vec<String> {
+        let (TrackerUrl::Vrpn { device, .. }, Some(wand)) = (&self.url, &self.wand) else {
+            return Vec::new();
+        };
+        let wand = wand.devices(device);
+        let mut names = Vec::new();
+        for name in [wand.pose, wand.buttons, wand.axes] {
+            if name != *device && !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
     }
 
     /// True if a pose in another unit is known by its distance.
@@ -296,6 +324,19 @@ impl HeadConfig {
     /// # Errors
     /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
+        let is_dtrack = matches!(self.url, TrackerUrl::Dtrack { .. });
+        if self.inertial && !is_dtrack {
+            let expected = "nothing but with DTrack, whose line 6di it reads";
+            return Err(ConfigError { key: "tracker.inertial", value: "true".to_owned(), expected });
+        }
+        if let Some(wand) = &self.wand {
+            let has_names = matches!(self.url, TrackerUrl::Vrpn { .. });
+            if !has_names && !is_dtrack {
+                let expected = "no wand but with a VRPN server or DTrack";
+                return Err(ConfigError { key: "tracker.wand", value: format!("that of {}", self.url), expected });
+            }
+            wand.check(has_names)?;
+        }
         self.check_axes()?;
         self.room_from_tracker.check(&ROOM_FROM_TRACKER)?;
         self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
@@ -329,6 +370,9 @@ mod tests {
     #[test]
     fn a_url_is_enough() {
         let config = parse("url = \"dtrack://:5000\"").unwrap();
+        // The header of a ride without wand has no word of one.
+        let header = serde_json::to_value(&config).unwrap();
+        assert!(header.get("wand").is_none() && header.get("inertial").is_none());
         // Recordings without an edition are of the first; a display's table gets the present one.
         assert_eq!(config, HeadConfig { edition: 1, ..HeadConfig::new("dtrack://:5000".parse().unwrap()) });
         assert_eq!(config.velocity, VelocityFilter::Mean { frames: 4 });
@@ -350,6 +394,13 @@ mod tests {
             scale = "cm"
             flip = ["z"]
             recentre = "start"
+            [wand]
+            sensor = 1
+            buttons = "Wand"
+            axes = "Stick"
+            wand_from_sensor = { pitch = 15 }
+            stick = [1, 0]
+            trigger = 2
             "#,
         )
         .unwrap();
@@ -359,6 +410,9 @@ mod tests {
         assert_eq!(config.room_from_tracker.position, [1.0, 2.5, -3.0]);
         assert_eq!(config.head_from_sensor.rigid().orientation, DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
         assert_eq!(config.velocity, VelocityFilter::LeastSquares { window_s: 0.1 });
+        assert_eq!(config.wand_devices(), ["Wand", "Stick"]);
+        let wand = config.wand.as_ref().unwrap();
+        assert_eq!((wand.sensor, wand.stick.0, wand.trigger, wand.wand_from_sensor.pitch), (1, [1, 0], Some(2), 15.0));
         // The settings survive the recording's header.
         let json = serde_json::to_string(&config).unwrap();
         assert_eq!(serde_json::from_str::<HeadConfig>(&json).unwrap(), config);
@@ -406,6 +460,13 @@ mod tests {
             ("url = \"dtrack://\"\nflip = [\"x\", \"x\"]", "each direction at most once"),
             ("url = \"dtrack://\"\nflip = [\"yaw\"]", "only with url = \"opentrack://\""),
             ("url = \"mouse\"\nroom_from_tracker = { position = [0, 0, 1] }", "nothing with url = \"mouse\""),
+            ("url = \"mouse\"\n[wand]", "no wand but with a VRPN server or DTrack"),
+            ("url = \"vrpn://x/Head\"\ninertial = true", "nothing but with DTrack"),
+            ("url = \"vrpn://x/Head\"\n[wand]\nbutton = \"Wand\"", "unknown field `button`"),
+            ("url = \"vrpn://x/Head\"\n[wand]\nbuttons = \"\"", "tracker.wand.buttons is \"\""),
+            ("url = \"vrpn://x/Head\"\n[wand]\nstick = [0, 128]", "tracker.wand.stick is [0, 128]"),
+            ("url = \"dtrack://\"\n[wand]\ndevice = \"Wand\"", "whose flysticks have numbers"),
+            ("url = \"dtrack://\"\n[wand]\nwand_from_sensor = { yaw = 1e3 }", "tracker.wand.wand_from_sensor.yaw"),
             ("url = \"dtrack://\"\nroom_from_tracker = { yaw = 1e3 }", "tracker.room_from_tracker.yaw is 1000"),
             (
                 "url = \"dtrack://\"\nhead_from_sensor = { position = [2000, 0, 0] }",

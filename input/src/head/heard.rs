@@ -49,6 +49,8 @@ pub struct HeardSensor {
     /// True if the last report holds a pose, or is no pose at all. False while the tracker says that it does not see
     /// the thing, or sends the zero pose or numbers that are no pose.
     pub tracked: bool,
+    /// Time at which it was tracked last; that of the first report if it never was.
+    pub seen_at: Nanos,
     /// Last place and turn that was sent.
     pub pose: Option<(DVec3, DQuat)>,
     /// Buttons that are held.
@@ -61,6 +63,20 @@ pub struct HeardSensor {
     this_second: u32,
 }
 
+impl HeardKind {
+    /// Name of a thing of this kind.
+    pub(crate) fn named(self, device: &str, number: i32) -> String {
+        match self {
+            Self::Sensor => format!("sensor {number} of {device}"),
+            Self::Body => format!("body {number}"),
+            Self::InertialBody => format!("inertial body {number}"),
+            Self::Flystick => format!("flystick {number}"),
+            Self::Buttons => format!("buttons of {device}"),
+            Self::Axes => format!("axes of {device}"),
+        }
+    }
+}
+
 impl HeardSensor {
     fn new(kind: HeardKind, device: &str, number: i32, at: Nanos) -> Self {
         Self {
@@ -70,6 +86,7 @@ impl HeardSensor {
             count: 0,
             last_at: at,
             tracked: true,
+            seen_at: at,
             pose: None,
             buttons: None,
             axes: Vec::new(),
@@ -79,7 +96,8 @@ impl HeardSensor {
         }
     }
 
-    fn is(&self, kind: HeardKind, device: &str, number: i32) -> bool {
+    /// True if this is the thing of that kind, device and number.
+    pub(crate) fn is(&self, kind: HeardKind, device: &str, number: i32) -> bool {
         (self.kind, self.number) == (kind, number) && self.device == device
     }
 
@@ -93,6 +111,14 @@ impl HeardSensor {
     pub fn is_tracked(&self, now: Nanos) -> bool {
         let reports_changes = matches!(self.kind, HeardKind::Buttons | HeardKind::Axes);
         self.tracked && (reports_changes || seconds_between(self.last_at, now) <= SILENCE_S)
+    }
+
+    /// Takes the pose of a report; `None` if the tracker does not see the thing, whose last pose is kept.
+    pub(crate) fn see(&mut self, at: Nanos, pose: Option<(DVec3, DQuat)>) {
+        self.tracked = pose.is_some();
+        if pose.is_some() {
+            (self.pose, self.seen_at) = (pose, at);
+        }
     }
 
     fn count(&mut self, at: Nanos) {
@@ -109,15 +135,16 @@ impl HeardSensor {
 impl fmt::Display for HeardSensor {
     /// Name of the thing, as `sensor 1 of Head`, `body 3`, `flystick 0`, `buttons of Wand`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (number, device) = (self.number, &self.device);
-        match self.kind {
-            HeardKind::Sensor => write!(formatter, "sensor {number} of {device}"),
-            HeardKind::Body => write!(formatter, "body {number}"),
-            HeardKind::InertialBody => write!(formatter, "inertial body {number}"),
-            HeardKind::Flystick => write!(formatter, "flystick {number}"),
-            HeardKind::Buttons => write!(formatter, "buttons of {device}"),
-            HeardKind::Axes => write!(formatter, "axes of {device}"),
-        }
+        formatter.write_str(&self.kind.named(&self.device, self.number))
+    }
+}
+
+/// Names in one text: `a`, `a and b`, `a, b and c`.
+pub(crate) fn enumerated(names: &[String]) -> String {
+    match names.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) mod flip;
 pub(crate) mod heard;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
-mod placement;
+pub(crate) mod placement;
 mod rigid;
 mod seen;
 pub(crate) mod state;
