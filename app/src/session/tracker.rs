@@ -23,6 +23,16 @@ pub enum TrackerError {
         /// Reason, as the reader of the table words it.
         reason: String,
     },
+    /// A display that tracks no head, where one is asked for.
+    #[error(
+        "display {0} tracks no head: its table [tracker] is missing, or says mode = \"none\"; name a tracker with --tracker"
+    )]
+    Untracked(String),
+    /// A sensor that is chosen of no tracker.
+    #[error(
+        "--sensor chooses a sensor of a tracker: name that with --tracker, or a display whose file has a table [tracker]"
+    )]
+    Sensor,
     /// A setting with a value that is not allowed.
     #[error("display {display}: {source}")]
     Setting {
