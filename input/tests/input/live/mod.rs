@@ -8,3 +8,4 @@ mod serial;
 #[cfg(unix)]
 mod spacenavd;
 mod vrpn;
+mod wand;
