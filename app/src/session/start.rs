@@ -227,6 +227,7 @@ fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
         bicycle: options.devices.bicycle.clone(),
         space_mouse: options.devices.spacemouse || has_display(),
         tracker: desk.head.as_ref().map(|head| head.url.clone()),
+        wand_devices: desk.head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default(),
         ..Default::default()
     }
 }

@@ -13,8 +13,9 @@ pub struct DevicesConfig {
     pub baud: u32,
     /// True if a SpaceMouse is looked for.
     pub space_mouse: bool,
-    /// Socket of spacenavd, for a SpaceMouse that may not be read directly.
-    pub spacenavd_socket: PathBuf,
+    /// Socket of spacenavd, for a SpaceMouse that may not be read directly. `None` for the usual places: the variable
+    /// `SPNAV_SOCKET`, the line `socket` in `/etc/spnavrc`, `/run/spnav.sock`, `/var/run/spnav.sock`.
+    pub spacenavd_socket: Option<PathBuf>,
     /// True if a gamepad or joystick is looked for.
     pub gamepad: bool,
     /// Tracker of the head.
@@ -29,7 +30,7 @@ impl Default for DevicesConfig {
             bicycle: None,
             baud: 115_200,
             space_mouse: true,
-            spacenavd_socket: PathBuf::from("/run/spnav.sock"),
+            spacenavd_socket: None,
             gamepad: true,
             tracker: None,
             wand_devices: Vec::new(),

@@ -25,6 +25,8 @@ mod puck;
 mod serial;
 #[cfg(unix)]
 mod socket;
+#[cfg(unix)]
+mod spnav_places;
 mod vrpn;
 
 pub use config::DevicesConfig;

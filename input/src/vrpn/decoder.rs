@@ -1,7 +1,7 @@
 //! Decoder of a VRPN server's stream: the poses of one device, the wand's poses, buttons and axes, and a list of all
 //! that the server sends.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::numbers::VrpnNumbers;
 use super::payload::{button, buttons, channels, pose, velocity};
@@ -228,6 +228,7 @@ mod tests {
     use crate::vrpn::types::PONG;
     use crate::vrpn::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, description};
     use crate::wand::held_buttons::HeldButtons;
+    use glam::DQuat;
 
     fn decode(device: &str, chunks: &[&[u8]]) -> (Vec<TrackedPose>, u64) {
         let (mut decoder, mut actions) = (VrpnDecoder::new(device), Actions::default());

@@ -9,3 +9,4 @@ mod serial;
 #[cfg(unix)]
 mod spacenavd;
 mod vrpn;
+mod wand;
