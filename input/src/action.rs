@@ -36,6 +36,8 @@ pub enum Action {
     Vehicle(VehicleKind),
     /// Look along the nose again.
     LookAhead,
+    /// Makes the present pose of a tracked head the straight one.
+    Recentre,
     /// Return to the start.
     Restart,
     /// Request for a picture.

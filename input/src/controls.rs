@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::action::Action;
 use crate::head::state::HeadState;
 use crate::look::free_look::FreeLook;
+use crate::wand::state::WandState;
 
 /// State of all controls at one moment, and the actions since the moment before.
 ///
@@ -29,6 +30,9 @@ pub struct Controls {
     /// Head in the room. `None` without a tracker.
     #[serde(default)]
     pub head: Option<HeadState>,
+    /// Wand in the room. `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wand: Option<WandState>,
     /// Turn of the gaze against the nose; along the nose in recordings made before one could look round.
     #[serde(default)]
     pub look: FreeLook,

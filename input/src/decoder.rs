@@ -36,6 +36,16 @@ impl Actions {
         }
     }
 
+    /// Number of actions that wait.
+    pub(crate) fn number(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// Actions that wait, without the first `number`.
+    pub(crate) fn after(&self, number: usize) -> &[Action] {
+        self.waiting.get(number..).unwrap_or_default()
+    }
+
     /// Returns the waiting actions and forgets them.
     pub fn take(&mut self) -> Vec<Action> {
         std::mem::take(&mut self.waiting)

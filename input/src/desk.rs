@@ -18,10 +18,11 @@ use crate::config::DeskConfig;
 use crate::config_error::ConfigError;
 use crate::controls::Controls;
 use crate::decoder::{Actions, Decoder};
-use crate::dtrack::DtrackDecoder;
+use crate::dtrack::decoder::DtrackDecoder;
 use crate::faults::Faults;
 use crate::gamepad::GamepadDecoder;
 use crate::head::config::HeadConfig;
+use crate::head::heard::HeardSensor;
 use crate::head::mouse::MouseDecoder;
 use crate::head::state::HeadState;
 use crate::head::tracked_head::TrackedHead;
@@ -30,12 +31,14 @@ use crate::head::url::TrackerUrl;
 use crate::keyboard::KeyboardDecoder;
 use crate::look::decoder::LookDecoder;
 use crate::look::free_look::FreeLook;
+use crate::opentrack::OpentrackDecoder;
 use crate::sample::{Sample, SampleSource, Signal};
 use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
 use crate::spacenavd::SpacenavdDecoder;
 use crate::trainer::decoder::TrainerDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
+use crate::wand::tracked_wand::TrackedWand;
 use glam::DVec3;
 
 /// Decoders of all devices, and the state that they share.
@@ -50,6 +53,7 @@ pub struct Desk {
     trainer: TrainerDecoder,
     vrpn: VrpnDecoder,
     dtrack: DtrackDecoder,
+    opentrack: OpentrackDecoder,
     mouse: MouseDecoder,
     look: LookDecoder,
     /// Vehicle that is ridden, on which the meaning of the gamepad's second stick depends.
@@ -57,6 +61,7 @@ pub struct Desk {
     /// True if a handlebar, a stick or a SpaceMouse steers, false if keys do.
     by_hand: bool,
     head: Option<TrackedHead>,
+    wand: Option<TrackedWand>,
     settings: ActionDecoder,
     actions: Actions,
 }
@@ -72,15 +77,18 @@ impl Desk {
             Some(TrackerUrl::Vrpn { device, .. }) => device,
             _ => "",
         };
+        let wand = config.head.as_ref().and_then(|head| head.wand.as_ref());
         let home = config.head.as_ref().map_or(DVec3::ZERO, |head| DVec3::from_array(head.home));
         Ok(Self {
-            vrpn: VrpnDecoder::new(device),
-            dtrack: DtrackDecoder::default(),
+            vrpn: VrpnDecoder::with_wand(device, wand),
+            dtrack: config.head.as_ref().map_or_else(DtrackDecoder::default, DtrackDecoder::of_head),
+            opentrack: OpentrackDecoder::new(config.head.as_ref().map_or(&[], |head| &head.flip)),
             mouse: MouseDecoder::new(home),
             look: LookDecoder::default(),
             vehicle: VehicleKind::default(),
             by_hand: false,
             head: config.head.clone().map(TrackedHead::new).transpose()?,
+            wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
             keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys),
             gamepad: GamepadDecoder::new(config.free_look, config.gamepad.clone()),
             space_mouse: SpaceMouseDecoder::new(config.space_mouse),
@@ -109,18 +117,31 @@ impl Desk {
             SampleSource::Trainer => &mut self.trainer,
             SampleSource::Vrpn => &mut self.vrpn,
             SampleSource::Dtrack => &mut self.dtrack,
+            SampleSource::Opentrack => &mut self.opentrack,
             SampleSource::Mouse if self.mouse_looks() => &mut self.look,
             SampleSource::Mouse => &mut self.mouse,
             SampleSource::Settings => &mut self.settings,
         };
+        let waiting = self.actions.number();
         match &sample.signal {
             Signal::Opened | Signal::Closed => decoder.reset(sample.at),
             Signal::Bytes(bytes) => decoder.bytes(sample.at, bytes, &mut self.actions),
+        }
+        if self.actions.after(waiting).contains(&Action::Recentre) {
+            self.recentre(sample.at);
         }
         self.track(sample);
         self.note_hand(sample);
         if matches!(sample.source, SampleSource::Keyboard) {
             self.look.hold(sample.at, self.keyboard.look(), self.keyboard.looks_back());
+        }
+    }
+
+    /// Makes the present pose of the head the straight one.
+    fn recentre(&mut self, at: Nanos) {
+        self.mouse.go_home(at);
+        if let Some(head) = &mut self.head {
+            head.recentre();
         }
     }
 
@@ -167,9 +188,10 @@ impl Desk {
 
     /// Passes a tracker's poses to the head, if the head listens to that tracker.
     fn track(&mut self, sample: &Sample) {
-        let poses: Vec<TrackedPose> = match sample.source {
-            SampleSource::Vrpn => self.vrpn.take_poses(),
-            SampleSource::Dtrack => self.dtrack.take_poses(),
+        let (poses, signals): (Vec<TrackedPose>, _) = match sample.source {
+            SampleSource::Vrpn => (self.vrpn.take_poses(), self.vrpn.take_wand_signals()),
+            SampleSource::Dtrack => (self.dtrack.take_poses(), self.dtrack.take_wand_signals()),
+            SampleSource::Opentrack => (self.opentrack.take_poses(), Vec::new()),
             _ => return,
         };
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
@@ -178,6 +200,12 @@ impl Desk {
         poses.iter().for_each(|pose| head.pose(pose));
         if !matches!(sample.signal, Signal::Bytes(_)) {
             head.gone(sample.at);
+        }
+        if let Some(wand) = &mut self.wand {
+            signals.into_iter().for_each(|signal| wand.signal(sample.at, signal));
+            if !matches!(sample.signal, Signal::Bytes(_)) {
+                wand.gone(sample.at);
+            }
         }
     }
 
@@ -191,9 +219,35 @@ impl Desk {
         &self.trainer
     }
 
+    /// Tracked wand, if one is configured.
+    pub fn wand(&self) -> Option<&TrackedWand> {
+        self.wand.as_ref()
+    }
+
     /// Decoder of the VRPN server, with the server's descriptions.
     pub fn vrpn(&self) -> &VrpnDecoder {
         &self.vrpn
+    }
+
+    /// Things that the tracker of this source has been heard to send: sensors, bodies, buttons, axes.
+    pub fn heard(&self, source: SampleSource) -> &[HeardSensor] {
+        match source {
+            SampleSource::Vrpn => self.vrpn.heard(),
+            SampleSource::Dtrack => self.dtrack.heard(),
+            SampleSource::Opentrack => self.opentrack.heard(),
+            _ => &[],
+        }
+    }
+
+    /// Sentence about a tracker that is open at the time `at` but does not show what is wanted of it: names what it
+    /// does show. `None` while all is well.
+    pub fn tracker_advice(&self, at: Nanos) -> Option<String> {
+        let head = self.head.as_ref()?;
+        match head.config().url.source() {
+            SampleSource::Vrpn => self.vrpn.advice(at, head.config()),
+            SampleSource::Dtrack => self.dtrack.advice(at, head.config()),
+            _ => None,
+        }
     }
 
     /// Head at the time `at`, reduced to the parts that its mode uses.
@@ -237,6 +291,7 @@ impl Desk {
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
+            wand: self.wand.as_ref().map(|wand| wand.state(at)),
             look: self.free_look(at, &actions),
             actions,
         }
@@ -253,6 +308,7 @@ impl Desk {
             SampleSource::Trainer => self.trainer.faults(),
             SampleSource::Vrpn => self.vrpn.faults(),
             SampleSource::Dtrack => self.dtrack.faults(),
+            SampleSource::Opentrack => self.opentrack.faults(),
             SampleSource::Mouse if self.mouse_looks() => self.look.faults(),
             SampleSource::Mouse => self.mouse.faults(),
             SampleSource::Settings => self.settings.faults(),

@@ -85,7 +85,7 @@ keys! {
     S = 0x16,
     /// The key T, which does nothing unless a set-up gives it another key's work.
     T = 0x17,
-    /// The key U, which does nothing unless a set-up gives it another key's work.
+    /// The key U.
     U = 0x18,
     /// The key V.
     V = 0x19,

@@ -16,7 +16,7 @@
 //! | M | look back | the same |
 //!
 //! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
-//! returns to the start, O looks ahead again, C takes a picture, V records, H and F1 show the help.
+//! returns to the start, O looks ahead again, U makes the present pose of a tracked head the straight one, C takes a picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::clock::Nanos;
@@ -44,6 +44,7 @@ fn action(key: KeyboardKey) -> Option<Action> {
         KeyboardKey::Three => Action::Vehicle(VehicleKind::Fly),
         KeyboardKey::Backspace => Action::Restart,
         KeyboardKey::O => Action::LookAhead,
+        KeyboardKey::U => Action::Recentre,
         KeyboardKey::C => Action::Photo,
         KeyboardKey::V => Action::ToggleRecording,
         KeyboardKey::H | KeyboardKey::F1 => Action::ToggleHelp,
@@ -51,10 +52,10 @@ fn action(key: KeyboardKey) -> Option<Action> {
     })
 }
 
-/// True for the number of a key that turns the look and nothing else.
+/// True for the number of a key that turns the look or the head and nothing else.
 fn looks(code: u8) -> bool {
-    use KeyboardKey::{I, J, K, L, M, O};
-    [I, J, K, L, M, O].iter().any(|&key| key as u8 == code)
+    use KeyboardKey::{I, J, K, L, M, O, U};
+    [I, J, K, L, M, O, U].iter().any(|&key| key as u8 == code)
 }
 
 /// Keys that are down.

@@ -33,6 +33,8 @@ pub enum SampleSource {
     Vrpn,
     /// A tracker of ART: [`crate::dtrack`].
     Dtrack,
+    /// A head that opentrack follows: [`crate::opentrack`].
+    Opentrack,
     /// The mouse in the window: it moves the head ([`crate::head::MouseDecoder`]) or turns the look
     /// ([`crate::LookDecoder`]).
     Mouse,
@@ -42,7 +44,7 @@ pub enum SampleSource {
 
 impl SampleSource {
     /// All sources, in the order of the listing.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Keyboard,
         Self::Gamepad,
         Self::SpaceMouse,
@@ -51,6 +53,7 @@ impl SampleSource {
         Self::Trainer,
         Self::Vrpn,
         Self::Dtrack,
+        Self::Opentrack,
         Self::Mouse,
         Self::Settings,
     ];
@@ -66,6 +69,7 @@ impl SampleSource {
             Self::Trainer => "trainer",
             Self::Vrpn => "vrpn",
             Self::Dtrack => "dtrack",
+            Self::Opentrack => "opentrack",
             Self::Mouse => "mouse",
             Self::Settings => "settings",
         }

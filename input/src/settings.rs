@@ -50,6 +50,7 @@ mod tests {
             Action::SpeedOfLight(30.0 / 3.6),
             Action::Vehicle(VehicleKind::Fly),
             Action::LookAhead,
+            Action::Recentre,
             Action::Restart,
         ] {
             assert_eq!(decode(&action.to_bytes()), (vec![action], 0));

@@ -1,11 +1,12 @@
 //! Built-in displays: `app/displays/*.toml`, which are also the examples of the documentation.
 
 /// Names of the built-in displays.
-pub const NAMES: [&str; 6] = ["window", "stereo-wall", "cave4", "cave6", "curved", "dome6"];
+pub const NAMES: [&str; 7] = ["window", "desk", "stereo-wall", "cave4", "cave6", "curved", "dome6"];
 
 /// Texts of the built-in displays' files, in the order of [`NAMES`].
-const TEXTS: [&str; 6] = [
+const TEXTS: [&str; 7] = [
     include_str!("../../displays/window.toml"),
+    include_str!("../../displays/desk.toml"),
     include_str!("../../displays/stereo-wall.toml"),
     include_str!("../../displays/cave4.toml"),
     include_str!("../../displays/cave6.toml"),

@@ -23,10 +23,9 @@ pub struct Display {
     pub windows: Vec<WindowPlace>,
     /// Views of the screens. Their indices are valid, and their viewports lie inside their windows.
     pub channels: Vec<Channel>,
-    /// Tables of the file about the rider's hardware, unchanged; this crate does not interpret them.
+    /// Tables of the file about the rider's hardware, such as `[tracker]`, unchanged; this crate does not interpret
+    /// them.
     pub set_up: toml::Table,
-    /// Table `[tracker]` of the file, unchanged; this crate does not interpret it.
-    pub tracker: Option<toml::Value>,
     /// Requests of the file that are not fulfilled and other notes for the user, one sentence each.
     pub notices: Vec<String>,
 }

@@ -78,7 +78,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
 #[test]
 fn a_ride_takes_all_its_options() {
     let options = ride(
-        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --bicycle /dev/pts/3 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
+        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --set-up hall.toml --bicycle /dev/pts/3 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
          --exposure -1.5 --tone filmic --gamut clamp \
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
          --threads 2 --integrator exact --transport gyroscopic --assist off --through-walls --time-scale 0.5 --out r.mp4 --realtime --fov 90",
@@ -89,6 +89,7 @@ fn a_ride_takes_all_its_options() {
     assert_eq!(
         options.devices,
         DeviceOptions {
+            set_up: Some("hall.toml".into()),
             bicycle: Some("/dev/pts/3".to_owned()),
             spacemouse: true,
             tracker: Some("vrpn://cave:3883/Head".parse().unwrap()),
@@ -171,9 +172,17 @@ fn the_small_commands_parse() {
     let reading = ReadingOptions { limit: 3.0, trust: false };
     assert_eq!(parse("check a.glb b.mcap").unwrap(), Command::Check(CheckOptions { files, json: false, reading }));
     let tracker = Some("dtrack://0.0.0.0:5000".parse().unwrap());
-    let devices = DevicesOptions { bicycle: Some("/dev/ttyUSB0".to_owned()), tracker, seconds: Some(1.0) };
+    let devices = DevicesOptions {
+        set_up: Some("hall.toml".into()),
+        calibrate: None,
+        bicycle: Some("/dev/ttyUSB0".to_owned()),
+        tracker,
+        sensor: Some(2),
+        display: Some("lab.toml".to_owned()),
+        seconds: Some(1.0),
+    };
     assert_eq!(
-        parse("devices --bicycle /dev/ttyUSB0 --tracker dtrack:// --seconds 1").unwrap(),
+        parse("devices --set-up hall.toml --bicycle /dev/ttyUSB0 --tracker dtrack:// --sensor 2 --display lab.toml --seconds 1").unwrap(),
         Command::Devices(devices)
     );
 }

@@ -15,7 +15,7 @@
 //! A table of the set-up file replaces the display's table of the same name as a whole; the command line names other
 //! ports and trackers.
 
-use input::{AxisTable, ConfigError, DeskConfig};
+use input::{AxisTable, ConfigError, DeskConfig, HeadConfig, TrackerUrl};
 use regular_file::FileFault;
 use room::Display;
 use serde::de::DeserializeOwned;
@@ -155,6 +155,28 @@ impl SetUp {
         self.find("tracker").map(|(_, _, value)| value)
     }
 
+    /// Tracker that the set-up names, if it names one that exists.
+    pub fn tracker_url(&self) -> Option<TrackerUrl> {
+        self.tracker()?.get("url")?.as_str()?.parse().ok()
+    }
+
+    /// Settings of the tracker, if there is its table.
+    ///
+    /// # Errors
+    /// A table that cannot be understood.
+    pub fn head(&self) -> Result<Option<HeadConfig>, SetUpError> {
+        let table = self.find("tracker");
+        table.map(|(table, place, value)| understood(table, place, value.clone())).transpose()
+    }
+
+    /// Error of a setting that cannot be used, with the place of its table.
+    pub fn refused(&self, source: ConfigError) -> SetUpError {
+        let table = source.key.split('.').next().unwrap_or_default();
+        let table = if ["space_mouse", "spacenavd"].contains(&table) { "axes" } else { table };
+        let place = self.find(table).map_or_else(|| "the set-up".to_owned(), |(_, place, _)| place.clone());
+        SetUpError::Setting { place, source }
+    }
+
     /// Port of the bicycle.
     ///
     /// # Errors
@@ -188,12 +210,7 @@ impl SetUp {
             keys: self.table("keys")?,
             ..DeskConfig::default()
         };
-        desk.check().map_err(|source| {
-            let table = source.key.split('.').next().unwrap_or_default();
-            let table = if ["space_mouse", "spacenavd"].contains(&table) { "axes" } else { table };
-            let place = self.find(table).map_or_else(String::new, |(_, place, _)| place.clone());
-            SetUpError::Setting { place, source }
-        })?;
+        desk.check().map_err(|source| self.refused(source))?;
         Ok(desk)
     }
 }
@@ -211,7 +228,12 @@ fn settings<T: DeserializeOwned + Default + Serialize>(
         }
         (_, value) => value,
     };
-    T::deserialize(whole).map_err(|error| SetUpError::Table {
+    understood(table, place, whole)
+}
+
+/// Value of a table as its settings, as they are written.
+fn understood<T: DeserializeOwned>(table: &'static str, place: &str, value: Value) -> Result<T, SetUpError> {
+    T::deserialize(value).map_err(|error| SetUpError::Table {
         place: place.to_owned(),
         table,
         reason: one_line(&error.to_string()),
@@ -219,7 +241,7 @@ fn settings<T: DeserializeOwned + Default + Serialize>(
 }
 
 /// Report of several lines as a single line.
-pub fn one_line(report: &str) -> String {
+fn one_line(report: &str) -> String {
     report.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -24,6 +24,13 @@ use std::sync::Arc;
 
 /// Name of the display for a tracked head if no display is named.
 pub const WINDOW: &str = "window";
+/// Name of the display for a head that opentrack follows if no display is named.
+pub const DESK: &str = "desk";
+
+/// Name of the display for this tracker if no display is named.
+pub fn usual_display(tracker: &TrackerUrl) -> &'static str {
+    if matches!(tracker, TrackerUrl::Opentrack { .. }) { DESK } else { WINDOW }
+}
 
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
@@ -35,7 +42,7 @@ fn fingerprint(scene: &Scene) -> String {
 /// Room in which a ride is shown, and the tracking of the head in it.
 #[derive(Clone)]
 pub struct RideRoom {
-    /// Display, if the ride is shown in a room. A tracked head without a named display gets the built-in window.
+    /// Display, if the ride is shown in a room. A tracked head without a named display gets a built-in window.
     pub display: Option<Display>,
     /// Tracking of the head, if it is tracked.
     pub head: Option<HeadConfig>,
@@ -51,18 +58,13 @@ impl RideRoom {
     pub fn of(options: &RideOptions) -> Result<Self, Error> {
         let file = options.devices.set_up.as_deref();
         let own = SetUp::of(None, file)?;
-        let tracked = (options.devices.tracker.is_some() || own.tracker().is_some()).then_some(WINDOW);
+        let url = options.devices.tracker.clone().or_else(|| own.tracker_url());
+        let tracked = url.as_ref().map(usual_display);
         let budget = options.world.reading.budget();
         let named = |name| Display::named_or_file_within(name, &budget);
-        let mut display = options.display.as_deref().or(tracked).map(named).transpose()?;
-        if let (Some(display), Some(tracker)) = (&mut display, own.tracker()) {
-            display.tracker = Some(tracker.clone());
-        }
-        let head = match &display {
-            Some(display) => tracker::head_config(display, options.devices.tracker.as_ref())?,
-            None => None,
-        };
+        let display = options.display.as_deref().or(tracked).map(named).transpose()?;
         let set_up = SetUp::of(display.as_ref(), file)?;
+        let head = tracker::head_config(display.as_ref(), &set_up, options.devices.tracker.as_ref())?;
         Ok(Self { display, head, set_up })
     }
 
@@ -243,6 +245,7 @@ fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> R
         baud: port.baud.unwrap_or(usual.baud),
         space_mouse: options.devices.spacemouse || has_display(),
         tracker: desk.head.as_ref().map(|head| head.url.clone()),
+        wand_devices: desk.head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default(),
         ..usual
     })
 }

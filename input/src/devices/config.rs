@@ -18,12 +18,15 @@ pub struct DevicesConfig {
     pub slope_felt_percent: u8,
     /// True if a SpaceMouse is looked for.
     pub space_mouse: bool,
-    /// Socket of spacenavd, for a SpaceMouse that may not be read directly.
-    pub spacenavd_socket: PathBuf,
+    /// Socket of spacenavd, for a SpaceMouse that may not be read directly. `None` for the usual places: the variable
+    /// `SPNAV_SOCKET`, the line `socket` in `/etc/spnavrc`, `/run/spnav.sock`, `/var/run/spnav.sock`.
+    pub spacenavd_socket: Option<PathBuf>,
     /// True if a gamepad or joystick is looked for.
     pub gamepad: bool,
     /// Tracker of the head.
     pub tracker: Option<TrackerUrl>,
+    /// VRPN devices of the wand: [`HeadConfig::wand_devices`](crate::HeadConfig::wand_devices).
+    pub wand_devices: Vec<String>,
 }
 
 impl Default for DevicesConfig {
@@ -34,9 +37,10 @@ impl Default for DevicesConfig {
             trainer: None,
             slope_felt_percent: 100,
             space_mouse: true,
-            spacenavd_socket: PathBuf::from("/run/spnav.sock"),
+            spacenavd_socket: None,
             gamepad: true,
             tracker: None,
+            wand_devices: Vec::new(),
         }
     }
 }

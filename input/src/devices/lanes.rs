@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::config::DevicesConfig;
 use super::dtrack::DtrackPort;
 use super::feed::{DeviceFeed, DevicePort, DeviceStatus, SharedNews, status};
+use super::opentrack::OpentrackPort;
 use super::puck::PuckPort;
 use super::serial::{BrakeSlot, SerialPort};
 use super::trainer::TrainerPort;
@@ -91,10 +92,18 @@ impl Devices {
         }
         match &config.tracker {
             Some(TrackerUrl::Vrpn { host, port, device }) => {
-                devices.start(SampleSource::Vrpn, VrpnPort::new(host, *port, device), TRACKER_QUEUE, &stopped)?;
+                devices.start(
+                    SampleSource::Vrpn,
+                    VrpnPort::new(host, *port, device, &config.wand_devices),
+                    TRACKER_QUEUE,
+                    &stopped,
+                )?;
             }
             Some(TrackerUrl::Dtrack { address, port }) => {
                 devices.start(SampleSource::Dtrack, DtrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Opentrack { address, port }) => {
+                devices.start(SampleSource::Opentrack, OpentrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
             }
             Some(TrackerUrl::Mouse) | None => {}
         }

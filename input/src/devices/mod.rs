@@ -11,10 +11,13 @@
 //! it. Samples of keyboard and mouse come from the window, not from here.
 
 mod config;
+mod datagrams;
 mod dtrack;
 mod feed;
 mod flood_gate;
 mod lanes;
+mod multicast;
+mod opentrack;
 #[cfg(target_os = "linux")]
 mod pad;
 mod plugged;
@@ -22,6 +25,8 @@ mod puck;
 mod serial;
 #[cfg(unix)]
 mod socket;
+#[cfg(unix)]
+mod spnav_places;
 mod trainer;
 mod vrpn;
 

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use hidapi::{HidApi, HidDevice};
 
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+#[cfg(unix)]
+use super::spnav_places::usual_places;
 use crate::sample::SampleSource;
 
 /// Vendor number of the older devices.
@@ -20,7 +22,7 @@ const NOT_A_PUCK: [u16; 12] =
     [0xc62c, 0xc641, 0xc650, 0xc651, 0xc654, 0xc655, 0xc656, 0xc657, 0xc658, 0xc664, 0xc665, 0xc668];
 /// Longest wait of one read of a single interface, milliseconds.
 const READ_WAIT_MS: i32 = 100;
-/// Length of the buffer, bytes; the longest report is 13.
+/// Length of the buffer, bytes, that of the longest report over USB.
 const BUFFER: usize = 64;
 
 /// Instruction that makes the device readable.
@@ -62,22 +64,26 @@ pub(super) fn candidates(api: &HidApi) -> Vec<SpaceMouseInterface> {
 
 /// Places where a SpaceMouse may be found.
 pub(super) struct PuckPort {
-    socket: PathBuf,
+    /// Socket of spacenavd; `None` for the usual places.
+    socket: Option<PathBuf>,
 }
 
 impl PuckPort {
-    pub(super) fn new(socket: PathBuf) -> Self {
+    pub(super) fn new(socket: Option<PathBuf>) -> Self {
         Self { socket }
     }
 
     #[cfg(unix)]
     fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-        super::socket::SpacenavdLink::connect(&self.socket)
+        super::socket::SpacenavdLink::connect(
+            &self.socket.as_ref().map_or_else(usual_places, |socket| vec![socket.clone()]),
+        )
     }
 
     #[cfg(not(unix))]
     fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-        Err(format!("there is no spacenavd here ({})", self.socket.display()))
+        let place = self.socket.as_ref().map_or(String::new(), |socket| format!(" ({})", socket.display()));
+        Err(format!("there is no spacenavd here{place}"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, ErrorKind, Read};
 use std::os::unix::net::UnixStream;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use super::feed::{DeviceConnection, OpenedDevice};
@@ -20,26 +20,31 @@ pub(super) struct SpacenavdLink {
 }
 
 impl SpacenavdLink {
-    /// Connects to the daemon.
+    /// Connects to the daemon at the first of these places where it runs.
     ///
     /// # Errors
-    /// A sentence that says why not.
-    pub(super) fn connect(path: &Path) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-        let place = path.display().to_string();
-        let stream = UnixStream::connect(path)
-            .and_then(|stream| stream.set_read_timeout(Some(READ_WAIT)).map(|()| stream))
-            .map_err(|error| match error.kind() {
-                ErrorKind::NotFound | ErrorKind::ConnectionRefused => {
-                    format!("spacenavd does not run ({place})")
+    /// A sentence that says why not: a refusal if there is one, else that it does not run.
+    pub(super) fn connect(paths: &[PathBuf]) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+        let mut refused = None;
+        for path in paths {
+            let place = path.display().to_string();
+            let stream =
+                UnixStream::connect(path).and_then(|stream| stream.set_read_timeout(Some(READ_WAIT)).map(|()| stream));
+            match stream {
+                Ok(stream) => {
+                    let place = OpenedDevice {
+                        source: SampleSource::Spacenavd,
+                        name: "SpaceMouse through spacenavd".to_owned(),
+                        path: place,
+                    };
+                    return Ok((place, Box::new(Self { stream, partial: Vec::new() })));
                 }
-                _ => format!("spacenavd cannot be reached at {place}: {error}"),
-            })?;
-        let place = OpenedDevice {
-            source: SampleSource::Spacenavd,
-            name: "SpaceMouse through spacenavd".to_owned(),
-            path: place,
-        };
-        Ok((place, Box::new(Self { stream, partial: Vec::new() })))
+                Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::ConnectionRefused) => {}
+                Err(error) => refused = Some(format!("spacenavd cannot be reached at {place}: {error}")),
+            }
+        }
+        let places: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        Err(refused.unwrap_or_else(|| format!("spacenavd does not run ({})", places.join(", "))))
     }
 }
 

@@ -4,10 +4,15 @@
 //! something else. Then this side names the device that it listens to and sends a ping once a second, as VRPN's own
 //! clients do. The server's bytes are passed on as they come, in whole messages: a message that has to be dropped
 //! then does not shift those behind it.
+//!
+//! The connection ends with a reset, however this side ends: the stock server cannot be started again as long as the
+//! system remembers an ordinary end of a connection at its port, which is for a minute.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
+
+use socket2::SockRef;
 
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::flood_gate::{FloodGate, MessageKind};
@@ -34,21 +39,21 @@ const BUFFER: usize = 4096;
 /// Most descriptions kept, for the samples after some had to be dropped.
 const MOST_DESCRIPTIONS: usize = 256;
 
-/// Number of this side for the device; below, its numbers for the two types of message.
-const OUR_SENDER: i32 = 0;
+/// Numbers of this side for the two types of message; its numbers for the devices are 0, 1, ….
 const OUR_PING: i32 = 0;
 const OUR_PONG: i32 = 1;
 
-/// Address of a server, and the device on it.
+/// Address of a server, and the devices on it: the head's, then those of the wand.
 pub(super) struct VrpnPort {
     host: String,
     port: u16,
-    device: String,
+    devices: Vec<String>,
 }
 
 impl VrpnPort {
-    pub(super) fn new(host: &str, port: u16, device: &str) -> Self {
-        Self { host: host.to_owned(), port, device: device.to_owned() }
+    pub(super) fn new(host: &str, port: u16, device: &str, others: &[String]) -> Self {
+        let devices = [&[device.to_owned()], others].concat();
+        Self { host: host.to_owned(), port, devices }
     }
 
     fn connect(&self) -> Result<TcpStream, String> {
@@ -59,6 +64,10 @@ impl VrpnPort {
         let mut why = "it has no address".to_owned();
         for address in addresses {
             match TcpStream::connect_timeout(&address, CONNECT_WAIT) {
+                // While no server listens, a port may be connected to itself.
+                Ok(stream) if stream.local_addr().ok() == stream.peer_addr().ok() => {
+                    why = "nothing listens there: start the VRPN server, or name another port".to_owned();
+                }
                 Ok(stream) => return Ok(stream),
                 Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
                     why = "nothing listens there: start the VRPN server, or name another port".to_owned();
@@ -74,8 +83,8 @@ impl DevicePort for VrpnPort {
     fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
         let path = format!("{}:{}", self.host, self.port);
         let stream = self.connect()?;
-        let link = VrpnLink::begin(stream, &self.device).map_err(|error| format!("{path}: {error}"))?;
-        let place = OpenedDevice { source: SampleSource::Vrpn, name: self.device.clone(), path };
+        let link = VrpnLink::begin(stream, &self.devices).map_err(|error| format!("{path}: {error}"))?;
+        let place = OpenedDevice { source: SampleSource::Vrpn, name: self.devices[0].clone(), path };
         Ok((place, Box::new(link)))
     }
 }
@@ -84,6 +93,8 @@ impl DevicePort for VrpnPort {
 struct VrpnLink {
     stream: TcpStream,
     pieces: VrpnPieces,
+    /// Names of the devices that are listened to.
+    devices: Vec<String>,
     numbers: VrpnNumbers,
     /// Cookie of the server, then its descriptions, as they came.
     descriptions: Vec<Vec<u8>>,
@@ -95,8 +106,10 @@ struct VrpnLink {
 }
 
 impl VrpnLink {
-    /// Exchanges the cookies and names the device.
-    fn begin(mut stream: TcpStream, device: &str) -> io::Result<Self> {
+    /// Exchanges the cookies and names the devices.
+    fn begin(mut stream: TcpStream, devices: &[String]) -> io::Result<Self> {
+        // The end of this side, a crash included, is then a reset.
+        SockRef::from(&stream).set_linger(Some(Duration::ZERO))?;
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_WAIT))?;
         stream.set_read_timeout(Some(CONNECT_WAIT))?;
@@ -109,16 +122,15 @@ impl VrpnLink {
         outcome.map_err(invalid)?;
 
         stream.set_read_timeout(Some(READ_WAIT))?;
-        let ours = [
-            description(DESCRIBES_SENDER, OUR_SENDER, device),
-            description(DESCRIBES_TYPE, OUR_PING, PING),
-            description(DESCRIBES_TYPE, OUR_PONG, PONG),
-        ];
-        stream.write_all(&ours.concat())?;
+        let senders = (0..).zip(devices).map(|(number, device)| description(DESCRIBES_SENDER, number, device));
+        let types = [(OUR_PING, PING), (OUR_PONG, PONG)];
+        let types = types.map(|(number, name)| description(DESCRIBES_TYPE, number, name));
+        stream.write_all(&senders.chain(types).collect::<Vec<_>>().concat())?;
         Ok(Self {
             stream,
             pieces,
-            numbers: VrpnNumbers::new(device),
+            devices: devices.to_vec(),
+            numbers: VrpnNumbers::of_devices(devices.iter().map(String::as_str)),
             descriptions: vec![cookie.to_vec()],
             first: cookie.to_vec(),
             gate: FloodGate::new(Instant::now()),
@@ -127,18 +139,23 @@ impl VrpnLink {
         })
     }
 
-    fn say(&mut self, kind: i32) -> io::Result<()> {
-        let message = VrpnMessage { seconds: 0, microseconds: 0, sender: OUR_SENDER, kind, payload: &[] };
+    fn say(&mut self, sender: i32, kind: i32) -> io::Result<()> {
+        let message = VrpnMessage { seconds: 0, microseconds: 0, sender, kind, payload: &[] };
         self.stream.write_all(&message.to_bytes())
     }
 
-    /// Sends a ping when it is time; an error after too long a silence.
+    /// Sends a ping to each device when it is time, upon which buttons also report anew; an error after too long a
+    /// silence.
     fn ping(&mut self) -> io::Result<()> {
         if self.last_heard.elapsed() > SILENCE {
-            let known = match self.numbers.senders() {
-                _ if self.numbers.has_device() => String::new(),
-                [] => "; it has described no device".to_owned(),
-                senders => format!("; it has no such device, but {}", senders.join(", ")),
+            let is_missing = self.numbers.missing().any(|name| name == self.devices[0]);
+            // A server repeats the descriptions of its clients.
+            let mut others = self.numbers.senders();
+            others.retain(|name| !self.devices.contains(name));
+            let known = match others.join(", ") {
+                _ if !is_missing => String::new(),
+                none if none.is_empty() => "; it has described no device".to_owned(),
+                others => format!("; it has no such device, but {others}"),
             };
             return Err(io::Error::new(ErrorKind::TimedOut, format!("silent for {} s{known}", SILENCE.as_secs())));
         }
@@ -146,14 +163,15 @@ impl VrpnLink {
             return Ok(());
         }
         self.last_ping = Some(Instant::now());
-        self.say(OUR_PING)
+        (0..).take(self.devices.len()).try_for_each(|sender| self.say(sender, OUR_PING))
     }
 
     /// Passes on the whole messages of these bytes, and answers a ping.
     fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> io::Result<()> {
         let mut outcome = Ok(());
-        let mut asked = false;
+        let mut asked = Vec::new();
         let (numbers, descriptions, gate) = (&mut self.numbers, &mut self.descriptions, &mut self.gate);
+        let devices = &self.devices;
         let now = Instant::now();
         self.pieces.push(received, |piece| match piece {
             Ok(VrpnPiece::Cookie(_)) if outcome.is_ok() => {
@@ -165,15 +183,16 @@ impl VrpnLink {
                 if numbers.describe(&message) == Ok(true) {
                     keep(descriptions, raw);
                 }
-                asked |= numbers.of_device(&message) == Some(PING);
+                if numbers.kind(&message) == Some(PING) {
+                    let name = numbers.sender(&message);
+                    let ours = (0..).zip(devices).find(|(_, device)| name == Some(device)).map(|(sender, _)| sender);
+                    asked.extend(ours.filter(|sender| !asked.contains(sender)));
+                }
             }
             Ok(_) => {}
             Err(error) => outcome = Err(invalid(error)),
         });
-        if asked && outcome.is_ok() {
-            outcome = self.say(OUR_PONG);
-        }
-        outcome
+        outcome.and_then(|()| asked.into_iter().try_for_each(|sender| self.say(sender, OUR_PONG)))
     }
 }
 
@@ -280,7 +299,7 @@ mod tests {
         let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let mut server = listener.accept().unwrap().0;
         server.write_all(&COOKIE).unwrap();
-        (VrpnLink::begin(stream, "Tail").unwrap(), server)
+        (VrpnLink::begin(stream, &["Tail".to_owned(), "Wand".to_owned()]).unwrap(), server)
     }
 
     #[test]
@@ -300,6 +319,23 @@ mod tests {
         link.last_heard = Instant::now().checked_sub(SILENCE + READ_WAIT).unwrap();
         let text = link.read(&mut bytes).unwrap_err().to_string();
         assert_eq!(text, "silent for 10 s; it has no such device, but Head");
+
+        // The description of what this side has named is no device; its answer is.
+        let [echo, pong] = [(DESCRIBES_SENDER, 5, "Tail"), (DESCRIBES_TYPE, 6, PONG)]
+            .map(|(kind, number, name)| description(kind, number, name));
+        let answer = VrpnMessage { seconds: 0, microseconds: 0, sender: 5, kind: 6, payload: &[] }.to_bytes();
+        for (sent, expected) in
+            [(echo, "silent for 10 s; it has no such device, but Head"), ([pong, answer].concat(), "silent for 10 s")]
+        {
+            server.write_all(&sent).unwrap();
+            link.last_heard = Instant::now();
+            bytes.clear();
+            while bytes.len() < sent.len() {
+                link.read(&mut bytes).unwrap();
+            }
+            link.last_heard = Instant::now().checked_sub(SILENCE + READ_WAIT).unwrap();
+            assert_eq!(link.read(&mut bytes).unwrap_err().to_string(), expected);
+        }
     }
 
     #[test]
@@ -338,7 +374,7 @@ mod tests {
             }
         });
         let began = Instant::now();
-        let told = VrpnLink::begin(stream, "Head").err().unwrap().to_string();
+        let told = VrpnLink::begin(stream, &["Head".to_owned()]).err().unwrap().to_string();
         assert!(told.contains("it says nothing"), "{told}");
         assert!(began.elapsed() < 3 * CONNECT_WAIT, "{:?}", began.elapsed());
         dribble.join().unwrap();

@@ -17,10 +17,13 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use super::flip::FlipAxis;
 use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
 use super::state::HeadState;
+use super::unit::LengthUnit;
 use super::url::TrackerUrl;
 use crate::config_error::{ConfigError, positive};
+use crate::wand::config::WandConfig;
 
 /// Settings of the tracked head.
 ///
@@ -34,12 +37,21 @@ pub struct HeadConfig {
     /// Number of the tracker's sensor, or body, that is on the head.
     #[serde(default)]
     pub sensor: i32,
-    /// Placement of the tracker's axes in the room.
+    /// Unit of the lengths that the tracker sends, if it is not the usual one of such trackers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<LengthUnit>,
+    /// Directions that the tracker counts the other way. They are mirrored before the placement.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flip: Vec<FlipAxis>,
+    /// Placement of the tracker's axes in the room; for opentrack from `home`, where its centre is.
     #[serde(default)]
     pub room_from_tracker: AxesPlacement,
     /// Placement of the sensor's axes in the head's, whose origin is midway between the eyes.
     #[serde(default)]
     pub head_from_sensor: AxesPlacement,
+    /// True if `sensor` is the number of one of DTrack's inertial bodies: line `6di` instead of `6d`.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub inertial: bool,
     /// Parts of the head's state that are used.
     #[serde(default)]
     pub mode: TrackingMode,
@@ -52,14 +64,25 @@ pub struct HeadConfig {
     /// Place of the head until the tracker has seen it, metres; start of a head that the mouse moves.
     #[serde(default = "home")]
     pub home: [f64; 3],
-    /// Edition of the rules by which the motion of the head counts: since edition 2 its turn moves the eyes, and real
-    /// time is the head's own. Recordings without it are of edition 1.
+    /// Poses that become the straight one: at `home`, facing −z.
+    #[serde(default, skip_serializing_if = "Recentring::is_never")]
+    pub recentre: Recentring,
+    /// Edition of the rules by which the poses of the head count: since edition 2 its turn moves the eyes, and real
+    /// time is the head's own; since edition 3 poses that can only be in another unit are rejected. Recordings without
+    /// it are of edition 1.
     #[serde(default = "first_edition")]
     pub edition: u32,
+    /// Settings of a wand that the same tracker sees; `None` without one, and in recordings made before wands were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wand: Option<WandConfig>,
 }
 
-/// Present edition of the rules by which the motion of the head counts.
-pub const HEAD_EDITION: u32 = 2;
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+/// Present edition of the rules by which the poses of the head count.
+pub const HEAD_EDITION: u32 = 3;
 
 fn first_edition() -> u32 {
     1
@@ -72,6 +95,25 @@ fn fade_s() -> f64 {
 /// Place of the eyes of a person who stands in the middle, metres.
 fn home() -> [f64; 3] {
     [0.0, 1.7, 0.0]
+}
+
+/// Poses of a tracker that become the straight one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Recentring {
+    /// No pose: the tracker is calibrated to the room.
+    #[default]
+    Never,
+    /// Pose of the moment at which the rider presses the key.
+    Key,
+    /// First pose, and that of each moment at which the rider presses the key.
+    Start,
+}
+
+impl Recentring {
+    fn is_never(&self) -> bool {
+        *self == Self::Never
+    }
 }
 
 /// Parts of the tracked head that are used (W 6.4).
@@ -213,13 +255,18 @@ impl HeadConfig {
         Self {
             url,
             sensor: 0,
+            scale: None,
+            flip: Vec::new(),
             room_from_tracker: AxesPlacement::default(),
             head_from_sensor: AxesPlacement::default(),
+            inertial: false,
             mode: TrackingMode::default(),
             velocity: VelocityFilter::default(),
             fade_s: fade_s(),
             home: home(),
+            recentre: Recentring::default(),
             edition: HEAD_EDITION,
+            wand: None,
         }
     }
 
@@ -228,11 +275,69 @@ impl HeadConfig {
         self.edition >= HEAD_EDITION
     }
 
+    /// VRPN devices of the wand other than the head's, each once; none without a wand or a server.
+    pub fn wand_devices(&self) -> Vec<String> {
+        let (TrackerUrl::Vrpn { device, .. }, Some(wand)) = (&self.url, &self.wand) else {
+            return Vec::new();
+        };
+        let wand = wand.devices(device);
+        let mut names = Vec::new();
+        for name in [wand.pose, wand.buttons, wand.axes] {
+            if name != *device && !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// True if a pose in another unit is known by its distance.
+    pub(super) fn knows_units(&self) -> bool {
+        self.edition >= 3
+    }
+
+    /// True if the tracker is opentrack.
+    pub(super) fn is_opentrack(&self) -> bool {
+        matches!(self.url, TrackerUrl::Opentrack { .. })
+    }
+
+    /// Checks the unit and the mirrors.
+    fn check_axes(&self) -> Result<(), ConfigError> {
+        let bad = |expected| ConfigError { key: "tracker.flip", value: format!("{:?}", self.flip), expected };
+        if self.flip.iter().any(|flip| flip.is_angle()) && !self.is_opentrack() {
+            return Err(bad("\"x\", \"y\", \"z\"; yaw, pitch and roll alone only with url = \"opentrack://\""));
+        }
+        if (1..self.flip.len()).any(|number| self.flip[..number].contains(&self.flip[number])) {
+            return Err(bad("each direction at most once"));
+        }
+        match self.scale {
+            Some(unit) if self.url == TrackerUrl::Mouse => Err(ConfigError {
+                key: "tracker.scale",
+                value: unit.to_string(),
+                expected: "nothing with url = \"mouse\", which sends no lengths",
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Checks every setting.
     ///
     /// # Errors
     /// The first setting that cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
+        let is_dtrack = matches!(self.url, TrackerUrl::Dtrack { .. });
+        if self.inertial && !is_dtrack {
+            let expected = "nothing but with DTrack, whose line 6di it reads";
+            return Err(ConfigError { key: "tracker.inertial", value: "true".to_owned(), expected });
+        }
+        if let Some(wand) = &self.wand {
+            let has_names = matches!(self.url, TrackerUrl::Vrpn { .. });
+            if !has_names && !is_dtrack {
+                let expected = "no wand but with a VRPN server or DTrack";
+                return Err(ConfigError { key: "tracker.wand", value: format!("that of {}", self.url), expected });
+            }
+            wand.check(has_names)?;
+        }
+        self.check_axes()?;
         self.room_from_tracker.check(&ROOM_FROM_TRACKER)?;
         self.head_from_sensor.check(&HEAD_FROM_SENSOR)?;
         let placements = [(ROOM_FROM_TRACKER, self.room_from_tracker), (HEAD_FROM_SENSOR, self.head_from_sensor)];
@@ -265,6 +370,9 @@ mod tests {
     #[test]
     fn a_url_is_enough() {
         let config = parse("url = \"dtrack://:5000\"").unwrap();
+        // The header of a ride without wand has no word of one.
+        let header = serde_json::to_value(&config).unwrap();
+        assert!(header.get("wand").is_none() && header.get("inertial").is_none());
         // Recordings without an edition are of the first; a display's table gets the present one.
         assert_eq!(config, HeadConfig { edition: 1, ..HeadConfig::new("dtrack://:5000".parse().unwrap()) });
         assert_eq!(config.velocity, VelocityFilter::Mean { frames: 4 });
@@ -283,13 +391,28 @@ mod tests {
             velocity = { filter = "least-squares", window_s = 0.1 }
             fade_s = 0.5
             home = [0, 1.2, 0.4]
+            scale = "cm"
+            flip = ["z"]
+            recentre = "start"
+            [wand]
+            sensor = 1
+            buttons = "Wand"
+            axes = "Stick"
+            wand_from_sensor = { pitch = 15 }
+            stick = [1, 0]
+            trigger = 2
             "#,
         )
         .unwrap();
+        assert_eq!((config.scale.unwrap().metres(), config.flip.as_slice()), (0.01, &[FlipAxis::Z][..]));
+        assert_eq!(config.recentre, Recentring::Start);
         assert_eq!((config.sensor, config.mode, config.fade_s), (3, TrackingMode::Position, 0.5));
         assert_eq!(config.room_from_tracker.position, [1.0, 2.5, -3.0]);
         assert_eq!(config.head_from_sensor.rigid().orientation, DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
         assert_eq!(config.velocity, VelocityFilter::LeastSquares { window_s: 0.1 });
+        assert_eq!(config.wand_devices(), ["Wand", "Stick"]);
+        let wand = config.wand.as_ref().unwrap();
+        assert_eq!((wand.sensor, wand.stick.0, wand.trigger, wand.wand_from_sensor.pitch), (1, [1, 0], Some(2), 15.0));
         // The settings survive the recording's header.
         let json = serde_json::to_string(&config).unwrap();
         assert_eq!(serde_json::from_str::<HeadConfig>(&json).unwrap(), config);
@@ -330,7 +453,20 @@ mod tests {
             ),
             ("url = \"mouse\"\nfade_s = -1", "tracker.fade_s is -1"),
             ("url = \"mouse\"\nhome = [0, inf, 0]", "tracker.home is [0.0, inf, 0.0]"),
+            ("url = \"mouse\"\nscale = \"mile\"", "scale is \"mile\": expected the length of the tracker's unit"),
+            ("url = \"mouse\"\nscale = 0.0", "scale is 0: expected"),
+            ("url = \"mouse\"\nscale = \"mm\"", "nothing with url = \"mouse\""),
+            ("url = \"dtrack://\"\nflip = [\"w\"]", "unknown variant `w`"),
+            ("url = \"dtrack://\"\nflip = [\"x\", \"x\"]", "each direction at most once"),
+            ("url = \"dtrack://\"\nflip = [\"yaw\"]", "only with url = \"opentrack://\""),
             ("url = \"mouse\"\nroom_from_tracker = { position = [0, 0, 1] }", "nothing with url = \"mouse\""),
+            ("url = \"mouse\"\n[wand]", "no wand but with a VRPN server or DTrack"),
+            ("url = \"vrpn://x/Head\"\ninertial = true", "nothing but with DTrack"),
+            ("url = \"vrpn://x/Head\"\n[wand]\nbutton = \"Wand\"", "unknown field `button`"),
+            ("url = \"vrpn://x/Head\"\n[wand]\nbuttons = \"\"", "tracker.wand.buttons is \"\""),
+            ("url = \"vrpn://x/Head\"\n[wand]\nstick = [0, 128]", "tracker.wand.stick is [0, 128]"),
+            ("url = \"dtrack://\"\n[wand]\ndevice = \"Wand\"", "whose flysticks have numbers"),
+            ("url = \"dtrack://\"\n[wand]\nwand_from_sensor = { yaw = 1e3 }", "tracker.wand.wand_from_sensor.yaw"),
             ("url = \"dtrack://\"\nroom_from_tracker = { yaw = 1e3 }", "tracker.room_from_tracker.yaw is 1000"),
             (
                 "url = \"dtrack://\"\nhead_from_sensor = { position = [2000, 0, 0] }",

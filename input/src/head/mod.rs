@@ -4,7 +4,11 @@
 //!
 //! room_from_head = room_from_tracker · tracker_from_sensor · sensor_from_head,
 //!
-//! where the head's origin is midway between the eyes. The velocity is made from differences of that origin's places,
+//! where the head's origin is midway between the eyes. What the tracker sends is first made right-handed and metric
+//! ([`FlipAxis`], [`LengthUnit`]). At a desk, where nobody measures, the rider declares a pose to be the straight one
+//! instead ([`Recentring`]): room_from_head is then home · straight⁻¹ times the above.
+//!
+//! The velocity is made from differences of that origin's places,
 //! so it is the velocity of the eyes, not of the sensor: when the head turns, the two differ.
 //!
 //! A velocity uses the times at which the tracker *measured*, where it gives them, because these do not jitter with
@@ -15,20 +19,27 @@
 //! confirms the leap. A head that is lost keeps its place, and its velocity fades. It is never moved to the origin.
 
 pub(crate) mod config;
+pub(crate) mod flip;
+pub(crate) mod heard;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
-mod placement;
+pub(crate) mod placement;
 mod rigid;
 mod seen;
 pub(crate) mod state;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_of_desks;
 pub(crate) mod tracked_head;
 pub(crate) mod tracked_pose;
+mod unit;
 pub(crate) mod url;
 mod velocity;
 
-pub use config::{HEAD_EDITION, HeadConfig, TrackingMode, VelocityFilter};
+pub use config::{HEAD_EDITION, HeadConfig, Recentring, TrackingMode, VelocityFilter};
+pub use flip::FlipAxis;
+pub use heard::{HeardKind, HeardSensor, MOST_HEARD};
 pub use mouse::MouseDecoder;
 pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::AxesPlacement;
@@ -37,5 +48,6 @@ pub use seen::PoseError;
 pub use state::{HeadState, Tracking};
 pub use tracked_head::TrackedHead;
 pub use tracked_pose::TrackedPose;
+pub use unit::{LengthUnit, LengthUnitError};
 pub use url::{TrackerUrl, TrackerUrlError};
 pub use velocity::TrackVelocity;

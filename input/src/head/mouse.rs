@@ -128,7 +128,8 @@ impl MouseDecoder {
         self.place.aim(at, (self.place.goal + way).clamp(self.home - reach, self.home + reach));
     }
 
-    fn go_home(&mut self, at: Nanos) {
+    /// Takes the head back to its start.
+    pub(crate) fn go_home(&mut self, at: Nanos) {
         (self.yaw, self.pitch) = (0.0, 0.0);
         self.place.aim(at, self.home);
     }

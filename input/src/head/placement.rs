@@ -42,7 +42,7 @@ impl AxesPlacement {
     }
 
     /// Checks the values; `keys` are their names for the error.
-    pub(super) fn check(&self, keys: &PlacementKeys) -> Result<(), ConfigError> {
+    pub(crate) fn check(&self, keys: &PlacementKeys) -> Result<(), ConfigError> {
         within(keys.position, self.position)?;
         for (key, angle) in [(keys.yaw, self.yaw), (keys.pitch, self.pitch), (keys.roll, self.roll)] {
             if !(-360.0..=360.0).contains(&angle) {
@@ -68,7 +68,7 @@ impl AxesPlacement {
 }
 
 /// Full names of a placement's keys.
-pub(super) struct PlacementKeys {
+pub(crate) struct PlacementKeys {
     pub(super) position: &'static str,
     yaw: &'static str,
     pitch: &'static str,
@@ -89,6 +89,7 @@ macro_rules! placement_keys {
 }
 
 pub(super) const ROOM_FROM_TRACKER: PlacementKeys = placement_keys!("tracker.room_from_tracker");
+pub(crate) const WAND_FROM_SENSOR: PlacementKeys = placement_keys!("tracker.wand.wand_from_sensor");
 pub(super) const HEAD_FROM_SENSOR: PlacementKeys = placement_keys!("tracker.head_from_sensor");
 
 /// Checks that a place is near the origin.

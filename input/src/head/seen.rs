@@ -4,6 +4,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::rigid::Rigid;
+use super::unit::LengthUnit;
 use crate::clock::{Nanos, seconds_between};
 
 /// Longest gap across which a velocity is made, seconds.
@@ -21,6 +22,19 @@ pub enum PoseError {
     /// A place that is not finite, or absurdly far away.
     #[error("a head at {0}, which is nowhere")]
     Place(DVec3),
+    /// A place that can only be in another unit.
+    #[error(
+        "a pose {distance:.0} {} from the tracker's origin: does the tracker send {}? Set scale = \"{likely}\" in [tracker]",
+        .unit.plural(), .likely.plural()
+    )]
+    Unit {
+        /// Distance from the tracker's origin, as it was sent.
+        distance: f64,
+        /// Unit that was assumed.
+        unit: LengthUnit,
+        /// Unit in which the distance is one of a head.
+        likely: LengthUnit,
+    },
     /// The tracker's origin without any turn, to the bit, which no sensor measures.
     #[error("the zero pose, which trackers send for a head that they have lost")]
     Zero,

@@ -2,12 +2,15 @@
 
 use glam::{DQuat, DVec3};
 
-use super::config::HeadConfig;
+use super::config::{HeadConfig, Recentring};
+use super::flip::mirrored;
 use super::placement::{FARTHEST_M, UNIT_LENGTHS};
 use super::rigid::Rigid;
 use super::seen::{PoseError, PoseInterval, SeenPose};
 use super::state::{HeadState, Tracking};
 use super::tracked_pose::TrackedPose;
+use super::unit::LengthUnit;
+use super::url::TrackerUrl;
 use super::velocity::TrackVelocity;
 use crate::clock::{Nanos, seconds_between};
 use crate::config_error::ConfigError;
@@ -18,6 +21,11 @@ const GRACE_S: f64 = 0.05;
 /// Age of a pose at which its velocity begins to fade, in intervals of a slow tracker; the larger of both counts.
 const GRACE_FRAMES: f64 = 1.5;
 
+/// Largest distance from a tracker's origin in a unit that nobody has named, metres: no hall is larger.
+const FARTHEST_IN_ROOM_M: f64 = 50.0;
+/// Largest distance from opentrack's centre in a unit that nobody has named, metres: no chair is rolled farther.
+const FARTHEST_AT_DESK_M: f64 = 5.0;
+
 /// Steps of the turn per radian a second: far below the noise of any tracker, they keep recordings short.
 const TURN_STEPS: f64 = 1e5;
 
@@ -27,6 +35,8 @@ pub struct TrackedHead {
     config: HeadConfig,
     room_from_tracker: Rigid,
     sensor_from_head: Rigid,
+    /// Transform to the room from where the straight pose is at home, once a pose has been declared straight.
+    room_from_straight: Option<Rigid>,
     last: Option<SeenPose>,
     /// Pose that leapt away, which the next one may confirm.
     leapt: Option<SeenPose>,
@@ -49,7 +59,8 @@ impl TrackedHead {
     pub fn new(config: HeadConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
-            room_from_tracker: config.room_from_tracker.rigid(),
+            room_from_tracker: room_from_tracker(&config),
+            room_from_straight: None,
             sensor_from_head: config.head_from_sensor.rigid().inverse(),
             last: None,
             leapt: None,
@@ -91,11 +102,39 @@ impl TrackedHead {
         self.gone.get_or_insert(at);
     }
 
+    /// True if the rider may declare a pose to be the straight one.
+    pub fn recentres(&self) -> bool {
+        self.config.recentre != Recentring::Never
+    }
+
+    /// Declares the last pose to be the straight one, at home and facing −z. Does nothing before the first pose, or in
+    /// a room that its tracker is calibrated to.
+    pub fn recentre(&mut self) {
+        if let Some(seen) = self.last.filter(|_| self.recentres()) {
+            self.straighten(seen);
+        }
+    }
+
+    fn straighten(&mut self, mut seen: SeenPose) {
+        let home = Rigid { position: DVec3::from_array(self.config.home), orientation: DQuat::IDENTITY };
+        let straight = home * seen.room_from_head.inverse();
+        let before = self.room_from_straight.unwrap_or(Rigid::IDENTITY);
+        self.room_from_straight = Some(straight * before);
+        seen.room_from_head = home;
+        // The step is no motion.
+        self.restart(&seen, 0.0);
+        (self.last, self.leapt) = (Some(seen), None);
+    }
+
     fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {
         let mut seen = self.sound(pose)?;
         let Some(last) = self.last else {
             self.restart(&seen, 0.0);
-            return self.see(seen);
+            self.see(seen);
+            if self.config.recentre == Recentring::Start {
+                self.recentre();
+            }
+            return Ok(());
         };
 
         // Keep the sign of the quaternion, so that neighbours can be compared.
@@ -119,7 +158,8 @@ impl TrackedHead {
             }
             // The leap itself is no motion.
             self.restart(&seen, 1.0);
-            return self.see(seen);
+            self.see(seen);
+            return Ok(());
         }
 
         match interval {
@@ -134,7 +174,8 @@ impl TrackedHead {
                 self.restart(&seen, share);
             }
         }
-        self.see(seen)
+        self.see(seen);
+        Ok(())
     }
 
     /// Begins new tracks of place and turn, which keep a share of their velocities at first.
@@ -143,28 +184,53 @@ impl TrackedHead {
         self.turn.restart(self.turned_rad, self.turn.value() * share);
     }
 
-    fn see(&mut self, seen: SeenPose) -> Result<(), PoseError> {
+    fn see(&mut self, seen: SeenPose) {
         (self.last, self.leapt, self.gone) = (Some(seen), None, None);
-        Ok(())
     }
 
     /// Pose of the head, if the sensor's is possible.
     fn sound(&self, pose: &TrackedPose) -> Result<SeenPose, PoseError> {
         let still = pose.position_m == DVec3::ZERO && DVec3::from_slice(&pose.orientation.to_array()) == DVec3::ZERO;
-        if still && self.config.counts_turn_and_clock() {
+        // opentrack's centre is a pose like any other.
+        if still && self.config.counts_turn_and_clock() && !self.config.is_opentrack() {
             return Err(PoseError::Zero);
         }
         let length = pose.orientation.length();
         if !UNIT_LENGTHS.contains(&length) {
             return Err(PoseError::Quaternion(length));
         }
-        if !pose.position_m.is_finite() || pose.position_m.abs().max_element() > FARTHEST_M {
-            return Err(PoseError::Place(pose.position_m));
+        let (position_m, orientation) = self.scaled(pose)?;
+        let (position, orientation) = mirrored(&self.config.flip, position_m, orientation.normalize());
+        let tracker_from_sensor = Rigid { position, orientation };
+        let mut room_from_head = self.room_from_tracker * tracker_from_sensor * self.sensor_from_head;
+        if let Some(room_from_straight) = self.room_from_straight {
+            room_from_head = room_from_straight * room_from_head;
         }
-        let tracker_from_sensor = Rigid { position: pose.position_m, orientation: pose.orientation.normalize() };
-        let room_from_head = self.room_from_tracker * tracker_from_sensor * self.sensor_from_head;
         let measured_s = pose.measured_s.filter(|seconds| seconds.is_finite());
         Ok(SeenPose { at: pose.at, measured_s, room_from_head })
+    }
+
+    /// Place of the sensor, metres, and its turn, if they are possible.
+    fn scaled(&self, pose: &TrackedPose) -> Result<(DVec3, DQuat), PoseError> {
+        let usual = usual_unit(&self.config.url);
+        let unit = self.config.scale.unwrap_or(usual);
+        let position_m = match self.config.scale {
+            Some(unit) => pose.position_m * (unit.metres() / usual.metres()),
+            None => pose.position_m,
+        };
+        let farthest_m = match self.config.scale {
+            None if self.config.knows_units() && self.config.is_opentrack() => FARTHEST_AT_DESK_M,
+            None if self.config.knows_units() => FARTHEST_IN_ROOM_M,
+            _ => FARTHEST_M,
+        };
+        if position_m.is_finite() && position_m.abs().max_element() <= farthest_m {
+            return Ok((position_m, pose.orientation));
+        }
+        let distance = pose.position_m.length() / usual.metres();
+        match unit.other(distance).filter(|_| self.config.knows_units()) {
+            Some(likely) => Err(PoseError::Unit { distance, unit, likely }),
+            None => Err(PoseError::Place(position_m)),
+        }
     }
 
     /// Reliability of a pose at the time `at`, and the remaining share of its velocity, 0 to 1.
@@ -199,6 +265,25 @@ impl TrackedHead {
         let velocity_m_s = self.velocity.value() * share;
         HeadState { position_m: position, orientation, velocity_m_s, turn_rad_s: turn, tracked }
     }
+}
+
+/// Unit of the lengths that such a tracker sends, which its decoder has turned into metres.
+fn usual_unit(url: &TrackerUrl) -> LengthUnit {
+    let name = match url {
+        TrackerUrl::Vrpn { .. } | TrackerUrl::Mouse => "m",
+        TrackerUrl::Dtrack { .. } => "mm",
+        TrackerUrl::Opentrack { .. } => "cm",
+    };
+    LengthUnit::named(name).expect("the unit of a tracker has a name")
+}
+
+/// Placement of the tracker's axes in the room. opentrack's centre is where the head is at home.
+fn room_from_tracker(config: &HeadConfig) -> Rigid {
+    let mut placed = config.room_from_tracker.rigid();
+    if config.is_opentrack() {
+        placed.position += DVec3::from_array(config.home);
+    }
+    placed
 }
 
 /// Turn from one orientation to the next in the room's axes, radians along its axis; their signs agree.

@@ -1,13 +1,15 @@
-//! Address of a tracker as one text: `vrpn://HOST[:PORT]/DEVICE`, `dtrack://[ADDRESS][:PORT]`, `mouse`.
+//! Address of a tracker as one text: `vrpn://HOST[:PORT]/DEVICE` or, as VRPN's own tools say it,
+//! `DEVICE@HOST[:PORT]`; `dtrack://[ADDRESS][:PORT]`; `opentrack://[ADDRESS][:PORT]`; `mouse`.
 
 use std::fmt;
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::dtrack;
+use crate::dtrack::wire::PORT as DTRACK_PORT;
+use crate::opentrack;
 use crate::sample::SampleSource;
 use crate::vrpn::wire::{self, LONGEST_NAME};
 
@@ -31,6 +33,13 @@ pub enum TrackerUrl {
         /// Port that the controller sends to.
         port: u16,
     },
+    /// The datagrams of opentrack.
+    Opentrack {
+        /// Address of this machine that opentrack sends to.
+        address: IpAddr,
+        /// Port that opentrack sends to.
+        port: u16,
+    },
     /// Mouse in the window, which moves the head without a tracker.
     Mouse,
 }
@@ -40,7 +49,7 @@ pub enum TrackerUrl {
 pub enum TrackerUrlError {
     /// A text of unknown form.
     #[error(
-        "{0:?} is no tracker: expected vrpn://HOST/DEVICE, dtrack://ADDRESS:PORT or mouse, as in vrpn://192.168.0.10/Head"
+        "{0:?} is no tracker: expected vrpn://HOST/DEVICE or DEVICE@HOST, dtrack://ADDRESS:PORT, opentrack://:PORT or mouse, as in vrpn://192.168.0.10/Head"
     )]
     Unknown(String),
     /// An address without a host.
@@ -59,7 +68,7 @@ pub enum TrackerUrlError {
     },
     /// A text in place of an address.
     #[error(
-        "{address:?} in {url:?} is no address: expected one of this machine or a multicast group, as in dtrack://225.1.1.1:5000, or none"
+        "{address:?} in {url:?} is no address: expected one of this machine, or for dtrack a multicast group, as in dtrack://225.1.1.1:5000, or none"
     )]
     Address {
         /// Whole text of the address.
@@ -75,6 +84,7 @@ impl TrackerUrl {
         match self {
             Self::Vrpn { .. } => SampleSource::Vrpn,
             Self::Dtrack { .. } => SampleSource::Dtrack,
+            Self::Opentrack { .. } => SampleSource::Opentrack,
             Self::Mouse => SampleSource::Mouse,
         }
     }
@@ -88,28 +98,49 @@ impl FromStr for TrackerUrl {
         if url == "mouse" {
             return Ok(Self::Mouse);
         }
+        if let Some((device, place)) = url.split_once('@').filter(|(device, _)| !device.contains("://")) {
+            // Prefixes by which VRPN's own tools name the transport; this program uses TCP alone.
+            let prefixes = ["tcp://", "tcp:", "x-vrpn://", "x-vrpn:"];
+            let place = prefixes.iter().find_map(|prefix| place.strip_prefix(prefix)).unwrap_or(place);
+            return vrpn(url, place.trim_end_matches('/'), device);
+        }
         match url.split_once("://") {
             // VRPN's own name for a connection over TCP alone.
             Some(("vrpn" | "tcp", rest)) => {
                 let (place, device) = rest.split_once('/').unwrap_or((rest, ""));
-                let (host, port) = host_and_port(url, place, wire::PORT)?;
-                if host.is_empty() || host.contains('@') {
-                    return Err(TrackerUrlError::Host(url.to_owned()));
-                }
-                if device.is_empty() || device.len() >= LONGEST_NAME {
-                    return Err(TrackerUrlError::Device(url.to_owned()));
-                }
-                Ok(Self::Vrpn { host: host.to_owned(), port, device: device.to_owned() })
+                vrpn(url, place, device)
             }
             Some(("dtrack", rest)) => {
-                let (host, port) = host_and_port(url, rest.trim_end_matches('/'), dtrack::PORT)?;
-                let bad = |_| TrackerUrlError::Address { url: url.to_owned(), address: host.to_owned() };
-                let address = if host.is_empty() { Ipv4Addr::UNSPECIFIED.into() } else { host.parse().map_err(bad)? };
+                let (address, port) = address_and_port(url, rest, DTRACK_PORT)?;
                 Ok(Self::Dtrack { address, port })
+            }
+            Some(("opentrack", rest)) => {
+                let (address, port) = address_and_port(url, rest, opentrack::PORT)?;
+                Ok(Self::Opentrack { address, port })
             }
             _ => Err(TrackerUrlError::Unknown(url.to_owned())),
         }
     }
+}
+
+/// Device at a server's place, `HOST[:PORT]`.
+fn vrpn(url: &str, place: &str, device: &str) -> Result<TrackerUrl, TrackerUrlError> {
+    let (host, port) = host_and_port(url, place, wire::PORT)?;
+    if host.is_empty() || host.contains(['@', '/']) {
+        return Err(TrackerUrlError::Host(url.to_owned()));
+    }
+    if device.is_empty() || device.len() >= LONGEST_NAME {
+        return Err(TrackerUrlError::Device(url.to_owned()));
+    }
+    Ok(TrackerUrl::Vrpn { host: host.to_owned(), port, device: device.to_owned() })
+}
+
+/// Splits `[ADDRESS][:PORT]`; without an address, all those of the machine are meant.
+fn address_and_port(url: &str, place: &str, usual: u16) -> Result<(IpAddr, u16), TrackerUrlError> {
+    let (host, port) = host_and_port(url, place.trim_end_matches('/'), usual)?;
+    let bad = |_| TrackerUrlError::Address { url: url.to_owned(), address: host.to_owned() };
+    let address = if host.is_empty() { Ipv4Addr::UNSPECIFIED.into() } else { host.parse().map_err(bad)? };
+    Ok((address, port))
 }
 
 /// Splits `HOST[:PORT]`; an IPv6 address stands in brackets.
@@ -138,8 +169,10 @@ impl fmt::Display for TrackerUrl {
                 write!(formatter, "vrpn://[{host}]:{port}/{device}")
             }
             Self::Vrpn { host, port, device } => write!(formatter, "vrpn://{host}:{port}/{device}"),
-            Self::Dtrack { address: IpAddr::V6(address), port } => write!(formatter, "dtrack://[{address}]:{port}"),
-            Self::Dtrack { address, port } => write!(formatter, "dtrack://{address}:{port}"),
+            Self::Dtrack { address, port } => write!(formatter, "dtrack://{}", SocketAddr::new(*address, *port)),
+            Self::Opentrack { address, port } => {
+                write!(formatter, "opentrack://{}", SocketAddr::new(*address, *port))
+            }
             Self::Mouse => formatter.write_str("mouse"),
         }
     }
@@ -171,10 +204,20 @@ mod tests {
             ("vrpn://192.168.0.10:4000/Head 0", "vrpn://192.168.0.10:4000/Head 0"),
             ("tcp://tracker:3883/a/b", "vrpn://tracker:3883/a/b"),
             ("vrpn://[::1]/Head", "vrpn://[::1]:3883/Head"),
+            ("Tracker0@tracker", "vrpn://tracker:3883/Tracker0"),
+            ("Tracker0@tracker:3884", "vrpn://tracker:3884/Tracker0"),
+            ("Tracker0@tcp://tracker:3884", "vrpn://tracker:3884/Tracker0"),
+            ("Tracker0@tcp:tracker", "vrpn://tracker:3883/Tracker0"),
+            ("Tracker0@x-vrpn://tracker:3884/", "vrpn://tracker:3884/Tracker0"),
+            ("Head 0@[::1]:4000", "vrpn://[::1]:4000/Head 0"),
             ("dtrack://", "dtrack://0.0.0.0:5000"),
             ("dtrack://:5001", "dtrack://0.0.0.0:5001"),
             ("dtrack://225.1.1.1:5000/", "dtrack://225.1.1.1:5000"),
             ("dtrack://[::]:5000", "dtrack://[::]:5000"),
+            ("opentrack://", "opentrack://0.0.0.0:4242"),
+            ("opentrack://:4242", "opentrack://0.0.0.0:4242"),
+            ("opentrack://127.0.0.1:4243/", "opentrack://127.0.0.1:4243"),
+            ("opentrack://[::1]", "opentrack://[::1]:4242"),
             (" mouse ", "mouse"),
         ] {
             let url: TrackerUrl = text.parse().unwrap();
@@ -188,7 +231,13 @@ mod tests {
     fn a_wrong_place_is_told_in_a_sentence() {
         for (text, expected) in [
             ("", "is no tracker"),
-            ("Head@tracker", "expected vrpn://HOST/DEVICE"),
+            ("Head@", "names no host"),
+            ("Head@:3883", "names no host"),
+            ("Head@tracker/Tail", "names no host"),
+            ("Head@a@b", "names no host"),
+            ("@tracker", "names no device"),
+            ("Head@tracker:0", "\"0\" in \"Head@tracker:0\" is no port"),
+            ("Head@http://tracker", "is no port"),
             ("http://tracker/Head", "is no tracker"),
             ("vrpn:///Head", "names no host"),
             ("vrpn://Head@tracker/", "names no host"),
@@ -199,6 +248,8 @@ mod tests {
             ("vrpn://[::1]3883/Head", "is no port"),
             ("dtrack://controller:5000", "\"controller\" in"),
             ("dtrack://:port", "is no port"),
+            ("opentrack://desk:4242", "\"desk\" in"),
+            ("opentrack://:0", "is no port"),
         ] {
             let error = text.parse::<TrackerUrl>().unwrap_err().to_string();
             assert!(error.contains(expected), "{text}: {error}");

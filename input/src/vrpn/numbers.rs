@@ -1,36 +1,62 @@
 //! Numbers of the names on one connection.
 
-use super::types::{PING, PONG, POSE, VELOCITY};
+use super::types::{BUTTON, BUTTONS, CHANNELS, PING, PONG, POSE, VELOCITY};
 use super::wire::{DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnError, VrpnMessage};
 
-/// Number of senders whose names are kept, to report a mistaken name.
-pub(super) const MOST_SENDERS: usize = 16;
+/// Number of senders whose names are kept, to list what they send.
+pub(super) const MOST_SENDERS: usize = 64;
 
 /// Numbers that the other side has given to the names that are needed.
+///
+/// A description of a device proves nothing: the stock server repeats those that any client has made. A device
+/// exists if it sends something, the answer to a ping if nothing else.
 #[derive(Clone, Debug, Default)]
 pub struct VrpnNumbers {
-    /// Name of the device that is listened to.
-    device: String,
-    sender: Option<i32>,
+    /// Devices that are listened to, the one of the pose first. No flood of others crowds them out.
+    listened: Vec<ListenedDevice>,
     /// Number of each of [`Self::TYPES`].
-    types: [Option<i32>; 4],
-    senders: Vec<String>,
+    types: [Option<i32>; 7],
+    /// Senders by number, as they were described.
+    senders: Vec<(i32, String)>,
+}
+
+/// Device that is listened to.
+#[derive(Clone, Debug, Default)]
+struct ListenedDevice {
+    name: String,
+    number: Option<i32>,
+    /// True if it has sent something.
+    exists: bool,
 }
 
 impl VrpnNumbers {
-    const TYPES: [&str; 4] = [POSE, VELOCITY, PING, PONG];
+    const TYPES: [&str; 7] = [POSE, VELOCITY, PING, PONG, BUTTON, BUTTONS, CHANNELS];
 
-    /// Numbers before any description.
+    /// Numbers before any description, of a device alone.
     pub fn new(device: &str) -> Self {
-        Self { device: device.to_owned(), ..Self::default() }
+        Self::of_devices([device])
+    }
+
+    /// Numbers before any description, of a device and others that are listened to.
+    pub fn of_devices<'a>(devices: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut numbers = Self::default();
+        for name in devices {
+            if !numbers.listened.iter().any(|known| known.name == name) {
+                numbers.listened.push(ListenedDevice { name: name.to_owned(), ..Default::default() });
+            }
+        }
+        numbers
     }
 
     /// Forgets all descriptions.
     pub fn forget(&mut self) {
-        *self = Self::new(&self.device);
+        for device in &mut self.listened {
+            (device.number, device.exists) = (None, false);
+        }
+        (self.types, self.senders) = (Default::default(), Vec::new());
     }
 
-    /// Takes a description; false for any other message.
+    /// Takes a description; false for any other message, whose sender then is known to exist.
     ///
     /// # Errors
     /// A name that cannot be read.
@@ -38,9 +64,12 @@ impl VrpnNumbers {
         match message.kind {
             DESCRIBES_SENDER => {
                 let name = message.name()?;
-                give(&mut self.sender, message.sender, name == self.device);
-                if self.senders.len() < MOST_SENDERS && !self.senders.iter().any(|known| known == name) {
-                    self.senders.push(name.to_owned());
+                for device in &mut self.listened {
+                    give(&mut device.number, message.sender, name == device.name);
+                }
+                self.senders.retain(|(number, _)| *number != message.sender);
+                if self.senders.len() < MOST_SENDERS {
+                    self.senders.push((message.sender, name.to_owned()));
                 }
             }
             DESCRIBES_TYPE => {
@@ -49,28 +78,48 @@ impl VrpnNumbers {
                     give(number, message.sender, name == known);
                 }
             }
-            _ => return Ok(false),
+            kind => {
+                let mut listened = self.listened.iter_mut();
+                if let Some(device) = listened.find(|device| kind >= 0 && device.number == Some(message.sender)) {
+                    device.exists = true;
+                }
+                return Ok(false);
+            }
         }
         Ok(true)
     }
 
-    /// Type of a message of the device, if it is one of the known types; `None` for all others.
-    pub fn of_device(&self, message: &VrpnMessage<'_>) -> Option<&'static str> {
-        if self.sender != Some(message.sender) {
-            return None;
-        }
+    /// Type of a message, if it is one of the known types; `None` for all others.
+    pub fn kind(&self, message: &VrpnMessage<'_>) -> Option<&'static str> {
         let index = self.types.iter().position(|number| *number == Some(message.kind))?;
         Some(Self::TYPES[index])
     }
 
-    /// Names of the senders that have been described, the first few.
-    pub fn senders(&self) -> &[String] {
-        &self.senders
+    /// Name of a message's sender, if it has been described.
+    pub fn sender(&self, message: &VrpnMessage<'_>) -> Option<&str> {
+        let listened = self.listened.iter().find(|device| device.number == Some(message.sender));
+        let others = || self.senders.iter().find(|(number, _)| *number == message.sender).map(|(_, name)| name);
+        listened.map(|device| &device.name).or_else(others).map(String::as_str)
     }
 
-    /// True if the device has been described.
+    /// True if the message comes from a device that is listened to.
+    pub fn is_listened(&self, message: &VrpnMessage<'_>) -> bool {
+        self.listened.iter().any(|device| device.number == Some(message.sender))
+    }
+
+    /// Names of the senders that have been described, the first few.
+    pub fn senders(&self) -> Vec<String> {
+        self.senders.iter().map(|(_, name)| name.clone()).collect()
+    }
+
+    /// True if the device of the pose has been described.
     pub fn has_device(&self) -> bool {
-        self.sender.is_some()
+        self.listened.first().is_some_and(|device| device.number.is_some())
+    }
+
+    /// Names of the devices that are listened to and have not sent anything, not even the answer to a ping.
+    pub fn missing(&self) -> impl Iterator<Item = &str> {
+        self.listened.iter().filter(|device| !device.exists).map(|device| device.name.as_str())
     }
 }
 

@@ -51,7 +51,6 @@ pub fn parse_within(text: &str, name: &str, folder: &Path, budget: &Budget) -> R
         windows,
         channels,
         set_up: file.set_up(),
-        tracker: file.tracker.clone(),
         notices: Vec::new(),
     };
     if display.channels.is_empty() {

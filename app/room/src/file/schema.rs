@@ -20,6 +20,7 @@ pub(super) struct DisplayTables {
     pub channel: Vec<Spanned<ChannelTable>>,
     pub tracker: Option<Value>,
     pub bicycle: Option<Value>,
+    pub trainer: Option<Value>,
     pub rider: Option<Value>,
     pub axes: Option<Value>,
     pub gamepad: Option<Value>,
@@ -29,8 +30,16 @@ pub(super) struct DisplayTables {
 impl DisplayTables {
     /// Tables about the rider's hardware, unchanged.
     pub(super) fn set_up(&self) -> toml::Table {
-        let Self { bicycle, rider, axes, gamepad, keys, .. } = self;
-        let tables = [("bicycle", bicycle), ("rider", rider), ("axes", axes), ("gamepad", gamepad), ("keys", keys)];
+        let Self { bicycle, trainer, rider, axes, gamepad, keys, tracker, .. } = self;
+        let tables = [
+            ("bicycle", bicycle),
+            ("trainer", trainer),
+            ("rider", rider),
+            ("axes", axes),
+            ("gamepad", gamepad),
+            ("keys", keys),
+            ("tracker", tracker),
+        ];
         tables.into_iter().filter_map(|(name, table)| Some((name.to_owned(), table.clone()?))).collect()
     }
 }

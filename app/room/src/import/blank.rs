@@ -14,7 +14,6 @@ pub(super) fn blank(head_m: DVec3) -> Display {
         windows: Vec::new(),
         channels: Vec::new(),
         set_up: toml::Table::new(),
-        tracker: None,
         notices: Vec::new(),
     }
 }

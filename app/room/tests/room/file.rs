@@ -145,7 +145,7 @@ fn everything_else_that_can_be_written_is_kept() {
     .unwrap();
     assert_eq!((display.name.as_str(), display.viewer.eye_scale), ("lab", 10.0));
     assert_eq!(display.viewer.head_m, DVec3::new(0.1, 1.7, 0.2));
-    assert_eq!(display.tracker.unwrap()["bodies"][0]["port"].as_integer(), Some(5000));
+    assert_eq!(display.set_up["tracker"]["bodies"][0]["port"].as_integer(), Some(5000));
     let window = &display.windows[0];
     assert_eq!(window.monitor, Some(Monitor::Name("DP-1".into())));
     assert_eq!((window.position, window.fullscreen, window.swap_eyes), (Some([-20, 10]), true, true));

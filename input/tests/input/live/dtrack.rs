@@ -140,18 +140,40 @@ fn a_port_in_use_and_a_foreign_address_are_told() {
 }
 
 #[test]
-fn a_multicast_group_is_joined_where_the_system_has_a_way_to_it() {
+fn a_multicast_group_is_heard_on_the_loopback_and_its_garbage_survived() {
+    let group = (std::net::Ipv4Addr::new(239, 193, 7, 78), Controller::start().port);
+    let mut tracking = Loop::track(&format!("dtrack://{}:{}", group.0, group.1));
+    tracking.until_open(true);
+    let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
+    socket2::SockRef::from(&sender).set_multicast_if_v4(&std::net::Ipv4Addr::LOCALHOST).unwrap();
+    sender.send_to(frame(1, 100.0).as_bytes(), group).unwrap();
+    until_at(&mut tracking, 0.1);
+    sender.send_to(b"6d 3 [\xff", group).unwrap();
+    tracking.until("the garbage", |it| it.desk.faults(SampleSource::Dtrack).number() == 1);
+    let told = tracking.desk.faults(SampleSource::Dtrack).last().unwrap().to_owned();
+    assert!(told.starts_with("a datagram that is not ASCII text"), "{told}");
+    sender.send_to(frame(2, 110.0).as_bytes(), group).unwrap();
+    until_at(&mut tracking, 0.11);
+    assert!(tracking.replays_to_the_bit() > 1);
+}
+
+#[test]
+fn a_body_that_is_not_seen_is_told_with_those_that_are() {
     let controller = Controller::start();
-    let mut tracking = Loop::track(&format!("dtrack://225.1.1.1:{}", controller.port));
+    let head = input::HeadConfig {
+        sensor: 5,
+        ..input::HeadConfig::new(format!("dtrack://127.0.0.1:{}", controller.port).parse().unwrap())
+    };
+    let mut tracking = Loop::track_head(head);
+    tracking.until_open(true);
     let mut number = 0;
-    tracking.until("the group", |it| {
+    let expected = "body 5 is not seen; body 0 and inertial body 2 are seen";
+    tracking.until(expected, |it| {
         number += 1;
-        let _ = controller.socket.send_to(frame(number, 1.0).as_bytes(), ("225.1.1.1", controller.port));
-        controller.send(frame(number, 1.0));
-        match &it.devices.status()[0].state {
-            DeviceState::Open => it.head().tracked == Tracking::Tracked,
-            // A machine without a network has no such group.
-            DeviceState::Absent(why) => why.contains("cannot listen at"),
-        }
+        controller.send(frame(number, 1.0) + "6di 1 [2 1 0.500][1 2 3][1 0 0 0 1 0 0 0 1]\r\n");
+        std::thread::sleep(Duration::from_millis(10));
+        let now = it.clock.now();
+        it.desk.tracker_advice(now).as_deref() == Some(expected)
     });
+    assert_eq!(tracking.head().tracked, Tracking::Never);
 }

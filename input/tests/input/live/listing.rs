@@ -11,7 +11,7 @@ use input::devices::{DeviceState, plugged_in};
 fn a_machine_without_devices_is_no_error() {
     let mut looking = Loop::start(&DevicesConfig {
         bicycle: Some(String::new()),
-        spacenavd_socket: PathBuf::from("/nowhere/spnav.sock"),
+        spacenavd_socket: Some(PathBuf::from("/nowhere/spnav.sock")),
         ..DevicesConfig::default()
     });
     looking.until("a word about every device", |it| {

@@ -3,8 +3,10 @@
 mod dtrack;
 mod frames;
 mod listing;
+mod opentrack;
 #[cfg(target_os = "linux")]
 mod serial;
 #[cfg(unix)]
 mod spacenavd;
 mod vrpn;
+mod wand;

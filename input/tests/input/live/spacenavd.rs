@@ -23,7 +23,7 @@ fn bytes(words: [i32; 8]) -> Vec<u8> {
 }
 
 fn config(socket: &Path) -> DevicesConfig {
-    DevicesConfig { gamepad: false, spacenavd_socket: socket.to_owned(), ..Default::default() }
+    DevicesConfig { gamepad: false, spacenavd_socket: Some(socket.to_owned()), ..Default::default() }
 }
 
 fn controls(it: &mut Loop) -> Controls {

@@ -46,12 +46,12 @@ const OUR_PING: &str = "000000180000000000000000000000000000000000000000";
 /// Answer of the client to a ping: type 1.
 const OUR_PONG: &str = "000000180000000000000000000000000000000100000000";
 
-fn unhex(hex: &str) -> Vec<u8> {
+pub(super) fn unhex(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(|at| u8::from_str_radix(&hex[at..at + 2], 16).unwrap()).collect()
 }
 
 /// Message in the form of VRPN's own documents and captures.
-fn message(seconds: u32, microseconds: u32, sender: i32, kind: i32, payload: &[u8]) -> Vec<u8> {
+pub(super) fn message(seconds: u32, microseconds: u32, sender: i32, kind: i32, payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for word in [24 + payload.len() as u32, seconds, microseconds, sender as u32, kind as u32, 0] {
         bytes.extend_from_slice(&word.to_be_bytes());
@@ -62,13 +62,13 @@ fn message(seconds: u32, microseconds: u32, sender: i32, kind: i32, payload: &[u
 }
 
 /// Description that a number is a name: −1 of a sender, −2 of a type.
-fn description(kind: i32, number: i32, name: &str) -> Vec<u8> {
+pub(super) fn description(kind: i32, number: i32, name: &str) -> Vec<u8> {
     let length = name.len() as u32 + 1;
     message(0, 0, number, kind, &[&length.to_be_bytes(), name.as_bytes(), &[0]].concat())
 }
 
 /// Pose of sender 1, type 4: frame `number` of a 100 Hz tracker, at (x, 1.5, 0).
-fn pose(number: u32, x: f64) -> Vec<u8> {
+pub(super) fn pose(number: u32, x: f64) -> Vec<u8> {
     let mut payload = vec![0; 8];
     for value in [x, 1.5, 0.0, 0.0, 0.0, 0.0, 1.0] {
         payload.extend_from_slice(&value.to_be_bytes());
@@ -76,33 +76,33 @@ fn pose(number: u32, x: f64) -> Vec<u8> {
     message(1_795_325_065 + number / 100, number % 100 * 10_000, 1, 4, &payload)
 }
 
-fn descriptions() -> Vec<u8> {
+pub(super) fn descriptions() -> Vec<u8> {
     [unhex(SENDER_1_HEAD), unhex(TYPE_4_POSE)].concat()
 }
 
 /// Server of one client at a time.
-struct Server {
+pub(super) struct Server {
     listener: TcpListener,
 }
 
 impl Server {
-    fn start() -> Self {
+    pub(super) fn start() -> Self {
         Self { listener: TcpListener::bind("127.0.0.1:0").unwrap() }
     }
 
-    fn url(&self) -> String {
+    pub(super) fn url(&self) -> String {
         format!("vrpn://127.0.0.1:{}/Head", self.listener.local_addr().unwrap().port())
     }
 
     /// Client that has sent nothing yet.
-    fn accept(&self) -> TcpStream {
+    pub(super) fn accept(&self) -> TcpStream {
         let client = self.listener.accept().unwrap().0;
         client.set_read_timeout(Some(Duration::from_secs(5))).unwrap();
         client
     }
 
     /// Client after the exchange of cookies.
-    fn greet(&self) -> TcpStream {
+    pub(super) fn greet(&self) -> TcpStream {
         let mut client = self.accept();
         client.write_all(&unhex(COOKIE)).unwrap();
         expect(&mut client, COOKIE);
@@ -110,13 +110,13 @@ impl Server {
     }
 }
 
-fn expect(client: &mut TcpStream, hex: &str) {
+pub(super) fn expect(client: &mut TcpStream, hex: &str) {
     let mut heard = vec![0; hex.len() / 2];
     client.read_exact(&mut heard).unwrap();
     assert_eq!(heard, unhex(hex), "expected {hex}");
 }
 
-fn until_at(tracking: &mut Loop, x: f64) {
+pub(super) fn until_at(tracking: &mut Loop, x: f64) {
     tracking.until(&format!("the head at {x}"), |it| {
         let head = it.head();
         head.tracked != Tracking::Never && (head.position_m.x - x).abs() < 1e-12
@@ -248,4 +248,89 @@ fn of_a_flood_the_newest_pose_survives() {
     }
     until_at(&mut tracking, 0.099);
     assert_eq!(tracking.desk.faults(SampleSource::Vrpn).number(), 0);
+}
+
+/// Port at which a server listens as the stock server does: without leave to share it with what is left of an earlier
+/// connection.
+fn listen_as_the_stock_server(port: u16) -> std::io::Result<TcpListener> {
+    use socket2::{Domain, Socket, Type};
+    let socket = Socket::new(Domain::IPV4, Type::STREAM, None)?;
+    socket.bind(&std::net::SocketAddr::from(([127, 0, 0, 1], port)).into())?;
+    socket.listen(4)?;
+    Ok(socket.into())
+}
+
+#[test]
+fn a_server_that_is_killed_in_mid_ride_can_be_started_again_at_once_and_is_used() {
+    let mut server = Server { listener: listen_as_the_stock_server(0).unwrap() };
+    let port = server.listener.local_addr().unwrap().port();
+    let mut tracking = Loop::track(&server.url());
+    for (session, x) in [(0, 0.5), (1, 0.6), (2, 0.7)] {
+        let mut client = server.greet();
+        client.write_all(&[descriptions(), pose(1000 * session, x)].concat()).unwrap();
+        until_at(&mut tracking, x);
+        // The system closes the killed server's sockets, the connection first.
+        drop(client);
+        drop(server);
+        let killed = std::time::Instant::now();
+        let listener = loop {
+            match listen_as_the_stock_server(port) {
+                Ok(listener) => break listener,
+                Err(error) => {
+                    assert!(killed.elapsed() < Duration::from_secs(2), "after {:?}: {error}", killed.elapsed())
+                }
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        };
+        server = Server { listener };
+    }
+    // A client that is killed leaves nothing either.
+    let client = server.greet();
+    drop(tracking);
+    drop((client, server));
+    listen_as_the_stock_server(port).unwrap();
+}
+
+#[test]
+fn a_mistaken_name_is_told_although_the_server_repeats_it() {
+    let server = Server::start();
+    let mut tracking = Loop::track(&server.url().replace("/Head", "/Hand"));
+    let mut client = server.greet();
+    // As the stock server does: it describes what the client has described, and sends the poses of its own devices.
+    client.write_all(&[descriptions(), description(-1, 5, "Hand")].concat()).unwrap();
+    let mut number = 0;
+    tracking.until("the advice", |it| {
+        number += 1;
+        client.write_all(&pose(number, 0.5)).unwrap();
+        let now = it.clock.now();
+        it.desk.tracker_advice(now).is_some()
+    });
+    let now = tracking.clock.now();
+    let told = tracking.desk.tracker_advice(now).unwrap();
+    let expected = "the server has no device \"Hand\": a ping is not answered; the server sends sensor 0 of Head";
+    assert_eq!(told, expected);
+    let heard = &tracking.desk.heard(SampleSource::Vrpn)[0];
+    assert!(heard.count > 100 && heard.rate_hz(now) > 50.0 && heard.is_tracked(now), "{heard:?}");
+    assert_eq!(tracking.devices.status()[0].state, DeviceState::Open);
+    // The answer to a ping takes it back, and asks for the sensor.
+    client.write_all(&[description(-2, 9, "vrpn_Base pong_message"), message(0, 0, 5, 9, &[])].concat()).unwrap();
+    tracking.until("the answer", |it| {
+        it.desk.tracker_advice(now).is_some_and(|told| told.starts_with("no pose comes from sensor 0 of Hand"))
+    });
+}
+
+#[test]
+fn a_server_that_answers_late_is_waited_for() {
+    let server = Server::start();
+    let mut tracking = Loop::track(&server.url());
+    let mut client = server.accept();
+    client.write_all(&unhex(COOKIE)[..10]).unwrap();
+    std::thread::sleep(Duration::from_millis(600));
+    client.write_all(&unhex(COOKIE)[10..]).unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    client.write_all(&descriptions()).unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    client.write_all(&pose(1, 0.25)).unwrap();
+    until_at(&mut tracking, 0.25);
+    assert!(tracking.replays_to_the_bit() > 0);
 }
