@@ -151,7 +151,7 @@ impl Decoder for OpentrackDecoder {
         match self.pose(at, bytes) {
             Ok(pose) => {
                 if let Some(heard) = self.heard.report(at, HeardKind::Sensor, "opentrack", pose.sensor) {
-                    heard.pose = Some((pose.position_m, pose.orientation));
+                    heard.see(at, Some((pose.position_m, pose.orientation)));
                 }
                 self.poses.push(pose);
             }

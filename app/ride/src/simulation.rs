@@ -196,7 +196,8 @@ impl Simulation {
             },
             Action::Vehicle(kind) => self.vehicle.set_kind(kind, &*self.surroundings),
             Action::Restart => self.restart(),
-            Action::LookAhead | Action::Step | Action::Photo | Action::ToggleRecording | Action::ToggleHelp => {}
+            Action::LookAhead | Action::Recentre | Action::Step => {}
+            Action::Photo | Action::ToggleRecording | Action::ToggleHelp => {}
         }
     }
 

@@ -80,9 +80,17 @@ pub struct DevicesOptions {
     /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
-    /// Tracker of the head, which is listed with the other devices: vrpn://HOST/DEVICE or dtrack://:5000.
+    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 or opentrack://:4242. All that it sends is listed, also
+    /// what no ride uses, with the reason of the last message that could not be read.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
+    /// Number of the tracker's sensor, or body, that is on the head [default: 0, or that of the display].
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub sensor: Option<i32>,
+    /// Display whose table [tracker] says how the head is tracked: its tracker, unless --tracker names another, its
+    /// unit, mirrors and placements.
+    #[arg(long, value_name = "DISPLAY")]
+    pub display: Option<String>,
     /// Time for which devices are watched, seconds [default: until Ctrl-C].
     #[arg(long, value_name = "N", value_parser = values::positive)]
     pub seconds: Option<f64>,

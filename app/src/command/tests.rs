@@ -171,9 +171,15 @@ fn the_small_commands_parse() {
     let reading = ReadingOptions { limit: 3.0, trust: false };
     assert_eq!(parse("check a.glb b.mcap").unwrap(), Command::Check(CheckOptions { files, json: false, reading }));
     let tracker = Some("dtrack://0.0.0.0:5000".parse().unwrap());
-    let devices = DevicesOptions { bicycle: Some("/dev/ttyUSB0".to_owned()), tracker, seconds: Some(1.0) };
+    let devices = DevicesOptions {
+        bicycle: Some("/dev/ttyUSB0".to_owned()),
+        tracker,
+        sensor: Some(2),
+        display: Some("lab.toml".to_owned()),
+        seconds: Some(1.0),
+    };
     assert_eq!(
-        parse("devices --bicycle /dev/ttyUSB0 --tracker dtrack:// --seconds 1").unwrap(),
+        parse("devices --bicycle /dev/ttyUSB0 --tracker dtrack:// --sensor 2 --display lab.toml --seconds 1").unwrap(),
         Command::Devices(devices)
     );
 }

@@ -2,11 +2,15 @@
 
 use crate::command::DevicesOptions;
 use crate::error::Error;
+use crate::session::heard;
 use crate::session::interrupt::interrupted;
+use crate::session::tracker::{TrackerError, head_config};
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
-use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, SampleSource};
+use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND};
+use regular_file::Budget;
+use room::Display;
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
@@ -29,9 +33,10 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     writeln!(out, "{}", plugged(&plugged_in()))?;
 
     let clock = Clock::start();
-    let (bicycle, tracker) = (options.bicycle.clone(), options.tracker.clone());
-    let head = tracker.clone().map(HeadConfig::new);
+    let head = head_of(options)?;
+    let tracker = head.as_ref().map(|head| head.url.clone());
     let mut desk = Desk::new(DeskConfig { head, ..Default::default() })?;
+    let bicycle = options.bicycle.clone();
     let live = Devices::open(&DevicesConfig { bicycle, tracker, ..Default::default() }, clock)?;
     let stop = interrupted();
     let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
@@ -45,7 +50,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
         let over = stop.load(Ordering::Relaxed) || seconds.is_some_and(|seconds| now as f64 >= seconds * SECOND as f64);
         if terminal || over {
             let controls = desk.controls(now);
-            let text = listing(&live.status(), &desk, &controls);
+            let text = listing(&live.status(), &desk, &controls, now);
             if shown > 0 {
                 // The cursor moves back to the beginning of the last listing.
                 write!(out, "\x1b[{shown}A\x1b[J")?;
@@ -58,6 +63,28 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
             return Ok(());
         }
     }
+}
+
+/// Tracking of the head by the display's table or the tracker that the options name.
+fn head_of(options: &DevicesOptions) -> Result<Option<HeadConfig>, Error> {
+    let tracker = options.tracker.as_ref();
+    let mut head = match &options.display {
+        Some(name) => {
+            let display = Display::named_or_file_within(name, &Budget::default())?;
+            let head = head_config(&display, tracker)?;
+            if head.is_none() {
+                return Err(TrackerError::Untracked(display.name).into());
+            }
+            head
+        }
+        None => tracker.cloned().map(HeadConfig::new),
+    };
+    match (&mut head, options.sensor) {
+        (Some(head), Some(sensor)) => head.sensor = sensor,
+        (None, Some(_)) => return Err(TrackerError::Sensor.into()),
+        (_, None) => {}
+    }
+    Ok(head)
 }
 
 fn plugged(devices: &[PluggedDevice]) -> String {
@@ -74,28 +101,32 @@ fn plugged(devices: &[PluggedDevice]) -> String {
     text
 }
 
-fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls) -> String {
+fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nanos) -> String {
     let mut text = String::new();
     for status in statuses {
+        let source = status.source;
         let _ = match &status.state {
             DeviceState::Open => {
                 let bytes: Vec<String> =
                     status.last.iter().take(SHOWN_BYTES).map(|byte| format!("{byte:02x}")).collect();
-                let bad = desk.faults(status.source).number();
                 writeln!(
                     text,
-                    "{:<11} {} {}: {:.0} a second, {} in all, {bad} bad, {} dropped; last {}",
-                    status.source.name(),
+                    "{:<11} {} {}: {:.0} a second, {} in all, {} bad, {} dropped; last {}",
+                    source.name(),
                     status.name,
                     status.path,
                     status.rate_hz,
                     status.samples,
+                    desk.faults(source).number(),
                     status.dropped,
                     bytes.join(" ")
                 )
             }
-            DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", status.source.name()),
+            DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", source.name()),
         };
+        for line in heard::bad(desk, source).into_iter().chain(heard::things(desk, source, now)) {
+            let _ = writeln!(text, "{:<11} {line}", "");
+        }
     }
     let wheel = controls.wheel_speed.map_or("none".to_owned(), |speed| format!("{:.2} m/s", speed));
     let axes = |axes: [f64; 3]| format!("{:+.2} {:+.2} {:+.2}", axes[0], axes[1], axes[2]);
@@ -108,13 +139,13 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls) -> Strin
         axes(controls.turn)
     );
     if let (Some(head), Some(state)) = (desk.head(), &controls.head) {
-        let _ = writeln!(text, "{}", head_line(head, state, desk));
+        let _ = writeln!(text, "{}", head_line(head, state, desk, now));
     }
     text
 }
 
 /// Line about the head: its pose, and reasons why it is not tracked.
-fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk) -> String {
+fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk, now: Nanos) -> String {
     let tracked = match state.tracked {
         Tracking::Never => "not seen yet",
         Tracking::Tracked => "tracked",
@@ -133,9 +164,8 @@ fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk) -> String {
     if let Some(why) = head.rejected().last() {
         let _ = write!(text, " ({why})");
     }
-    let numbers = desk.vrpn().numbers();
-    if head.config().url.source() == SampleSource::Vrpn && !numbers.has_device() && !numbers.senders().is_empty() {
-        let _ = write!(text, "; the server has no such device, but {}", numbers.senders().join(", "));
+    if let Some(advice) = desk.tracker_advice(now) {
+        let _ = write!(text, "; {advice}");
     }
     text
 }

@@ -83,8 +83,8 @@ fn follow(options: &RideOptions, simulation: Simulation, log: RideLog, seconds: 
     }
     let recorded = live.finish();
     spinner.finish_and_clear();
-    for line in live.devices() {
-        tell(line);
+    for report in live.devices() {
+        [&report.line].into_iter().chain(&report.details).for_each(tell);
     }
     Ok((reel, recorded))
 }

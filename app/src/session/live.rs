@@ -6,16 +6,20 @@
 use crate::output::files::unused;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
+use crate::session::heard::{self, DeviceReport};
 use crate::session::lost_time::LostTime;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource, TrackerUrl};
 use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
 
 /// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
+
+/// Most things of a tracker that the settings panel lists.
+const MOST_THINGS: usize = 6;
 
 /// Sentence over the attract ride.
 const INVITATION: &str = "Press a key or start to pedal: the ride is yours";
@@ -244,27 +248,35 @@ impl Live {
         told
     }
 
-    /// Sentences on the state of the devices, one each.
-    pub fn devices(&self) -> Vec<String> {
-        match &self.rider {
-            Rider::Recorded { .. } => vec!["a recorded ride".to_owned()],
-            Rider::Present { simulation, devices, .. } => devices
-                .status()
-                .into_iter()
-                .map(|status| match status.state {
-                    DeviceState::Open => {
-                        let faults = simulation.desk().faults(status.source);
-                        let last = faults.last().map_or_else(String::new, |last| format!(", the last: {last}"));
-                        let bad = faults.number();
-                        format!("{}: {} at {:.0} Hz, {bad} bad{last}", status.source, status.name, status.rate_hz)
-                    }
-                    DeviceState::Absent(why) => format!("{}: {why}", status.source),
-                })
-                .chain(simulation.desk().head().map(|head| {
-                    let seen = self.unseen.as_deref().unwrap_or("the head is tracked");
-                    format!("{seen}; {} poses rejected", head.rejected().number())
-                }))
-                .collect(),
+    /// Reports on the devices, and on the tracked head.
+    pub fn devices(&self) -> Vec<DeviceReport> {
+        let plain = |line| DeviceReport { line, details: Vec::new() };
+        let Rider::Present { simulation, devices, .. } = &self.rider else {
+            return vec![plain("a recorded ride".to_owned())];
+        };
+        let (desk, now) = (simulation.desk(), self.clock.now());
+        let mut reports: Vec<DeviceReport> =
+            devices.status().iter().map(|status| heard::report(status, desk, now, MOST_THINGS)).collect();
+        reports.extend(desk.head().map(|head| {
+            let seen = self.unseen.as_deref().unwrap_or("the head is tracked");
+            plain(format!("{seen}; {} poses rejected", head.rejected().number()))
+        }));
+        reports
+    }
+
+    /// Sentence for a rider who has asked to be straight: the outcome.
+    pub fn straightened(&self) -> &'static str {
+        let Rider::Present { simulation, .. } = &self.rider else {
+            return "a recorded head stays as it was";
+        };
+        match simulation.desk().head() {
+            None => "no head is tracked, so there is nothing to straighten; name a tracker with --tracker",
+            Some(head) if head.config().url == TrackerUrl::Mouse || head.recentres() => {
+                "your head is straight: its place and direction are the middle ones"
+            }
+            Some(_) => {
+                "this room's tracker is calibrated, so the head is not moved; recentre = \"key\" in [tracker] allows it"
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 //! head's tracker, live devices, interruption.
 
 pub mod gaps;
+pub mod heard;
 pub mod interrupt;
 pub mod live;
 mod lost_time;

@@ -1,13 +1,16 @@
 //! Tracker of the head: from the display's `[tracker]` table, or from the command line instead.
 
 use glam::{DMat3, DVec3};
-use input::head::{HEAD_EDITION, TrackingMode};
+use input::head::{HEAD_EDITION, Recentring, TrackingMode, VelocityFilter};
 use input::{ConfigError, HeadConfig, HeadState, TrackerUrl};
 use physics::Celerity;
 use room::Display;
 use serde::Deserialize;
 use thiserror::Error;
 use walls::RoomHead;
+
+/// Window of the velocity of a head that opentrack follows, unless the display says otherwise, seconds.
+const OPENTRACK_WINDOW_S: f64 = 0.1;
 
 /// Reason why a head cannot be tracked.
 #[derive(Debug, Error)]
@@ -20,6 +23,16 @@ pub enum TrackerError {
         /// Reason, as the reader of the table words it.
         reason: String,
     },
+    /// A display that tracks no head, where one is asked for.
+    #[error(
+        "display {0} tracks no head: its table [tracker] is missing, or says mode = \"none\"; name a tracker with --tracker"
+    )]
+    Untracked(String),
+    /// A sensor that is chosen of no tracker.
+    #[error(
+        "--sensor chooses a sensor of a tracker: name that with --tracker, or a display whose file has a table [tracker]"
+    )]
+    Sensor,
     /// A setting with a value that is not allowed.
     #[error("display {display}: {source}")]
     Setting {
@@ -36,30 +49,50 @@ pub enum TrackerError {
 /// [`TrackerError`], with the display's name and the key.
 pub fn head_config(display: &Display, url: Option<&TrackerUrl>) -> Result<Option<HeadConfig>, TrackerError> {
     let name = || display.name.clone();
-    let home = display.viewer.head_m.to_array();
     let table = match &display.tracker {
         None => None,
-        Some(table) => {
-            let mut config = HeadConfig::deserialize(table.clone())
-                .map_err(|error| TrackerError::Table { display: name(), reason: one_line(&error.to_string()) })?;
-            if table.get("edition").is_none() {
-                config.edition = HEAD_EDITION;
-            }
-            if table.get("home").is_none() {
-                config.home = home;
-            }
-            Some(config)
-        }
+        Some(table) => Some(
+            HeadConfig::deserialize(table.clone())
+                .map_err(|error| TrackerError::Table { display: name(), reason: one_line(&error.to_string()) })?,
+        ),
     };
     let config = match (table, url) {
         (Some(config), Some(url)) => Some(HeadConfig { url: url.clone(), ..config }),
-        (None, Some(url)) => Some(HeadConfig { home, ..HeadConfig::new(url.clone()) }),
+        (None, Some(url)) => Some(HeadConfig::new(url.clone())),
         (config, None) => config,
     };
+    let given = |key: &str| display.tracker.as_ref().is_some_and(|table| table.get(key).is_some());
+    let config = config.map(|config| with_usual(config, display, given));
     if let Some(config) = &config {
         config.check().map_err(|source| TrackerError::Setting { display: name(), source })?;
     }
     Ok(config.filter(|config| config.mode != TrackingMode::None))
+}
+
+/// The settings, with the usual values of this display and this tracker for each key that is not `given`.
+fn with_usual(mut config: HeadConfig, display: &Display, given: impl Fn(&str) -> bool) -> HeadConfig {
+    let is_opentrack = matches!(config.url, TrackerUrl::Opentrack { .. });
+    if !given("edition") {
+        config.edition = HEAD_EDITION;
+    }
+    if !given("home") {
+        config.home = display.viewer.head_m.to_array();
+    }
+    if !given("velocity") && is_opentrack {
+        // Cameras of desks are noisier than trackers of rooms.
+        config.velocity = VelocityFilter::LeastSquares { window_s: OPENTRACK_WINDOW_S };
+    }
+    if !given("recentre") {
+        let is_placed = given("room_from_tracker");
+        config.recentre = match display.viewer.turns_pictures {
+            _ if is_opentrack => Recentring::Key,
+            // A window that stands for what is ahead of the head stands before it, wherever the tracker's floor is.
+            true if !is_placed && config.url != TrackerUrl::Mouse => Recentring::Start,
+            true => Recentring::Key,
+            false => Recentring::Never,
+        };
+    }
+    config
 }
 
 /// Head as a tracker reports it, in a world whose speed of light is `speed_of_light` m/s.
@@ -103,6 +136,39 @@ mod tests {
         assert_eq!(config.home, of_table.viewer.head_m.to_array());
         assert_eq!(head_config(&Display::built_in("cave4").unwrap(), None).unwrap(), None);
         assert_eq!(head_config(&display("url = \"mouse\"\nmode = \"none\""), None).unwrap(), None);
+    }
+
+    #[test]
+    fn a_window_that_turns_with_the_head_stands_before_it_and_a_room_stands_where_it_is() {
+        let recentre =
+            |display: &Display, url: &str| head_config(display, Some(&url.parse().unwrap())).unwrap().unwrap().recentre;
+        for (name, url, expected) in [
+            ("window", "vrpn://lab/Head", Recentring::Start),
+            ("desk", "dtrack://:5000", Recentring::Start),
+            ("desk", "opentrack://", Recentring::Key),
+            ("window", "mouse", Recentring::Key),
+            ("cave4", "vrpn://lab/Head", Recentring::Never),
+            ("cave4", "opentrack://", Recentring::Key),
+        ] {
+            assert_eq!(recentre(&Display::built_in(name).unwrap(), url), expected, "{name}, {url}");
+        }
+        // Whoever has measured, or says so, is believed.
+        let window = |table: &str| Display {
+            tracker: Some(toml::from_str(table).unwrap()),
+            ..Display::built_in("window").unwrap()
+        };
+        let placed = window("url = \"mouse\"\nroom_from_tracker = { position = [0, 1.3, 0] }");
+        assert_eq!(recentre(&placed, "vrpn://lab/Head"), Recentring::Key);
+        assert_eq!(recentre(&window("url = \"mouse\"\nrecentre = \"never\""), "opentrack://"), Recentring::Never);
+    }
+
+    #[test]
+    fn the_noise_of_a_desks_camera_is_filtered_unless_the_display_says_how() {
+        let velocity =
+            |display: &Display| head_config(display, Some(&"opentrack://".parse().unwrap())).unwrap().unwrap().velocity;
+        let desk = Display::built_in("desk").unwrap();
+        assert_eq!(velocity(&desk), VelocityFilter::LeastSquares { window_s: 0.1 });
+        assert_eq!(velocity(&display("url = \"mouse\"\nvelocity = { filter = \"off\" }")), VelocityFilter::Off);
     }
 
     #[test]

@@ -17,7 +17,7 @@ const WIDE: f32 = 1150.0;
 const COLUMN: f32 = 540.0;
 
 /// Keys and their meanings; the same list as in the README.
-const KEYS: [(&str, &str); 25] = [
+const KEYS: [(&str, &str); 26] = [
     ("W S  ↑ ↓", "pedal, push back; thrust forward, back; the arrows lower and raise the nose when flying"),
     ("A D  ← →", "steer; thrust sideways; the arrows turn the nose"),
     ("R F", "thrust up, down when flying"),
@@ -26,6 +26,7 @@ const KEYS: [(&str, &str); 25] = [
     ("Space", "brake"),
     ("J L I K", "look left, right, up, down, as a drag of the mouse does; rooms and tracked heads look by themselves"),
     ("O", "look ahead again, as the middle button does"),
+    ("U", "sit straight: with a tracked head, its present place and direction become the middle ones"),
     ("M", "look back, as long as it is held"),
     ("1 2 3", "bicycle, drive, fly"),
     ("P", "pause"),

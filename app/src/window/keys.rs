@@ -22,6 +22,7 @@ pub fn key(code: KeyCode) -> Option<KeyboardKey> {
         KeyCode::KeyQ => KeyboardKey::Q,
         KeyCode::KeyR => KeyboardKey::R,
         KeyCode::KeyS => KeyboardKey::S,
+        KeyCode::KeyU => KeyboardKey::U,
         KeyCode::KeyV => KeyboardKey::V,
         KeyCode::KeyW => KeyboardKey::W,
         KeyCode::Digit1 | KeyCode::Numpad1 => KeyboardKey::One,
@@ -53,8 +54,8 @@ mod tests {
     fn every_key_of_the_ride_has_a_place_on_the_keyboard() {
         use KeyCode::*;
         let places = [
-            KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyO, KeyP, KeyQ, KeyR, KeyS, KeyV, KeyW,
-            Digit1, Digit2, Digit3, Backspace, Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown,
+            KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyO, KeyP, KeyQ, KeyR, KeyS, KeyU, KeyV,
+            KeyW, Digit1, Digit2, Digit3, Backspace, Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown,
             ArrowUp, ShiftLeft,
         ];
         for wanted in KeyboardKey::ALL {

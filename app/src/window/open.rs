@@ -14,7 +14,7 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
-use crate::session::start::{DESK, RideRoom, WINDOW};
+use crate::session::start::{DESK, RideRoom, WINDOW, usual_display};
 use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
@@ -182,7 +182,10 @@ impl Open {
             mouse_looks,
             dragged: false,
             shift: false,
-            display_name: options.display.clone(),
+            display_name: options
+                .display
+                .clone()
+                .or_else(|| options.devices.tracker.as_ref().map(|it| usual_display(it).to_owned())),
             calibrating: None,
             cursor: None,
             ride,

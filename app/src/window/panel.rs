@@ -4,8 +4,9 @@ use super::controls::Controls;
 use super::help;
 use crate::command::Latency;
 use crate::frame::Look;
+use crate::session::heard::DeviceReport;
 use clap::ValueEnum;
-use egui::{Align2, Grid, RichText, Slider, Ui, Window};
+use egui::{Align2, Grid, RichText, ScrollArea, Slider, Ui, Window};
 use input::{Action, VehicleKind};
 use render::display::{Development, Exposure, Gamut, Tone, development};
 
@@ -33,8 +34,8 @@ pub struct PanelRide {
     pub time_scale: f64,
     /// Speed of light, m/s.
     pub speed_of_light: f64,
-    /// Sentences on the state of the devices, one each.
-    pub devices: Vec<String>,
+    /// Reports on the devices.
+    pub devices: Vec<DeviceReport>,
     /// Sentence about the renderer and the amount that it draws.
     pub drawing: String,
     /// True if frames may overlap, so that their order can be chosen.
@@ -42,6 +43,9 @@ pub struct PanelRide {
     /// Sentence on how well several windows keep step.
     pub in_step: Option<String>,
 }
+
+/// Largest height of the section on devices, points.
+const DEVICES_HEIGHT: f32 = 160.0;
 
 /// Vehicles, with their purposes.
 const VEHICLES: [(VehicleKind, &str, &str); 3] = [
@@ -57,10 +61,11 @@ const LATENCIES: [(Latency, &str, &str); 2] = [
 ];
 
 /// Buttons, with their purposes.
-const BUTTONS: [(&str, Action, &str); 5] = [
+const BUTTONS: [(&str, Action, &str); 6] = [
     ("Pause", Action::TogglePause, "Stops the world, or lets it go on."),
     ("Step", Action::Step, "Moves the world on by one small step while it is paused."),
     ("To the start", Action::Restart, "Takes you back to where the ride began."),
+    ("Straighten", Action::Recentre, "Makes where your tracked head is and looks now the middle. U does the same."),
     ("Photo", Action::Photo, "Saves the picture as a file, photo-001.png and so on."),
     ("Record", Action::ToggleRecording, "Saves the whole ride as a file, ride-001.mcap and so on, or ends the file."),
 ];
@@ -156,13 +161,32 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
                 }
             });
             ui.separator();
-            for line in ride.devices.iter().chain([&ride.drawing]).chain(&ride.in_step) {
+            devices(ui, &ride.devices);
+            ui.separator();
+            for line in [&ride.drawing].into_iter().chain(&ride.in_step) {
                 ui.label(RichText::new(line).small());
             }
         },
     );
     settings.open = open;
     actions
+}
+
+/// Section on the devices: a line each, and below it, set in, what it sends and what is wrong.
+fn devices(ui: &mut Ui, devices: &[DeviceReport]) {
+    ui.label("Devices");
+    ScrollArea::vertical().max_height(DEVICES_HEIGHT).show(ui, |ui| {
+        for (number, device) in devices.iter().enumerate() {
+            ui.label(RichText::new(&device.line).small().strong());
+            if !device.details.is_empty() {
+                ui.indent(number, |ui| {
+                    device.details.iter().for_each(|detail| {
+                        ui.label(RichText::new(detail).small());
+                    })
+                });
+            }
+        }
+    });
 }
 
 /// Rows for the development of radiance into the picture.
@@ -227,7 +251,16 @@ mod tests {
     fn no_control_is_made_without_its_purpose() {
         let source = include_str!("panel.rs");
         let panel = source.split("#[cfg(test)]").next().expect("a text has a first part");
-        let makers = ["ui.add(", "ui.button(", "ui.selectable", "ui.toggle", "ui.checkbox", "ui.radio", "ui.link"];
+        let makers = [
+            "ui.add(Button",
+            "ui.add(Slider",
+            "ui.button(",
+            "ui.selectable",
+            "ui.toggle",
+            "ui.checkbox",
+            "ui.radio",
+            "ui.link",
+        ];
         for maker in makers {
             assert!(!panel.contains(maker), "{maker} makes a control without a tooltip");
         }

@@ -116,6 +116,10 @@ impl Open {
                 Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
                 Action::ToggleHelp => self.settings.help = !self.settings.help,
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
+                Action::Recentre => {
+                    let told = self.ride.live.straightened();
+                    self.ride.live.tell(told);
+                }
                 Action::Photo => {
                     let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
                     self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));

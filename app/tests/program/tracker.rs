@@ -23,8 +23,8 @@ fn a_tracked_head_is_listed() {
     assert!(head.starts_with("head tracked") && head.contains("+1.600") && head.ends_with("0 rejected"), "{head}");
 
     let other = serve().replace("Head", "Wand");
-    let text = said(&run(folder.path(), &["devices", "--tracker", &other, "--seconds", "1.5"]));
-    assert!(text.contains("head not seen yet") && text.contains("no such device, but Head"), "{text}");
+    let text = said(&run(folder.path(), &["devices", "--tracker", &other, "--seconds", "4.5"]));
+    assert!(text.contains("head not seen yet") && text.contains("the server sends sensor 0 of Head"), "{text}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod dtrack;
 mod frames;
 mod listing;
+mod opentrack;
 #[cfg(target_os = "linux")]
 mod serial;
 #[cfg(unix)]
