@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use input::TrackerUrl;
+use input::{TrackerUrl, TrainerUrl};
 use thiserror::Error;
 
 use super::measure::MeasureOptions;
@@ -80,6 +80,9 @@ pub struct DevicesOptions {
     /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
+    /// Trainer over the network, which is listed with the other devices: tcp://HOST or tcp://HOST:PORT.
+    #[arg(long, value_name = "URL")]
+    pub trainer: Option<TrainerUrl>,
     /// Tracker of the head, which is listed with the other devices: vrpn://HOST/DEVICE or dtrack://:5000.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,

@@ -57,7 +57,7 @@ impl RideOptions {
                 "--frame-rate",
                 "it is for windows, and this ride is filmed",
             );
-            let live = devices.bicycle.is_some() || devices.spacemouse || self.realtime;
+            let live = devices.bicycle.is_some() || devices.trainer.is_some() || devices.spacemouse || self.realtime;
             let replayed = self.replay.is_some();
             if live && self.record.is_some() {
                 passed.note(

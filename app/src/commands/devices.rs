@@ -6,7 +6,8 @@ use crate::session::interrupt::interrupted;
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
-use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, SECOND, SampleSource};
+use input::trainer::TrainerDecoder;
+use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND, SampleSource};
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
@@ -29,10 +30,10 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     writeln!(out, "{}", plugged(&plugged_in()))?;
 
     let clock = Clock::start();
-    let (bicycle, tracker) = (options.bicycle.clone(), options.tracker.clone());
+    let (bicycle, trainer, tracker) = (options.bicycle.clone(), options.trainer.clone(), options.tracker.clone());
     let head = tracker.clone().map(HeadConfig::new);
     let mut desk = Desk::new(DeskConfig { head, ..Default::default() })?;
-    let live = Devices::open(&DevicesConfig { bicycle, tracker, ..Default::default() }, clock)?;
+    let live = Devices::open(&DevicesConfig { bicycle, trainer, tracker, ..Default::default() }, clock)?;
     let stop = interrupted();
     let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
     let mut shown = 0;
@@ -45,7 +46,10 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
         let over = stop.load(Ordering::Relaxed) || seconds.is_some_and(|seconds| now as f64 >= seconds * SECOND as f64);
         if terminal || over {
             let controls = desk.controls(now);
-            let text = listing(&live.status(), &desk, &controls);
+            let mut text = listing(&live.status(), &desk, &controls);
+            if options.trainer.is_some() {
+                let _ = writeln!(text, "{}", trainer_line(desk.trainer(), now));
+            }
             if shown > 0 {
                 // The cursor moves back to the beginning of the last listing.
                 write!(out, "\x1b[{shown}A\x1b[J")?;
@@ -96,6 +100,9 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls) -> Strin
             }
             DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", status.source.name()),
         };
+        if let Some(note) = &status.note {
+            let _ = writeln!(text, "{:<11} {note}", "");
+        }
     }
     let wheel = controls.wheel_speed.map_or("none".to_owned(), |speed| format!("{:.2} m/s", speed));
     let axes = |axes: [f64; 3]| format!("{:+.2} {:+.2} {:+.2}", axes[0], axes[1], axes[2]);
@@ -111,6 +118,18 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls) -> Strin
         let _ = writeln!(text, "{}", head_line(head, state, desk));
     }
     text
+}
+
+/// Line about the trainer: what it measures at the time `now`.
+fn trainer_line(trainer: &TrainerDecoder, now: Nanos) -> String {
+    let told =
+        |value: Option<f64>, unit: &str| value.map_or(format!("no {unit}"), |value| format!("{value:.0} {unit}"));
+    format!(
+        "trainer {} · {} · {}",
+        told(trainer.wheel_speed(now).map(|speed| speed * 3.6), "km/h"),
+        told(trainer.cadence_hz(now).map(|hz| hz * 60.0), "rpm"),
+        told(trainer.power_w(now), "W")
+    )
 }
 
 /// Line about the head: its pose, and reasons why it is not tracked.

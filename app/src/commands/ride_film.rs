@@ -3,7 +3,7 @@
 //! Drawing may be slower than riding, and devices do not wait. So a live ride is recorded in real time, and the film
 //! is drawn when the ride has ended. A recorded rider and the built-in tour need no clock.
 
-use crate::command::RideOptions;
+use crate::command::{DeviceOptions, RideOptions};
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
 use crate::error::Error;
 use crate::output::progress;
@@ -48,7 +48,8 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             if let Some(path) = &options.record {
                 log.record(path)?;
             }
-            let has_devices = options.devices.bicycle.is_some() || options.devices.spacemouse;
+            let DeviceOptions { bicycle, trainer, spacemouse, .. } = &options.devices;
+            let has_devices = bicycle.is_some() || trainer.is_some() || *spacemouse;
             let (reel, recorded) = if has_devices || options.realtime {
                 follow(options, simulation, log, seconds)?
             } else {

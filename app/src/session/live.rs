@@ -9,7 +9,7 @@ use crate::session::gaps::ShownTimes;
 use crate::session::lost_time::LostTime;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource};
 use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
@@ -37,6 +37,8 @@ pub struct Live {
     open: Vec<SampleSource>,
     /// Sentence on a head that its tracker does not see, while it does not.
     unseen: Option<String>,
+    /// Sentences on devices that are open and do not do all that they should, and the next look for more.
+    notes: (Vec<String>, Nanos),
 }
 
 /// Source of the ride's frames.
@@ -83,6 +85,7 @@ impl Live {
             turned: false,
             open: Vec::new(),
             unseen: None,
+            notes: (Vec::new(), 0),
         }
     }
 
@@ -125,6 +128,23 @@ impl Live {
         self.clock.now()
     }
 
+    /// Tells the rider, once, of devices that are open and do not do all that they should. Looks once a second.
+    fn tell_notes(&mut self, now: Nanos) {
+        let Rider::Present { devices, .. } = &self.rider else {
+            return;
+        };
+        if now < self.notes.1 {
+            return;
+        }
+        let notes: Vec<String> = devices.status().into_iter().filter_map(|status| status.note).collect();
+        let before = std::mem::replace(&mut self.notes, (notes.clone(), now + SECOND)).0;
+        for note in notes.iter().filter(|note| !before.contains(note)) {
+            tell(note);
+            self.tell(note.clone());
+            self.fault(note);
+        }
+    }
+
     /// Adds a sample of the window or the panel, stamped with the present time.
     pub fn say(&mut self, sample: impl FnOnce(Nanos) -> Sample) {
         self.said.push(sample(self.clock.now()));
@@ -164,6 +184,7 @@ impl Live {
                     kiosk.take_fault().iter().for_each(tell);
                 }
                 devices.brake(frame.vehicle.resistance());
+                devices.load(RoadLoad { slope: frame.vehicle.slope(), brake: frame.controls.brake });
                 self.lost.add(frame.dropped_ticks, now);
                 let unseen = unseen(simulation.desk(), &frame);
                 if let Some(kiosk) = &mut self.kiosk {
@@ -226,6 +247,7 @@ impl Live {
                 frame
             }
         };
+        self.tell_notes(now);
         if let Some(frame) = &frame {
             for notice in &frame.notices {
                 self.tell(notice.to_string());
@@ -256,7 +278,9 @@ impl Live {
                         let faults = simulation.desk().faults(status.source);
                         let last = faults.last().map_or_else(String::new, |last| format!(", the last: {last}"));
                         let bad = faults.number();
-                        format!("{}: {} at {:.0} Hz, {bad} bad{last}", status.source, status.name, status.rate_hz)
+                        let note = status.note.map_or_else(String::new, |note| format!("; {note}"));
+                        let rate = status.rate_hz;
+                        format!("{}: {} at {rate:.0} Hz, {bad} bad{last}{note}", status.source, status.name)
                     }
                     DeviceState::Absent(why) => format!("{}: {why}", status.source),
                 })

@@ -214,10 +214,15 @@ pub fn first_actions(options: &RideOptions) -> Vec<Action> {
     if scale == 1.0 { Vec::new() } else { vec![Action::TimeScale(scale)] }
 }
 
+/// Share of the slope that a trainer makes felt if nothing else is said, percent.
+const ALL_OF_THE_SLOPE: u8 = 100;
+
 /// Devices that the command line names.
 fn devices_config(options: &RideOptions, desk: &DeskConfig) -> DevicesConfig {
     DevicesConfig {
         bicycle: options.devices.bicycle.clone(),
+        trainer: options.devices.trainer.clone(),
+        slope_felt_percent: options.devices.slope_felt.unwrap_or(ALL_OF_THE_SLOPE),
         space_mouse: options.devices.spacemouse || has_display(),
         tracker: desk.head.as_ref().map(|head| head.url.clone()),
         ..Default::default()

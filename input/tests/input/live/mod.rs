@@ -7,4 +7,5 @@ mod listing;
 mod serial;
 #[cfg(unix)]
 mod spacenavd;
+mod trainer;
 mod vrpn;
