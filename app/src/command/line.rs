@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use input::TrackerUrl;
+use input::{TrackerUrl, TrainerUrl};
 use thiserror::Error;
 
 use super::measure::MeasureOptions;
@@ -87,6 +87,9 @@ pub struct DevicesOptions {
     /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
+    /// Trainer over the network, which is listed with the other devices: tcp://HOST or tcp://HOST:PORT.
+    #[arg(long, value_name = "URL")]
+    pub trainer: Option<TrainerUrl>,
     /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 or opentrack://:4242. All that it sends is listed, also
     /// what no ride uses, with the reason of the last message that could not be read.
     #[arg(long, value_name = "URL")]

@@ -10,7 +10,7 @@ use super::kiosk::KioskOptions;
 use super::picture::PictureOptions;
 use super::values;
 use super::world::WorldOptions;
-use input::TrackerUrl;
+use input::{TrackerUrl, TrainerUrl};
 use ride::{AssistMode, IntegratorKind, Nose};
 use view::{Dial, Occasion, RendererName};
 
@@ -65,7 +65,7 @@ pub struct RideOptions {
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Recording")]
     #[arg(conflicts_with_all = ["record", "speed_of_light", "vehicle", "integrator", "transport", "time_scale"])]
     #[arg(conflicts_with_all = ["assist", "through_walls"])]
-    #[arg(conflicts_with_all = ["set_up", "bicycle", "spacemouse", "tracker"])]
+    #[arg(conflicts_with_all = ["set_up", "bicycle", "trainer", "slope_felt", "spacemouse", "tracker"])]
     pub replay: Option<PathBuf>,
     /// Compare only: compute the recorded ride again, show nothing, and fail at the first frame that is not equal to
     /// the last bit.
@@ -168,13 +168,22 @@ pub struct VehicleOptions {
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 #[command(next_help_heading = "Devices")]
 pub struct DeviceOptions {
-    /// File that describes the rider's hardware: tables [bicycle], [rider], [axes], [gamepad], [keys] and [tracker].
+    /// File that describes the rider's hardware: tables [bicycle], [trainer], [rider], [axes], [gamepad], [keys]
+    /// and [tracker].
     /// `rapidity devices --calibrate FILE` writes one.
     #[arg(long, value_name = "FILE.toml")]
     pub set_up: Option<PathBuf>,
     /// Serial port of the instrumented bicycle, such as /dev/ttyUSB0.
     #[arg(long, value_name = "PORT")]
     pub bicycle: Option<String>,
+    /// Trainer over the network that speaks FTMS by Direct Connect (TCP): tcp://HOST or tcp://HOST:PORT; the port is
+    /// 36866 if none is named. Its speed rides, and its brake follows the slope of the road and the brake lever.
+    #[arg(long, value_name = "URL")]
+    pub trainer: Option<TrainerUrl>,
+    /// Share of the road's slope that the trainer makes felt, percent: 0 for a level road everywhere
+    /// [default: 100].
+    #[arg(long, value_name = "PERCENT", requires = "trainer", value_parser = clap::value_parser!(u8).range(0..=100))]
+    pub slope_felt: Option<u8>,
     /// Read a SpaceMouse, directly or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
@@ -187,6 +196,6 @@ pub struct DeviceOptions {
 impl DeviceOptions {
     /// True if a device that is ridden is named, which a film without a window has to follow.
     pub fn are_ridden(&self) -> bool {
-        self.set_up.is_some() || self.bicycle.is_some() || self.spacemouse
+        self.set_up.is_some() || self.bicycle.is_some() || self.trainer.is_some() || self.spacemouse
     }
 }

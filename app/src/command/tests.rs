@@ -78,7 +78,7 @@ fn a_bare_ride_is_a_bicycle_in_town_at_30_km_h() {
 #[test]
 fn a_ride_takes_all_its_options() {
     let options = ride(
-        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --set-up hall.toml --bicycle /dev/pts/3 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
+        "--scene a/b.glb --vehicle fly --speed-of-light 1_c --set-up hall.toml --bicycle /dev/pts/3 --trainer tcp://[fe80::1] --slope-felt 50 --spacemouse --tracker vrpn://cave/Head --record r.mcap \
          --exposure -1.5 --tone filmic --gamut clamp \
          --seconds 2.5 --size 640x480 --edge 0.1 --latency low --effects none --renderer polygon --samples 1 \
          --threads 2 --integrator exact --transport gyroscopic --assist off --through-walls --time-scale 0.5 --out r.mp4 --realtime --fov 90",
@@ -91,6 +91,8 @@ fn a_ride_takes_all_its_options() {
         DeviceOptions {
             set_up: Some("hall.toml".into()),
             bicycle: Some("/dev/pts/3".to_owned()),
+            trainer: Some("tcp://[fe80::1]:36866".parse().unwrap()),
+            slope_felt: Some(50),
             spacemouse: true,
             tracker: Some("vrpn://cave:3883/Head".parse().unwrap()),
         }
@@ -172,17 +174,19 @@ fn the_small_commands_parse() {
     let reading = ReadingOptions { limit: 3.0, trust: false };
     assert_eq!(parse("check a.glb b.mcap").unwrap(), Command::Check(CheckOptions { files, json: false, reading }));
     let tracker = Some("dtrack://0.0.0.0:5000".parse().unwrap());
+    let trainer = Some("tcp://kickr:36867".parse().unwrap());
     let devices = DevicesOptions {
         set_up: Some("hall.toml".into()),
         calibrate: None,
         bicycle: Some("/dev/ttyUSB0".to_owned()),
+        trainer,
         tracker,
         sensor: Some(2),
         display: Some("lab.toml".to_owned()),
         seconds: Some(1.0),
     };
     assert_eq!(
-        parse("devices --set-up hall.toml --bicycle /dev/ttyUSB0 --tracker dtrack:// --sensor 2 --display lab.toml --seconds 1").unwrap(),
+        parse("devices --set-up hall.toml --bicycle /dev/ttyUSB0 --trainer tcp://kickr:36867 --tracker dtrack:// --sensor 2 --display lab.toml --seconds 1").unwrap(),
         Command::Devices(devices)
     );
 }
@@ -240,6 +244,9 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("ride --vehicle boat", ["--vehicle", "bicycle"]),
         ("ride --tracker vrpn://cave", ["--tracker", "names no device"]),
         ("devices --tracker cave", ["--tracker", "vrpn://HOST/DEVICE"]),
+        ("ride --trainer kickr", ["--trainer", "tcp://HOST:PORT"]),
+        ("ride --trainer tcp://kickr --slope-felt 101", ["--slope-felt", "101"]),
+        ("ride --slope-felt 50", ["--slope-felt", "--trainer"]),
         ("ride --latency none", ["--latency", "overlap"]),
         ("ride --integrator euler", ["--integrator", "dopri5"]),
         ("ride --transport bus", ["--transport", "gyroscopic"]),
@@ -274,6 +281,7 @@ fn options_that_contradict_each_other_are_refused_by_name() {
         ("ride --replay r.mcap --vehicle fly", ["--replay", "--vehicle"]),
         ("ride --replay r.mcap --spacemouse", ["--replay", "--spacemouse"]),
         ("ride --replay r.mcap --tracker mouse", ["--replay", "--tracker"]),
+        ("ride --replay r.mcap --trainer tcp://kickr", ["--replay", "--trainer"]),
         ("ride --replay r.mcap --verify --out a.mp4", ["--verify", "--out"]),
         ("ride --kiosk --replay r.mcap", ["--kiosk", "--replay"]),
         ("ride --kiosk --out a.mp4", ["--kiosk", "--out"]),

@@ -10,6 +10,7 @@ use crate::session::tracker::{TrackerError, head_config};
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
+use input::trainer::TrainerDecoder;
 use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND};
 use regular_file::Budget;
 use room::Display;
@@ -46,10 +47,14 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     let clock = Clock::start();
     let head = head_of(options, display.as_ref(), &set_up)?;
     let tracker = head.as_ref().map(|head| head.url.clone());
+    let wand_devices = head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default();
     let mut desk = Desk::new(DeskConfig { head, ..set_up.desk()? })?;
     let usual = DevicesConfig::default();
     let baud = port.baud.unwrap_or(usual.baud);
-    let live = Devices::open(&DevicesConfig { bicycle: port.port, baud, tracker, ..usual }, clock)?;
+    let trainer = options.trainer.clone().or(set_up.trainer()?.url);
+    let has_trainer = trainer.is_some();
+    let config = DevicesConfig { bicycle: port.port, baud, trainer, tracker, wand_devices, ..usual };
+    let live = Devices::open(&config, clock)?;
     let stop = interrupted();
     let seconds = options.seconds.or((!terminal).then_some(UNATTENDED_SECONDS));
     let mut shown = 0;
@@ -62,7 +67,10 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
         let over = stop.load(Ordering::Relaxed) || seconds.is_some_and(|seconds| now as f64 >= seconds * SECOND as f64);
         if terminal || over {
             let controls = desk.controls(now);
-            let text = listing(&live.status(), &desk, &controls, now);
+            let mut text = listing(&live.status(), &desk, &controls, now);
+            if has_trainer {
+                let _ = writeln!(text, "{}", trainer_line(desk.trainer(), now));
+            }
             if shown > 0 {
                 // The cursor moves back to the beginning of the last listing.
                 write!(out, "\x1b[{shown}A\x1b[J")?;
@@ -128,7 +136,8 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nan
             }
             DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", source.name()),
         };
-        for line in heard::bad(desk, source).into_iter().chain(heard::things(desk, source, now)) {
+        let note = status.note.clone();
+        for line in note.into_iter().chain(heard::bad(desk, source)).chain(heard::things(desk, source, now)) {
             let _ = writeln!(text, "{:<11} {line}", "");
         }
     }
@@ -146,6 +155,18 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nan
         let _ = writeln!(text, "{}", head_line(head, state, desk, now));
     }
     text
+}
+
+/// Line about the trainer: what it measures at the time `now`.
+fn trainer_line(trainer: &TrainerDecoder, now: Nanos) -> String {
+    let told =
+        |value: Option<f64>, unit: &str| value.map_or(format!("no {unit}"), |value| format!("{value:.0} {unit}"));
+    format!(
+        "trainer {} · {} · {}",
+        told(trainer.wheel_speed(now).map(|speed| speed * 3.6), "km/h"),
+        told(trainer.cadence_hz(now).map(|hz| hz * 60.0), "rpm"),
+        told(trainer.power_w(now), "W")
+    )
 }
 
 /// Line about the head: its pose, and reasons why it is not tracked.

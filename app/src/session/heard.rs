@@ -51,7 +51,7 @@ pub fn report(status: &DeviceStatus, desk: &Desk, now: Nanos, most: usize) -> De
         DeviceState::Open => format!("{source}: {} at {:.0} Hz", status.name, status.rate_hz),
         DeviceState::Absent(why) => format!("{source}: {why}"),
     };
-    let mut details: Vec<String> = bad(desk, source).into_iter().collect();
+    let mut details: Vec<String> = status.note.iter().cloned().chain(bad(desk, source)).collect();
     let mut things = things(desk, source, now);
     let more = things.len().saturating_sub(most);
     things.truncate(most);

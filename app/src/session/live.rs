@@ -10,7 +10,7 @@ use crate::session::heard::{self, DeviceReport};
 use crate::session::lost_time::LostTime;
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, SECOND, Sample, SampleSource, TrackerUrl};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl};
 use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
@@ -41,6 +41,8 @@ pub struct Live {
     open: Vec<SampleSource>,
     /// Sentence on a head that its tracker does not see, while it does not.
     unseen: Option<String>,
+    /// Sentences on devices that are open and do not do all that they should, and the next look for more.
+    notes: (Vec<String>, Nanos),
 }
 
 /// Source of the ride's frames.
@@ -87,6 +89,7 @@ impl Live {
             turned: false,
             open: Vec::new(),
             unseen: None,
+            notes: (Vec::new(), 0),
         }
     }
 
@@ -129,6 +132,23 @@ impl Live {
         self.clock.now()
     }
 
+    /// Tells the rider, once, of devices that are open and do not do all that they should. Looks once a second.
+    fn tell_notes(&mut self, now: Nanos) {
+        let Rider::Present { devices, .. } = &self.rider else {
+            return;
+        };
+        if now < self.notes.1 {
+            return;
+        }
+        let notes: Vec<String> = devices.status().into_iter().filter_map(|status| status.note).collect();
+        let before = std::mem::replace(&mut self.notes, (notes.clone(), now + SECOND)).0;
+        for note in notes.iter().filter(|note| !before.contains(note)) {
+            tell(note);
+            self.tell(note.clone());
+            self.fault(note);
+        }
+    }
+
     /// Adds a sample of the window or the panel, stamped with the present time.
     pub fn say(&mut self, sample: impl FnOnce(Nanos) -> Sample) {
         self.said.push(sample(self.clock.now()));
@@ -168,6 +188,7 @@ impl Live {
                     kiosk.take_fault().iter().for_each(tell);
                 }
                 devices.brake(frame.vehicle.resistance());
+                devices.load(RoadLoad { slope: frame.vehicle.slope(), brake: frame.controls.brake });
                 self.lost.add(frame.dropped_ticks, now);
                 let unseen = unseen(simulation.desk(), &frame);
                 if let Some(kiosk) = &mut self.kiosk {
@@ -230,6 +251,7 @@ impl Live {
                 frame
             }
         };
+        self.tell_notes(now);
         if let Some(frame) = &frame {
             for notice in &frame.notices {
                 self.tell(notice.to_string());

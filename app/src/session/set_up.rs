@@ -15,7 +15,7 @@
 //! A table of the set-up file replaces the display's table of the same name as a whole; the command line names other
 //! ports and trackers.
 
-use input::{AxisTable, ConfigError, DeskConfig, HeadConfig, TrackerUrl};
+use input::{AxisTable, ConfigError, DeskConfig, HeadConfig, TrackerUrl, TrainerUrl};
 use regular_file::FileFault;
 use room::Display;
 use serde::de::DeserializeOwned;
@@ -28,7 +28,7 @@ use toml::{Table, Value};
 const LONGEST: u64 = 1 << 20;
 
 /// Names of the tables.
-const TABLES: [&str; 6] = ["bicycle", "rider", "axes", "gamepad", "keys", "tracker"];
+const TABLES: [&str; 7] = ["bicycle", "trainer", "rider", "axes", "gamepad", "keys", "tracker"];
 
 /// Reason why a set-up cannot be used.
 #[derive(Debug, Error)]
@@ -83,6 +83,16 @@ pub struct BicyclePort {
     pub port: Option<String>,
     /// Speed of the port, baud.
     pub baud: Option<u32>,
+}
+
+/// Place of the trainer, and the slope that it makes felt, which are no settings of its decoder.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TrainerPlace {
+    /// Address of the trainer.
+    pub url: Option<TrainerUrl>,
+    /// Share of the slope that is felt, percent.
+    pub slope_felt_percent: Option<u8>,
 }
 
 /// Axes of the SpaceMouse, by the way in which it is read.
@@ -150,6 +160,20 @@ impl SetUp {
         settings(table, place, value.clone())
     }
 
+    /// Table as its settings, without keys that are none of them.
+    fn table_without<T: DeserializeOwned + Default + Serialize>(
+        &self,
+        name: &str,
+        others: &[&str],
+    ) -> Result<T, SetUpError> {
+        let Some((table, place, value)) = self.find(name) else { return Ok(T::default()) };
+        let mut value = value.clone();
+        if let Some(table) = value.as_table_mut() {
+            others.iter().for_each(|key| drop(table.remove(*key)));
+        }
+        settings(table, place, value)
+    }
+
     /// Table of the tracker, if there is one.
     pub fn tracker(&self) -> Option<&Value> {
         self.find("tracker").map(|(_, _, value)| value)
@@ -185,24 +209,31 @@ impl SetUp {
         self.table("bicycle")
     }
 
+    /// Place of the trainer.
+    ///
+    /// # Errors
+    /// A table that cannot be understood, or a slope beyond all of it.
+    pub fn trainer(&self) -> Result<TrainerPlace, SetUpError> {
+        let place: TrainerPlace = self.table("trainer")?;
+        match place.slope_felt_percent {
+            Some(percent @ 101..) => Err(self.refused(ConfigError {
+                key: "trainer.slope_felt_percent",
+                value: percent.to_string(),
+                expected: "a share from 0 to 100 percent",
+            })),
+            _ => Ok(place),
+        }
+    }
+
     /// Settings of the decoders but for the tracker, checked.
     ///
     /// # Errors
     /// A table that cannot be understood, or a setting that cannot be used.
     pub fn desk(&self) -> Result<DeskConfig, SetUpError> {
-        let bicycle = match self.find("bicycle") {
-            None => Default::default(),
-            Some((table, place, value)) => {
-                let mut value = value.clone();
-                if let Some(table) = value.as_table_mut() {
-                    ["port", "baud"].iter().for_each(|key| drop(table.remove(*key)));
-                }
-                settings(table, place, value)?
-            }
-        };
         let SpaceMouseAxes { space_mouse, spacenavd } = self.table("axes")?;
         let desk = DeskConfig {
-            bicycle,
+            bicycle: self.table_without("bicycle", &["port", "baud"])?,
+            trainer: self.table_without("trainer", &["url", "slope_felt_percent"])?,
             rider: self.table("rider")?,
             space_mouse,
             spacenavd,
@@ -266,7 +297,7 @@ mod tests {
         let set_up = file(
             "[bicycle]\nport = \"/dev/ttyUSB7\"\nbaud = 9600\nspeed_from = \"cadence\"\nmetres_per_crank_turn = 4.5\n\
              [rider]\ncruise_m_s = 4.0\n[axes]\nspace_mouse = [2, 1, 3, 4, 5, 6]\n[gamepad]\naxes = { z = \"rx\" }\n\
-             [keys]\nEnter = \"W\"\n[tracker]\nurl = \"mouse\"\n",
+             [keys]\nEnter = \"W\"\n[tracker]\nurl = \"mouse\"\n[trainer]\nurl = \"tcp://kickr\"\nfastest_m_s = 9.0\n",
         )
         .unwrap();
         let port = BicyclePort { port: Some("/dev/ttyUSB7".to_owned()), baud: Some(9600) };
@@ -279,6 +310,8 @@ mod tests {
         assert_eq!(desk.spacenavd, AxisTable::SPACENAVD);
         assert!(desk.gamepad != GamepadMap::default() && !desk.keys.is_empty());
         assert_eq!(set_up.tracker().unwrap()["url"].as_str(), Some("mouse"));
+        let url = set_up.trainer().unwrap().url.map(|url| url.to_string());
+        assert_eq!((url.as_deref(), desk.trainer.fastest_m_s), (Some("tcp://kickr:36866"), 9.0));
         let nothing = SetUp::of(None, None).unwrap();
         assert_eq!((nothing.desk().unwrap(), nothing.port().unwrap()), Default::default());
     }
@@ -307,12 +340,18 @@ mod tests {
             ("[bicycle]\nbaud = -1", "[bicycle]: invalid value"),
             ("[axes]\nspace_mouse = [1, 2, 3]", "[axes]: "),
             ("[axes]\nspacenavd = [1, 2, 3, 4, 5, 9]", "museum.toml: spacenavd is [1, 2, 3, 4, 5, 9]"),
+            ("[trainer]\nurl = \"kickr\"", "[trainer]: "),
+            ("[trainer]\nslope_felt_percent = 120", "trainer.slope_felt_percent is 120"),
+            ("[trainer]\nfast = 1.0", "[trainer]: unknown field `fast`"),
             ("[keys]\nQwerty = \"W\"", "museum.toml: keys is \"Qwerty\""),
             ("[bike]\n", "museum.toml: \"bike\" is no table of a set-up: expected [bicycle], [rider]"),
             ("bicycle = 3", "[bicycle]: invalid type: integer `3`"),
             ("[bicycle\n", "museum.toml, line 1: "),
         ] {
-            let error = file(text).and_then(|set_up| set_up.desk().and(set_up.port())).unwrap_err().to_string();
+            let error = file(text)
+                .and_then(|set_up| set_up.desk().and(set_up.port()).and(set_up.trainer()))
+                .unwrap_err()
+                .to_string();
             assert!(error.contains(told), "{text}: {error}");
         }
         let missing = SetUp::of(None, Some(Path::new("/nowhere/at all.toml"))).unwrap_err().to_string();

@@ -238,11 +238,14 @@ pub fn first_actions(options: &RideOptions) -> Vec<Action> {
 
 /// Devices that the command line or the set-up names.
 fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> Result<DevicesConfig, Error> {
-    let port = set_up.port()?;
+    let (port, trainer) = (set_up.port()?, set_up.trainer()?);
     let usual = DevicesConfig::default();
+    let slope_felt = options.devices.slope_felt.or(trainer.slope_felt_percent);
     Ok(DevicesConfig {
         bicycle: options.devices.bicycle.clone().or(port.port),
         baud: port.baud.unwrap_or(usual.baud),
+        trainer: options.devices.trainer.clone().or(trainer.url),
+        slope_felt_percent: slope_felt.unwrap_or(usual.slope_felt_percent),
         space_mouse: options.devices.spacemouse || has_display(),
         tracker: desk.head.as_ref().map(|head| head.url.clone()),
         wand_devices: desk.head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default(),

@@ -363,6 +363,72 @@ impl DeviceConnection for TrainerLink {
     }
 
     fn note(&self) -> Option<&str> {
-        self.control.as_ref().and_then(TrainerControl::refusal)
+        match &self.control {
+            Some(control) => control.refusal(),
+            None => {
+                Some("the trainer takes no commands (it has no control point 2ad9): its brake does not follow the road")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A trainer that dies without a word must be noticed, and one that rests must not be taken for it.
+    use std::net::TcpListener;
+
+    use super::*;
+
+    /// Both ends of a connection to a trainer with a fitness machine and no control point.
+    fn link() -> (TrainerLink, TcpStream) {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let mut trainer = listener.accept().unwrap().0;
+        let begun = std::thread::spawn(move || TrainerLink::begin(stream, Arc::default()).unwrap());
+        let list = [&uuid(FITNESS_MACHINE)[..], &uuid(INDOOR_BIKE_DATA), &[CAN_NOTIFY]].concat();
+        for (asked, kind, data) in
+            [(6, SERVICES, &list[..16]), (22, CHARACTERISTICS, &list), (23, ENABLE, &list[16..32])]
+        {
+            trainer.read_exact(&mut vec![0; asked]).unwrap();
+            let answer = DirectConnectMessage { kind, sequence: 0, response: 0, data };
+            trainer.write_all(&answer.to_bytes()).unwrap();
+        }
+        (begun.join().unwrap(), trainer)
+    }
+
+    #[test]
+    fn a_silent_trainer_is_asked_for_a_sign_of_life_and_then_gone() {
+        let (mut link, mut trainer) = link();
+        trainer.set_read_timeout(Some(ANSWER_WAIT)).unwrap();
+        let mut bytes = Vec::new();
+        let ago = |wait: Duration| Instant::now().checked_sub(wait + READ_WAIT).unwrap();
+        (link.last_heard, link.last_asked) = (ago(ASK_AFTER), ago(ASK_AFTER));
+        for _ in 0..3 {
+            link.read(&mut bytes).unwrap();
+        }
+        // One request, not three.
+        let mut request = [0; 6];
+        trainer.read_exact(&mut request).unwrap();
+        assert_eq!((request[1], request[4..].to_vec()), (SERVICES, vec![0, 0]));
+        trainer.set_read_timeout(Some(READ_WAIT)).unwrap();
+        assert!(trainer.read(&mut request).is_err());
+        // Whoever answers lives.
+        let answer = DirectConnectMessage { kind: SERVICES, sequence: request[2], response: 0, data: &[] };
+        trainer.write_all(&answer.to_bytes()).unwrap();
+        link.read(&mut bytes).unwrap();
+        assert!(link.last_heard.elapsed() < ASK_AFTER);
+        link.last_heard = ago(SILENCE);
+        assert_eq!(link.read(&mut bytes).unwrap_err().to_string(), "silent for 10 s");
+        assert!(bytes.is_empty() && link.broken);
+    }
+
+    #[test]
+    fn bytes_without_a_whole_message_are_silence() {
+        let (mut link, mut trainer) = link();
+        // The length promises 4096 bytes, of which the trainer sends one now and then.
+        trainer.write_all(&[1, 6, 0, 0, 16, 0, 7]).unwrap();
+        let heard = link.last_heard;
+        link.read(&mut Vec::new()).unwrap();
+        assert_eq!(link.last_heard, heard);
     }
 }

@@ -4,13 +4,15 @@ use std::fmt;
 use std::net::Ipv6Addr;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::wire::PORT;
 use crate::head::url::{TrackerUrlError, host_and_port};
 
 /// Address of a trainer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct TrainerUrl {
     /// Name or address of the trainer.
     pub host: String,
@@ -42,6 +44,20 @@ impl FromStr for TrainerUrl {
             return Err(unknown());
         }
         Ok(Self { host: host.to_owned(), port })
+    }
+}
+
+impl TryFrom<String> for TrainerUrl {
+    type Error = TrainerUrlError;
+
+    fn try_from(text: String) -> Result<Self, TrainerUrlError> {
+        text.parse()
+    }
+}
+
+impl From<TrainerUrl> for String {
+    fn from(url: TrainerUrl) -> Self {
+        url.to_string()
     }
 }
 

@@ -115,6 +115,12 @@ impl Vehicle {
         self.resistance
     }
 
+    /// Slope of the road along the nose, rise over run, positive uphill; zero in flight.
+    pub fn slope(&self) -> f64 {
+        let nose = self.state.orientation * DVec3::NEG_Z;
+        if self.kind == VehicleKind::Fly { 0.0 } else { nose.y / libm::hypot(nose.x, nose.z).max(f64::MIN_POSITIVE) }
+    }
+
     /// View of the rider, driver or pilot, whose eye rests in the vehicle, turns with it, and looks along the nose.
     pub fn gaze(&self) -> Gaze {
         let eye = self.state.aboard(self.eye_offset(), Celerity::ZERO, &self.thrust);

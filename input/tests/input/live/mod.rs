@@ -8,5 +8,6 @@ mod opentrack;
 mod serial;
 #[cfg(unix)]
 mod spacenavd;
+mod trainer;
 mod vrpn;
 mod wand;
