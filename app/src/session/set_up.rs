@@ -254,7 +254,14 @@ fn settings<T: DeserializeOwned + Default + Serialize>(
 ) -> Result<T, SetUpError> {
     let whole = match (Table::try_from(T::default()), value) {
         (Ok(mut usual), Value::Table(given)) => {
-            usual.extend(given);
+            for (key, value) in given {
+                // People write 2 for 2.0.
+                let value = match (usual.get(&key), value) {
+                    (Some(Value::Float(_)), Value::Integer(whole)) => Value::Float(whole as f64),
+                    (_, value) => value,
+                };
+                usual.insert(key, value);
+            }
             Value::Table(usual)
         }
         (_, value) => value,
@@ -334,7 +341,8 @@ mod tests {
     fn what_cannot_be_used_is_told_with_file_table_and_key() {
         for (text, told) in [
             ("[bicycle]\nwheel = 2.1", "museum.toml, [bicycle]: unknown field `wheel`"),
-            ("[bicycle]\nwheel_circumference_m = 0", "museum.toml, [bicycle]: invalid type: integer `0`"),
+            ("[bicycle]\nwheel_circumference_m = 0", "museum.toml: bicycle.wheel_circumference_m is 0"),
+            ("[bicycle]\nwheel_circumference_m = \"2\"", "museum.toml, [bicycle]: invalid type: string \"2\""),
             ("[bicycle]\nwheel_circumference_m = 0.0", "museum.toml: bicycle.wheel_circumference_m is 0"),
             ("[bicycle]\nspeed_from = \"legs\"", "unknown variant `legs`, expected `wheel` or `cadence`"),
             ("[bicycle]\nbaud = -1", "[bicycle]: invalid value"),
