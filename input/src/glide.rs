@@ -117,7 +117,7 @@ mod tests {
         // Readings every second, each up to 0.4 s late, and two of three in one packet.
         for n in 0..30_u64 {
             let at = n * SECOND + n * 7919 % 40 * SECOND / 100;
-            let first = (n + 2) / 3 * 3 * SECOND;
+            let first = n.div_ceil(3) * 3 * SECOND;
             glide.read(if n % 3 == 0 { at } else { at.max(first) }, 10.0);
             for look in 1..60 {
                 let speed = glide.speed(at + look * SECOND / 60).unwrap();

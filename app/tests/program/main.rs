@@ -25,6 +25,7 @@ mod runner;
 #[cfg(unix)]
 mod trace;
 mod tracker;
+mod trainer;
 mod turning_head;
 #[cfg(target_os = "linux")]
 mod virtual_display;

@@ -14,7 +14,7 @@ pub(crate) mod decoder;
 mod indoor_bike;
 mod revolutions;
 pub(crate) mod url;
-pub(crate) mod wire;
+pub mod wire;
 
 pub use config::TrainerConfig;
 pub use control::RoadLoad;

@@ -191,8 +191,10 @@ mod tests {
         digits.chunks(2).map(pair).collect()
     }
 
-    /// Kind, data and bytes of each message, or the error.
-    fn cut(chunks: &[&[u8]]) -> Vec<Result<(u8, Vec<u8>, Vec<u8>), DirectConnectError>> {
+    /// Kind of a message, its data and its bytes.
+    type CutMessage = (u8, Vec<u8>, Vec<u8>);
+
+    fn cut(chunks: &[&[u8]]) -> Vec<Result<CutMessage, DirectConnectError>> {
         let (mut pieces, mut cut) = (DirectConnectPieces::default(), Vec::new());
         for chunk in chunks {
             pieces.push(chunk, |piece| {

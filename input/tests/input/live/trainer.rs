@@ -97,7 +97,7 @@ impl Machine {
                     Err(error) if error.kind() == ErrorKind::WouldBlock => {
                         std::thread::sleep(Duration::from_millis(2));
                     }
-                    Err(error) => panic!("{error}"),
+                    Err(_) => return,
                 }
             }
         }));
