@@ -4,6 +4,7 @@ use crate::command::DevicesOptions;
 use crate::error::Error;
 use crate::session::heard;
 use crate::session::interrupt::interrupted;
+use crate::session::start::{DESK, usual_display};
 use crate::session::tracker::{TrackerError, head_config};
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
@@ -68,7 +69,9 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
 /// Tracking of the head by the display's table or the tracker that the options name.
 fn head_of(options: &DevicesOptions) -> Result<Option<HeadConfig>, Error> {
     let tracker = options.tracker.as_ref();
-    let mut head = match &options.display {
+    // opentrack's poses count from the middle of a desk's display; other trackers' are shown as they come.
+    let desk = tracker.is_some_and(|tracker| usual_display(tracker) == DESK).then_some(DESK);
+    let mut head = match options.display.as_deref().or(desk) {
         Some(name) => {
             let display = Display::named_or_file_within(name, &Budget::default())?;
             let head = head_config(&display, tracker)?;
