@@ -242,7 +242,7 @@ impl TrackedHead {
             return Ok((position_m, pose.orientation));
         }
         let distance = pose.position_m.length() / usual.metres();
-        match unit.other(distance).filter(|_| self.config.knows_units()) {
+        match LengthUnit::of_head(distance).filter(|_| self.config.knows_units()) {
             Some(likely) => Err(PoseError::Unit { distance, unit, likely }),
             None => Err(PoseError::Place(position_m)),
         }
