@@ -142,6 +142,7 @@ impl Desk {
         self.mouse.go_home(at);
         if let Some(head) = &mut self.head {
             head.recentre();
+            self.wand.iter_mut().for_each(|wand| wand.follow(head));
         }
     }
 
@@ -202,6 +203,7 @@ impl Desk {
             head.gone(sample.at);
         }
         if let Some(wand) = &mut self.wand {
+            wand.follow(head);
             signals.into_iter().for_each(|signal| wand.signal(sample.at, signal));
             if !matches!(sample.signal, Signal::Bytes(_)) {
                 wand.gone(sample.at);

@@ -87,8 +87,8 @@ pub struct RideOptions {
     /// pixel however long it takes. At rest the picture is drawn to the full.
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: FrameRate,
-    /// Room in whose windows the ride is shown: window, stereo-wall, cave4, cave6, curved, dome6, or a display file
-    /// (.toml, .mpcdi, .pvx). F4 shows test grids and moves the corners of the pictures.
+    /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, or a display
+    /// file (.toml, .mpcdi, .pvx). F4 shows test grids and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
     /// Show the room itself in one window, with the pictures on its screens. Dragging turns the view, the wheel moves
@@ -187,8 +187,10 @@ pub struct DeviceOptions {
     /// Read a SpaceMouse, directly or through spacenavd.
     #[arg(long)]
     pub spacemouse: bool,
-    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000 (or dtrack://GROUP:5000), or mouse, whose drags turn and
-    /// move the head. Its turn turns the picture of the display window.
+    /// Tracker of the head: opentrack://:4242 at a desk (opentrack's output "UDP over network"), vrpn://HOST/DEVICE,
+    /// dtrack://:5000 (or dtrack://GROUP:5000), or mouse, whose drags turn and move the head. Its turn turns the
+    /// picture of the displays desk, the usual one with opentrack, and window. U makes the head's present pose the
+    /// straight one.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
 }

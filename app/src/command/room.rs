@@ -12,8 +12,8 @@ use super::values;
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Room")]
 pub struct RoomOptions {
-    /// Room for whose surfaces the pictures are drawn: window, stereo-wall, cave4, cave6, curved, dome6, or a display
-    /// file (.toml, .mpcdi, .mpcdi.xml, .pvx, .ndisplay).
+    /// Room for whose surfaces the pictures are drawn: window, desk, stereo-wall, cave4, cave6, curved, dome6, or a
+    /// display file (.toml, .mpcdi, .mpcdi.xml, .pvx, .ndisplay).
     ///
     /// The room rests in the vehicle: its reference point is at --position, and its −z points along --look. Each
     /// channel's picture becomes a file in the folder that --out names. --size and --fov do not apply to these
@@ -30,8 +30,8 @@ pub struct RoomOptions {
     /// Place of the head in the room, metres: right, up, backward [default: the display's].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "display")]
     head: Option<DVec3>,
-    /// Angle by which the head is turned to its left, degrees. It turns the picture of the display window; in rooms,
-    /// whose screens stand still, it moves the eyes alone.
+    /// Angle by which the head is turned to its left, degrees. It turns the picture of the displays window and desk; in
+    /// rooms, whose screens stand still, it moves the eyes alone.
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::within(-360.0, 360.0), requires = "display")]
     head_yaw: Option<f64>,
     /// Angle by which the head is then raised, degrees.

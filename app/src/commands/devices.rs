@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::session::heard;
 use crate::session::interrupt::interrupted;
 use crate::session::set_up::{BicyclePort, SetUp};
+use crate::session::start::{DESK, usual_display};
 use crate::session::tracker::{TrackerError, head_config};
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
@@ -35,6 +36,13 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
     let named = |name: &String| Display::named_or_file_within(name, &Budget::default());
     let display = options.display.as_ref().map(named).transpose()?;
     let set_up = SetUp::of(display.as_ref(), file)?;
+    // opentrack's poses count from the middle of a desk's display; other trackers' are shown as they come.
+    let url = options.tracker.clone().or_else(|| set_up.tracker_url());
+    let is_at_desk = url.is_some_and(|url| usual_display(&url) == DESK);
+    let display = match display {
+        None if is_at_desk => Display::built_in(DESK),
+        display => display,
+    };
     let of_file = set_up.port()?;
     let port = BicyclePort { port: options.bicycle.clone().or(of_file.port), ..of_file };
     if let Some(file) = &options.calibrate {

@@ -17,14 +17,13 @@ pub fn bad(desk: &Desk, source: SampleSource) -> Option<String> {
 pub fn things(desk: &Desk, source: SampleSource, now: Nanos) -> Vec<String> {
     let head = desk.head().map(|head| head.config()).filter(|config| config.url.source() == source);
     let is_head = |thing: &HeardSensor| {
-        head.is_some_and(|head| is_pose(thing) && thing.number == head.sensor && is_of(&head.url, thing))
+        head.is_some_and(|head| {
+            let kinds =
+                if head.inertial { &[HeardKind::InertialBody][..] } else { &[HeardKind::Sensor, HeardKind::Body] };
+            kinds.contains(&thing.kind) && thing.number == head.sensor && is_of(&head.url, thing)
+        })
     };
     desk.heard(source).iter().map(|thing| line(thing, is_head(thing), now)).collect()
-}
-
-/// True for a thing that may be on a head.
-fn is_pose(thing: &HeardSensor) -> bool {
-    matches!(thing.kind, HeardKind::Sensor | HeardKind::Body)
 }
 
 /// True if a thing belongs to the device that this address names.

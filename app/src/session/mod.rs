@@ -1,6 +1,8 @@
 //! Parts of a session besides its pictures: the requested scene, the ride's beginning, the user's preferences, the
 //! head's tracker, live devices, interruption.
 
+#[cfg(test)]
+mod desk_tests;
 pub mod gaps;
 pub mod heard;
 pub mod interrupt;

@@ -126,6 +126,21 @@ impl TrackedHead {
         (self.last, self.leapt) = (Some(seen), None);
     }
 
+    /// Takes over what another sensor of the same tracker has declared straight.
+    pub(crate) fn follow(&mut self, other: &Self) {
+        if self.room_from_straight == other.room_from_straight {
+            return;
+        }
+        let [before, after] =
+            [self.room_from_straight, other.room_from_straight].map(|it| it.unwrap_or(Rigid::IDENTITY));
+        self.room_from_straight = other.room_from_straight;
+        if let Some(mut seen) = self.last {
+            seen.room_from_head = after * before.inverse() * seen.room_from_head;
+            self.restart(&seen, 0.0);
+            (self.last, self.leapt) = (Some(seen), None);
+        }
+    }
+
     fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {
         let mut seen = self.sound(pose)?;
         let Some(last) = self.last else {
@@ -227,7 +242,7 @@ impl TrackedHead {
             return Ok((position_m, pose.orientation));
         }
         let distance = pose.position_m.length() / usual.metres();
-        match unit.other(distance).filter(|_| self.config.knows_units()) {
+        match LengthUnit::of_head(distance).filter(|_| self.config.knows_units()) {
             Some(likely) => Err(PoseError::Unit { distance, unit, likely }),
             None => Err(PoseError::Place(position_m)),
         }

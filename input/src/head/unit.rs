@@ -57,12 +57,12 @@ impl LengthUnit {
         self.metres
     }
 
-    /// Unit in which a head can be `distance` from the origin, if it is another than this one.
-    pub(super) fn other(self, distance: f64) -> Option<Self> {
+    /// Smaller unit of which a head can be `distance` from the origin, if there is one.
+    pub(super) fn of_head(distance: f64) -> Option<Self> {
         ["mm", "cm"]
             .iter()
             .filter_map(|name| Self::named(name).ok())
-            .find(|unit| unit.metres < self.metres && USUAL_M.contains(&(distance * unit.metres)))
+            .find(|unit| USUAL_M.contains(&(distance * unit.metres)))
     }
 
     /// Name of several, as in "millimetres".
@@ -130,15 +130,10 @@ mod tests {
 
     #[test]
     fn a_distance_that_no_head_has_names_the_likely_unit() {
-        for (at_present, distance, likely) in [
-            ("m", 1700.0, Some("mm")),
-            ("m", 170.0, Some("cm")),
-            ("m", 600.0, Some("mm")),
-            ("cm", 1700.0, Some("mm")),
-            ("mm", 1e5, None),
-            ("m", 1e7, None),
-        ] {
-            assert_eq!(unit(at_present).other(distance), likely.map(unit), "{distance} {at_present}");
+        for (distance, likely) in
+            [(1700.0, Some("mm")), (170.0, Some("cm")), (600.0, Some("mm")), (1e5, None), (1e7, None)]
+        {
+            assert_eq!(LengthUnit::of_head(distance), likely.map(unit), "{distance}");
         }
     }
 }
