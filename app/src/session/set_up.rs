@@ -352,7 +352,7 @@ mod tests {
             ("[trainer]\nslope_felt_percent = 120", "trainer.slope_felt_percent is 120"),
             ("[trainer]\nfast = 1.0", "[trainer]: unknown field `fast`"),
             ("[keys]\nQwerty = \"W\"", "museum.toml: keys is \"Qwerty\""),
-            ("[bike]\n", "museum.toml: \"bike\" is no table of a set-up: expected [bicycle], [rider]"),
+            ("[bike]\n", "museum.toml: \"bike\" is no table of a set-up: expected [bicycle], [trainer], [rider]"),
             ("bicycle = 3", "[bicycle]: invalid type: integer `3`"),
             ("[bicycle\n", "museum.toml, line 1: "),
         ] {
