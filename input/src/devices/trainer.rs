@@ -431,4 +431,10 @@ mod tests {
         link.read(&mut Vec::new()).unwrap();
         assert_eq!(link.last_heard, heard);
     }
+
+    #[test]
+    fn a_trainer_without_a_control_point_is_told() {
+        let (link, _trainer) = link();
+        assert!(link.note().is_some_and(|note| note.contains("takes no commands (it has no control point 2ad9)")));
+    }
 }

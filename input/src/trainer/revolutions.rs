@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use crate::clock::SECOND;
 
-    /// Speed measurement of a wheel with 4 turns a second and a crank with 1.5, after `s` seconds. The counts wrap soon.
+    /// Speed measurement of a wheel with 4 turns a second and a crank with 1.5, after `s` seconds. The counts wrap.
     fn speed(s: u32) -> Vec<u8> {
         let mut value = vec![3];
         value.extend((u32::MAX - 30).wrapping_add(4 * s).to_le_bytes());

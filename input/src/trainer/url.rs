@@ -1,7 +1,6 @@
 //! Address of a trainer as one text: `tcp://HOST[:PORT]`.
 
 use std::fmt;
-use std::net::Ipv6Addr;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -64,7 +63,8 @@ impl From<TrainerUrl> for String {
 impl fmt::Display for TrainerUrl {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { host, port } = self;
-        if host.parse::<Ipv6Addr>().is_ok() {
+        // An IPv6 address, which may name its interface, as in fe80::1%eth0.
+        if host.contains(':') {
             write!(formatter, "tcp://[{host}]:{port}")
         } else {
             write!(formatter, "tcp://{host}:{port}")
@@ -83,6 +83,7 @@ mod tests {
             ("tcp://192.168.0.20:36867/", "tcp://192.168.0.20:36867"),
             (" tcp://[fe80::1] ", "tcp://[fe80::1]:36866"),
             ("tcp://[::1]:4000", "tcp://[::1]:4000"),
+            ("tcp://[fe80::1%eth0]", "tcp://[fe80::1%eth0]:36866"),
         ] {
             let url: TrainerUrl = text.parse().unwrap();
             assert_eq!(url.to_string(), whole);

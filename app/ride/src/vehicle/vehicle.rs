@@ -115,10 +115,11 @@ impl Vehicle {
         self.resistance
     }
 
-    /// Slope of the road along the nose, rise over run, positive uphill; zero in flight.
+    /// Slope of the road along a bicycle's nose, rise over run, positive uphill; zero for what is not pedalled.
     pub fn slope(&self) -> f64 {
         let nose = self.state.orientation * DVec3::NEG_Z;
-        if self.kind == VehicleKind::Fly { 0.0 } else { nose.y / libm::hypot(nose.x, nose.z).max(f64::MIN_POSITIVE) }
+        let run = libm::hypot(nose.x, nose.z).max(f64::MIN_POSITIVE);
+        if self.kind == VehicleKind::Bicycle { nose.y / run } else { 0.0 }
     }
 
     /// View of the rider, driver or pilot, whose eye rests in the vehicle, turns with it, and looks along the nose.

@@ -123,6 +123,16 @@ impl Machine {
         }
     }
 
+    /// Sends bytes one by one, with no answer among them.
+    fn dribble(&self, bytes: &[u8]) {
+        let mut heard = self.heard.lock().unwrap();
+        let client = heard.client.as_mut().unwrap();
+        for byte in bytes {
+            client.write_all(&[*byte]).unwrap();
+            std::thread::sleep(Duration::from_micros(300));
+        }
+    }
+
     /// Values written to the control point so far.
     fn written(&self) -> Vec<Vec<u8>> {
         let heard = self.heard.lock().unwrap();
@@ -283,10 +293,7 @@ fn the_stream_may_be_cut_anywhere() {
     let mut riding = Loop::start(&machine.config());
     riding.until_open(true);
     let stream: Vec<u8> = (0..8).flat_map(|n| [bike(1800), message(6, n, &uuid(0x2ada))].concat()).collect();
-    for byte in stream {
-        machine.send(&[byte]);
-        std::thread::sleep(Duration::from_micros(300));
-    }
+    machine.dribble(&stream);
     riding.until("the speed", |it| (wheel_speed(it) - 5.0).abs() < 1e-9);
     assert_eq!(riding.desk.faults(SampleSource::Trainer).number(), 0);
 }
