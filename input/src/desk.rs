@@ -281,7 +281,7 @@ impl Desk {
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
-            wand: self.wand.as_ref().map(|wand| wand.state(at)),
+            wand: self.wand.as_ref().map(|wand| Box::new(wand.state(at))),
             look: self.free_look(at, &actions),
             actions,
         }

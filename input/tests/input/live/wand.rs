@@ -48,7 +48,7 @@ fn hand() -> WandConfig {
 }
 
 fn wand(it: &mut Loop) -> WandState {
-    it.controls().wand.unwrap()
+    *it.controls().wand.unwrap()
 }
 
 fn until_held(tracking: &mut Loop, bits: u64) {
