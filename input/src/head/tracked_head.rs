@@ -107,6 +107,11 @@ impl TrackedHead {
         self.config.recentre != Recentring::Never
     }
 
+    /// Transform to the room from where the straight pose is at home; what else the tracker sees passes it, too.
+    pub(crate) fn room_from_straight(&self) -> Rigid {
+        self.room_from_straight.unwrap_or(Rigid::IDENTITY)
+    }
+
     /// Declares the last pose to be the straight one, at home and facing −z. Does nothing before the first pose, or in
     /// a room that its tracker is calibrated to.
     pub fn recentre(&mut self) {
