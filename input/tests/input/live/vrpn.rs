@@ -277,7 +277,7 @@ fn a_server_that_is_killed_in_mid_ride_can_be_started_again_at_once_and_is_used(
             match listen_as_the_stock_server(port) {
                 Ok(listener) => break listener,
                 Err(error) => {
-                    assert!(killed.elapsed() < Duration::from_secs(2), "after {:?}: {error}", killed.elapsed())
+                    assert!(killed.elapsed() < Duration::from_secs(2), "after {:?}: {error}", killed.elapsed());
                 }
             }
             std::thread::sleep(Duration::from_millis(5));
