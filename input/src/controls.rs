@@ -30,9 +30,9 @@ pub struct Controls {
     /// Head in the room. `None` without a tracker.
     #[serde(default)]
     pub head: Option<HeadState>,
-    /// Wand in the room. `None` without one.
+    /// Wand in the room, in a box because few rides have one. `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wand: Option<WandState>,
+    pub wand: Option<Box<WandState>>,
     /// Turn of the gaze against the nose; along the nose in recordings made before one could look round.
     #[serde(default)]
     pub look: FreeLook,

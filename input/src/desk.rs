@@ -24,6 +24,7 @@ use crate::gamepad::GamepadDecoder;
 use crate::head::config::HeadConfig;
 use crate::head::heard::HeardSensor;
 use crate::head::mouse::MouseDecoder;
+use crate::head::rigid::Rigid;
 use crate::head::state::HeadState;
 use crate::head::tracked_head::TrackedHead;
 use crate::head::tracked_pose::TrackedPose;
@@ -38,6 +39,7 @@ use crate::spacemouse::SpaceMouseDecoder;
 use crate::spacenavd::SpacenavdDecoder;
 use crate::trainer::decoder::TrainerDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
+use crate::wand::state::WandState;
 use crate::wand::tracked_wand::TrackedWand;
 use glam::DVec3;
 
@@ -142,7 +144,6 @@ impl Desk {
         self.mouse.go_home(at);
         if let Some(head) = &mut self.head {
             head.recentre();
-            self.wand.iter_mut().for_each(|wand| wand.follow(head));
         }
     }
 
@@ -203,7 +204,6 @@ impl Desk {
             head.gone(sample.at);
         }
         if let Some(wand) = &mut self.wand {
-            wand.follow(head);
             signals.into_iter().for_each(|signal| wand.signal(sample.at, signal));
             if !matches!(sample.signal, Signal::Bytes(_)) {
                 wand.gone(sample.at);
@@ -259,6 +259,12 @@ impl Desk {
         mode.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
     }
 
+    /// Wand at the time `at`, in the room that the head's straight pose makes.
+    fn wand_state(&self, at: Nanos) -> Option<Box<WandState>> {
+        let room_from_straight = self.head.as_ref().map_or(Rigid::IDENTITY, TrackedHead::room_from_straight);
+        self.wand.as_ref().map(|wand| Box::new(wand.state(at).placed(room_from_straight)))
+    }
+
     /// Controls at the time `at`, with the actions since the last call.
     pub fn controls(&mut self, at: Nanos) -> Controls {
         let rider = &self.config.rider;
@@ -293,7 +299,7 @@ impl Desk {
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
-            wand: self.wand.as_ref().map(|wand| wand.state(at)),
+            wand: self.wand_state(at),
             look: self.free_look(at, &actions),
             actions,
         }

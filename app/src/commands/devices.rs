@@ -12,7 +12,7 @@ use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
 use input::trainer::TrainerDecoder;
-use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND};
+use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND, WandState};
 use regular_file::Budget;
 use room::Display;
 use std::fmt::Write as _;
@@ -162,6 +162,9 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nan
     if let (Some(head), Some(state)) = (desk.head(), &controls.head) {
         let _ = writeln!(text, "{}", head_line(head, state, desk, now));
     }
+    if let Some(wand) = &controls.wand {
+        let _ = writeln!(text, "{}", wand_line(wand));
+    }
     text
 }
 
@@ -177,13 +180,30 @@ fn trainer_line(trainer: &TrainerDecoder, now: Nanos) -> String {
     )
 }
 
-/// Line about the head: its pose, and reasons why it is not tracked.
-fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk, now: Nanos) -> String {
-    let tracked = match state.tracked {
+/// Line about the wand: its pose, and what is held.
+fn wand_line(wand: &WandState) -> String {
+    let tracked = tracked(wand.tracked);
+    let [x, y, z] = wand.position_m.to_array();
+    let held: Vec<String> = wand.buttons.numbers().map(|button| button.to_string()).collect();
+    let held = if held.is_empty() { "no button".to_owned() } else { format!("button {}", held.join(", ")) };
+    let ([right, ahead], trigger) = (wand.stick, wand.trigger);
+    format!(
+        "wand {tracked} · {x:+.3} {y:+.3} {z:+.3} m · {held} · stick {right:+.2} {ahead:+.2} · trigger {trigger:.2}"
+    )
+}
+
+/// Words for the reliability of a pose.
+fn tracked(tracked: Tracking) -> &'static str {
+    match tracked {
         Tracking::Never => "not seen yet",
         Tracking::Tracked => "tracked",
         Tracking::Fading | Tracking::Lost => "lost",
-    };
+    }
+}
+
+/// Line about the head: its pose, and reasons why it is not tracked.
+fn head_line(head: &TrackedHead, state: &HeadState, desk: &Desk, now: Nanos) -> String {
+    let tracked = tracked(state.tracked);
     let [x, y, z] = state.position_m.to_array();
     let (yaw, pitch, roll) = state.orientation.to_euler(EulerRot::YXZ);
     let mut text = format!(

@@ -4,7 +4,7 @@
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus};
 use input::head::{HeardKind, HeardSensor};
-use input::{Desk, Nanos, SampleSource, TrackerUrl};
+use input::{Desk, HeadConfig, Nanos, SampleSource, TrackerUrl};
 use std::fmt::Write as _;
 
 /// Line on the messages of a device that could not be read, with the reason of the last one; `None` if all could.
@@ -17,13 +17,19 @@ pub fn bad(desk: &Desk, source: SampleSource) -> Option<String> {
 pub fn things(desk: &Desk, source: SampleSource, now: Nanos) -> Vec<String> {
     let head = desk.head().map(|head| head.config()).filter(|config| config.url.source() == source);
     let is_head = |thing: &HeardSensor| {
-        head.is_some_and(|head| {
-            let kinds =
-                if head.inertial { &[HeardKind::InertialBody][..] } else { &[HeardKind::Sensor, HeardKind::Body] };
-            kinds.contains(&thing.kind) && thing.number == head.sensor && is_of(&head.url, thing)
-        })
+        head.is_some_and(|head| is_pose(thing, head) && thing.number == head.sensor && is_of(&head.url, thing))
     };
     desk.heard(source).iter().map(|thing| line(thing, is_head(thing), now)).collect()
+}
+
+/// True for a thing that may be on this head.
+fn is_pose(thing: &HeardSensor, head: &HeadConfig) -> bool {
+    match thing.kind {
+        HeardKind::Sensor => true,
+        HeardKind::Body => !head.inertial,
+        HeardKind::InertialBody => head.inertial,
+        _ => false,
+    }
 }
 
 /// True if a thing belongs to the device that this address names.

@@ -63,9 +63,9 @@ mod tests {
     fn every_key_of_the_ride_has_a_place_on_the_keyboard() {
         use KeyCode::*;
         let places = [
-            KeyA, KeyC, KeyD, KeyE, KeyF, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyO, KeyP, KeyQ, KeyR, KeyS, KeyU, KeyV,
-            KeyW, Digit1, Digit2, Digit3, Backspace, Space, Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown,
-            ArrowUp, ShiftLeft,
+            KeyA, KeyB, KeyC, KeyD, KeyE, KeyF, KeyG, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyN, KeyO, KeyP, KeyQ, KeyR,
+            KeyS, KeyT, KeyU, KeyV, KeyW, KeyX, KeyY, KeyZ, Digit1, Digit2, Digit3, Enter, Tab, Backspace, Space, Minus,
+            Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown, ArrowUp, ShiftLeft,
         ];
         for wanted in KeyboardKey::ALL {
             assert!(places.iter().any(|place| key(*place) == Some(*wanted)), "{wanted:?}");

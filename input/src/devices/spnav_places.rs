@@ -64,7 +64,7 @@ mod tests {
         )
         .unwrap();
         let [first, second] = ["/x/named.sock", "/tmp/a b.sock"].map(PathBuf::from);
-        assert_eq!(places(None, &settings), [&[second.clone()], &usual[..]].concat());
+        assert_eq!(places(None, &settings), [std::slice::from_ref(&second), &usual[..]].concat());
         assert_eq!(places(Some(first.clone().into()), &settings), [&[first, second], &usual[..]].concat());
         assert_eq!(places(Some(USUAL[1].into()), directory.path()), [USUAL[1], USUAL[0]].map(PathBuf::from));
         std::fs::write(&settings, [&b"socket = /"[..], &[b'x'; 100_000]].concat()).unwrap();

@@ -360,4 +360,26 @@ mod tests {
         assert_eq!(told, "body 0 and flystick 1 are not seen; nothing is seen");
         assert_eq!(decoder.faults().number(), 0);
     }
+
+    #[test]
+    fn of_a_frame_with_any_byte_changed_nothing_impossible_is_read() {
+        let sticks =
+            format!("6df2 1 1 [1 0.9 8 2][400 1000 -100]{EYE}[130 0.25 -1.00]\r\n6di 1 [1 1 2.5][1 2 3]{EYE}\r\n");
+        let frame = FRAME.replace("6df2 0 0 \r\n", &sticks);
+        for at in 0..frame.len() {
+            for byte in [b'-', b'9', b'[', b']', b' ', b'e', b'\n', 0, 0xff] {
+                let mut decoder = DtrackDecoder::of_head(&head("wand 1"));
+                let mut bytes = frame.clone().into_bytes();
+                bytes[at] = byte;
+                decoder.bytes(0, &bytes, &mut Actions::default());
+                assert!(decoder.take_poses().iter().all(|pose| pose.position_m.is_finite()), "{byte} at {at}");
+                let signals = decoder.take_wand_signals();
+                let finite = |signal: &WandSignal| match signal {
+                    WandSignal::Axes(axes) => axes.iter().all(|axis| axis.is_finite()),
+                    _ => true,
+                };
+                assert!(signals.len() <= 3 && signals.iter().all(finite), "{byte} at {at}: {signals:?}");
+            }
+        }
+    }
 }

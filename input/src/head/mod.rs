@@ -24,7 +24,7 @@ pub(crate) mod heard;
 pub(crate) mod mouse;
 pub(crate) mod mouse_event;
 pub(crate) mod placement;
-mod rigid;
+pub(crate) mod rigid;
 mod seen;
 pub(crate) mod state;
 #[cfg(test)]

@@ -131,20 +131,6 @@ fn the_straight_pose_is_at_home_and_its_directions_are_the_rooms() {
 }
 
 #[test]
-fn another_sensor_goes_with_the_straight_head_and_keeps_its_distance() {
-    let [mut head, mut hand] = [0, 1].map(|_| TrackedHead::new(config("vrpn://lab/Head")).unwrap());
-    let (place, turn) = (DVec3::new(0.4, 1.7, 0.6), DQuat::from_rotation_y(0.5));
-    let reach = DVec3::new(0.2, -0.4, -0.5);
-    for number in 0..3 {
-        head.pose(&pose(number, place, turn));
-        hand.pose(&pose(number, place + turn * reach, turn));
-        head.recentre();
-        hand.follow(&head);
-        near(hand.state(number * FRAME).position_m, HOME + reach);
-    }
-}
-
-#[test]
 fn a_calibrated_room_is_never_straightened_and_a_window_by_its_first_pose() {
     let (place, turn) = (DVec3::new(0.4, 1.7, 0.6), DQuat::from_rotation_y(0.5));
     for (recentre, expected) in [(Recentring::Never, place), (Recentring::Key, place), (Recentring::Start, HOME)] {

@@ -107,6 +107,11 @@ impl TrackedHead {
         self.config.recentre != Recentring::Never
     }
 
+    /// Transform to the room from where the straight pose is at home; what else the tracker sees passes it, too.
+    pub(crate) fn room_from_straight(&self) -> Rigid {
+        self.room_from_straight.unwrap_or(Rigid::IDENTITY)
+    }
+
     /// Declares the last pose to be the straight one, at home and facing −z. Does nothing before the first pose, or in
     /// a room that its tracker is calibrated to.
     pub fn recentre(&mut self) {
@@ -124,21 +129,6 @@ impl TrackedHead {
         // The step is no motion.
         self.restart(&seen, 0.0);
         (self.last, self.leapt) = (Some(seen), None);
-    }
-
-    /// Takes over what another sensor of the same tracker has declared straight.
-    pub(crate) fn follow(&mut self, other: &Self) {
-        if self.room_from_straight == other.room_from_straight {
-            return;
-        }
-        let [before, after] =
-            [self.room_from_straight, other.room_from_straight].map(|it| it.unwrap_or(Rigid::IDENTITY));
-        self.room_from_straight = other.room_from_straight;
-        if let Some(mut seen) = self.last {
-            seen.room_from_head = after * before.inverse() * seen.room_from_head;
-            self.restart(&seen, 0.0);
-            (self.last, self.leapt) = (Some(seen), None);
-        }
     }
 
     fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {

@@ -432,4 +432,25 @@ mod tests {
         assert_eq!((zero.is_tracked(0), zero.pose), (false, None));
         assert!(turned.is_tracked(0) && turned.pose.is_some());
     }
+
+    #[test]
+    fn a_stream_with_any_byte_changed_harms_nothing_but_itself() {
+        let config = WandConfig { buttons: Some("Wand".to_owned()), ..Default::default() };
+        let button = message(7, 10, &[0, 0, 0, 2, 0, 0, 0, 1]);
+        let channels = message(7, 12, &[2.0, 0.25, -1.0].map(f64::to_be_bytes).concat());
+        let stream = [golden::session(), wand_descriptions(), button, channels].concat();
+        for at in 0..stream.len() {
+            for byte in [0, 1, 0x7f, 0x80, 0xff] {
+                let (mut decoder, mut actions) = (VrpnDecoder::with_wand("Head", Some(&config)), Actions::default());
+                let mut changed = stream.clone();
+                changed[at] = byte;
+                decoder.bytes(0, &changed, &mut actions);
+                assert!(decoder.take_poses().len() <= 3 && decoder.take_wand_signals().len() <= 5);
+                // The next connection is as good as ever.
+                decoder.reset(0);
+                decoder.bytes(0, &stream, &mut actions);
+                assert_eq!((decoder.take_poses().len(), decoder.take_wand_signals().len()), (1, 3), "{byte} at {at}");
+            }
+        }
+    }
 }

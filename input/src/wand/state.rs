@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::held_buttons::HeldButtons;
+use crate::head::rigid::Rigid;
 use crate::head::state::Tracking;
 
 /// State of the wand at one moment.
@@ -23,4 +24,15 @@ pub struct WandState {
     pub stick: [f64; 2],
     /// Trigger, 0 released to 1 pulled through.
     pub trigger: f64,
+}
+
+impl WandState {
+    /// Wand after a move of the room; a pose that has never been seen stays.
+    pub(crate) fn placed(self, room_from_straight: Rigid) -> Self {
+        if self.tracked == Tracking::Never || room_from_straight == Rigid::IDENTITY {
+            return self;
+        }
+        let pose = room_from_straight * Rigid { position: self.position_m, orientation: self.orientation };
+        Self { position_m: pose.position, orientation: pose.orientation, ..self }
+    }
 }

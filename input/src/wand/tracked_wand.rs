@@ -67,11 +67,6 @@ impl TrackedWand {
         self.held_at = at;
     }
 
-    /// Moves the hand with the head that the rider has declared straight.
-    pub(crate) fn follow(&mut self, head: &TrackedHead) {
-        self.hand.follow(head);
-    }
-
     /// Lets go of everything: the tracker came or went.
     pub fn gone(&mut self, at: Nanos) {
         self.hand.gone(at);

@@ -48,7 +48,7 @@ fn hand() -> WandConfig {
 }
 
 fn wand(it: &mut Loop) -> WandState {
-    it.controls().wand.unwrap()
+    *it.controls().wand.unwrap()
 }
 
 fn until_held(tracking: &mut Loop, bits: u64) {
@@ -239,4 +239,28 @@ fn of_a_flood_of_frames_the_newest_buttons_survive() {
         (seen.buttons, seen.stick) == (HeldButtons(0b101_010), [0.5; 2])
     });
     assert_eq!(tracking.desk.faults(SampleSource::Dtrack).number(), 0);
+}
+
+#[test]
+fn where_the_head_is_straightened_the_wand_keeps_its_place_before_it() {
+    let port = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let head = HeadConfig {
+        wand: Some(WandConfig { sensor: 1, ..Default::default() }),
+        recentre: input::head::Recentring::Start,
+        ..HeadConfig::new(format!("dtrack://127.0.0.1:{port}").parse().unwrap())
+    };
+    let mut tracking = Loop::track_head(head);
+    tracking.until_open(true);
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    // The head at x = 0.4 m looks along −x: its matrix is a quarter turn to the left about y.
+    let turned = frame(1, 400.0, 1, "0 0").replacen("[1 0 0 0 1 0 0 0 1]", "[0 0 -1 0 1 0 1 0 0]", 1);
+    socket.send_to(turned.as_bytes(), ("127.0.0.1", port)).unwrap();
+    until_held(&mut tracking, 1);
+    let controls = tracking.controls();
+    let (head, wand) = (controls.head.unwrap(), controls.wand.unwrap());
+    // In the tracker's axes the wand is 1 m above and 0.1 m ahead of the head along −z, which is to its right.
+    let between = wand.position_m - head.position_m;
+    assert!((between - glam::DVec3::new(0.1, 1.0, 0.0)).length() < 1e-9, "{between}");
+    assert!((wand.orientation * glam::DVec3::NEG_Z - glam::DVec3::X).length() < 1e-9, "{}", wand.orientation);
+    assert!(tracking.replays_to_the_bit() > 1);
 }
