@@ -64,8 +64,8 @@ mod tests {
         use KeyCode::*;
         let places = [
             KeyA, KeyB, KeyC, KeyD, KeyE, KeyF, KeyG, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyN, KeyO, KeyP, KeyQ, KeyR,
-            KeyS, KeyT, KeyU, KeyV, KeyW, KeyX, KeyY, KeyZ, Digit1, Digit2, Digit3, Enter, Tab, Backspace, Space, Minus,
-            Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown, ArrowUp, ShiftLeft,
+            KeyS, KeyT, KeyU, KeyV, KeyW, KeyX, KeyY, KeyZ, Digit1, Digit2, Digit3, Enter, Tab, Backspace, Space,
+            Minus, Equal, Period, F1, ArrowRight, ArrowLeft, ArrowDown, ArrowUp, ShiftLeft,
         ];
         for wanted in KeyboardKey::ALL {
             assert!(places.iter().any(|place| key(*place) == Some(*wanted)), "{wanted:?}");
