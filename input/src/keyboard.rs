@@ -16,7 +16,8 @@
 //! | M | look back | the same |
 //!
 //! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
-//! returns to the start, O looks ahead again, U makes the present pose of a tracked head the straight one, C takes a picture, V records, H and F1 show the help.
+//! returns to the start, O looks ahead again, U makes the present pose of a tracked head the straight one, C takes a
+//! picture, V records, H and F1 show the help.
 
 use crate::action::{Action, VehicleKind};
 use crate::clock::Nanos;

@@ -1,6 +1,7 @@
 //! Law: at a desk the head moves the picture as a window moves before it. Each of opentrack's six numbers is followed
-//! from its datagram to the place on the monitor where a far point is seen, whose exact value geometry gives. A mirrored
-//! axis, a wrong unit or a monitor at another height would show the street moving against the head, or cobbles.
+//! from its datagram to the place on the monitor where a far point is seen, whose exact value geometry gives. A
+//! mirrored axis, a wrong unit or a monitor at another height would show a street that moves against the head, or the
+//! cobbles.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use crate::session::tracker::{head, head_config};

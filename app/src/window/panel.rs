@@ -182,7 +182,7 @@ fn devices(ui: &mut Ui, devices: &[DeviceReport]) {
                 ui.indent(number, |ui| {
                     device.details.iter().for_each(|detail| {
                         ui.label(RichText::new(detail).small());
-                    })
+                    });
                 });
             }
         }

@@ -1,5 +1,5 @@
 //! At a desk nobody measures: units, mirrors and the straight pose must bring the head to where the rider's is. A wrong
-//! program would show the cobbles, move the picture against the head, or let the head leap when the rider straightens it.
+//! program would show the cobbles, move the picture against the head, or let the head leap when it is straightened.
 
 use glam::{DQuat, DVec3};
 
