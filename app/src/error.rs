@@ -1,6 +1,6 @@
 //! Errors of the program as a whole. Every part has an error of its own; here they meet, so that `main` reports once.
 
-use crate::commands::calibrate::CalibratingError;
+use crate::commands::calibrating_error::CalibratingError;
 use crate::output::files::WriteError;
 use crate::output::film::FilmError;
 use crate::session::preferences::PreferencesError;

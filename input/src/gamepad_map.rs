@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::config_error::ConfigError;
-use crate::gamepad::{AXES, codes};
+use crate::gamepad_codes::{self as codes, AXES};
 
 /// Names of axes.
 const AXIS_NAMES: [(&str, u16); 8] = [

@@ -31,6 +31,7 @@ pub mod dtrack;
 mod faults;
 pub mod filters;
 pub mod gamepad;
+pub mod gamepad_codes;
 pub mod gamepad_map;
 mod glide;
 pub mod head;

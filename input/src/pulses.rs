@@ -2,7 +2,8 @@
 //!
 //! Intervals between pulses are measured on the sensor's own clock, to the microsecond; only the age of the last
 //! pulse is measured on this machine's. Between pulses the estimate is capped by the silence (at a higher rate the
-//! next pulse would be here already, unless its message is late). So it decays by itself, and after a while of silence it is zero.
+//! next pulse would be here already, unless its message is late). So it decays by itself, and after a while of silence
+//! it is zero.
 
 use crate::clock::{Nanos, seconds_between};
 use crate::filters::{MedianOfThree, OneEuro};

@@ -8,7 +8,8 @@
 //! an hour by more than a tenth, or where the recording differs.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example prints its figures, and ends at a failure")]
 
-use input::gamepad::{GamepadItem, codes};
+use input::gamepad::GamepadItem;
+use input::gamepad_codes as codes;
 use input::{DeskConfig, HeadConfig, KeyboardKey, Nanos, SECOND, Sample, SampleSource, VehicleKind};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use scene::OpenPlane;

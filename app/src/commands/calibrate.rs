@@ -1,11 +1,12 @@
 //! `rapidity devices --calibrate`: walks through the calibration of a bicycle, and writes its set-up file.
 
+use crate::commands::calibrating_error::{CalibratingError, FIRST_LINE};
 use crate::error::Error;
 use crate::output::files::{WriteError, whole, writable};
 use crate::output::say::say;
 use crate::session::interrupt::interrupted;
 use crate::session::set_up::{BicyclePort, SetUp};
-use input::bicycle::{BicycleLineKind, BicyclePositions, CalibrationError, RawReadings, SteadyReading};
+use input::bicycle::{BicycleLineKind, BicyclePositions, RawReadings, SteadyReading};
 use input::devices::{DeviceState, Devices, DevicesConfig};
 use input::{BicycleConfig, Clock, Signal};
 use std::io::{IsTerminal, Write};
@@ -15,55 +16,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
-use thiserror::Error;
 use toml_edit::{DocumentMut, Item, Table, value};
 
 /// Time between two looks at the box.
 const INTERVAL: Duration = Duration::from_millis(100);
 /// Time for which a position is read once the rider holds it.
 const READING: Duration = Duration::from_millis(700);
-/// Longest wait for the first good line of the box.
-const FIRST_LINE: Duration = Duration::from_secs(10);
 /// Angle of the handlebar that is asked for, degrees.
 const ANGLE_DEG: f64 = 45.0;
-
-/// Reason why a calibration ends without a file.
-#[derive(Debug, Error)]
-pub enum CalibratingError {
-    /// No port named.
-    #[error(
-        "which bicycle? Name its port with --bicycle, such as --bicycle /dev/ttyUSB0; `rapidity devices` lists them"
-    )]
-    NoPort,
-    /// A box that sends nothing that can be read.
-    #[error("{port}: no good line within {} s: {why}", FIRST_LINE.as_secs())]
-    Silent {
-        /// Port of the bicycle.
-        port: String,
-        /// State of the port, or the fault of the last line.
-        why: String,
-    },
-    /// A box without sensors.
-    #[error("{port}: each line is one number, a speed: there is nothing to calibrate; set bare_number in [bicycle]")]
-    Bare {
-        /// Port of the bicycle.
-        port: String,
-    },
-    /// An end of the answers, or an interruption.
-    #[error("the calibration was ended before its last step; nothing was written")]
-    Ended,
-    /// Readings that give no settings.
-    #[error("{0} Nothing was written")]
-    Readings(#[from] CalibrationError),
-    /// A file with text that is no set-up.
-    #[error("{file}: it is no set-up file: {reason}; name another file")]
-    File {
-        /// File to be written.
-        file: String,
-        /// Reason, as the reader of the text words it.
-        reason: String,
-    },
-}
 
 /// Conversation with the rider, beside the live readings.
 struct Dialogue {

@@ -1,6 +1,7 @@
 //! The commands of the program, a file each.
 
-pub mod calibrate;
+mod calibrate;
+pub mod calibrating_error;
 mod cameraman;
 pub mod check;
 pub mod devices;

@@ -18,6 +18,9 @@ struct BoxState {
     crank: u32,
 }
 
+/// Change of the box's state in a step of the walk.
+type Change = fn(&mut BoxState);
+
 /// Bicycle at a pseudo-terminal whose box sends fifty lines a second, until it is dropped.
 struct PtyBicycle {
     name: String,
@@ -83,7 +86,7 @@ fn a_strange_bicycle_steers_right_after_the_walk() {
         .unwrap();
     let mut answers = walk.stdin.take().unwrap();
     let mut lines = BufReader::new(walk.stdout.take().unwrap()).lines();
-    let steps: [(&str, fn(&mut BoxState), &str); 7] = [
+    let steps: [(&str, Change, &str); 7] = [
         ("1. ", |_| {}, ""),
         ("2. ", |state| state.steer = 2900 - 508, ""), // 45° to the left, 11.3 units a degree
         ("3. ", |state| state.steer = 2900 + 339, "30"),

@@ -7,7 +7,8 @@ use evdev::{AbsoluteAxisCode, Device, KeyCode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
-use crate::gamepad::{GamepadItem, codes};
+use crate::gamepad::GamepadItem;
+use crate::gamepad_codes as codes;
 use crate::sample::SampleSource;
 
 /// Longest wait of a read: a tenth of a second.

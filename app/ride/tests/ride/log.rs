@@ -1,5 +1,6 @@
-//! Law: a log that cannot be written any further says so once when it happens, and again at the end of the ride; and
-//! the memory of a ride is bounded by bytes, and its past reaches back to its beginning. A recording has frames, or is not there.
+//! Law: a log that cannot be written any further says so once when it happens, and again at the end of the ride;
+//! and the memory of a ride is bounded by bytes, and its past reaches back to its beginning. A recording has
+//! frames, or is not there.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
