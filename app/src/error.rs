@@ -1,17 +1,16 @@
 //! Errors of the program as a whole. Every part has an error of its own; here they meet, so that `main` reports once.
 
 use crate::commands::calibrating_error::CalibratingError;
-use crate::output::files::WriteError;
-use crate::output::film::FilmError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
-use crate::session::set_up::SetUpError;
-use crate::session::tracker::TrackerError;
+use hardware::{SetUpError, TrackerError};
 use kiosk::DayLogError;
 use measure::MeasureError;
 use measure::choice::ChoiceError;
 use measure::extremes::ExtremesError;
 use physics::photo_surface::PhotoSurfaceError;
+use picture_files::files::WriteError;
+use picture_files::film::FilmError;
 use render::GpuError;
 use ride::{LightSpeedError, LogError, ReplayError, SetupError};
 use room::{DisplayError, EyeBehind};

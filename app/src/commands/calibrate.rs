@@ -2,13 +2,13 @@
 
 use crate::commands::calibrating_error::{CalibratingError, FIRST_LINE};
 use crate::error::Error;
-use crate::output::files::{WriteError, whole, writable};
 use crate::output::say::say;
 use crate::session::interrupt::interrupted;
-use crate::session::set_up::{BicyclePort, SetUp};
+use hardware::{BicyclePort, SetUp};
 use input::bicycle::{BicycleLineKind, BicyclePositions, RawReadings, SteadyReading};
 use input::devices::{DeviceState, Devices, DevicesConfig};
 use input::{BicycleConfig, Clock, Signal};
+use picture_files::files::{WriteError, whole, writable};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::sync::Arc;

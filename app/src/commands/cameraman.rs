@@ -2,14 +2,14 @@
 
 use crate::command::{DialOptions, PictureOptions, RayOptions, map_scale_of_stills};
 use crate::error::Error;
-use crate::output::exr;
-use crate::output::files::save;
-use crate::output::film::{Film, Written};
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::{interrupted, interruption};
 use crate::session::reel::Moment;
 use image::RgbaImage;
+use picture_files::exr;
+use picture_files::files::save;
+use picture_files::film::{Film, Written};
 use render::choice::Choice;
 use render::picture::{Studio, largest_side};
 use render::{CutStats, Gpu, Pending, SceneRenderer};

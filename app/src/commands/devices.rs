@@ -3,12 +3,12 @@
 use crate::command::DevicesOptions;
 use crate::commands::calibrate::calibrate;
 use crate::error::Error;
-use crate::session::heard;
 use crate::session::interrupt::interrupted;
-use crate::session::set_up::{BicyclePort, SetUp};
-use crate::session::start::{DESK, usual_display};
-use crate::session::tracker::{TrackerError, head_config};
 use glam::EulerRot;
+use hardware::heard;
+use hardware::{BicyclePort, SetUp};
+use hardware::{DESK, usual_display};
+use hardware::{TrackerError, head_config};
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
 use input::trainer::TrainerDecoder;

@@ -19,13 +19,13 @@ use view::Gaze;
 
 use crate::command::MeasureOptions;
 use crate::error::Error;
-use crate::output::files::{WriteError, whole, writable};
 use crate::output::progress;
 use crate::output::say::{say, tell};
 use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
 use crate::session::reel::{self, Ridden};
 use crate::session::scenes::{self, World};
+use picture_files::files::{WriteError, whole, writable};
 
 /// Pictures per second at which poses are taken from a recording.
 const LOOKED_THROUGH: f64 = 10.0;

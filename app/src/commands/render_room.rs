@@ -3,13 +3,13 @@
 use crate::command::RenderOptions;
 use crate::commands::cameraman::dial_of_stills;
 use crate::error::Error;
-use crate::output::files::{WriteError, save};
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::scenes;
 use glam::DVec3;
 use physics::Event;
 use physics::worldline::{Thrust, WorldlineState};
+use picture_files::files::{WriteError, save};
 use render::choice::Choice;
 use render::picture::{SCREEN_FORMAT, Studio, largest_side};
 use render::{Gpu, SceneRenderer};

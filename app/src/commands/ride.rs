@@ -3,7 +3,6 @@
 use crate::command::RideOptions;
 use crate::commands::ride_film;
 use crate::error::Error;
-use crate::output::files::writable;
 use crate::output::progress;
 use crate::output::say::{say, tell};
 use crate::session::live::Live;
@@ -12,6 +11,7 @@ use crate::session::scenes;
 use crate::session::start::{RideRoom, has_display, kiosk, prepared, present, recorded};
 use crate::window;
 use input::recording::RecordingError;
+use picture_files::files::writable;
 use scene::Scene;
 use std::path::{Path, PathBuf};
 

@@ -2,9 +2,9 @@
 
 use crate::command::TownOptions;
 use crate::error::Error;
-use crate::output::files::writable;
 use crate::output::say::tell;
 use built_in::town;
+use picture_files::files::writable;
 use scene_files::export::write_glb;
 
 /// Carries out `rapidity town`.

@@ -4,9 +4,10 @@
 //! cobbles.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
-use crate::session::set_up::SetUp;
-use crate::session::tracker::{head, head_config};
+use crate::session::tracker::head;
 use glam::{DQuat, DVec2, DVec3};
+use hardware::SetUp;
+use hardware::head_config;
 use input::{Desk, DeskConfig, KeyboardKey, SECOND, Sample, SampleSource};
 use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};

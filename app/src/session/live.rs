@@ -3,15 +3,15 @@
 //! Frames come from live devices and the window's keys as the clock runs, or from a recording at the pace at which it
 //! was ridden. In both cases the caller asks once per frame and gets the observer.
 
-use crate::output::files::unused;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
-use crate::session::heard::{self, DeviceReport};
 use crate::session::lost_time::LostTime;
+use hardware::heard::{self, DeviceReport};
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
 use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl};
 use kiosk::Kiosk;
+use picture_files::files::unused;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
 

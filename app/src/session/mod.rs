@@ -4,13 +4,11 @@
 #[cfg(test)]
 mod desk_tests;
 pub mod gaps;
-pub mod heard;
 pub mod interrupt;
 pub mod live;
 mod lost_time;
 pub mod preferences;
 pub mod reel;
 pub mod scenes;
-pub mod set_up;
 pub mod start;
 pub mod tracker;

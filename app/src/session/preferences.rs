@@ -17,8 +17,8 @@ use regular_file::FileFault;
 use view::{Dial, RendererName, Transform};
 
 use crate::command::{DialOptions, RideOptions};
-use crate::output::files::whole;
 use crate::output::say::tell;
+use picture_files::files::whole;
 
 /// Name of the file.
 const FILE: &str = "rapidity.toml";

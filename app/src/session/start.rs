@@ -6,10 +6,9 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
-use crate::session::set_up::SetUp;
-use crate::session::tracker;
 use directories::ProjectDirs;
 use glam::DVec3;
+use hardware::{SetUp, head_config, usual_display};
 use input::devices::{Devices, DevicesConfig};
 use input::recording::{Recording, RideHeader};
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
@@ -21,16 +20,6 @@ use scene::collision::Collision;
 use scene::motion::Ball;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Name of the display for a tracked head if no display is named.
-pub const WINDOW: &str = "window";
-/// Name of the display for a head that opentrack follows if no display is named.
-pub const DESK: &str = "desk";
-
-/// Name of the display for this tracker if no display is named.
-pub fn usual_display(tracker: &TrackerUrl) -> &'static str {
-    if matches!(tracker, TrackerUrl::Opentrack { .. }) { DESK } else { WINDOW }
-}
 
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
@@ -44,6 +33,8 @@ fn fingerprint(scene: &Scene) -> String {
 pub struct RideRoom {
     /// Display, if the ride is shown in a room. A tracked head without a named display gets a built-in window.
     pub display: Option<Display>,
+    /// Name or file of the display, as it was asked for.
+    pub display_name: Option<String>,
     /// Tracking of the head, if it is tracked.
     pub head: Option<HeadConfig>,
     /// Set-up of the rider's hardware.
@@ -59,13 +50,14 @@ impl RideRoom {
         let file = options.devices.set_up.as_deref();
         let own = SetUp::of(None, file)?;
         let url = options.devices.tracker.clone().or_else(|| own.tracker_url());
-        let tracked = url.as_ref().map(usual_display);
+        let tracked = url.as_ref().map(usual_display).map(str::to_owned);
+        let display_name = options.display.clone().or(tracked);
         let budget = options.world.reading.budget();
-        let named = |name| Display::named_or_file_within(name, &budget);
-        let display = options.display.as_deref().or(tracked).map(named).transpose()?;
+        let named = |name: &str| Display::named_or_file_within(name, &budget);
+        let display = display_name.as_deref().map(named).transpose()?;
         let set_up = SetUp::of(display.as_ref(), file)?;
-        let head = tracker::head_config(display.as_ref(), &set_up, options.devices.tracker.as_ref())?;
-        Ok(Self { display, head, set_up })
+        let head = head_config(display.as_ref(), &set_up, options.devices.tracker.as_ref())?;
+        Ok(Self { display, display_name, head, set_up })
     }
 
     /// True if the mouse moves the head.

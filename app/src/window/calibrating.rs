@@ -1,7 +1,7 @@
 //! Corners of a room's channels while they are moved: the keys, the file, and the messages in the first window.
 
-use crate::session::start::WINDOW;
 use egui::{Align2, Area, Frame, Grid, Id, RichText, Ui};
+use hardware::WINDOW;
 use room::{Display, file};
 use walls::calibration::{Calibration, CornerKey};
 use winit::keyboard::KeyCode;

@@ -14,7 +14,8 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
-use crate::session::start::{DESK, RideRoom, WINDOW, usual_display};
+use crate::session::start::RideRoom;
+use hardware::{DESK, WINDOW};
 use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
@@ -182,10 +183,7 @@ impl Open {
             mouse_looks,
             dragged: false,
             shift: false,
-            display_name: options
-                .display
-                .clone()
-                .or_else(|| options.devices.tracker.as_ref().map(|it| usual_display(it).to_owned())),
+            display_name: room.display_name,
             calibrating: None,
             cursor: None,
             ride,

@@ -4,9 +4,9 @@ use super::controls::Controls;
 use super::help;
 use crate::command::Latency;
 use crate::frame::Look;
-use crate::session::heard::DeviceReport;
 use clap::ValueEnum;
 use egui::{Align2, Grid, RichText, ScrollArea, Slider, Ui, Window};
+use hardware::heard::DeviceReport;
 use input::{Action, VehicleKind};
 use render::display::{Development, Exposure, Gamut, Tone, development};
 

@@ -2,7 +2,7 @@
 
 use crate::canvas::Canvas;
 use crate::error::Error;
-use crate::output::files::{save, unused};
+use picture_files::files::{save, unused};
 use render::display::Development;
 use render::picture::Darkroom;
 use render::{Gpu, SceneRenderer};

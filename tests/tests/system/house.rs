@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 22] = [
+const PLAN: [(&str, &[&str]); 24] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -28,7 +28,9 @@ const PLAN: [(&str, &[&str]); 22] = [
     ("scene_files", &["decoders", "gltf_text", "panoramas", "physics", "regular_file", "scene"]),
     ("built_in", &["physics", "scene"]),
     ("picture_cache", &["built_in", "regular_file"]),
+    ("picture_files", &[]),
     ("room", &["regular_file", "view"]),
+    ("hardware", &["input", "regular_file", "room"]),
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
@@ -40,12 +42,14 @@ const PLAN: [(&str, &[&str]); 22] = [
         "rapidity",
         &[
             "built_in",
+            "hardware",
             "input",
             "kiosk",
             "measure",
             "panoramas",
             "physics",
             "picture_cache",
+            "picture_files",
             "probe",
             "regular_file",
             "render",
