@@ -28,6 +28,7 @@ mod socket;
 #[cfg(unix)]
 mod spnav_places;
 mod trainer;
+mod trainer_error;
 mod vrpn;
 
 pub use config::DevicesConfig;

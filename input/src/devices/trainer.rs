@@ -15,18 +15,18 @@ use std::sync::atomic::{AtomicI16, Ordering};
 use std::time::{Duration, Instant};
 
 use socket2::SockRef;
-use thiserror::Error;
 
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
+use super::trainer_error::TrainerError;
 use crate::sample::SampleSource;
 use crate::trainer::control::{TrainerControl, release};
 use crate::trainer::url::TrainerUrl;
 use crate::trainer::wire::{
-    CAN_NOTIFY, CAN_WRITE, CHARACTERISTICS, CONTROL_POINT, DirectConnectError, DirectConnectMessage,
-    DirectConnectPieces, ENABLE, FITNESS_MACHINE, INDOOR_BIKE_DATA, NOTIFICATION, POWER_MEASUREMENT, SERVICES,
-    SPEED_MEASUREMENT, UUID_LENGTH, WRITE, refusal, short, uuid,
+    CAN_NOTIFY, CAN_WRITE, CHARACTERISTICS, CONTROL_POINT, DirectConnectMessage, DirectConnectPieces, ENABLE,
+    FITNESS_MACHINE, INDOOR_BIKE_DATA, NOTIFICATION, POWER_MEASUREMENT, SERVICES, SPEED_MEASUREMENT, UUID_LENGTH,
+    WRITE, refusal, short, uuid,
 };
 
 /// Longest wait for the connection.
@@ -48,43 +48,6 @@ const BUFFER: usize = 4096;
 
 /// Other services whose notifications a ride can use, and the characteristic of each.
 const OTHER_SERVICES: [(u16, u16); 2] = [(0x1818, POWER_MEASUREMENT), (0x1816, SPEED_MEASUREMENT)];
-
-/// Reason why a trainer cannot be used.
-#[derive(Debug, Error)]
-enum TrainerError {
-    #[error("it says nothing; is it a trainer with Direct Connect?")]
-    Silent,
-    #[error("it has closed the connection; is another program connected to it?")]
-    Closed,
-    #[error("{0}")]
-    Wire(#[from] DirectConnectError),
-    #[error("it has no fitness machine service (1826), but {0}; name a trainer with FTMS")]
-    NoFitnessMachine(String),
-    #[error("its fitness machine sends no indoor bike data (2ad2), but {0}; name a bicycle's trainer")]
-    NoBikeData(String),
-    #[error("it does not {0}: {1}")]
-    Refused(&'static str, &'static str),
-    #[error("{0}")]
-    System(io::Error),
-}
-
-impl From<io::Error> for TrainerError {
-    fn from(error: io::Error) -> Self {
-        match error.kind() {
-            ErrorKind::UnexpectedEof | ErrorKind::ConnectionReset | ErrorKind::BrokenPipe => Self::Closed,
-            _ => Self::System(error),
-        }
-    }
-}
-
-impl From<TrainerError> for io::Error {
-    fn from(error: TrainerError) -> Self {
-        match error {
-            TrainerError::System(error) => error,
-            error => Self::new(ErrorKind::InvalidData, error.to_string()),
-        }
-    }
-}
 
 /// Address of a trainer, and the road for it.
 pub(super) struct TrainerPort {
