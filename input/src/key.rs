@@ -47,7 +47,7 @@ macro_rules! keys {
 keys! {
     /// The key A.
     A = 0x04,
-    /// The key B, which does nothing unless a set-up gives it another key's work.
+    /// The key B, which means nothing to a ride unless a set-up gives it another key's work.
     B = 0x05,
     /// The key C.
     C = 0x06,
@@ -57,7 +57,7 @@ keys! {
     E = 0x08,
     /// The key F.
     F = 0x09,
-    /// The key G, which does nothing unless a set-up gives it another key's work.
+    /// The key G, which means nothing to a ride unless a set-up gives it another key's work.
     G = 0x0a,
     /// The key H.
     H = 0x0b,
@@ -71,7 +71,7 @@ keys! {
     L = 0x0f,
     /// The key M.
     M = 0x10,
-    /// The key N, which does nothing unless a set-up gives it another key's work.
+    /// The key N, which means nothing to a ride unless a set-up gives it another key's work.
     N = 0x11,
     /// The key O.
     O = 0x12,
@@ -83,7 +83,7 @@ keys! {
     R = 0x15,
     /// The key S.
     S = 0x16,
-    /// The key T, which does nothing unless a set-up gives it another key's work.
+    /// The key T, which means nothing to a ride unless a set-up gives it another key's work.
     T = 0x17,
     /// The key U.
     U = 0x18,
@@ -91,11 +91,11 @@ keys! {
     V = 0x19,
     /// The key W.
     W = 0x1a,
-    /// The key X, which does nothing unless a set-up gives it another key's work.
+    /// The key X, which means nothing to a ride unless a set-up gives it another key's work.
     X = 0x1b,
-    /// The key Y, which does nothing unless a set-up gives it another key's work.
+    /// The key Y, which means nothing to a ride unless a set-up gives it another key's work.
     Y = 0x1c,
-    /// The key Z, which does nothing unless a set-up gives it another key's work.
+    /// The key Z, which means nothing to a ride unless a set-up gives it another key's work.
     Z = 0x1d,
     /// The key 1 above the letters.
     One = 0x1e,
@@ -103,9 +103,9 @@ keys! {
     Two = 0x1f,
     /// The key 3 above the letters.
     Three = 0x20,
-    /// The enter key, which does nothing unless a set-up gives it another key's work.
+    /// The enter key, which means nothing to a ride unless a set-up gives it another key's work.
     Enter = 0x28,
-    /// The tabulator key, which does nothing unless a set-up gives it another key's work.
+    /// The tabulator key, which means nothing to a ride unless a set-up gives it another key's work.
     Tab = 0x2b,
     /// The backspace key.
     Backspace = 0x2a,
