@@ -70,8 +70,8 @@ impl DeskConfig {
         self.bicycle.check()?;
         self.trainer.check()?;
         self.rider.check()?;
-        self.space_mouse.check("space_mouse")?;
-        self.spacenavd.check("spacenavd")?;
+        self.space_mouse.check("axes.space_mouse")?;
+        self.spacenavd.check("axes.spacenavd")?;
         self.gamepad.check()?;
         self.keys.check()?;
         self.head.as_ref().map_or(Ok(()), HeadConfig::check)
@@ -106,7 +106,7 @@ mod tests {
         for entry in [0, 7, -7, i8::MIN] {
             let mut config = DeskConfig::default();
             config.spacenavd.0[2] = entry;
-            assert_eq!(config.check().unwrap_err().key, "spacenavd");
+            assert_eq!(config.check().unwrap_err().key, "axes.spacenavd");
         }
     }
 }

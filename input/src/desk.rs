@@ -152,8 +152,10 @@ impl Desk {
         let sends = matches!(sample.signal, Signal::Bytes(_));
         let pushed = |axes: &[f64]| sends && axes.iter().any(|axis| *axis != 0.0);
         match sample.source {
-            SampleSource::Bicycle => self.by_hand = sends,
-            SampleSource::Keyboard if sends => self.by_hand = self.bicycle.wheel_speed(sample.at).is_some(),
+            SampleSource::Bicycle => self.by_hand = sends && self.config.bicycle.handlebar,
+            SampleSource::Keyboard if sends => {
+                self.by_hand = self.bicycle.wheel_speed(sample.at).is_some() && self.config.bicycle.handlebar;
+            }
             SampleSource::Gamepad => self.by_hand |= pushed(&self.gamepad.deflection()),
             SampleSource::SpaceMouse => self.by_hand |= pushed(&self.space_mouse.deflection(sample.at)),
             SampleSource::Spacenavd => self.by_hand |= pushed(&self.spacenavd.deflection()),

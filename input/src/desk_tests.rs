@@ -72,7 +72,7 @@ fn a_fast_rider_steers_no_further_than_he_leans() {
     desk.feed(&Sample::bytes(SECOND, SampleSource::Bicycle, *b"36\n"));
     let controls = desk.controls(SECOND);
     // v² tan δ / L is the lateral acceleration.
-    let lateral = controls.wheel_speed.unwrap().powi(2) * controls.steer_rad.tan() / 1.1;
+    let lateral = libm::pow(controls.wheel_speed.unwrap(), 2.0) * libm::tan(controls.steer_rad) / 1.1;
     assert!((lateral - 5.0).abs() < 1e-12, "{lateral}");
 }
 
@@ -141,6 +141,21 @@ fn the_device_that_was_moved_last_steers_and_a_bicycle_always_does() {
     assert!(desk.is_steered_by_hand());
     desk.feed(&Sample::closed(3, SampleSource::Bicycle));
     assert!(!desk.is_steered_by_hand());
+}
+
+#[test]
+fn a_bicycle_without_a_handlebar_leaves_the_steering_to_others() {
+    let mut config = DeskConfig::default();
+    config.bicycle.handlebar = false;
+    let mut desk = Desk::new(config).unwrap();
+    // The box sends 0 where there is no sensor, which would be full lock.
+    let line = crate::line::sealed("B1,0,0,0,0,0,0,0,0");
+    desk.feed(&Sample::bytes(0, SampleSource::Bicycle, line.into_bytes()));
+    assert!(!desk.is_steered_by_hand());
+    assert_eq!(desk.controls(0).steer_rad, 0.0);
+    desk.feed(&Sample::key(0, KeyboardKey::Left, true));
+    assert!(!desk.is_steered_by_hand());
+    assert_eq!(desk.controls(SECOND).steer_rad, 0.6);
 }
 
 #[test]

@@ -26,6 +26,13 @@ impl KeyMap {
         self.0.is_empty()
     }
 
+    /// Key that does this work, the key itself if it may; `None` if none does.
+    pub fn key_for(&self, work: KeyboardKey) -> Option<KeyboardKey> {
+        let works = self.works();
+        let does = |key: &KeyboardKey| works[usize::from(*key as u8)] == work as u8;
+        [work].iter().chain(KeyboardKey::ALL).copied().find(does)
+    }
+
     /// Key whose work each key does, by the numbers of the keys.
     pub(crate) fn works(&self) -> [u8; 256] {
         let mut works = std::array::from_fn(|code| u8::try_from(code).unwrap_or(0));

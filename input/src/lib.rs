@@ -36,7 +36,7 @@ pub mod gamepad_map;
 mod glide;
 pub mod head;
 mod key;
-mod key_map;
+pub mod key_map;
 pub mod keyboard;
 pub mod line;
 mod look;

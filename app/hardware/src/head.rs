@@ -43,11 +43,13 @@ pub fn head_config(
     set_up: &SetUp,
     url: Option<&TrackerUrl>,
 ) -> Result<Option<HeadConfig>, SetUpError> {
-    let table = set_up.head()?;
-    let config = match (table, url) {
-        (Some(config), Some(url)) => Some(HeadConfig { url: url.clone(), ..config }),
+    let config = match (set_up.head(url)?, url) {
         (None, Some(url)) => Some(HeadConfig::new(url.clone())),
-        (config, None) => config,
+        // Numbers, units and wands are those of a kind of tracker.
+        (Some(config), Some(url)) if set_up.tracker_url().is_some_and(|own| own.source() != url.source()) => {
+            Some(HeadConfig { velocity: config.velocity, mode: config.mode, ..HeadConfig::new(url.clone()) })
+        }
+        (config, _) => config,
     };
     let given = |key: &str| set_up.tracker().is_some_and(|table| table.get(key).is_some());
     let config = config.map(|config| with_usual(config, display, given));

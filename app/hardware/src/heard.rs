@@ -4,6 +4,7 @@
 use glam::EulerRot;
 use input::devices::{DeviceState, DeviceStatus};
 use input::head::{HeardKind, HeardSensor};
+use input::trainer::TrainerDecoder;
 use input::{Desk, HeadConfig, Nanos, SampleSource, TrackerUrl};
 use std::fmt::Write as _;
 
@@ -11,6 +12,18 @@ use std::fmt::Write as _;
 pub fn bad(desk: &Desk, source: SampleSource) -> Option<String> {
     let faults = desk.faults(source);
     faults.last().map(|last| format!("{} bad, the last: {last}", faults.number()))
+}
+
+/// Line about the trainer: what it measures at the time `now`.
+pub fn trainer(trainer: &TrainerDecoder, now: Nanos) -> String {
+    let told =
+        |value: Option<f64>, unit: &str| value.map_or(format!("no {unit}"), |value| format!("{value:.0} {unit}"));
+    format!(
+        "trainer {} · {} · {}",
+        told(trainer.wheel_speed(now).map(|speed| speed * 3.6), "km/h"),
+        told(trainer.cadence_hz(now).map(|hz| hz * 60.0), "rpm"),
+        told(trainer.power_w(now), "W")
+    )
 }
 
 /// Line on each thing that the tracker of this source has been heard to send.
@@ -57,6 +70,9 @@ pub fn report(status: &DeviceStatus, desk: &Desk, now: Nanos, most: usize) -> De
         DeviceState::Absent(why) => format!("{source}: {why}"),
     };
     let mut details: Vec<String> = status.note.iter().cloned().chain(bad(desk, source)).collect();
+    if source == SampleSource::Trainer && status.state == DeviceState::Open {
+        details.push(trainer(desk.trainer(), now));
+    }
     let mut things = things(desk, source, now);
     let more = things.len().saturating_sub(most);
     things.truncate(most);

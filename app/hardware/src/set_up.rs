@@ -122,7 +122,12 @@ impl SetUp {
         if let Some(path) = file {
             let fault = |fault| SetUpError::Unreadable { path: path.to_owned(), fault };
             let bytes = regular_file::read(path, LONGEST).map_err(fault)?;
-            set_up.add_text(&path.display().to_string(), &String::from_utf8_lossy(&bytes))?;
+            let place = path.display().to_string();
+            let text = String::from_utf8(bytes).map_err(|error| SetUpError::Text {
+                place: place.clone(),
+                reason: format!("it is not UTF-8 text from byte {} on", error.utf8_error().valid_up_to()),
+            })?;
+            set_up.add_text(&place, &text)?;
         }
         Ok(set_up)
     }
@@ -184,19 +189,46 @@ impl SetUp {
         self.tracker()?.get("url")?.as_str()?.parse().ok()
     }
 
-    /// Settings of the tracker, if there is its table.
+    /// Settings of the tracker, if there is its table; `url` replaces the tracker that it names.
     ///
     /// # Errors
     /// A table that cannot be understood.
-    pub fn head(&self) -> Result<Option<HeadConfig>, SetUpError> {
-        let table = self.find("tracker");
-        table.map(|(table, place, value)| understood(table, place, value.clone())).transpose()
+    pub fn head(&self, url: Option<&TrackerUrl>) -> Result<Option<HeadConfig>, SetUpError> {
+        let Some((table, place, value)) = self.find("tracker") else { return Ok(None) };
+        let mut value = value.clone();
+        if let (Some(table), Some(url)) = (value.as_table_mut(), url) {
+            table.insert("url".to_owned(), Value::String(url.to_string()));
+        }
+        understood(table, place, value).map(Some)
+    }
+
+    /// True if the set-up has no table.
+    pub fn is_empty(&self) -> bool {
+        self.tables.is_empty()
+    }
+
+    /// True if it names a bicycle or a trainer that is ridden.
+    ///
+    /// # Errors
+    /// A table that cannot be understood.
+    pub fn names_a_ride(&self) -> Result<bool, SetUpError> {
+        Ok(self.port()?.port.is_some() || self.trainer()?.url.is_some())
+    }
+
+    /// Checks every table, before a display if there is one.
+    ///
+    /// # Errors
+    /// The first table that cannot be understood, or setting that cannot be used.
+    pub fn check(&self) -> Result<(), SetUpError> {
+        self.port()?;
+        self.trainer()?;
+        self.desk()?;
+        self.head(None)?.map_or(Ok(()), |head| head.check().map_err(|source| self.refused(source)))
     }
 
     /// Error of a setting that cannot be used, with the place of its table.
     pub fn refused(&self, source: ConfigError) -> SetUpError {
         let table = source.key.split('.').next().unwrap_or_default();
-        let table = if ["space_mouse", "spacenavd"].contains(&table) { "axes" } else { table };
         let place = self.find(table).map_or_else(|| "the set-up".to_owned(), |(_, place, _)| place.clone());
         SetUpError::Setting { place, source }
     }
@@ -347,7 +379,7 @@ mod tests {
             ("[bicycle]\nspeed_from = \"legs\"", "unknown variant `legs`, expected `wheel` or `cadence`"),
             ("[bicycle]\nbaud = -1", "[bicycle]: invalid value"),
             ("[axes]\nspace_mouse = [1, 2, 3]", "[axes]: "),
-            ("[axes]\nspacenavd = [1, 2, 3, 4, 5, 9]", "museum.toml: spacenavd is [1, 2, 3, 4, 5, 9]"),
+            ("[axes]\nspacenavd = [1, 2, 3, 4, 5, 9]", "museum.toml: axes.spacenavd is [1, 2, 3, 4, 5, 9]"),
             ("[trainer]\nurl = \"kickr\"", "[trainer]: "),
             ("[trainer]\nslope_felt_percent = 120", "trainer.slope_felt_percent is 120"),
             ("[trainer]\nfast = 1.0", "[trainer]: unknown field `fast`"),

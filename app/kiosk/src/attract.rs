@@ -1,7 +1,7 @@
 //! Attract ride: the built-in tour as samples, or the foot on the pedal where the scene has no circuit.
 
 use glam::DVec3;
-use input::{KeyboardKey, Nanos, SECOND, Sample, SampleSource, VehicleKind};
+use input::{DeskConfig, KeyboardKey, Nanos, SECOND, Sample, SampleSource, VehicleKind};
 use ride::{Tour, Vehicle};
 
 /// Rider that nobody is.
@@ -10,6 +10,8 @@ pub struct Attract {
     circuit: Vec<DVec3>,
     /// Vehicle of rides without a tour.
     usual: VehicleKind,
+    /// Settings of the devices, which the rider's samples have to fit.
+    desk: DeskConfig,
     /// Beginning of the ride, while it is shown.
     from: Nanos,
     rider: Option<Rider>,
@@ -29,10 +31,11 @@ impl Attract {
     const TOUR: Nanos = 600 * SECOND;
     const STRAIGHT: Nanos = 20 * SECOND;
 
-    /// Attract rides round a circuit; `usual` is the vehicle of those who have none.
-    pub fn new(circuit: &[DVec3], usual: VehicleKind) -> Self {
-        let circuit = if Tour::new(circuit).is_some() { circuit.to_vec() } else { Vec::new() };
-        Self { circuit, usual, from: 0, rider: None }
+    /// Attract rides round a circuit; `usual` is the vehicle of those who have none, and `desk` says how the samples
+    /// of the rider are decoded.
+    pub fn new(circuit: &[DVec3], usual: VehicleKind, desk: &DeskConfig) -> Self {
+        let circuit = if Tour::new(circuit, &desk.bicycle).is_some() { circuit.to_vec() } else { Vec::new() };
+        Self { circuit, usual, desk: desk.clone(), from: 0, rider: None }
     }
 
     /// Longest time of a ride, after which the next begins.
@@ -49,7 +52,7 @@ impl Attract {
     pub fn begin(&mut self, now: Nanos) -> Vec<Sample> {
         let left = self.end(now);
         self.from = now + Self::PAUSE;
-        self.rider = Some(match Tour::new(&self.circuit) {
+        self.rider = Some(match Tour::new(&self.circuit, &self.desk.bicycle) {
             Some(tour) => Rider::Cyclist(Box::new(tour)),
             None => Rider::Foot(false),
         });
@@ -67,17 +70,22 @@ impl Attract {
             }
             Some(Rider::Foot(down)) if !*down => {
                 *down = true;
-                vec![Sample::key(now, KeyboardKey::W, true)]
+                self.pedal(now, true)
             }
             _ => Vec::new(),
         }
+    }
+
+    /// Sample of the foot: a key that pedals, if one does.
+    fn pedal(&self, now: Nanos, down: bool) -> Vec<Sample> {
+        self.desk.keys.key_for(KeyboardKey::W).map(|key| Sample::key(now, key, down)).into_iter().collect()
     }
 
     /// Ends the ride at the time `now`: whatever it holds is released.
     pub fn end(&mut self, now: Nanos) -> Vec<Sample> {
         match self.rider.take() {
             Some(Rider::Cyclist(_)) => vec![Sample::closed(now, SampleSource::Bicycle)],
-            Some(Rider::Foot(_)) => vec![Sample::key(now, KeyboardKey::W, false)],
+            Some(Rider::Foot(_)) => self.pedal(now, false),
             None => Vec::new(),
         }
     }

@@ -69,7 +69,7 @@ impl Kiosk {
         circuit: &[DVec3],
         log: Option<DayLog>,
     ) -> Result<Self, ConfigError> {
-        let attract = Attract::new(circuit, setup.kind);
+        let attract = Attract::new(circuit, setup.kind, &setup.desk);
         let mut kiosk = Self {
             turns: Turns::new((idle_s * SECOND as f64) as Nanos, attract.longest()),
             attract,

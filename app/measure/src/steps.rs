@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
-use input::{DeskConfig, SECOND, VehicleKind};
+use input::{BicycleConfig, DeskConfig, SECOND, VehicleKind};
 use physics::worldline::{DormandPrince, Exact, Integrator, Rk4, Thrust, WorldlineError, WorldlineState};
 use physics::{Celerity, Event};
 
@@ -88,9 +88,11 @@ impl Ride {
         let angle = |corner: u32| std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
         let ring: Vec<DVec3> =
             (0..CORNERS).map(|corner| RADIUS_M * DVec3::new(angle(corner).cos(), 0.0, -angle(corner).sin())).collect();
-        let (circuit, mut tour) = match Tour::new(circuit) {
+        let (circuit, mut tour) = match Tour::new(circuit, &BicycleConfig::default()) {
             Some(tour) => (circuit, tour),
-            None => (ring.as_slice(), Tour::new(&ring).expect("a circle has corners enough")),
+            None => {
+                (ring.as_slice(), Tour::new(&ring, &BicycleConfig::default()).expect("a circle has corners enough"))
+            }
         };
         let setup = Setup {
             light_speed,

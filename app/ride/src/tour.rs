@@ -32,8 +32,6 @@ const AIM_M: f64 = 1.8;
 /// Pull of the brake lever per m/s of excess speed, and its largest pull, which stays within the first stage.
 const LEVER_PER_M_S: f64 = 0.3;
 const FARTHEST_LEVER: f64 = 0.45;
-/// Distance per turn of the crank, metres.
-const DEVELOPMENT_M: f64 = 5.5;
 /// Largest angle of the handlebar, radians.
 const FARTHEST_STEER_RAD: f64 = 0.8;
 
@@ -57,18 +55,16 @@ impl Tour {
     pub const CRUISE_M_S: f64 = 25.0 / 3.6;
 
     /// Creates a rider for a closed route, a polyline on the ground, on a bicycle whose sensors are calibrated as
-    /// [`BicycleConfig::default`] says. `None` if the route has fewer than three different corners, or one that is not
-    /// finite.
-    pub fn new(circuit: &[DVec3]) -> Option<Self> {
-        let bicycle = BicycleConfig::default();
+    /// `bicycle` says. `None` if the route has fewer than three different corners, or one that is not finite.
+    pub fn new(circuit: &[DVec3], bicycle: &BicycleConfig) -> Option<Self> {
         Some(Self {
             route: Route::new(circuit)?,
             lines: 0,
             wheel_m_s: 0.0,
             wheel: Magnet::new(bicycle.metres_per_pulse()),
-            crank: Magnet::new(DEVELOPMENT_M / bicycle.pulses_per_crank_turn),
+            crank: Magnet::new(bicycle.metres_per_crank_turn / bicycle.pulses_per_crank_turn),
             along_m: f64::NAN,
-            bicycle,
+            bicycle: bicycle.clone(),
         })
     }
 
@@ -132,7 +128,11 @@ impl Tour {
 
     fn line(&self, sequence: u64, at: Nanos, steer_rad: f64, brake: f64) -> String {
         let BicycleConfig { steer_straight, steer_rad_per_unit, brake_released, brake_full, .. } = self.bicycle;
-        let steer = steer_straight + steer_rad / steer_rad_per_unit;
+        let BicycleConfig { steer_dead_rad, brake_curve, .. } = self.bicycle;
+        // Through the dead zone, and along the lever's curve.
+        let turned = if steer_dead_rad > 0.0 { steer_rad + steer_dead_rad.copysign(steer_rad) } else { steer_rad };
+        let brake = if brake_curve == 1.0 { brake } else { libm::pow(brake, brake_curve.recip()) };
+        let steer = steer_straight + turned / steer_rad_per_unit;
         let brake = brake_released + brake * (brake_full - brake_released);
         // The numbers of the bicycle's box wrap at 32 bits.
         let (sequence, now_us) = (sequence as u32, (at / 1000) as u32);

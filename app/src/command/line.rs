@@ -82,7 +82,7 @@ pub struct DevicesOptions {
     pub set_up: Option<PathBuf>,
     /// Walk through the calibration of the bicycle, step by step, and write this set-up file. What others wrote into
     /// the file stays.
-    #[arg(long, value_name = "FILE.toml", conflicts_with = "seconds")]
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["seconds", "trainer", "tracker", "sensor", "display"])]
     pub calibrate: Option<PathBuf>,
     /// Serial port of the instrumented bicycle, which is listed with the other devices.
     #[arg(long, value_name = "PORT")]

@@ -182,7 +182,7 @@ pub struct DeviceOptions {
     pub trainer: Option<TrainerUrl>,
     /// Share of the road's slope that the trainer makes felt, percent: 0 for a level road everywhere
     /// [default: 100].
-    #[arg(long, value_name = "PERCENT", requires = "trainer", value_parser = clap::value_parser!(u8).range(0..=100))]
+    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u8).range(0..=100))]
     pub slope_felt: Option<u8>,
     /// Read a SpaceMouse, directly or through spacenavd.
     #[arg(long)]
@@ -198,6 +198,6 @@ pub struct DeviceOptions {
 impl DeviceOptions {
     /// True if a device that is ridden is named, which a film without a window has to follow.
     pub fn are_ridden(&self) -> bool {
-        self.set_up.is_some() || self.bicycle.is_some() || self.trainer.is_some() || self.spacemouse
+        self.bicycle.is_some() || self.trainer.is_some() || self.spacemouse
     }
 }

@@ -7,9 +7,9 @@ use crate::session::interrupt::interrupted;
 use hardware::{BicyclePort, SetUp};
 use input::bicycle::{BicycleLineKind, BicyclePositions, RawReadings, SteadyReading};
 use input::devices::{DeviceState, Devices, DevicesConfig};
-use input::{BicycleConfig, Clock, Signal};
+use input::{BicycleConfig, Clock, DeskConfig, Signal};
 use picture_files::files::{WriteError, whole, writable};
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,6 +27,8 @@ const ANGLE_DEG: f64 = 45.0;
 
 /// Conversation with the rider, beside the live readings.
 struct Dialogue {
+    /// Port of the bicycle.
+    port: String,
     devices: Devices,
     readings: RawReadings,
     answers: Receiver<String>,
@@ -45,9 +47,17 @@ pub fn calibrate(file: &Path, set_up: &SetUp, port: BicyclePort) -> Result<(), E
     let before = set_up.desk()?.bicycle;
     let mut dialogue = Dialogue::begin(&name, port.baud)?;
     say(format_args!("The bicycle at {name} is calibrated. Enter goes on, Ctrl-C ends without a file."))?;
-    let kind = dialogue.first_line(&name)?;
+    let kind = dialogue.first_line()?;
     let positions = dialogue.walk(kind, &before)?;
     let config = positions.settings(&before).map_err(CalibratingError::from)?;
+    let desk = DeskConfig { bicycle: config.clone(), ..DeskConfig::default() };
+    desk.check().map_err(CalibratingError::from)?;
+    if positions.is_askew() {
+        say("Straight ahead is not 0, which a line of four fields has to say: set the zero in the box.")?;
+    }
+    if positions.kind == BicycleLineKind::Pulses && positions.pulses_per_turn == [0, 0] {
+        say("Neither the wheel nor the pedals sent a pulse: what the speed is made from stays as it was.")?;
+    }
     if positions.is_lopsided() {
         say(
             "The sensor goes much further to one side than to the other: was the handlebar straight, and were the angles right?",
@@ -80,6 +90,7 @@ impl Dialogue {
             lines.map_while(|line| answered.send(line).ok()).for_each(drop);
         });
         Ok(Self {
+            port: port.to_owned(),
             devices: Devices::open(&config, Clock::start())?,
             readings: RawReadings::default(),
             answers,
@@ -98,25 +109,29 @@ impl Dialogue {
     }
 
     /// Kind of the box's lines, once one is good.
-    fn first_line(&mut self, port: &str) -> Result<BicycleLineKind, CalibratingError> {
+    fn first_line(&mut self) -> Result<BicycleLineKind, CalibratingError> {
         let began = Instant::now();
         loop {
             self.look();
             match self.readings.kind() {
-                Some(BicycleLineKind::Bare) => return Err(CalibratingError::Bare { port: port.to_owned() }),
+                Some(BicycleLineKind::Bare) => return Err(CalibratingError::Bare { port: self.port.clone() }),
                 Some(kind) => return Ok(kind),
-                None if began.elapsed() > FIRST_LINE => break,
+                None if began.elapsed() > FIRST_LINE => return Err(self.silent()),
                 None if self.stop.load(Ordering::Relaxed) => return Err(CalibratingError::Ended),
                 None => thread::sleep(INTERVAL),
             }
         }
+    }
+
+    /// Error of a box that sends no good line, with the reason.
+    fn silent(&self) -> CalibratingError {
         let state = self.devices.status().into_iter().next().map(|status| status.state);
         let why = match (state, self.readings.last_fault()) {
             (Some(DeviceState::Absent(why)), _) => why,
             (_, Some(fault)) => fault.to_owned(),
             _ => "it is silent; is the box on, and the baud rate right?".to_owned(),
         };
-        Err(CalibratingError::Silent { port: port.to_owned(), why })
+        CalibratingError::Silent { port: self.port.clone(), why }
     }
 
     /// Asks for an answer, and shows live values until it comes.
@@ -152,8 +167,8 @@ impl Dialogue {
         }
     }
 
-    /// Reads a position that the rider holds.
-    fn hold(&mut self) -> Result<(), CalibratingError> {
+    /// Reads a position that the rider holds: steering and brake.
+    fn hold(&mut self) -> Result<[SteadyReading; 2], CalibratingError> {
         self.readings.settle();
         let began = Instant::now();
         while began.elapsed() < READING {
@@ -163,12 +178,14 @@ impl Dialogue {
                 return Err(CalibratingError::Ended);
             }
         }
-        Ok(())
+        match (self.readings.steer(), self.readings.brake()) {
+            (Some(steer), Some(brake)) => Ok([steer, brake]),
+            _ => Err(self.silent()),
+        }
     }
 
     /// Walks through the positions, and reads each.
     fn walk(&mut self, kind: BicycleLineKind, before: &BicycleConfig) -> Result<BicyclePositions, Error> {
-        let none = SteadyReading { median: 0.0, spread: 0.0 };
         let steer = |readings: &RawReadings| format!("steering sensor {}", shown(readings.steer()));
         let brake = |readings: &RawReadings| format!("brake sensor {}", shown(readings.brake()));
         let pulses = |readings: &RawReadings| {
@@ -177,9 +194,7 @@ impl Dialogue {
         };
 
         self.ask("1. Hold the handlebar straight, let go of the brake, and press Enter.", steer)?;
-        self.hold()?;
-        let straight = self.readings.steer().unwrap_or(none);
-        let released = self.readings.brake().unwrap_or(none).median;
+        let [straight, released] = self.hold()?;
 
         let mut sides = Vec::new();
         for (step, side) in [(2, "left"), (3, "right")] {
@@ -191,35 +206,28 @@ impl Dialogue {
                 let answer = self.ask(&question, steer)?;
                 match answer.replace(',', ".").parse::<f64>() {
                     _ if answer.is_empty() => break Some(ANGLE_DEG),
-                    _ if answer == "none" => break None,
+                    _ if answer.eq_ignore_ascii_case("none") => break None,
                     Ok(degrees) if (1.0..=120.0).contains(&degrees) => break Some(degrees),
                     _ => say(format_args!("{answer:?} is no angle from 1 to 120 degrees"))?,
                 }
             };
             let Some(degrees) = degrees else { break };
-            self.hold()?;
-            sides.push((self.readings.steer().unwrap_or(none).median, degrees.to_radians()));
+            let [reading, _] = self.hold()?;
+            sides.push((reading.median, degrees.to_radians()));
         }
 
-        let answer =
-            self.ask("4. Pull the brake lever through, and press Enter. (No sensor there? Type none.)", brake)?;
-        if answer != "none" {
-            self.hold()?;
-        }
-        let full = self.readings.brake().unwrap_or(none).median;
+        let question = "4. Pull the brake lever through, and press Enter. (No sensor there? Type none.)";
+        let has_brake = loop {
+            match self.ask(question, brake)?.to_ascii_lowercase().as_str() {
+                "" => break true,
+                "none" => break false,
+                answer => say(format_args!("{answer:?} is neither Enter alone nor none"))?,
+            }
+        };
+        let pulled = if has_brake { Some(self.hold()?[1]) } else { None };
 
-        let still = self.readings.pulses();
-        self.ask(
-            "5. Turn the wheel by one whole turn, with the pedals at rest if they can be, and press Enter.",
-            pulses,
-        )?;
-        self.hold()?;
-        let turned = self.readings.pulses();
-        self.ask("6. Turn the pedals by one whole turn, and press Enter.", pulses)?;
-        self.hold()?;
-        let pedalled = self.readings.pulses();
-        let (wheel, crank) = (turned[0] - still[0], pedalled[1] - turned[1]);
-
+        let pulses_per_turn = if kind == BicycleLineKind::Pulses { self.turns(pulses)? } else { [0, 0] };
+        let [wheel, crank] = pulses_per_turn;
         let metres = |what: &str, usual: f64| format!("How many metres is one turn of the {what}? [{usual}]");
         let per_wheel =
             self.number(&metres("wheel", before.wheel_circumference_m), before.wheel_circumference_m, pulses)?;
@@ -235,10 +243,25 @@ impl Dialogue {
             straight,
             left: sides.first().copied(),
             right: sides.get(1).copied(),
-            brake: (answer != "none").then_some([released, full]),
-            pulses_per_turn: [wheel, crank],
+            brake: pulled.map(|pulled| [released, pulled]),
+            pulses_per_turn,
             metres_per_turn: [per_wheel, per_crank],
         })
+    }
+
+    /// Pulses in one turn of the wheel, and of the crank.
+    fn turns(&mut self, pulses: impl Fn(&RawReadings) -> String) -> Result<[u64; 2], Error> {
+        let still = self.readings.pulses();
+        self.ask(
+            "5. Turn the wheel by one whole turn, with the pedals at rest if they can be, and press Enter.",
+            &pulses,
+        )?;
+        self.hold()?;
+        let turned = self.readings.pulses();
+        self.ask("6. Turn the pedals by one whole turn, and press Enter.", &pulses)?;
+        self.hold()?;
+        let pedalled = self.readings.pulses();
+        Ok([turned[0] - still[0], pedalled[1] - turned[1]])
     }
 }
 
@@ -248,11 +271,19 @@ fn shown(reading: Option<SteadyReading>) -> String {
 
 /// Text of the file as it is, to keep what others wrote in it; an empty one if there is none.
 fn document(file: &Path) -> Result<DocumentMut, CalibratingError> {
-    let text = std::fs::read_to_string(file).unwrap_or_default();
-    text.parse().map_err(|error: toml_edit::TomlError| CalibratingError::File {
-        file: file.display().to_string(),
-        reason: error.message().lines().collect::<Vec<_>>().join(" "),
-    })
+    let refused = |reason: String| CalibratingError::File { file: file.display().to_string(), reason };
+    let text = match std::fs::read_to_string(file) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
+        Err(error) => return Err(refused(error.to_string())),
+    };
+    let document: DocumentMut = text
+        .parse()
+        .map_err(|error: toml_edit::TomlError| refused(error.message().lines().collect::<Vec<_>>().join(" ")))?;
+    match document.get("bicycle") {
+        Some(item) if !item.is_table_like() => Err(refused("its bicycle is no table".to_owned())),
+        _ => Ok(document),
+    }
 }
 
 /// Puts the settings into the table `[bicycle]`.
@@ -265,8 +296,9 @@ fn write(document: &mut DocumentMut, port: &str, baud: Option<u32>, config: &Bic
         Item::Table(table)
     });
     table["port"] = value(port);
-    if let Some(baud) = baud {
-        table["baud"] = value(i64::from(baud));
+    match baud {
+        Some(baud) => table["baud"] = value(i64::from(baud)),
+        None => drop(table.as_table_like_mut().and_then(|table| table.remove("baud"))),
     }
     // The text of every setting, as the reader of the file knows them.
     let settings = toml::Table::try_from(config).unwrap_or_default();
@@ -274,6 +306,7 @@ fn write(document: &mut DocumentMut, port: &str, baud: Option<u32>, config: &Bic
         match setting {
             toml::Value::Float(number) => table[key.as_str()] = value(number),
             toml::Value::String(text) => table[key.as_str()] = value(text),
+            toml::Value::Boolean(holds) => table[key.as_str()] = value(holds),
             _ => {}
         }
     }

@@ -1,5 +1,6 @@
 //! Reasons why a calibration ends without a file.
 
+use input::ConfigError;
 use input::bicycle::CalibrationError;
 use std::time::Duration;
 use thiserror::Error;
@@ -35,6 +36,9 @@ pub enum CalibratingError {
     /// Readings that give no settings.
     #[error("{0} Nothing was written")]
     Readings(#[from] CalibrationError),
+    /// Readings that give a setting which cannot be used.
+    #[error("the readings make no sense: {0}. Nothing was written")]
+    Setting(#[from] ConfigError),
     /// A file with text that is no set-up.
     #[error("{file}: it is no set-up file: {reason}; name another file")]
     File {

@@ -4,6 +4,7 @@ use crate::command::{CheckOptions, ReadingOptions};
 use crate::error::Error;
 use crate::output::say::{say, say_exactly, tell};
 use crate::session::gaps::ShownTimes;
+use hardware::SetUp;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;
 use scene_files::gltf::ReadRules;
@@ -56,8 +57,14 @@ fn report(path: &Path, reading: &ReadingOptions) -> Result<Good, Error> {
     match ending.as_deref() {
         Some("gltf" | "glb") => scene("scene", path, rules),
         Some("mcap") => Ok(recording(path)?),
+        Some("toml") if SetUp::of(None, Some(path)).is_ok_and(|set_up| !set_up.is_empty()) => {
+            SetUp::of(None, Some(path))?.check()?;
+            let text = "  a rider's hardware, for --set-up".to_owned();
+            Ok(Good { kind: "set-up", text, members: json!({}) })
+        }
         _ if room::is_display(path) => {
             let display = Display::load_within(path, &budget)?;
+            SetUp::of(Some(&display), None)?.check()?;
             let members = json!({ "notices": display.notices });
             Ok(Good { kind: "display", text: display.to_string(), members })
         }

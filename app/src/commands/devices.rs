@@ -11,7 +11,6 @@ use hardware::{DESK, usual_display};
 use hardware::{TrackerError, head_config};
 use input::devices::{DeviceState, DeviceStatus, Devices, DevicesConfig, PluggedDevice, plugged_in};
 use input::head::{TrackedHead, Tracking};
-use input::trainer::TrainerDecoder;
 use input::{Clock, Controls, Desk, DeskConfig, HeadConfig, HeadState, Nanos, SECOND, WandState};
 use regular_file::Budget;
 use room::Display;
@@ -77,7 +76,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
             let controls = desk.controls(now);
             let mut text = listing(&live.status(), &desk, &controls, now);
             if has_trainer {
-                let _ = writeln!(text, "{}", trainer_line(desk.trainer(), now));
+                let _ = writeln!(text, "{}", heard::trainer(desk.trainer(), now));
             }
             if shown > 0 {
                 // The cursor moves back to the beginning of the last listing.
@@ -96,7 +95,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
 /// Tracking of the head by the set-up, or by the tracker that the options name.
 fn head_of(options: &DevicesOptions, display: Option<&Display>, set_up: &SetUp) -> Result<Option<HeadConfig>, Error> {
     let mut head = head_config(display, set_up, options.tracker.as_ref())?;
-    if let (None, Some(display)) = (&head, display) {
+    if let (None, Some(display), false) = (&head, display, set_up.names_a_ride()?) {
         return Err(TrackerError::Untracked(display.name.clone()).into());
     }
     match (&mut head, options.sensor) {
@@ -166,18 +165,6 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nan
         let _ = writeln!(text, "{}", wand_line(wand));
     }
     text
-}
-
-/// Line about the trainer: what it measures at the time `now`.
-fn trainer_line(trainer: &TrainerDecoder, now: Nanos) -> String {
-    let told =
-        |value: Option<f64>, unit: &str| value.map_or(format!("no {unit}"), |value| format!("{value:.0} {unit}"));
-    format!(
-        "trainer {} · {} · {}",
-        told(trainer.wheel_speed(now).map(|speed| speed * 3.6), "km/h"),
-        told(trainer.cadence_hz(now).map(|hz| hz * 60.0), "rpm"),
-        told(trainer.power_w(now), "W")
-    )
 }
 
 /// Line about the wand: its pose, and what is held.

@@ -50,7 +50,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             if let Some(path) = &options.record {
                 log.record(path)?;
             }
-            let (reel, recorded) = if options.devices.are_ridden() || options.realtime {
+            let (reel, recorded) = if options.devices.are_ridden() || room.set_up.names_a_ride()? || options.realtime {
                 follow(options, &room.set_up, simulation, log, seconds)?
             } else {
                 demonstrate(options, &scene, simulation, log, seconds)?
@@ -133,7 +133,7 @@ enum Demonstrator {
 impl Demonstrator {
     fn new(scene: &Scene, simulation: &Simulation) -> Self {
         let setup = simulation.setup();
-        match (setup.kind, Tour::new(&scene.circuit)) {
+        match (setup.kind, Tour::new(&scene.circuit, &setup.desk.bicycle)) {
             (VehicleKind::Bicycle, Some(tour)) => Self::Cyclist(Box::new(tour)),
             _ => Self::Foot { pressed: false },
         }
@@ -145,7 +145,8 @@ impl Demonstrator {
             Self::Cyclist(tour) => tour.samples(simulation.vehicle(), at),
             Self::Foot { pressed } if !*pressed => {
                 *pressed = true;
-                vec![Sample::key(at, KeyboardKey::W, true)]
+                let key = simulation.setup().desk.keys.key_for(KeyboardKey::W);
+                key.map(|key| Sample::key(at, key, true)).into_iter().collect()
             }
             Self::Foot { .. } => Vec::new(),
         }

@@ -56,6 +56,7 @@ impl RideRoom {
         let named = |name: &str| Display::named_or_file_within(name, &budget);
         let display = display_name.as_deref().map(named).transpose()?;
         let set_up = SetUp::of(display.as_ref(), file)?;
+        set_up.check()?;
         let head = head_config(display.as_ref(), &set_up, options.devices.tracker.as_ref())?;
         Ok(Self { display, display_name, head, set_up })
     }

@@ -148,7 +148,7 @@ pub struct BicyclePositions {
     /// Steering sensor and angle of the handlebar to the right, radians.
     pub right: Option<(f64, f64)>,
     /// Brake sensor with the lever released, and pulled through; `None` without a sensor.
-    pub brake: Option<[f64; 2]>,
+    pub brake: Option<[SteadyReading; 2]>,
     /// Pulses of the wheel, and of the crank, in one turn of each.
     pub pulses_per_turn: [u64; 2],
     /// Distance that the bicycle covers in one turn of the wheel, and of the crank, metres.
@@ -172,7 +172,10 @@ pub enum CalibrationError {
         right: f64,
     },
     /// A brake sensor that does not follow the lever.
-    #[error("the brake sensor read {released} with the lever released and {full} with it pulled: is it connected?")]
+    #[error(
+        "the brake sensor read {released} with the lever released and {full} with it pulled: it must differ by more than \
+         its noise, and rise in lines of four fields; is it connected?"
+    )]
     Brake {
         /// Reading with the lever released.
         released: f64,
@@ -188,11 +191,14 @@ impl BicyclePositions {
     /// [`CalibrationError`] of a sensor that does not follow.
     pub fn settings(&self, before: &BicycleConfig) -> Result<BicycleConfig, CalibrationError> {
         let mut config = before.clone();
+        config.handlebar = self.left.is_some() && self.right.is_some();
         if let (Some(left), Some(right)) = (self.left, self.right) {
             self.steer(left, right, &mut config)?;
         }
         if let Some([released, full]) = self.brake {
-            if released == full {
+            let noise = 2.0 * released.spread.max(full.spread);
+            let (released, full) = (released.median, full.median);
+            if (full - released).abs() <= noise || (self.kind == BicycleLineKind::Interval && full <= 0.0) {
                 return Err(CalibrationError::Brake { released, full });
             }
             match self.kind {
@@ -210,7 +216,11 @@ impl BicyclePositions {
         if crank > 0 {
             config.pulses_per_crank_turn = crank as f64;
         }
-        config.speed_from = if wheel == 0 && crank > 0 { SpeedSource::Cadence } else { SpeedSource::Wheel };
+        match (wheel, crank) {
+            (0, 0) => {}
+            (0, _) => config.speed_from = SpeedSource::Cadence,
+            _ => config.speed_from = SpeedSource::Wheel,
+        }
         Ok(config)
     }
 
@@ -231,6 +241,12 @@ impl BicyclePositions {
         }
         config.steer_dead_rad = (self.straight.spread * per_unit.abs()).min(WIDEST_DEAD_RAD);
         Ok(())
+    }
+
+    /// True if a line of four fields is not near 0 straight ahead, which no setting corrects.
+    pub fn is_askew(&self) -> bool {
+        let way = self.left.map_or(1.0, |(reading, _)| (reading - self.straight.median).abs());
+        self.kind == BicycleLineKind::Interval && self.straight.median.abs() > 0.05 * way
     }
 
     /// True if the sensor goes much further to one side than to the other for the same angle: the handlebar was not
@@ -265,7 +281,7 @@ mod tests {
             straight: SteadyReading { median: 2900.0, spread: 2.0 },
             left: Some((reading(45.0), 45_f64.to_radians())),
             right: Some((reading(-30.0), 30_f64.to_radians())),
-            brake: Some([4000.0, 1200.0]),
+            brake: Some([4000.0, 1200.0].map(|median| SteadyReading { median, spread: 3.0 })),
             pulses_per_turn: [3, 1],
             metres_per_turn: [2.1, 5.5],
         }
@@ -289,6 +305,10 @@ mod tests {
         let crank = BicyclePositions { pulses_per_turn: [0, 2], ..positions(BicycleLineKind::Pulses) };
         let config = crank.settings(&BicycleConfig::default()).unwrap();
         assert_eq!((config.speed_from, config.pulses_per_crank_turn), (SpeedSource::Cadence, 2.0));
+        // What sends no pulse at all changes nothing, and what has no handlebar leaves the steering to others.
+        let still = BicyclePositions { pulses_per_turn: [0, 0], left: None, ..crank };
+        let config = still.settings(&config).unwrap();
+        assert_eq!((config.speed_from, config.handlebar), (SpeedSource::Cadence, false));
     }
 
     #[test]
@@ -312,7 +332,9 @@ mod tests {
             let told = bad.settings(&BicycleConfig::default()).unwrap_err().to_string();
             assert!(told.contains("straight ahead") && told.contains("is it connected"), "{told}");
         }
-        let bad = BicyclePositions { brake: Some([7.0, 7.0]), ..positions(BicycleLineKind::Pulses) };
+        // Noise is no pull.
+        let brake = [512.0, 513.0].map(|median| SteadyReading { median, spread: 2.0 });
+        let bad = BicyclePositions { brake: Some(brake), ..positions(BicycleLineKind::Pulses) };
         assert!(bad.settings(&BicycleConfig::default()).unwrap_err().to_string().contains("lever released"));
         let askew = BicyclePositions { right: Some((3500.0, 0.2)), ..positions(BicycleLineKind::Pulses) };
         assert!(askew.is_lopsided() && !positions(BicycleLineKind::Pulses).is_lopsided());

@@ -48,6 +48,8 @@ pub struct BicycleConfig {
     /// fifty lines a second tells a pulse up to a fiftieth late. 0, as in recordings made before: none.
     #[serde(default = "none_in_old_recordings")]
     pub late_s: f64,
+    /// True if the handlebar has a sensor. Without one keys steer, or the program along the street.
+    pub handlebar: bool,
     /// Reading of the steering sensor straight ahead.
     pub steer_straight: f64,
     /// Angle per unit of the steering sensor, radians; negative where the reading grows to the right.
@@ -94,6 +96,7 @@ impl Default for BicycleConfig {
             fastest_m_s: 30.0,
             stop_after_s: 2.0,
             late_s: 0.06,
+            handlebar: true,
             steer_straight: 512.0,
             steer_rad_per_unit: -270.0_f64.to_radians() / 1023.0,
             steer_dead_rad: 0.0,

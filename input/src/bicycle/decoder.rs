@@ -209,6 +209,9 @@ impl BicycleDecoder {
 
     /// Sets the angle of the handlebar, radians, less its dead zone and limited to a right angle.
     fn turn_handlebar(&mut self, steer_rad: f64) {
+        if !self.config.handlebar {
+            return;
+        }
         let dead_rad = self.config.steer_dead_rad;
         // Without a dead zone, −0 stays what it is.
         let beyond = if dead_rad > 0.0 { steer_rad - steer_rad.clamp(-dead_rad, dead_rad) } else { steer_rad };

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use input::{DeskConfig, SECOND, VehicleKind};
+use input::{BicycleConfig, DeskConfig, SECOND, VehicleKind};
 use ride::{LightSpeed, RideFrame, RideStart, Setup, Simulation, Tour, VehicleSettings};
 use scene::OpenPlane;
 
@@ -70,7 +70,7 @@ fn setup(circuit: &[DVec3]) -> Setup {
 fn ride(seconds: u64) -> Vec<RideFrame> {
     let circuit = circuit();
     let setup = setup(&circuit);
-    let mut tour = Tour::new(&circuit).unwrap();
+    let mut tour = Tour::new(&circuit, &BicycleConfig::default()).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
     (0..=60 * seconds)
         .map(|n| {
@@ -136,7 +136,7 @@ fn speed_rises_gently_from_rest_to_the_cruise() {
 fn the_sensors_lines_are_all_understood() {
     let circuit = circuit();
     let setup = setup(&circuit);
-    let mut tour = Tour::new(&circuit).unwrap();
+    let mut tour = Tour::new(&circuit, &BicycleConfig::default()).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
     let mut lines = 0;
     for n in 0..600 {
@@ -156,7 +156,7 @@ fn a_tour_repeats_to_the_bit() {
 
 #[test]
 fn a_circuit_without_three_finite_corners_is_refused() {
-    assert!(Tour::new(&[]).is_none());
-    assert!(Tour::new(&circuit()[..2]).is_none());
-    assert!(Tour::new(&[DVec3::X, DVec3::Y, DVec3::INFINITY]).is_none());
+    assert!(Tour::new(&[], &BicycleConfig::default()).is_none());
+    assert!(Tour::new(&circuit()[..2], &BicycleConfig::default()).is_none());
+    assert!(Tour::new(&[DVec3::X, DVec3::Y, DVec3::INFINITY], &BicycleConfig::default()).is_none());
 }

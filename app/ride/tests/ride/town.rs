@@ -9,7 +9,7 @@ use std::sync::{Arc, LazyLock};
 
 use built_in::town;
 use glam::DVec3;
-use input::{Controls, DeskConfig, SECOND, VehicleKind};
+use input::{BicycleConfig, Controls, DeskConfig, SECOND, VehicleKind};
 use physics::Celerity;
 use physics::worldline::WorldlineState;
 use ride::{LightSpeed, RideStart, Setup, Simulation, Tour, Vehicle, VehicleSettings};
@@ -44,7 +44,7 @@ fn the_tour_laps_the_streets_and_touches_nothing() {
         vehicle: VehicleSettings::default(),
         desk: DeskConfig::default(),
     };
-    let mut tour = Tour::new(&scene.circuit).unwrap();
+    let mut tour = Tour::new(&scene.circuit, &BicycleConfig::default()).unwrap();
     let mut simulation = Simulation::new(setup, surroundings.clone()).unwrap();
     let mut passed = vec![false; scene.circuit.len()];
     let mut before = simulation.vehicle().state().position;
