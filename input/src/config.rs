@@ -36,6 +36,9 @@ pub struct DeskConfig {
     /// Settings of the tracked head; `None` without a tracker, and in recordings made before heads were tracked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub head: Option<HeadConfig>,
+    /// True if a SpaceMouse may have more than 64 buttons, and report their numbers; false in recordings made before.
+    #[serde(default = "not_in_old_recordings")]
+    pub many_buttons: bool,
     /// True if the rider may look round; false in recordings made before one could.
     #[serde(default = "not_in_old_recordings")]
     pub free_look: bool,
@@ -56,6 +59,7 @@ impl Default for DeskConfig {
             gamepad: GamepadMap::default(),
             keys: KeyMap::default(),
             head: None,
+            many_buttons: true,
             free_look: true,
         }
     }

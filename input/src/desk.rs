@@ -93,7 +93,7 @@ impl Desk {
             wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
             keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys),
             gamepad: GamepadDecoder::new(config.free_look, config.gamepad.clone()),
-            space_mouse: SpaceMouseDecoder::new(config.space_mouse),
+            space_mouse: SpaceMouseDecoder::new(config.space_mouse, config.many_buttons),
             spacenavd: SpacenavdDecoder::new(config.spacenavd),
             bicycle: BicycleDecoder::new(config.bicycle.clone()),
             trainer: TrainerDecoder::new(config.trainer.clone()),

@@ -51,6 +51,8 @@ type ButtonBits = [u8; BUTTON_BYTES];
 #[derive(Debug)]
 pub struct SpaceMouseDecoder {
     table: AxisTable,
+    /// True if reports of many buttons count.
+    many_buttons: bool,
     axes: [i32; 6],
     last_motion: Nanos,
     /// Bits of the buttons that are held, by report 3 and by report 28.
@@ -60,9 +62,17 @@ pub struct SpaceMouseDecoder {
 }
 
 impl SpaceMouseDecoder {
-    /// SpaceMouse at rest.
-    pub fn new(table: AxisTable) -> Self {
-        Self { table, axes: [0; 6], last_motion: 0, by_bits: [0; _], by_numbers: [0; _], faults: Faults::default() }
+    /// SpaceMouse at rest. `many_buttons`: reports of more than 64 buttons, and those of their numbers, count.
+    pub fn new(table: AxisTable, many_buttons: bool) -> Self {
+        Self {
+            table,
+            many_buttons,
+            axes: [0; 6],
+            last_motion: 0,
+            by_bits: [0; _],
+            by_numbers: [0; _],
+            faults: Faults::default(),
+        }
     }
 
     /// Thrust right, up, backward and turn nose up, nose left, roll left, each −1 to 1.
@@ -123,6 +133,11 @@ impl Decoder for SpaceMouseDecoder {
         match bytes {
             [1, values @ ..] if matches!(values.len(), 6 | 12) => self.motion(at, 0, values),
             [2, values @ ..] if values.len() == 6 => self.motion(at, 3, values),
+            // Recordings made before these reports were understood pass over the numbers, and refuse long ones.
+            [HELD_REPORT, ..] if !self.many_buttons => {}
+            [3, bits @ ..] if !self.many_buttons && bits.len() > 8 => {
+                self.faults.count(format!("report 3 of {} bytes", bytes.len()));
+            }
             [3, bits @ ..] if (1..LONGEST_REPORT).contains(&bits.len()) => self.buttons(|it| it.bits(bits), actions),
             [HELD_REPORT, numbers @ ..] if (2..LONGEST_REPORT).contains(&numbers.len()) && numbers.len() % 2 == 0 => {
                 self.buttons(|it| it.numbers(numbers), actions);
@@ -149,7 +164,7 @@ mod tests {
     use crate::clock::SECOND;
 
     fn decoder() -> (SpaceMouseDecoder, Actions) {
-        (SpaceMouseDecoder::new(AxisTable::RAW), Actions::default())
+        (SpaceMouseDecoder::new(AxisTable::RAW, true), Actions::default())
     }
 
     fn hex(text: &str) -> Vec<u8> {
@@ -176,6 +191,19 @@ mod tests {
         mouse.bytes(0, &hex("01 00 00 00 00 00 00 00 00 00 00 a2 fe"), &mut actions);
         assert_eq!(mouse.axes, [0, 0, 0, 0, 0, -350]);
         assert_eq!(mouse.deflection(0)[4], 1.0);
+    }
+
+    /// A decoder of today that reads a ride of yesterday must not press what was not pressed then.
+    #[test]
+    fn an_old_recording_knows_no_more_than_64_buttons_and_no_numbers() {
+        let mut mouse = SpaceMouseDecoder::new(AxisTable::RAW, false);
+        let mut actions = Actions::default();
+        mouse.bytes(0, &hex("1c 01 00"), &mut actions);
+        assert_eq!(mouse.faults().number(), 0);
+        mouse.bytes(0, &hex("03 01 00 00 00 00 00 00 00 00"), &mut actions);
+        assert_eq!((mouse.faults().number(), actions.take()), (1, vec![]));
+        mouse.bytes(0, &hex("03 01 00 00 00 00 00 00 00"), &mut actions);
+        assert_eq!(actions.take(), [Action::TogglePause]);
     }
 
     #[test]

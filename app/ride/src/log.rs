@@ -57,6 +57,8 @@ pub struct RideLog {
     file: Option<(PathBuf, WrittenFile)>,
     /// Path of a recording that is created with the ride's first frame.
     awaited: Option<PathBuf>,
+    /// Copies that are being completed beside the ride.
+    ending: Vec<(PathBuf, RecordingFollower)>,
     /// First recording that has failed.
     failed: Option<PathBuf>,
 }
@@ -71,6 +73,7 @@ impl RideLog {
             began: None,
             file: None,
             awaited: None,
+            ending: Vec::new(),
             failed: None,
         }
     }
@@ -110,17 +113,32 @@ impl RideLog {
         written.and_then(|()| self.follows())
     }
 
-    /// Gives up a copy whose past is lost.
+    /// Gives up a copy whose past is lost, and takes note of those that are complete.
     fn follows(&mut self) -> Result<(), LogError> {
-        match (&self.past, &self.file) {
-            (Past::Gone(why), Some((path, WrittenFile::Copy(_)))) => {
-                let (why, path) = (why.clone(), path.clone());
-                self.file = None;
-                self.failed.get_or_insert(path);
-                Err(LogError::NotRemembered { why })
-            }
-            _ => Ok(()),
+        let ended = self.ending.iter().position(|(_, copy)| copy.is_ended());
+        if let Some((path, copy)) = ended.map(|index| self.ending.swap_remove(index)) {
+            copy.finish().map_err(|error| self.fails(path, error))?;
         }
+        if let (Past::Gone(why), Some((_, WrittenFile::Copy(_)))) = (&self.past, &self.file) {
+            let why = why.clone();
+            if let Some((path, WrittenFile::Copy(copy))) = self.file.take() {
+                copy.abandon();
+                self.failed.get_or_insert(path);
+            }
+            return Err(LogError::NotRemembered { why });
+        }
+        Ok(())
+    }
+
+    /// Notes a recording that has failed.
+    fn fails(&mut self, path: PathBuf, error: RecordingError) -> LogError {
+        self.failed.get_or_insert(path);
+        error.into()
+    }
+
+    /// True while a recording that was ended is still being completed on the disk.
+    pub fn is_completing(&self) -> bool {
+        !self.ending.is_empty()
     }
 
     /// Begins the ride, whose clock shows `at`, and the recording that waits for it.
@@ -182,23 +200,30 @@ impl RideLog {
         Ok(())
     }
 
-    /// Completes the file, if one is being written; the ride goes on. No file is left of a ride without a frame.
+    /// Completes the file, if one is being written; the ride goes on, and a long file is completed beside it. No file is left of a ride without a frame.
     ///
     /// # Errors
     /// [`LogError`] if the rest cannot be written.
     pub fn stop(&mut self) -> Result<(), LogError> {
         self.awaited = None;
         let Some((path, file)) = self.file.take() else { return Ok(()) };
-        let finished = match (file, &mut self.past) {
-            (WrittenFile::Entries(recorder), _) => recorder.finish(),
-            (WrittenFile::Copy(copy), Past::Disk(disk)) => disk.recorder.flush().and_then(|length| copy.finish(length)),
+        match (file, &mut self.past) {
+            (WrittenFile::Entries(recorder), _) => recorder.finish().map_err(|error| self.fails(path, error)),
+            (WrittenFile::Copy(copy), Past::Disk(disk)) => {
+                copy.end_at(disk.recorder.flush().map_err(|error| {
+                    self.failed.get_or_insert_with(|| path.clone());
+                    error
+                })?);
+                // Gigabytes may be left to copy, while the ride goes on.
+                self.ending.push((path, copy));
+                Ok(())
+            }
             // What was copied until the past was lost can be replayed.
-            (WrittenFile::Copy(_), _) => Err(RecordingError::Stopped { path: path.clone() }),
-        };
-        finished.map_err(|error| {
-            self.failed.get_or_insert(path);
-            error.into()
-        })
+            (WrittenFile::Copy(copy), _) => {
+                copy.abandon();
+                Err(self.fails(path.clone(), RecordingError::Stopped { path }))
+            }
+        }
     }
 
     /// Completes the file at the end of the ride.
@@ -206,7 +231,15 @@ impl RideLog {
     /// # Errors
     /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
     pub fn finish(&mut self) -> Result<(), LogError> {
-        self.stop()?;
+        let stopped = self.stop();
+        let ending: Vec<_> = self.ending.drain(..).collect();
+        let ended = ending.into_iter().try_for_each(|(path, copy)| {
+            copy.finish().map_err(|error| {
+                self.failed.get_or_insert(path);
+                LogError::from(error)
+            })
+        });
+        stopped.and(ended)?;
         self.failed.take().map_or(Ok(()), |path| Err(LogError::Incomplete { path }))
     }
 }

@@ -10,6 +10,8 @@ use std::time::Duration;
 const MOST_REMEMBERED: usize = 64 << 20;
 /// Beginning of the name of a temporary recording.
 const PREFIX: &str = "past-ride-";
+/// Number of names that are tried.
+const MOST_NAMES: u32 = 1000;
 /// Age from which a temporary recording that nobody holds is a remnant.
 const REMNANT: Duration = Duration::from_secs(60);
 
@@ -28,7 +30,7 @@ pub(crate) struct PastOnDisk {
     pub(crate) recorder: Recorder,
     pub(crate) path: PathBuf,
     /// Handle whose lock says that the file is in use.
-    _held: File,
+    _held: Option<File>,
 }
 
 impl Past {
@@ -68,20 +70,22 @@ impl PastOnDisk {
         began: Option<u64>,
         entries: Vec<RecordingEntry>,
     ) -> Result<Self, RecordingError> {
-        static NUMBER: AtomicU32 = AtomicU32::new(0);
         let io = |path: &Path, action, cause| RecordingError::Io { path: path.to_owned(), action, cause };
         std::fs::create_dir_all(folder).map_err(|cause| io(folder, "create", cause))?;
         remove_remnants(folder);
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path = folder.join(format!("{PREFIX}{}-{number}.mcap", std::process::id()));
-        let mut recorder = Recorder::create(&path, header)?;
-        let held = File::open(&path).map_err(|cause| io(&path, "read", cause))?;
-        held.lock_shared().map_err(|cause| io(&path, "lock", cause))?;
-        if let Some(began) = began {
-            recorder.began(began)?;
+        let (path, recorder) = unused(folder, header)?;
+        // The file goes with this value, whatever happens from here on.
+        let mut disk = Self { recorder, path, _held: None };
+        if let Ok(held) = File::open(&disk.path) {
+            // Where files cannot be locked, their age alone says whether they are in use.
+            let _ = held.lock_shared();
+            disk._held = Some(held);
         }
-        recorder.past(entries)?;
-        Ok(Self { recorder, path, _held: held })
+        if let Some(began) = began {
+            disk.recorder.began(began)?;
+        }
+        disk.recorder.past(entries)?;
+        Ok(disk)
     }
 }
 
@@ -92,11 +96,25 @@ impl Drop for PastOnDisk {
     }
 }
 
+/// Temporary recording under a name that nobody has: programs on other machines may share the folder.
+fn unused(folder: &Path, header: &RideHeader) -> Result<(PathBuf, Recorder), RecordingError> {
+    static NUMBER: AtomicU32 = AtomicU32::new(0);
+    loop {
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let path = folder.join(format!("{PREFIX}{}-{number}.mcap", std::process::id()));
+        match Recorder::create(&path, header) {
+            Err(RecordingError::Exists { .. }) if number < MOST_NAMES => {}
+            outcome => return outcome.map(|recorder| (path, recorder)),
+        }
+    }
+}
+
 /// Removes the temporary recordings of programs that did not end in order.
 fn remove_remnants(folder: &Path) {
     for file in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let metadata = file.metadata().ok().filter(std::fs::Metadata::is_file);
         let is_past = file.file_name().to_string_lossy().starts_with(PREFIX);
-        let age = file.metadata().ok().and_then(|metadata| metadata.modified().ok()?.elapsed().ok());
+        let age = metadata.and_then(|metadata| metadata.modified().ok()?.elapsed().ok());
         let is_old = age.is_some_and(|age| age > REMNANT);
         if is_past && is_old && File::open(file.path()).is_ok_and(|remnant| remnant.try_lock().is_ok()) {
             // Another program may have been faster.

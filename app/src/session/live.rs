@@ -322,6 +322,9 @@ impl Live {
     pub fn toggle_recording(&mut self) {
         let told = if self.is_recording() {
             match self.stop_recording() {
+                Ok(()) if self.is_completing() => {
+                    "the recording has ended, and is being completed on the disk".to_owned()
+                }
                 Ok(()) => "the recording is complete".to_owned(),
                 Err(error) => {
                     tell(&error);
@@ -336,6 +339,11 @@ impl Live {
             }
         };
         self.tell(told);
+    }
+
+    /// True while a recording that has ended is still being completed on the disk.
+    fn is_completing(&self) -> bool {
+        matches!(&self.rider, Rider::Present { log, .. } if log.is_completing())
     }
 
     /// Completes the recording, while the ride goes on.

@@ -40,7 +40,9 @@ impl DtrackBody {
 pub(super) fn bodies(line: &str) -> Result<Vec<DtrackBody>, DtrackError> {
     const BAD: DtrackError =
         DtrackError::Line { line: "6d", expected: "a number of bodies and as many [id quality][6 numbers][9 numbers]" };
-    let (count, mut rest) = count(line).ok_or(BAD)?;
+    // As ever: a blank stands behind the number.
+    let (count, mut rest) = line.trim().split_once(' ').unwrap_or((line.trim(), ""));
+    let count: usize = count.parse().map_err(|_| BAD)?;
     let mut bodies = Vec::new();
     let mut found = 0;
     while !rest.trim_start().is_empty() {

@@ -96,7 +96,9 @@ impl DtrackDecoder {
             let is_wanted = self.inertial == (kind == HeardKind::InertialBody);
             for line in lines(text, line) {
                 let seen = if kind == HeardKind::Body { bodies(line) } else { inertial_bodies(line) };
-                for body in self.sound(seen).unwrap_or_default() {
+                // A line that is bad says nothing good of those behind it.
+                let Some(seen) = self.sound(seen) else { break };
+                for body in seen {
                     let Some(pose) = self.sound(body.pose(at, stamp, thing)) else { continue };
                     hear(&mut self.heard, at, kind, body.number, Some(&pose));
                     if is_wanted {
@@ -296,6 +298,15 @@ mod tests {
         assert_eq!((signals.len(), &signals[0]), (2, &WandSignal::Buttons(HeldButtons(128))));
         let flystick = decoder.heard().iter().find(|heard| heard.to_string() == "flystick 1").unwrap();
         assert_eq!((flystick.tracked, flystick.count, flystick.buttons), (false, 3, Some(HeldButtons(128))));
+    }
+
+    /// As recordings were read from the first on.
+    #[test]
+    fn bodies_behind_a_bad_line_of_bodies_do_not_count() {
+        let good = "6d 1 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]";
+        for bad in ["6d 2 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]", &good.replace("6d 1 [", "6d 1[")] {
+            assert_eq!(decode(format!("fr 1\r\n{bad}\r\n{good}\r\n").as_bytes()), (vec![], 1), "{bad}");
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ use mcap::records::op;
 
 use super::error::RecordingError;
 use super::recorder::new_file;
+use super::writer::check_place;
 
 /// Time between two looks at the file that grows.
 const LOOK_EVERY: Duration = Duration::from_millis(250);
@@ -58,17 +59,32 @@ impl RecordingFollower {
     /// # Errors
     /// A part that could not be written, or a file that was removed.
     pub fn check(&mut self) -> Result<(), RecordingError> {
-        if self.thread.as_ref().is_some_and(JoinHandle::is_finished) { self.join() } else { Ok(()) }
+        if self.is_ended() { self.join() } else { Ok(()) }
     }
 
-    /// Ends the copy where the source had `length` bytes, which must be the end of a chunk.
+    /// Has the copy end where the source had `length` bytes, which must be the end of a chunk. This waits for nothing:
+    /// [`is_ended`](Self::is_ended) tells when it is done, and [`finish`](Self::finish) waits.
+    pub fn end_at(&self, length: u64) {
+        // A thread that has failed takes no more.
+        let _ = self.end.send(length);
+    }
+
+    /// True once the copy goes on no more.
+    pub fn is_ended(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    /// Waits until the copy has ended.
     ///
     /// # Errors
     /// A part that could not be written, or a file that was removed.
-    pub fn finish(mut self, length: u64) -> Result<(), RecordingError> {
-        // A thread that has failed takes no more.
-        let _ = self.end.send(length);
+    pub fn finish(mut self) -> Result<(), RecordingError> {
         self.join()
+    }
+
+    /// Leaves the copy to its disk, which may have stalled, and waits for nothing.
+    pub fn abandon(mut self) {
+        self.thread = None;
     }
 
     fn join(&mut self) -> Result<(), RecordingError> {
@@ -97,21 +113,25 @@ fn follow(mut from: File, mut to: File, place: &Path, ended: &Receiver<u64>) -> 
     loop {
         copied += io::copy(&mut from, &mut to)?;
         to.sync_data()?;
-        // What is written into a removed file is lost.
-        std::fs::metadata(place)?;
+        check_place(&to, place)?;
         match ended.recv_timeout(LOOK_EVERY) {
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            Err(RecvTimeoutError::Disconnected) => {
+                // Nobody says where the last whole chunk ends: what is there can be replayed.
+                io::copy(&mut from, &mut to)?;
+                return to.sync_all();
+            }
             Ok(length) => {
                 // More may have been copied than the end of the last whole chunk.
                 if copied > length {
                     to.set_len(length)?;
                     to.seek(SeekFrom::Start(length))?;
-                } else {
-                    io::copy(&mut from.take(length - copied), &mut to)?;
+                } else if io::copy(&mut from.take(length - copied), &mut to)? < length - copied {
+                    return Err(io::Error::new(io::ErrorKind::UnexpectedEof, "the ride's past was cut off"));
                 }
                 to.write_all(&end())?;
-                return to.sync_all();
+                to.sync_all()?;
+                return check_place(&to, place);
             }
         }
     }

@@ -151,7 +151,7 @@ impl RecordingWriter {
             self.put_samples()?;
             self.mcap.flush()?;
             self.file.sync_data()?;
-            self.check_place()?;
+            check_place(&self.file, &self.path)?;
         }
         self.flushed = Instant::now();
         Ok(())
@@ -174,26 +174,7 @@ impl RecordingWriter {
         self.put_samples()?;
         self.mcap.finish()?;
         self.file.sync_all()?;
-        Ok(self.check_place()?)
-    }
-
-    /// Checks that the file still has its name: what is written into a removed file is lost.
-    ///
-    /// # Errors
-    /// [`io::ErrorKind::NotFound`] if the name is gone, or is that of another file.
-    fn check_place(&self) -> io::Result<()> {
-        let named = std::fs::metadata(&self.path)?;
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::MetadataExt;
-            let own = self.file.metadata()?;
-            if (own.dev(), own.ino()) != (named.dev(), named.ino()) {
-                return Err(io::ErrorKind::NotFound.into());
-            }
-        }
-        #[cfg(not(unix))]
-        let _ = named;
-        Ok(())
+        Ok(check_place(&self.file, &self.path)?)
     }
 
     /// Moment since 1970 of a time of the ride, nanoseconds.
@@ -227,6 +208,25 @@ impl RecordingWriter {
         self.messages = self.messages.wrapping_add(1);
         Ok(())
     }
+}
+
+/// Checks that an open file still has its name: what is written into a removed file is lost.
+///
+/// # Errors
+/// [`io::ErrorKind::NotFound`] if the name is gone, or is that of another file.
+pub(super) fn check_place(file: &File, path: &Path) -> io::Result<()> {
+    let named = std::fs::metadata(path)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let own = file.metadata()?;
+        if (own.dev(), own.ino()) != (named.dev(), named.ino()) {
+            return Err(io::ErrorKind::NotFound.into());
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = (file, named);
+    Ok(())
 }
 
 /// Adds a channel with its schema; its number.

@@ -289,6 +289,16 @@ mod tests {
     }
 
     #[test]
+    fn a_name_that_gets_another_number_leaves_the_old_one_to_nobody() {
+        let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
+        decoder.bytes(0, &golden::session(), &mut actions);
+        assert_eq!(decoder.take_poses().len(), 1);
+        decoder.bytes(0, &description(DESCRIBES_SENDER, 9, "Head"), &mut actions);
+        decoder.bytes(0, &golden::bytes(golden::IDENTITY), &mut actions);
+        assert_eq!(decoder.take_poses(), []);
+    }
+
+    #[test]
     fn a_new_connection_begins_anew() {
         let (mut decoder, mut actions) = (VrpnDecoder::new("Head"), Actions::default());
         let stream = golden::session();

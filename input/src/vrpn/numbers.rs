@@ -67,7 +67,8 @@ impl VrpnNumbers {
                 for device in &mut self.listened {
                     give(&mut device.number, message.sender, name == device.name);
                 }
-                self.senders.retain(|(number, _)| *number != message.sender);
+                // A name has one number, a number one name: the newest.
+                self.senders.retain(|(number, known)| *number != message.sender && known != name);
                 if self.senders.len() < MOST_SENDERS {
                     self.senders.push((message.sender, name.to_owned()));
                 }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use input::{BicycleConfig, DeskConfig, SECOND, VehicleKind};
+use input::{BicycleConfig, DeskConfig, SECOND, SpeedSource, VehicleKind};
 use ride::{LightSpeed, RideFrame, RideStart, Setup, Simulation, Tour, VehicleSettings};
 use scene::OpenPlane;
 
@@ -68,9 +68,15 @@ fn setup(circuit: &[DVec3]) -> Setup {
 }
 
 fn ride(seconds: u64) -> Vec<RideFrame> {
+    ride_on(&BicycleConfig::default(), seconds)
+}
+
+/// Ride on a bicycle that is calibrated in this way.
+fn ride_on(bicycle: &BicycleConfig, seconds: u64) -> Vec<RideFrame> {
     let circuit = circuit();
-    let setup = setup(&circuit);
-    let mut tour = Tour::new(&circuit, &BicycleConfig::default()).unwrap();
+    let mut setup = setup(&circuit);
+    setup.desk.bicycle = bicycle.clone();
+    let mut tour = Tour::new(&circuit, bicycle).unwrap();
     let mut simulation = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
     (0..=60 * seconds)
         .map(|n| {
@@ -146,6 +152,37 @@ fn the_sensors_lines_are_all_understood() {
     }
     assert_eq!(lines, 1 + 999, "a hundred a second");
     assert_eq!(simulation.desk().faults(input::SampleSource::Bicycle).number(), 0);
+}
+
+/// The museum's bicycle stands still while the attract ride is shown, but the lines pass through its calibration.
+#[test]
+fn the_tour_keeps_to_the_circuit_on_a_bicycle_of_any_calibration() {
+    let strange = BicycleConfig {
+        steer_straight: 2900.0,
+        steer_rad_per_unit: -0.001_543,
+        steer_dead_rad: 0.02,
+        brake_released: 4000.0,
+        brake_full: 1200.0,
+        brake_curve: 2.0,
+        pulses_per_wheel_turn: 3.0,
+        ..BicycleConfig::default()
+    };
+    let cadence = BicycleConfig {
+        speed_from: SpeedSource::Cadence,
+        metres_per_crank_turn: 4.0,
+        pulses_per_crank_turn: 4.0,
+        ..strange.clone()
+    };
+    let circuit = circuit();
+    let usual = ride(60).last().unwrap().vehicle.odometer().road_m;
+    for bicycle in [strange, cadence] {
+        let frames = ride_on(&bicycle, 60);
+        let farthest =
+            frames.iter().map(|frame| distance_to(&circuit, frame.vehicle.state().position)).fold(0.0, f64::max);
+        let road_m = frames.last().unwrap().vehicle.odometer().road_m;
+        assert!(farthest < 1.5, "{farthest} m off");
+        assert!((road_m / usual - 1.0).abs() < 0.05, "{road_m} m for {usual} m");
+    }
 }
 
 #[test]
