@@ -45,8 +45,8 @@ pub fn head_config(
 ) -> Result<Option<HeadConfig>, SetUpError> {
     let config = match (set_up.head(url)?, url) {
         (None, Some(url)) => Some(HeadConfig::new(url.clone())),
-        // Numbers, units and wands are those of a kind of tracker.
-        (Some(config), Some(url)) if set_up.tracker_url().is_some_and(|own| own.source() != url.source()) => {
+        // A mouse and opentrack follow one head: numbers, units and wands of another tracker mean nothing to them.
+        (Some(config), Some(url)) if has_one_head(url) && set_up.tracker_url().as_ref() != Some(url) => {
             Some(HeadConfig { velocity: config.velocity, mode: config.mode, ..HeadConfig::new(url.clone()) })
         }
         (config, _) => config,
@@ -57,6 +57,10 @@ pub fn head_config(
         config.check().map_err(|source| set_up.refused(source))?;
     }
     Ok(config.filter(|config| config.mode != TrackingMode::None))
+}
+
+fn has_one_head(tracker: &TrackerUrl) -> bool {
+    matches!(tracker, TrackerUrl::Opentrack { .. } | TrackerUrl::Mouse)
 }
 
 /// The settings, with the usual values of this display and this tracker for each key that is not `given`.
@@ -115,6 +119,11 @@ mod tests {
         let config = config_of(&of_table, Some(&other)).unwrap().unwrap();
         assert_eq!((config.url, config.sensor), (other, 2));
         assert_eq!(config.home, of_table.viewer.head_m.to_array());
+        let of_room = display("url = \"vrpn://lab/Head\"\nsensor = 2\nscale = \"mm\"");
+        for one_head in ["opentrack://", "mouse"] {
+            let config = config_of(&of_room, Some(&one_head.parse().unwrap())).unwrap().unwrap();
+            assert_eq!((config.sensor, config.scale), (0, None), "{one_head}");
+        }
         assert_eq!(config_of(&Display::built_in("cave4").unwrap(), None).unwrap(), None);
         assert_eq!(config_of(&display("url = \"mouse\"\nmode = \"none\""), None).unwrap(), None);
     }
