@@ -120,6 +120,10 @@ impl RideOptions {
                  with raytrace"
                 .to_owned());
         }
+        let devices = &self.devices;
+        if devices.slope_felt.is_some() && devices.trainer.is_none() && devices.set_up.is_none() {
+            return Err("--slope-felt is for a trainer: name it with --trainer, or in a set-up file".to_owned());
+        }
         if self.picture.exact_light {
             return Err("--exact-light is for --renderer raytrace; leave it out".to_owned());
         }

@@ -246,7 +246,7 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("devices --tracker cave", ["--tracker", "vrpn://HOST/DEVICE"]),
         ("ride --trainer kickr", ["--trainer", "tcp://HOST:PORT"]),
         ("ride --trainer tcp://kickr --slope-felt 101", ["--slope-felt", "101"]),
-        ("ride --slope-felt 50", ["--trainer", "required"]),
+        ("ride --slope-felt 50", ["--trainer", "set-up file"]),
         ("ride --latency none", ["--latency", "overlap"]),
         ("ride --integrator euler", ["--integrator", "dopri5"]),
         ("ride --transport bus", ["--transport", "gyroscopic"]),

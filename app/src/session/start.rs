@@ -234,6 +234,9 @@ fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> R
     let (port, trainer) = (set_up.port()?, set_up.trainer()?);
     let usual = DevicesConfig::default();
     let slope_felt = options.devices.slope_felt.or(trainer.slope_felt_percent);
+    if options.devices.slope_felt.is_some() && options.devices.trainer.is_none() && trainer.url.is_none() {
+        tell("--slope-felt has no effect: the set-up names no trainer");
+    }
     Ok(DevicesConfig {
         bicycle: options.devices.bicycle.clone().or(port.port),
         baud: port.baud.unwrap_or(usual.baud),
