@@ -126,6 +126,16 @@ impl TrainerControl {
         self.engaged
     }
 
+    /// True if a command waits for its answer.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.unanswered.is_some()
+    }
+
+    /// Takes note of a command of the [`release`], whose answer is waited for like any other's.
+    pub(crate) fn releases(&mut self, now: Instant, command: u8) {
+        self.unanswered = Some((command, now));
+    }
+
     /// Value of the next command, if one is due.
     pub(crate) fn next(&mut self, now: Instant) -> Option<Vec<u8>> {
         if self.unanswered.is_some_and(|(_, sent)| now.saturating_duration_since(sent) < ANSWER_WAIT) {
