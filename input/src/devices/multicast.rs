@@ -37,7 +37,6 @@ fn interfaces(group: IpAddr) -> io::Result<BTreeSet<MulticastInterface>> {
 pub(super) struct Membership {
     socket: UdpSocket,
     group: IpAddr,
-    joined: BTreeSet<MulticastInterface>,
     looked_at: Instant,
 }
 
@@ -55,22 +54,23 @@ impl Membership {
         socket.set_reuse_address(true)?;
         socket.bind(&SocketAddr::new(any, port).into())?;
         let socket = UdpSocket::from(socket);
-        let mut membership =
-            Self { socket: socket.try_clone()?, group, joined: BTreeSet::new(), looked_at: Instant::now() };
-        let refused = membership.join(&interfaces(group)?);
-        if membership.joined.is_empty() {
+        let membership = Self { socket: socket.try_clone()?, group, looked_at: Instant::now() };
+        let (joined, refused) = membership.join(&interfaces(group)?);
+        if joined.is_empty() {
             let none = || io::Error::new(io::ErrorKind::NotFound, "this machine has no network interface for it");
             return Err(refused.unwrap_or_else(none));
         }
         Ok((socket, membership))
     }
 
-    /// Joins the group on these interfaces, leaves out those that refuse, and forgets those that have gone; returns
+    /// Joins the group on these interfaces and leaves out those that refuse; returns those on which it is joined, and
     /// the last refusal.
-    fn join(&mut self, interfaces: &BTreeSet<MulticastInterface>) -> Option<io::Error> {
-        self.joined.retain(|joined| interfaces.contains(joined));
-        let mut refused = None;
-        for interface in interfaces.difference(&self.joined.clone()) {
+    ///
+    /// What was joined before is joined again: an interface that went and came back has lost its membership, and may
+    /// have done so between two looks.
+    fn join(&self, interfaces: &BTreeSet<MulticastInterface>) -> (BTreeSet<MulticastInterface>, Option<io::Error>) {
+        let (mut joined, mut refused) = (BTreeSet::new(), None);
+        for interface in interfaces {
             let outcome = match (self.group, interface) {
                 (IpAddr::V4(group), MulticastInterface::Address(address)) => {
                     self.socket.join_multicast_v4(&group, address)
@@ -81,17 +81,17 @@ impl Membership {
                 _ => continue,
             };
             match outcome {
-                // Two addresses of one interface are one membership.
+                // It is joined already, or two addresses of one interface are one membership.
                 Err(error) if error.kind() != io::ErrorKind::AddrInUse => refused = Some(error),
                 _ => {
-                    self.joined.insert(*interface);
+                    joined.insert(*interface);
                 }
             }
         }
-        refused
+        (joined, refused)
     }
 
-    /// Looks for new interfaces when it is time.
+    /// Looks for interfaces that are new or have come back, when it is time.
     fn keep(&mut self) {
         if self.looked_at.elapsed() < LOOK_AGAIN {
             return;
@@ -145,21 +145,23 @@ mod tests {
         let sockets = [Membership::bind(GROUP.into(), port).unwrap(), Membership::bind(GROUP.into(), port).unwrap()];
         sender().send_to(b"fr 1", (GROUP, port)).unwrap();
         for (socket, membership) in &sockets {
-            assert!(membership.joined.contains(&MulticastInterface::Address(Ipv4Addr::LOCALHOST)));
+            let loopback = BTreeSet::from([MulticastInterface::Address(Ipv4Addr::LOCALHOST)]);
+            assert_eq!(membership.join(&loopback).0, loopback);
             socket.set_read_timeout(Some(Duration::from_secs(2))).unwrap();
             assert_eq!(socket.recv_from(&mut [0; 8]).unwrap().0, 4);
         }
     }
 
     #[test]
-    fn an_interface_that_comes_later_is_joined_and_one_that_refuses_is_left_out() {
+    fn an_interface_that_came_back_between_two_looks_is_joined_and_one_that_refuses_is_left_out() {
         let (socket, mut membership) = Membership::bind(GROUP.into(), 0).unwrap();
         let port = socket.local_addr().unwrap().port();
+        // So a membership is lost with its interface, which is there again before the next look.
         socket.leave_multicast_v4(&GROUP, &Ipv4Addr::LOCALHOST).unwrap();
         // An address that is reserved for documents, so that no interface has it.
         let nowhere = MulticastInterface::Address(Ipv4Addr::new(192, 0, 2, 1));
-        assert!(membership.join(&BTreeSet::from([nowhere])).is_some());
-        assert!(membership.joined.is_empty());
+        let (joined, refused) = membership.join(&BTreeSet::from([nowhere]));
+        assert!(joined.is_empty() && refused.is_some());
         socket.set_read_timeout(Some(Duration::from_millis(100))).unwrap();
         sender().send_to(b"fr 1", (GROUP, port)).unwrap();
         assert!(socket.recv_from(&mut [0; 8]).is_err());

@@ -31,9 +31,9 @@ use crate::trainer::wire::{
 
 /// Longest wait for the connection.
 const CONNECT_WAIT: Duration = Duration::from_secs(1);
-/// Longest wait for an answer.
+/// Longest wait for all answers that a connection begins with, together.
 const ANSWER_WAIT: Duration = Duration::from_secs(2);
-/// Longest wait for the answer to each command that releases the brake.
+/// Longest wait for the answer to each command that releases the brake, and for that to the command before it.
 const RELEASE_WAIT: Duration = Duration::from_millis(300);
 /// Longest wait of a read, and so the delay of a command.
 const READ_WAIT: Duration = Duration::from_millis(50);
@@ -68,18 +68,27 @@ impl TrainerPort {
             .map_err(|error| format!("there is no host {host:?} ({error}): name another"))?;
         let mut why = "it has no address".to_owned();
         for address in addresses {
-            match TcpStream::connect_timeout(&address, CONNECT_WAIT) {
+            match connected(TcpStream::connect_timeout(&address, CONNECT_WAIT)) {
                 Ok(stream) => return Ok(stream),
-                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
-                    why = "nothing listens there: switch the trainer on, or name another port".to_owned();
-                }
-                Err(error) if error.kind() == ErrorKind::TimedOut => {
-                    why = "nothing answers there: is it switched on, and in this network?".to_owned();
-                }
-                Err(error) => why = error.to_string(),
+                Err(reason) => why = reason,
             }
         }
         Err(format!("no trainer at {}: {why}", self.url))
+    }
+}
+
+/// Stream to another program, or the reason why there is none.
+fn connected(outcome: io::Result<TcpStream>) -> Result<TcpStream, String> {
+    const NOTHING_LISTENS: &str = "nothing listens there: switch the trainer on, or name another port";
+    match outcome {
+        // While no trainer listens, a port of this machine may be connected to itself.
+        Ok(stream) if stream.local_addr().ok() == stream.peer_addr().ok() => Err(NOTHING_LISTENS.to_owned()),
+        Ok(stream) => Ok(stream),
+        Err(error) if error.kind() == ErrorKind::ConnectionRefused => Err(NOTHING_LISTENS.to_owned()),
+        Err(error) if error.kind() == ErrorKind::TimedOut => {
+            Err("nothing answers there: is it switched on, and in this network?".to_owned())
+        }
+        Err(error) => Err(error.to_string()),
     }
 }
 
@@ -93,10 +102,11 @@ impl DevicePort for TrainerPort {
     }
 }
 
-/// Answer that is waited for: its kind, and what has come.
+/// Answer that is waited for: kind and number of its request, and what has come.
 #[derive(Debug, Default)]
 struct AwaitedAnswer {
     kind: u8,
+    sequence: u8,
     /// Response code and data.
     came: Option<(u8, Vec<u8>)>,
 }
@@ -108,6 +118,8 @@ struct TrainerLink {
     gate: FloodGate,
     sequence: u8,
     awaited: AwaitedAnswer,
+    /// Number of the last command's write, until it is answered.
+    writing: Option<u8>,
     /// Control of the brake; `None` where the trainer has no control point.
     control: Option<TrainerControl>,
     grade: Arc<AtomicI16>,
@@ -133,6 +145,7 @@ impl TrainerLink {
             gate: FloodGate::new(now),
             sequence: 0,
             awaited: AwaitedAnswer::default(),
+            writing: None,
             control: None,
             grade,
             early: Vec::new(),
@@ -140,12 +153,14 @@ impl TrainerLink {
             last_asked: now,
             broken: false,
         };
-        let services = link.ask("list its services", SERVICES, &[])?;
+        let deadline = now + ANSWER_WAIT;
+        let services = link.ask("list its services", SERVICES, &[], deadline)?;
         let services: Vec<Option<u16>> = services.as_chunks::<UUID_LENGTH>().0.iter().map(short).collect();
         if !services.contains(&Some(FITNESS_MACHINE)) {
             return Err(TrainerError::NoFitnessMachine(named(&services)));
         }
-        let listed = link.ask("list what its fitness machine has", CHARACTERISTICS, &uuid(FITNESS_MACHINE))?;
+        let listed =
+            link.ask("list what its fitness machine has", CHARACTERISTICS, &uuid(FITNESS_MACHINE), deadline)?;
         let records = listed.get(UUID_LENGTH..).unwrap_or_default().as_chunks::<{ UUID_LENGTH + 1 }>().0;
         let characteristics: Vec<(Option<u16>, u8)> = records.iter().map(characteristic).collect();
         let has = |number, property| characteristics.iter().any(|(n, can)| *n == Some(number) && can & property != 0);
@@ -153,7 +168,7 @@ impl TrainerLink {
             let numbers: Vec<Option<u16>> = characteristics.iter().map(|(number, _)| *number).collect();
             return Err(TrainerError::NoBikeData(named(&numbers)));
         }
-        link.ask("send its bike data", ENABLE, &enabling(INDOOR_BIKE_DATA))?;
+        link.ask("send its bike data", ENABLE, &enabling(INDOOR_BIKE_DATA), deadline)?;
         // What follows is good to have: its answers are not waited for.
         for (_, measurement) in OTHER_SERVICES.iter().filter(|(service, _)| services.contains(&Some(*service))) {
             link.say(ENABLE, &enabling(*measurement))?;
@@ -165,16 +180,17 @@ impl TrainerLink {
         Ok(link)
     }
 
-    /// Sends a request.
-    fn say(&mut self, kind: u8, data: &[u8]) -> io::Result<()> {
-        let message = DirectConnectMessage { kind, sequence: self.sequence, response: 0, data };
-        self.sequence = self.sequence.wrapping_add(1);
-        self.stream.write_all(&message.to_bytes())
+    /// Sends a request; returns its number.
+    fn say(&mut self, kind: u8, data: &[u8]) -> io::Result<u8> {
+        let sequence = self.sequence;
+        self.sequence = sequence.wrapping_add(1);
+        self.stream.write_all(&DirectConnectMessage { kind, sequence, response: 0, data }.to_bytes())?;
+        Ok(sequence)
     }
 
     /// Sends a request and waits for the answer: its data.
-    fn ask(&mut self, what: &'static str, kind: u8, data: &[u8]) -> Result<Vec<u8>, TrainerError> {
-        match self.answer(kind, data, ANSWER_WAIT)? {
+    fn ask(&mut self, what: &'static str, kind: u8, data: &[u8], deadline: Instant) -> Result<Vec<u8>, TrainerError> {
+        match self.answer(kind, data, deadline)? {
             Some((0, data)) => Ok(data),
             Some((response, _)) => Err(TrainerError::Refused(what, refusal(response))),
             None => Err(TrainerError::Silent),
@@ -182,10 +198,9 @@ impl TrainerLink {
     }
 
     /// Sends a request and waits for its answer, response code and data; `None` if none comes in time.
-    fn answer(&mut self, kind: u8, data: &[u8], wait: Duration) -> Result<Option<(u8, Vec<u8>)>, TrainerError> {
-        self.awaited = AwaitedAnswer { kind, came: None };
-        self.say(kind, data)?;
-        let deadline = Instant::now() + wait;
+    fn answer(&mut self, kind: u8, data: &[u8], deadline: Instant) -> Result<Option<(u8, Vec<u8>)>, TrainerError> {
+        let sequence = self.say(kind, data)?;
+        self.awaited = AwaitedAnswer { kind, sequence, came: None };
         let mut early = std::mem::take(&mut self.early);
         while self.awaited.came.is_none() && Instant::now() < deadline {
             self.receive(&mut early)?;
@@ -212,8 +227,8 @@ impl TrainerLink {
     fn take(&mut self, received: &[u8], bytes: &mut Vec<u8>) -> Result<(), TrainerError> {
         let now = Instant::now();
         let mut outcome = Ok(());
-        let (gate, control, awaited, heard) =
-            (&mut self.gate, &mut self.control, &mut self.awaited, &mut self.last_heard);
+        let (gate, control, awaited, writing, heard) =
+            (&mut self.gate, &mut self.control, &mut self.awaited, &mut self.writing, &mut self.last_heard);
         self.pieces.push(received, |piece| match piece {
             Ok((message, raw)) => {
                 *heard = now;
@@ -225,10 +240,13 @@ impl TrainerLink {
                         gate.take(now, kind_of(message, value), raw, bytes);
                     }
                     (NOTIFICATION, _) => {}
-                    (kind, _) if kind == awaited.kind && awaited.came.is_none() => {
+                    (kind, _)
+                        if (kind, message.sequence) == (awaited.kind, awaited.sequence) && awaited.came.is_none() =>
+                    {
                         awaited.came = Some((message.response, message.data.to_vec()));
                     }
-                    (WRITE, _) => {
+                    (WRITE, _) if *writing == Some(message.sequence) => {
+                        *writing = None;
                         let why = refusal(message.response);
                         control.iter_mut().for_each(|control| control.written(now, message.response, why));
                     }
@@ -260,15 +278,39 @@ impl TrainerLink {
         };
         control.want(self.grade.load(Ordering::Relaxed));
         match control.next(Instant::now()) {
-            Some(value) => self.say(WRITE, &[&uuid(CONTROL_POINT), &value[..]].concat()),
+            Some(value) => {
+                self.writing = Some(self.say(WRITE, &[&uuid(CONTROL_POINT), &value[..]].concat())?);
+                Ok(())
+            }
             None => Ok(()),
         }
     }
 
-    /// Takes the road and the control back.
+    /// Waits a moment for the answers to the last command: a trainer that is busy with it refuses the next.
+    fn settle(&mut self) -> Result<(), TrainerError> {
+        let deadline = Instant::now() + RELEASE_WAIT;
+        let waits =
+            |link: &Self| link.writing.is_some() || link.control.as_ref().is_some_and(TrainerControl::is_waiting);
+        let mut passed_over = Vec::new();
+        while waits(self) && Instant::now() < deadline {
+            self.receive(&mut passed_over)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the road and the control back. A write that is refused is repeated once.
     fn release(&mut self) -> Result<(), TrainerError> {
         for value in release() {
-            self.answer(WRITE, &[&uuid(CONTROL_POINT), &value[..]].concat(), RELEASE_WAIT)?;
+            for _ in 0..2 {
+                self.settle()?;
+                self.writing = None;
+                let now = Instant::now();
+                self.control.iter_mut().for_each(|control| control.releases(now, value[0]));
+                let data = [&uuid(CONTROL_POINT), &value[..]].concat();
+                if self.answer(WRITE, &data, now + RELEASE_WAIT)?.is_none_or(|(response, _)| response == 0) {
+                    break;
+                }
+            }
         }
         // The trainer has read everything: an ordinary end of the connection.
         SockRef::from(&self.stream).set_linger(None)?;
@@ -342,21 +384,37 @@ mod tests {
 
     use super::*;
 
-    /// Both ends of a connection to a trainer with a fitness machine and no control point.
-    fn link() -> (TrainerLink, TcpStream) {
+    /// Both ends of a connection.
+    fn ends() -> (TcpStream, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
-        let mut trainer = listener.accept().unwrap().0;
+        (stream, listener.accept().unwrap().0)
+    }
+
+    /// Reads a request of this length and answers it.
+    fn serve(trainer: &mut TcpStream, length: usize, response: u8, data: &[u8]) -> Vec<u8> {
+        let mut request = vec![0; length];
+        trainer.read_exact(&mut request).unwrap();
+        let answer = DirectConnectMessage { kind: request[1], sequence: request[2], response, data };
+        trainer.write_all(&answer.to_bytes()).unwrap();
+        request
+    }
+
+    /// Link to a trainer with a fitness machine, whose control point can be written or not, and the trainer's end.
+    fn link_with(control: u8) -> (TrainerLink, TcpStream) {
+        let (stream, mut trainer) = ends();
         let begun = std::thread::spawn(move || TrainerLink::begin(stream, Arc::default()).unwrap());
-        let list = [&uuid(FITNESS_MACHINE)[..], &uuid(INDOOR_BIKE_DATA), &[CAN_NOTIFY]].concat();
-        for (asked, kind, data) in
-            [(6, SERVICES, &list[..16]), (22, CHARACTERISTICS, &list), (23, ENABLE, &list[16..32])]
-        {
-            trainer.read_exact(&mut vec![0; asked]).unwrap();
-            let answer = DirectConnectMessage { kind, sequence: 0, response: 0, data };
-            trainer.write_all(&answer.to_bytes()).unwrap();
+        let bike = [&uuid(INDOOR_BIKE_DATA)[..], &[CAN_NOTIFY]].concat();
+        let list = [&uuid(FITNESS_MACHINE)[..], &bike, &uuid(CONTROL_POINT), &[control]].concat();
+        for (length, data) in [(6, &list[..16]), (22, &list), (23, &list[16..32])] {
+            serve(&mut trainer, length, 0, data);
         }
         (begun.join().unwrap(), trainer)
+    }
+
+    /// Link to a trainer without a control point, and the trainer's end.
+    fn link() -> (TrainerLink, TcpStream) {
+        link_with(0)
     }
 
     #[test]
@@ -393,6 +451,76 @@ mod tests {
         let heard = link.last_heard;
         link.read(&mut Vec::new()).unwrap();
         assert_eq!(link.last_heard, heard);
+    }
+
+    #[test]
+    fn a_trainer_that_sends_other_messages_is_waited_for_no_longer_than_a_silent_one() {
+        let (stream, mut trainer) = ends();
+        let data = uuid(0x2ada);
+        let other = DirectConnectMessage { kind: NOTIFICATION, sequence: 0, response: 0, data: &data }.to_bytes();
+        let trickle = std::thread::spawn(move || {
+            for length in [6, 22, 23] {
+                for _ in 0..15 {
+                    std::thread::sleep(Duration::from_millis(100));
+                    if trainer.write_all(&other).is_err() {
+                        return;
+                    }
+                }
+                serve(&mut trainer, length, 0, &uuid(FITNESS_MACHINE));
+            }
+        });
+        let began = Instant::now();
+        let told = TrainerLink::begin(stream, Arc::default()).err().unwrap().to_string();
+        assert!(told.contains("it says nothing"), "{told}");
+        assert!(began.elapsed() < ANSWER_WAIT + Duration::from_millis(500), "{:?}", began.elapsed());
+        trickle.join().unwrap();
+    }
+
+    #[test]
+    fn the_release_waits_for_the_command_before_it_and_repeats_what_is_refused() {
+        let (mut link, mut trainer) = link_with(CAN_WRITE);
+        serve(&mut trainer, 23, 0, &uuid(CONTROL_POINT));
+        link.read(&mut Vec::new()).unwrap();
+        let ends = std::thread::spawn(move || drop(link));
+        let nothing_comes = |trainer: &mut TcpStream| {
+            trainer.set_read_timeout(Some(Duration::from_millis(120))).unwrap();
+            assert!(trainer.read(&mut [0; 64]).is_err());
+            trainer.set_read_timeout(Some(ANSWER_WAIT)).unwrap();
+        };
+        let indicate = |trainer: &mut TcpStream, command: u8| {
+            let data = [&uuid(CONTROL_POINT)[..], &[0x80, command, 1]].concat();
+            let indication = DirectConnectMessage { kind: NOTIFICATION, sequence: 0, response: 0, data: &data };
+            trainer.write_all(&indication.to_bytes()).unwrap();
+        };
+        // The ride ends while control is asked for.
+        let asked = serve(&mut trainer, 23, 0, &uuid(CONTROL_POINT));
+        assert_eq!(asked[22..], [0]);
+        nothing_comes(&mut trainer);
+        indicate(&mut trainer, 0);
+        let level = [0x11, 0, 0, 0, 0, 40, 51];
+        assert_eq!(serve(&mut trainer, 29, 6, &uuid(CONTROL_POINT))[22..], level);
+        // The repeated write is not answered by a late answer to another.
+        let mut again = [0; 29];
+        trainer.read_exact(&mut again).unwrap();
+        assert_eq!(again[22..], level);
+        let answer = |sequence| DirectConnectMessage { kind: WRITE, sequence, response: 0, data: &[] }.to_bytes();
+        indicate(&mut trainer, 0x11);
+        trainer.write_all(&answer(asked[2])).unwrap();
+        nothing_comes(&mut trainer);
+        trainer.write_all(&answer(again[2])).unwrap();
+        assert_eq!(serve(&mut trainer, 23, 0, &uuid(CONTROL_POINT))[22..], [1]);
+        assert_eq!(trainer.read(&mut [0; 64]).unwrap(), 0, "nothing but an ordinary end follows");
+        ends.join().unwrap();
+    }
+
+    #[test]
+    fn a_port_that_is_connected_to_itself_is_no_trainer() {
+        let socket = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
+        socket.bind(&std::net::SocketAddr::from(([127, 0, 0, 1], 0)).into()).unwrap();
+        socket.connect(&socket.local_addr().unwrap()).unwrap();
+        assert!(connected(Ok(socket.into())).unwrap_err().contains("nothing listens there"));
+        let (stream, _trainer) = ends();
+        assert!(connected(Ok(stream)).is_ok());
     }
 
     #[test]

@@ -91,12 +91,24 @@ pub(crate) struct TrainerControl {
     told: Option<(i16, Instant)>,
     /// Grade wanted, in 0.01 %.
     wanted: i16,
+    /// True once a command was sent: even one that was refused, or not answered yet, may have been obeyed.
+    engaged: bool,
+    /// True if a load was not permitted, and none has been obeyed since.
+    denied: bool,
     refusal: Option<String>,
 }
 
 impl TrainerControl {
     pub(crate) fn new() -> Self {
-        Self { phase: ControlPhase::Ask, unanswered: None, told: None, wanted: 0, refusal: None }
+        Self {
+            phase: ControlPhase::Ask,
+            unanswered: None,
+            told: None,
+            wanted: 0,
+            engaged: false,
+            denied: false,
+            refusal: None,
+        }
     }
 
     /// Takes the grade that the ride wants, in 0.01 %.
@@ -109,9 +121,19 @@ impl TrainerControl {
         self.refusal.as_deref()
     }
 
-    /// True if the trainer has got commands that have to be taken back.
+    /// True if the trainer has got commands that have to be taken back, whatever it has answered.
     pub(crate) fn is_engaged(&self) -> bool {
-        !matches!(self.phase, ControlPhase::Ask | ControlPhase::Refused(_))
+        self.engaged
+    }
+
+    /// True if a command waits for its answer.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.unanswered.is_some()
+    }
+
+    /// Takes note of a command of the [`release`], whose answer is waited for like any other's.
+    pub(crate) fn releases(&mut self, now: Instant, command: u8) {
+        self.unanswered = Some((command, now));
     }
 
     /// Value of the next command, if one is due.
@@ -139,6 +161,7 @@ impl TrainerControl {
             }
         };
         self.unanswered = Some((command[0], now));
+        self.engaged = true;
         Some(command)
     }
 
@@ -159,9 +182,9 @@ impl TrainerControl {
         }
         match result {
             SUCCESS => self.done(command),
-            // Another program has taken the control, or none was given: ask for it.
-            NOT_PERMITTED if command != REQUEST_CONTROL && self.phase == ControlPhase::Obeys => {
-                self.phase = ControlPhase::Ask;
+            // Another program has taken the control, or none was given: ask for it, but once.
+            NOT_PERMITTED if command != REQUEST_CONTROL && self.phase == ControlPhase::Obeys && !self.denied => {
+                (self.phase, self.denied) = (ControlPhase::Ask, true);
             }
             NOT_PERMITTED => self.refuse(now, "another program has the control; close it"),
             NOT_SUPPORTED if command == SIMULATION => self.refuse(now, "it cannot simulate a slope"),
@@ -174,11 +197,10 @@ impl TrainerControl {
     /// Goes on after a command was obeyed.
     fn done(&mut self, command: u8) {
         match command {
-            REQUEST_CONTROL => {
-                (self.phase, self.told) = (ControlPhase::Start, None);
-            }
+            // The last load stays told: loads are as few for a trainer that grants control again and again.
+            REQUEST_CONTROL => self.phase = ControlPhase::Start,
             START => self.phase = ControlPhase::Obeys,
-            _ => self.refusal = None,
+            _ => (self.refusal, self.denied) = (None, false),
         }
     }
 
@@ -252,7 +274,6 @@ mod tests {
         control.next(start);
         control.answered(start, &[0x80, 0, 5]);
         assert!(control.refusal().unwrap().contains("another program has the control"));
-        assert!(!control.is_engaged());
         assert_eq!(control.next(start + Duration::from_secs(9)), None);
         let later = start + ASK_AGAIN;
         assert_eq!(control.next(later), Some(vec![0]));
@@ -262,7 +283,53 @@ mod tests {
         assert_eq!(control.next(later), Some(simulation(0)));
         control.answered(later, &[0x80, 0x11, 1]);
         assert_eq!(control.refusal(), None);
+    }
+
+    #[test]
+    fn commands_are_taken_back_from_the_first_on_whatever_is_answered() {
+        let start = Instant::now();
+        let mut control = TrainerControl::new();
+        assert!(!control.is_engaged());
+        control.next(start);
+        assert!(control.is_engaged(), "control may be granted after the end of the ride");
+        control.answered(start, &[0x80, 0, 5]);
         assert!(control.is_engaged());
+        let mut control = obeying(start);
+        control.next(start);
+        control.written(start, 6, "it refuses the value");
+        assert!(control.is_engaged(), "the loads before the refused one are felt");
+    }
+
+    #[test]
+    fn a_trainer_that_grants_control_and_permits_nothing_is_told_and_not_flooded() {
+        let start = Instant::now();
+        let mut control = TrainerControl::new();
+        let (mut commands, mut refused) = (0, None);
+        for ms in 0..9000 {
+            let now = start + Duration::from_millis(ms);
+            control.want(i16::try_from(ms).unwrap() % 300);
+            if let Some(command) = control.next(now) {
+                commands += 1;
+                control.answered(now, &[0x80, command[0], if command[0] == SIMULATION { 5 } else { 1 }]);
+                refused = control.refusal().map(str::to_owned).or(refused);
+            }
+        }
+        assert_eq!(commands, 6, "control, start and a load, twice");
+        assert!(refused.unwrap().contains("another program has the control"));
+        // Control that was taken and given back is no refusal, however often, if loads are obeyed between.
+        let mut control = obeying(start);
+        for s in 0..20 {
+            let now = start + Duration::from_secs(2 * s);
+            for (command, result) in [(0x11, 5), (0, 1), (7, 1)] {
+                assert_eq!(control.next(now).unwrap()[0], command);
+                control.answered(now, &[0x80, command, result]);
+            }
+            assert_eq!(control.next(now + LOAD_EVERY), None);
+            let later = now + REPEAT_EVERY;
+            assert_eq!(control.next(later), Some(simulation(0)));
+            control.answered(later, &[0x80, 0x11, 1]);
+            assert_eq!(control.refusal(), None);
+        }
     }
 
     #[test]

@@ -15,6 +15,19 @@ const FASTEST_CADENCE_HZ: f64 = 5.0;
 /// Time after which a power is no longer true, seconds.
 const POWER_HOLDS_S: f64 = 5.0;
 
+/// Sensor of turns. Of two characteristics that count the same turns, each with a counter and a clock of its own, the
+/// first that speaks is used.
+#[derive(Debug, Default)]
+struct TurnSensor(Option<(u16, TurnRate)>);
+
+impl TurnSensor {
+    /// Takes turns of that characteristic that arrived at `at`. Returns turns a second, `None` while they are not known.
+    fn measure(&mut self, at: Nanos, characteristic: u16, turns: Turns) -> Option<f64> {
+        let (used, rate) = self.0.get_or_insert((characteristic, TurnRate::default()));
+        if *used == characteristic { rate.measure(at, turns) } else { None }
+    }
+}
+
 /// Decoder of [`SampleSource::Trainer`](crate::SampleSource::Trainer).
 #[derive(Debug)]
 pub struct TrainerDecoder {
@@ -28,8 +41,8 @@ pub struct TrainerDecoder {
     /// Last power, watts, and its time.
     power: Option<(f64, Nanos)>,
     /// Turns of the wheel and the crank, for what the bike data do not tell.
-    wheel: TurnRate,
-    crank: TurnRate,
+    wheel: TurnSensor,
+    crank: TurnSensor,
     /// True if the bike data tell the speed; the cadence.
     tells_speed: bool,
     tells_cadence: bool,
@@ -45,8 +58,8 @@ impl TrainerDecoder {
             pieces: DirectConnectPieces::default(),
             faults: Faults::default(),
             power: None,
-            wheel: TurnRate::default(),
-            crank: TurnRate::default(),
+            wheel: TurnSensor::default(),
+            crank: TurnSensor::default(),
             tells_speed: false,
             tells_cadence: false,
         }
@@ -75,27 +88,41 @@ impl TrainerDecoder {
                 self.tells_speed |= data.speed_m_s.is_some();
                 self.tells_cadence |= data.cadence_hz.is_some();
                 self.say_power(at, data.power_w);
-                self.say_cadence(at, data.cadence_hz)?;
-                self.say_speed(at, data.speed_m_s)
+                self.say_speed_and_cadence(at, data.speed_m_s, data.cadence_hz)
             }
             Some((POWER_MEASUREMENT, value)) if message.kind == NOTIFICATION => {
-                self.revolutions(at, RevolutionsData::of_power(value).map_err(|error| error.to_string())?)
+                let data = RevolutionsData::of_power(value).map_err(|error| error.to_string())?;
+                self.revolutions(at, POWER_MEASUREMENT, data)
             }
             Some((SPEED_MEASUREMENT, value)) if message.kind == NOTIFICATION => {
-                self.revolutions(at, RevolutionsData::of_speed(value).map_err(|error| error.to_string())?)
+                let data = RevolutionsData::of_speed(value).map_err(|error| error.to_string())?;
+                self.revolutions(at, SPEED_MEASUREMENT, data)
             }
             _ => Ok(()),
         }
     }
 
-    /// Takes turns, as far as the bike data do not tell more.
-    fn revolutions(&mut self, at: Nanos, data: RevolutionsData) -> Result<(), String> {
-        let turn = |rate: &mut TurnRate, turns: Option<Turns>| turns.and_then(|turns| rate.measure(at, turns));
+    /// Takes turns of that characteristic, as far as the bike data do not tell more.
+    fn revolutions(&mut self, at: Nanos, characteristic: u16, data: RevolutionsData) -> Result<(), String> {
+        let turn = |sensor: &mut TurnSensor, turns: Option<Turns>| {
+            turns.and_then(|turns| sensor.measure(at, characteristic, turns))
+        };
         let wheel_hz = turn(&mut self.wheel, data.wheel).filter(|_| !self.tells_speed);
         let crank_hz = turn(&mut self.crank, data.crank).filter(|_| !self.tells_cadence);
         self.say_power(at, data.power_w);
-        self.say_cadence(at, crank_hz)?;
-        self.say_speed(at, wheel_hz.map(|hz| hz * self.config.wheel_circumference_m))
+        self.say_speed_and_cadence(at, wheel_hz.map(|hz| hz * self.config.wheel_circumference_m), crank_hz)
+    }
+
+    /// Takes both of one message: a fault of one leaves the other as it is. The speed's fault is told first.
+    fn say_speed_and_cadence(
+        &mut self,
+        at: Nanos,
+        speed_m_s: Option<f64>,
+        cadence_hz: Option<f64>,
+    ) -> Result<(), String> {
+        let speed = self.say_speed(at, speed_m_s);
+        let cadence = self.say_cadence(at, cadence_hz);
+        speed.and(cadence)
     }
 
     fn say_power(&mut self, at: Nanos, power_w: Option<f64>) {
@@ -258,6 +285,48 @@ mod tests {
             feed(&mut trainer, s * SECOND, &notification(SPEED_MEASUREMENT, &[1, 200, 1, 0, 0, 0, s as u8]));
         }
         assert!((trainer.wheel_speed(10 * SECOND).unwrap() - 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn two_services_that_count_the_same_turns_are_not_mixed() {
+        for power_first in [true, false] {
+            let mut trainer = trainer();
+            for s in 0..8_u16 {
+                // 4 turns of the wheel and 1 of the crank a second; counters and clocks of the two are far apart.
+                let turns = |wheel: u16, ticks: u16, crank: u16, crank_ticks: u16| {
+                    [
+                        &u32::from(wheel + 4 * s).to_le_bytes()[..],
+                        &ticks.to_le_bytes(),
+                        &(crank + s).to_le_bytes(),
+                        &crank_ticks.wrapping_add(s * 1024).to_le_bytes(),
+                    ]
+                    .concat()
+                };
+                let power = [&[0x30, 0, 200, 0][..], &turns(50, (s * 2048).wrapping_add(7), 900, 60_000)].concat();
+                let speed = [&[3][..], &turns(7000, (s * 1024).wrapping_add(30_000), 5, 100)].concat();
+                let both = [notification(POWER_MEASUREMENT, &power), notification(SPEED_MEASUREMENT, &speed)];
+                let at = u64::from(s) * SECOND;
+                feed(&mut trainer, at, &both[usize::from(!power_first)]);
+                feed(&mut trainer, at + SECOND / 10, &both[usize::from(power_first)]);
+                if s > 1 {
+                    let speed = trainer.wheel_speed(at + SECOND / 5).unwrap();
+                    assert!((speed - 4.0 * 2.096).abs() < 1e-9, "{speed} m/s after {s} s");
+                    assert_eq!(trainer.cadence_hz(at + SECOND / 5), Some(1.0), "after {s} s");
+                }
+            }
+            assert_eq!((trainer.faults().number(), trainer.power_w(7 * SECOND)), (0, Some(200.0)));
+        }
+    }
+
+    #[test]
+    fn an_impossible_cadence_does_not_cost_the_speed_nor_the_other_way() {
+        let mut trainer = trainer();
+        feed(&mut trainer, 0, &bike(3600, 65_535, 250));
+        assert!((trainer.wheel_speed(0).unwrap() - 10.0).abs() < 1e-9);
+        assert_eq!((trainer.cadence_hz(0), trainer.faults().number()), (None, 1));
+        assert!(trainer.faults().last().is_some_and(|fault| format!("{fault:?}").contains("a cadence of 32768")));
+        feed(&mut trainer, SECOND, &bike(65_535, 120, 250));
+        assert_eq!((trainer.cadence_hz(SECOND), trainer.faults().number()), (Some(1.0), 2));
     }
 
     #[test]
