@@ -210,10 +210,13 @@ impl RideLog {
         match (file, &mut self.past) {
             (WrittenFile::Entries(recorder), _) => recorder.finish().map_err(|error| self.fails(path, error)),
             (WrittenFile::Copy(copy), Past::Disk(disk)) => {
-                copy.end_at(disk.recorder.flush().map_err(|error| {
-                    self.failed.get_or_insert_with(|| path.clone());
-                    error
-                })?);
+                match disk.recorder.flush() {
+                    Ok(length) => copy.end_at(length),
+                    Err(error) => {
+                        copy.abandon();
+                        return Err(self.fails(path, error));
+                    }
+                }
                 // Gigabytes may be left to copy, while the ride goes on.
                 self.ending.push((path, copy));
                 Ok(())
