@@ -200,7 +200,8 @@ impl RideLog {
         Ok(())
     }
 
-    /// Completes the file, if one is being written; the ride goes on, and a long file is completed beside it. No file is left of a ride without a frame.
+    /// Completes the file, if one is being written; the ride goes on, and a long file is completed beside it. No file
+    /// is left of a ride without a frame.
     ///
     /// # Errors
     /// [`LogError`] if the rest cannot be written.

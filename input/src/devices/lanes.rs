@@ -156,8 +156,8 @@ impl Devices {
 }
 
 impl Drop for Devices {
-    /// Ends the threads. Each looks up from its device at least ten times a second, and from waiting for a server
-    /// after a second.
+    /// Ends the threads. Each looks up from its device at least ten times a second, from waiting for a server after a
+    /// second or two, and from releasing a trainer that answers late after as long.
     fn drop(&mut self) {
         self.stop = None;
         for lane in self.lanes.drain(..) {

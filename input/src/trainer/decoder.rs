@@ -21,7 +21,8 @@ const POWER_HOLDS_S: f64 = 5.0;
 struct TurnSensor(Option<(u16, TurnRate)>);
 
 impl TurnSensor {
-    /// Takes turns of that characteristic that arrived at `at`. Returns turns a second, `None` while they are not known.
+    /// Takes turns of that characteristic that arrived at `at`. Returns turns a second, `None` while they are not
+    /// known.
     fn measure(&mut self, at: Nanos, characteristic: u16, turns: Turns) -> Option<f64> {
         let (used, rate) = self.0.get_or_insert((characteristic, TurnRate::default()));
         if *used == characteristic { rate.measure(at, turns) } else { None }
