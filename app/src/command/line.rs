@@ -97,7 +97,7 @@ pub struct DevicesOptions {
     /// Number of the tracker's sensor, or body, that is on the head [default: 0, or that of the display].
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub sensor: Option<i32>,
-    /// Display whose table [tracker] says how the head is tracked: its tracker, unless --tracker names another, its
+    /// Display whose table `[tracker]` says how the head is tracked: its tracker, unless --tracker names another, its
     /// unit, mirrors and placements.
     #[arg(long, value_name = "DISPLAY")]
     pub display: Option<String>,

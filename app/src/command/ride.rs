@@ -172,8 +172,8 @@ pub struct VehicleOptions {
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 #[command(next_help_heading = "Devices")]
 pub struct DeviceOptions {
-    /// File that describes the rider's hardware: tables [bicycle], [trainer], [rider], [axes], [gamepad], [keys]
-    /// and [tracker].
+    /// File that describes the rider's hardware: tables `[bicycle]`, `[trainer]`, `[rider]`, `[axes]`, `[gamepad]`,
+    /// `[keys]` and `[tracker]`.
     /// `rapidity devices --calibrate FILE` writes one.
     #[arg(long, value_name = "FILE.toml")]
     pub set_up: Option<PathBuf>,

@@ -20,6 +20,6 @@ pub enum WandSignal {
     },
     /// State of all buttons.
     Buttons(HeldButtons),
-    /// Values of all axes, at most [`MOST_AXES`].
+    /// Values of all axes, at most those that a wand has room for.
     Axes(Vec<f64>),
 }
