@@ -3,8 +3,8 @@
 //!
 //!     cargo run --release -p ride --example hours -- [HOURS]
 //!
-//! Devices: a bicycle of 200 lines a second, a SpaceMouse and a gamepad of 1000 reports each, a tracker of DTrack of 240
-//! frames with four bodies, and keys. Frames: 60 a second. It ends with status 1 where memory grows after a quarter of
+//! Devices: a bicycle of 200 lines a second, a SpaceMouse and a gamepad of 1000 reports each, DTrack of 240 frames
+//! with four bodies, and keys. Frames: 60 a second. It ends with status 1 where memory grows after a quarter of
 //! an hour by more than 4 MB an hour (the places of the chunks on the disk are kept), or where the recording differs.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example prints its figures, and ends at a failure")]
 

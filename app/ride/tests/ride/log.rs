@@ -40,6 +40,18 @@ impl LoggedRide {
         let frame = self.simulation.frame(at, &samples);
         self.log.frame(&samples, &frame)
     }
+
+    /// Rides on until a frame cannot be written; its sentence.
+    fn until_told(&mut self) -> String {
+        let began = Instant::now();
+        loop {
+            match self.frame(1) {
+                Ok(()) => assert!(began.elapsed() < Duration::from_secs(20), "nothing was told"),
+                Err(error) => return error.to_string(),
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
 }
 
 fn frames(path: &Path) -> usize {
@@ -57,14 +69,7 @@ fn a_removed_file_is_told_when_it_happens_and_at_the_end() {
     ride.log.record(&path).unwrap();
     ride.frame(1).unwrap();
     std::fs::remove_file(&path).unwrap();
-    let began = Instant::now();
-    let told = loop {
-        match ride.frame(1) {
-            Ok(()) => assert!(began.elapsed() < Duration::from_secs(20), "nothing was told"),
-            Err(error) => break error.to_string(),
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    };
+    let told = ride.until_told();
     assert!(told.contains("was removed or replaced"), "{told}");
     // The ride goes on, without another word.
     assert!(!ride.log.is_recording());
@@ -187,14 +192,7 @@ fn a_copy_that_is_removed_is_told_when_it_happens() {
     let path = folder.path().join("late.mcap");
     ride.log.record(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
-    let began = Instant::now();
-    let told = loop {
-        match ride.frame(1) {
-            Ok(()) => assert!(began.elapsed() < Duration::from_secs(20), "nothing was told"),
-            Err(error) => break error.to_string(),
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    };
+    let told = ride.until_told();
     assert!(told.contains("was removed or replaced"), "{told}");
     assert!(matches!(ride.log.finish(), Err(LogError::Incomplete { path: told }) if told == path));
 }
