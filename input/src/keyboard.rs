@@ -346,7 +346,12 @@ mod tests {
         keys.bytes(0, &KeyboardKey::Enter.to_bytes(false), &mut actions);
         assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
         let bad = KeyMap([("Enter".to_owned(), "pedal".to_owned())].into());
-        assert!(bad.check().unwrap_err().to_string().contains("keys is \"pedal\": expected the name of a key, or an action"));
+        assert!(
+            bad.check()
+                .unwrap_err()
+                .to_string()
+                .contains("keys is \"pedal\": expected the name of a key, or an action")
+        );
     }
 
     #[test]

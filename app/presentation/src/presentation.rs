@@ -61,6 +61,12 @@ impl Default for Presentation {
 }
 
 impl Presentation {
+    /// The same in another language.
+    #[must_use]
+    pub fn in_language(self, language: Language) -> Self {
+        Self { language, ..self }
+    }
+
     /// True if this switch is on.
     pub fn is_on(mut self, switch: Switch) -> bool {
         *self.switch(switch)
@@ -120,9 +126,26 @@ impl Presentation {
         }
     }
 
+    /// True for an action that a presentation carries out, and that a replay repeats. What the rider has opened to read
+    /// or to choose is not opened again.
+    pub fn repeats(action: &Action) -> bool {
+        match action {
+            Action::Toggle(switch) => !matches!(switch, Switch::Menu | Switch::Readings),
+            Action::Set(setting, _) | Action::Next(setting) => *setting != Setting::Language,
+            Action::NextView | Action::Expose(_) => true,
+            _ => false,
+        }
+    }
+
     /// Name of the view.
     pub fn view(&self) -> Phrase {
         if self.effects.geometry { Phrase::Seen } else { Phrase::Instant }
+    }
+
+    /// Views that the present effects allow: the text of the effects with each, its name and its purpose.
+    pub fn views(&self) -> Vec<(String, Phrase, Phrase)> {
+        let with = |geometry| Effects { geometry, ..self.effects }.to_string();
+        vec![(with(true), Phrase::Seen, Phrase::SeenPurpose), (with(false), Phrase::Instant, Phrase::InstantPurpose)]
     }
 
     /// Takes the next value of a setting that has a few.

@@ -22,8 +22,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use input::recording::FrameRecord;
 use glam::DVec3;
+use input::recording::FrameRecord;
 use input::{Action, Controls, Desk, FreeLook, Nanos, Place, Sample};
 use scene::Surroundings;
 use view::Gaze;

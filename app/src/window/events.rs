@@ -6,15 +6,11 @@ use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
 use input::{MouseButton, MouseEvent, Sample, SampleSource};
-use render::display::development;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
 use winit::event_loop::ActiveEventLoop;
 use winit::keyboard::{KeyCode, PhysicalKey};
 use winit::window::{Fullscreen, WindowId};
-
-/// Stops by which an exposure key changes the exposure.
-const STOPS_PER_PRESS: f32 = 0.5;
 
 impl Open {
     /// Carries out an event of one of the windows.
@@ -27,7 +23,7 @@ impl Open {
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
         let taken = offered && self.interface.event(&self.windows[0].window, &event);
         match event {
-            WindowEvent::CloseRequested if self.settings.kiosk => {}
+            WindowEvent::CloseRequested if self.kiosk => {}
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(number, size),
             WindowEvent::Focused(false) => {
@@ -49,7 +45,6 @@ impl Open {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
                         self.ride.live.touch();
-                        self.window_key(events, code);
                     }
                     // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
                     if !(taken && pressed) {
@@ -150,41 +145,11 @@ impl Open {
         }
     }
 
-    /// Carries out a key that concerns the window alone.
-    fn window_key(&mut self, events: &ActiveEventLoop, code: KeyCode) {
-        match code {
-            KeyCode::Escape | KeyCode::F3 | KeyCode::F4 | KeyCode::F11 if self.settings.kiosk => {}
-            KeyCode::Escape => events.exit(),
-            KeyCode::F3 => self.settings.open = !self.settings.open,
-            KeyCode::F4 => self.calibrate(),
-            KeyCode::F2 => self.settings.readings = !self.settings.readings,
-            KeyCode::KeyG => self.settings.look.effects.geometry = !self.settings.look.effects.geometry,
-            KeyCode::KeyB => self.settings.look.effects.doppler = !self.settings.look.effects.doppler,
-            KeyCode::KeyN => self.settings.look.effects.searchlight = !self.settings.look.effects.searchlight,
-            KeyCode::KeyT => {
-                let tone = development::next(self.settings.look.development.tone);
-                self.settings.look.development.tone = tone;
-                self.ride.live.tell(format!("tone curve: {}", development::name(&tone)));
-            }
-            KeyCode::BracketLeft => self.expose(-STOPS_PER_PRESS),
-            KeyCode::BracketRight => self.expose(STOPS_PER_PRESS),
-            KeyCode::F11 => self.fill_monitors(),
-            _ => {}
-        }
-    }
-
     /// Switches between full screen and windows.
     pub(super) fn fill_monitors(&self) {
         for WindowSurface { window, .. } in &self.windows {
             window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
         }
-    }
-
-    /// Brightens the picture by `stops`, and tells the rider.
-    fn expose(&mut self, stops: f32) {
-        let exposure = self.settings.look.development.exposure.changed(stops);
-        self.settings.look.development.exposure = exposure;
-        self.ride.live.tell(format!("exposure: {exposure}"));
     }
 
     /// Takes over a window's new size. The texture that it holds has the size before.

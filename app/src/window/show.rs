@@ -1,7 +1,7 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
-use super::{calibrating, hud, panel, photo, readings};
+use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
 use input::{Action, Sample};
@@ -30,6 +30,9 @@ impl Open {
             // The ride goes on while nothing can be shown.
             let Some(frame) = self.ride.live.frame()? else { return Ok(false) };
             self.carry_out(frame.controls.actions);
+            if self.leaves {
+                return Ok(false);
+            }
             std::thread::sleep(HELD_PAUSE.saturating_sub(began.elapsed()));
             return Ok(true);
         };
@@ -38,22 +41,28 @@ impl Open {
         }
 
         // Devices to light, on one page: frame.rs.
-        let look = self.settings.look;
-        let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &look)? else { return Ok(false) };
+        let shown = self.presentation;
+        self.ride.live.language = shown.language;
+        let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &shown)? else { return Ok(false) };
         self.carry_out(actions);
+        if self.leaves {
+            return Ok(false);
+        }
+        let shown = self.presentation;
 
         // Light to the windows, and the interface over the first.
-        let readings = readings::readings(&self.ride, self.settings.kiosk);
-        let panel = readings::panel(&self.ride, &self.gpu, self.in_step.sentence());
+        let readings = readings::readings(&self.ride, shown.language, self.kiosk);
+        let is_flat = matches!(self.canvas, Canvas::Picture(_));
+        let menu = shown.menu.then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
-        let settings = &mut self.settings;
+        let (page, kiosk) = (&mut self.page, self.kiosk);
         let mut wanted = Vec::new();
         for (number, texture) in &screens {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
             let window = &self.windows[*number].window;
             let first_pixel = window.inner_position().map_or([0, 0], |place| [place.x, place.y]);
-            self.canvas.show(&self.gpu, &mut encoder, *number, &look.development, &screen, first_pixel);
+            self.canvas.show(&self.gpu, &mut encoder, *number, &shown.development, &screen, first_pixel);
             if *number == 0 {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
@@ -61,11 +70,16 @@ impl Open {
                         calibrating::show(ui, calibrating);
                         return;
                     }
-                    if settings.readings {
-                        hud::show(ui, &readings);
+                    if shown.readings {
+                        interface::show_readings(ui, &readings);
                     }
-                    wanted.extend(panel::show(ui, settings, &panel));
-                    if settings.kiosk {
+                    if let Some(menu) = &menu {
+                        wanted.extend(interface::menu_window(ui, page, &shown, menu));
+                    }
+                    if shown.help && !interface::show_help(ui, shown.language, kiosk) {
+                        wanted.push(Action::ToggleHelp);
+                    }
+                    if kiosk {
                         // The interface would show the pointer again.
                         ui.ctx().set_cursor_icon(egui::CursorIcon::None);
                     }
@@ -103,29 +117,5 @@ impl Open {
             self.in_step.answer(number, answer);
         }
         Ok(())
-    }
-
-    /// Carries out the rider's actions that concern the program.
-    fn carry_out(&mut self, actions: Vec<Action>) {
-        if self.ride.live.has_turned() {
-            self.settings = self.fresh.clone();
-        }
-        let development = self.settings.look.development;
-        for action in actions {
-            match action {
-                Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
-                Action::ToggleHelp => self.settings.help = !self.settings.help,
-                Action::ToggleRecording => self.ride.live.toggle_recording(),
-                Action::Recentre => {
-                    let told = self.ride.live.straightened();
-                    self.ride.live.tell(told);
-                }
-                Action::Photo => {
-                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
-                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
-                }
-                _ => {}
-            }
-        }
     }
 }

@@ -102,6 +102,24 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Understand => "Verstehen",
         Phrase::Program => "Programm",
         Phrase::Devices => "Geräte",
+        Phrase::RidePurpose => "Fahrzeug, Lichtgeschwindigkeit, deine Uhr, Orte.",
+        Phrase::PicturePurpose => "Effekte, Helligkeit, Farben, Blickfeld.",
+        Phrase::UnderstandPurpose => "Was man sieht und was ist: Ansichten, Karte, Diagramm.",
+        Phrase::ProgramPurpose => "Sprache, Geräte und das Ende.",
+        Phrase::ReinhardPurpose => "Erhält Einzelheiten im Hellen und lässt den Rest, wie er ist.",
+        Phrase::LinearPurpose => "Zeigt Helligkeit, wie sie ist. Was heller als Weiß ist, ist weiß.",
+        Phrase::ExponentialPurpose => "Helle Stellen laufen ins Weiße, wie auf Film.",
+        Phrase::FilmicPurpose => "Mehr Kontrast mit dunklen Schatten, wie im Kino.",
+        Phrase::HistogramPurpose => {
+            "Teilt die Helligkeit des Schirms auf, sodass Dunkles und Helles Einzelheiten zeigen."
+        }
+        Phrase::DesaturatePurpose => "Farben, die der Schirm nicht zeigen kann, werden blasser.",
+        Phrase::WhitePurpose => {
+            "Farben, die der Schirm nicht zeigen kann, werden mit Weiß gemischt und dann abgedunkelt."
+        }
+        Phrase::ClampPurpose => {
+            "Farben, die der Schirm nicht zeigen kann, werden abgeschnitten. Ihr Ton kann sich ändern."
+        }
         Phrase::Light => "Licht: {0}",
         Phrase::YourClock => "deine Uhr",
         Phrase::WorldClock => "Uhr der Welt",
@@ -114,7 +132,7 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::HelpAndMenu => "F1 Hilfe · F3 Menü",
         Phrase::HelpKey => "F1 Hilfe",
         Phrase::FramesPerSecond => "{0} Bilder/s",
-        Phrase::Invitation => "Taste drücken oder treten zum Losfahren",
+        Phrase::Invitation => "Taste drücken oder lostreten: Die Fahrt gehört dir",
         Phrase::ClockRuns => "deine Uhr läuft × {0}",
         Phrase::PointsLost => "{0} Punkte der Szene haben keinen sichtbaren Ort und werden nicht gezeichnet",
         Phrase::ViewIs => "Ansicht: {0}",

@@ -190,6 +190,30 @@ phrases! {
     Program,
     /// Devices of the ride.
     Devices,
+    /// Use of the page on the ride.
+    RidePurpose,
+    /// Use of the page on the picture.
+    PicturePurpose,
+    /// Use of the page on what explains.
+    UnderstandPurpose,
+    /// Use of the page on the program.
+    ProgramPurpose,
+    /// Use of a tone curve.
+    ReinhardPurpose,
+    /// Use of a tone curve.
+    LinearPurpose,
+    /// Use of a tone curve.
+    ExponentialPurpose,
+    /// Use of a tone curve.
+    FilmicPurpose,
+    /// Use of a tone curve.
+    HistogramPurpose,
+    /// Use of a treatment of colours.
+    DesaturatePurpose,
+    /// Use of a treatment of colours.
+    WhitePurpose,
+    /// Use of a treatment of colours.
+    ClampPurpose,
     /// Label of the speed of light on the display; {0}: the speed.
     Light,
     /// Label of the rider's clock.

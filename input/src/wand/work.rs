@@ -186,7 +186,8 @@ mod tests {
 
     #[test]
     fn what_is_no_button_or_action_is_told() {
-        for (button, action, told) in [("64", "photo", "buttons from 0 to 63"), ("1", "jump high", "an action such as")] {
+        for (button, action, told) in [("64", "photo", "buttons from 0 to 63"), ("1", "jump high", "an action such as")]
+        {
             let buttons = WandButtons([(button.to_owned(), action.to_owned())].into());
             assert!(buttons.check().unwrap_err().to_string().contains(told), "{button}");
         }

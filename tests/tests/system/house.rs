@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 26] = [
+const PLAN: [(&str, &[&str]); 27] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -37,6 +37,7 @@ const PLAN: [(&str, &[&str]); 26] = [
     ("kiosk", &["input", "ride"]),
     ("words", &[]),
     ("presentation", &["input", "render", "view", "words"]),
+    ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
@@ -46,6 +47,7 @@ const PLAN: [(&str, &[&str]); 26] = [
             "built_in",
             "hardware",
             "input",
+            "interface",
             "kiosk",
             "measure",
             "panoramas",
