@@ -4,13 +4,15 @@
 //! [`input::Action`]s: nothing is changed here.
 
 mod controls;
+mod drawn_sheet;
 mod help;
 mod hud;
 mod menu;
 mod menu_pages;
 mod notices;
 
+pub use drawn_sheet::{DrawnSheet, SheetPointer};
 pub use help::show as show_help;
 pub use hud::{Readings, show as show_readings};
-pub use menu::{MenuPage, MenuRide, show as show_menu, window as menu_window};
+pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, window as menu_window};
 pub use notices::notice;

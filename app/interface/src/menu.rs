@@ -4,7 +4,8 @@
 
 use crate::controls::Controls;
 use crate::menu_pages::{picture, program, ride, understand};
-use egui::{Align2, RichText, Ui, Window};
+use egui::epaint::Shadow;
+use egui::{Align2, Color32, Frame, RichText, Stroke, Ui, Vec2, Window};
 use hardware::heard::DeviceReport;
 use input::{Action, Place, Switch, TrackingMode, VehicleKind};
 use presentation::Presentation;
@@ -59,6 +60,12 @@ const PAGES: [(MenuPage, Phrase, Phrase); 4] = [
     (MenuPage::Program, Phrase::Program, Phrase::ProgramPurpose),
 ];
 
+/// Margins of a sheet's frame, left and right or above and below, points.
+const SHEET_MARGIN: f32 = 14.0;
+/// Radius and colour of the pointer on a sheet.
+const POINTER_POINTS: f32 = 5.0;
+const POINTER_INK: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
+
 /// Shows the menu's contents. What is asked for is returned as actions.
 pub fn show(ui: &mut Ui, page: &mut MenuPage, presentation: &Presentation, state: &MenuRide) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -82,6 +89,20 @@ pub fn show(ui: &mut Ui, page: &mut MenuPage, presentation: &Presentation, state
         MenuPage::Picture => picture(ui, presentation, state, &mut actions),
         MenuPage::Understand => understand(ui, presentation, &mut actions),
         MenuPage::Program => program(ui, presentation, state, &mut actions),
+    }
+    actions
+}
+
+/// Shows the menu on a sheet of its own, which it fills.
+pub fn sheet(ui: &mut Ui, page: &mut MenuPage, presentation: &Presentation, state: &MenuRide) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let whole = ui.max_rect();
+    Frame::window(ui.style()).shadow(Shadow::NONE).show(ui, |ui| {
+        ui.set_min_size(whole.size() - Vec2::splat(SHEET_MARGIN));
+        actions = show(ui, page, presentation, state);
+    });
+    if let Some(pointer) = ui.ctx().pointer_latest_pos() {
+        ui.ctx().debug_painter().circle(pointer, POINTER_POINTS, POINTER_INK, Stroke::new(1.0, Color32::BLACK));
     }
     actions
 }

@@ -329,6 +329,11 @@ impl Live {
         }
     }
 
+    /// True if the ride is a recorded one.
+    pub fn is_recorded(&self) -> bool {
+        matches!(self.rider, Rider::Recorded { .. })
+    }
+
     /// True if a recording is being written.
     pub fn is_recording(&self) -> bool {
         matches!(&self.rider, Rider::Present { log, .. } if log.is_recording())

@@ -5,6 +5,7 @@ use super::open::Open;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
+use glam::DVec2;
 use input::{MouseButton, MouseEvent, Sample, SampleSource};
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
@@ -53,17 +54,21 @@ impl Open {
                 }
             }
             WindowEvent::CursorMoved { position, .. } => {
+                self.pointed = Some((number, DVec2::new(position.x, position.y)));
                 let moved = self.cursor.replace(position).map(|before| (position.x - before.x, position.y - before.y));
                 if let Some((right, down)) = moved {
                     self.mouse(MouseEvent::Moved { right: right as f32, down: down as f32 });
                 }
             }
             WindowEvent::Touch(_) => self.ride.live.touch(),
-            WindowEvent::CursorLeft { .. } => self.cursor = None,
+            WindowEvent::CursorLeft { .. } => (self.cursor, self.pointed) = (None, None),
             WindowEvent::MouseInput { state, button, .. } => {
                 let pressed = state == ElementState::Pressed;
                 if pressed {
                     self.ride.live.touch();
+                }
+                if button == winit::event::MouseButton::Left {
+                    self.mouse_pressed = pressed;
                 }
                 let button = match button {
                     winit::event::MouseButton::Left => Some(MouseButton::Left),
@@ -114,7 +119,9 @@ impl Open {
         const TURN_RAD: f64 = 0.005;
         /// Factor of the distance for each notch of the wheel.
         const CLOSER: f64 = 1.1;
-        if self.mouse_moves_head {
+        if self.room_interface.is_some() && self.presentation.menu {
+            // The mouse points in the menu.
+        } else if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
         } else if self.mouse_looks {
             self.look(event);

@@ -17,6 +17,7 @@ mod open;
 mod photo;
 mod place;
 mod readings;
+mod room_interface;
 mod server_loss;
 mod show;
 mod surface_interface;

@@ -2,6 +2,7 @@
 
 use super::calibrating::Calibrating;
 use super::place::{attributes, filling, fit};
+use super::room_interface::RoomInterface;
 use super::server_loss;
 use super::surface_interface::SurfaceInterface;
 use super::window_surface::WindowSurface;
@@ -14,6 +15,7 @@ use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
+use glam::DVec2;
 use hardware::{DESK, WINDOW};
 use interface::MenuPage;
 use presentation::Presentation;
@@ -58,6 +60,11 @@ pub struct Open {
     pub(super) presentation: Presentation,
     /// How a fresh ride is shown, which a kiosk returns to.
     pub(super) fresh: Presentation,
+    /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
+    pub(super) room_interface: Option<RoomInterface>,
+    /// Window and pixel of the mouse, and true while its left button is held.
+    pub(super) pointed: Option<(usize, DVec2)>,
+    pub(super) mouse_pressed: bool,
     /// Page of the menu.
     pub(super) page: MenuPage,
     /// True in a kiosk.
@@ -171,6 +178,13 @@ impl Open {
             }
         };
         let fresh = presentation;
+        let room_interface = match &canvas {
+            Canvas::Room(walls) => Some(&walls.display),
+            Canvas::Preview(room) => Some(&room.walls.display),
+            Canvas::Picture(_) => None,
+        };
+        let room_interface = room_interface.filter(|display| display.channels.len() > 1);
+        let room_interface = room_interface.map(|display| RoomInterface::new(&gpu, display));
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
         let screens: Vec<_> = surfaces.iter().map(screen).collect();
@@ -184,6 +198,9 @@ impl Open {
             canvas,
             presentation: fresh,
             fresh,
+            room_interface,
+            pointed: None,
+            mouse_pressed: false,
             page: MenuPage::default(),
             kiosk,
             leaves: false,

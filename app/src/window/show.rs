@@ -1,10 +1,13 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
+use super::room_interface::{self, Shown};
 use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
-use input::{Action, Sample};
+use input::{Action, SECOND, Sample};
+use interface::{MenuRide, Readings};
+use presentation::Presentation;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -54,9 +57,10 @@ impl Open {
         let readings = readings::readings(&self.ride, shown.language, self.kiosk);
         let is_flat = matches!(self.canvas, Canvas::Picture(_));
         let menu = shown.menu.then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
+        let mut wanted = self.draw_room_interface(&shown, &readings, menu.as_ref());
+        let is_flat = self.room_interface.is_none();
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let (page, kiosk) = (&mut self.page, self.kiosk);
-        let mut wanted = Vec::new();
         for (number, texture) in &screens {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -70,13 +74,13 @@ impl Open {
                         calibrating::show(ui, calibrating);
                         return;
                     }
-                    if shown.readings {
+                    if shown.readings && is_flat {
                         interface::show_readings(ui, &readings);
                     }
-                    if let Some(menu) = &menu {
+                    if let Some(menu) = menu.as_ref().filter(|_| is_flat) {
                         wanted.extend(interface::menu_window(ui, page, &shown, menu));
                     }
-                    if shown.help && !interface::show_help(ui, shown.language, kiosk) {
+                    if shown.help && is_flat && !interface::show_help(ui, shown.language, kiosk) {
                         wanted.push(Action::ToggleHelp);
                     }
                     if kiosk {
@@ -117,5 +121,29 @@ impl Open {
             self.in_step.answer(number, answer);
         }
         Ok(())
+    }
+
+    /// Draws the sheets of a room's interface. Returns the actions that were chosen on them.
+    fn draw_room_interface(
+        &mut self,
+        presentation: &Presentation,
+        readings: &Readings,
+        menu: Option<&MenuRide>,
+    ) -> Vec<Action> {
+        let (Some(interface), Some(walls)) = (&mut self.room_interface, self.canvas.walls_mut()) else {
+            return Vec::new();
+        };
+        // The wand of a recorded rider has chosen already.
+        let frame = self.ride.frame.as_ref().filter(|_| !self.ride.live.is_recorded());
+        let wand = frame.and_then(|frame| frame.controls.wand.as_deref()).and_then(room_interface::of_wand);
+        let mouse = || {
+            let (window, pixel) = self.pointed?;
+            room_interface::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
+        };
+        let now_s = self.ride.live.now() as f64 / SECOND as f64;
+        let shown = Shown { presentation, readings, menu, now_s };
+        let (sheets, actions) = interface.draw(&self.gpu, &shown, &mut self.page, wand.or_else(mouse));
+        walls.sheets = sheets;
+        actions
     }
 }
