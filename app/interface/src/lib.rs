@@ -11,8 +11,8 @@ mod menu;
 mod menu_pages;
 mod notices;
 
-pub use drawn_sheet::{DrawnSheet, SheetPointer};
+pub use drawn_sheet::{DrawnSheet, SheetPointer, key_events};
 pub use help::show as show_help;
-pub use hud::{Readings, show as show_readings};
-pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, window as menu_window};
+pub use hud::{Readings, pace_line, show as show_readings, speed_line};
+pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, show as menu_contents, window as menu_window};
 pub use notices::notice;

@@ -88,6 +88,9 @@ pub struct RideOptions {
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
+    /// Open a window for an operator beside those of the audience: menu, devices, pace, and a copy of the picture.
+    #[arg(long, help_heading = "Session")]
+    pub operator: bool,
     /// Language of everything that is written in the picture: en or de [default: that of the settings, else that of the
     /// system].
     #[arg(long, value_name = "LANGUAGE", help_heading = "Session")]

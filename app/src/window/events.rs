@@ -19,6 +19,12 @@ impl Open {
     /// # Errors
     /// A fault while riding.
     pub fn event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) -> Result<(), Error> {
+        if let Some(operator) = self.operator.as_mut().filter(|operator| operator.is(window)) {
+            if operator.event(&self.gpu, &event) {
+                self.operator = None;
+            }
+            return Ok(());
+        }
         let Some(number) = self.windows.iter().position(|surface| surface.window.id() == window) else { return Ok(()) };
         // While corners are moved, no slider takes the keys.
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
@@ -46,6 +52,7 @@ impl Open {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
                         self.ride.live.touch();
+                        self.entered |= code == KeyCode::Enter && self.room_interface.is_none();
                     }
                     // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
                     if !(taken && pressed) {

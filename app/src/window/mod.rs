@@ -14,6 +14,7 @@ mod calibrating;
 mod events;
 mod keys;
 mod open;
+mod operator;
 mod photo;
 mod place;
 mod readings;

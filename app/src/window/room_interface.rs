@@ -45,6 +45,8 @@ pub struct Shown<'a> {
     pub readings: &'a Readings,
     /// State that the menu shows, while it is open.
     pub menu: Option<&'a MenuRide>,
+    /// Keys of the menu that were pressed since the last picture.
+    pub keys: &'a [egui::Key],
     /// Time, seconds.
     pub now_s: f64,
 }
@@ -107,15 +109,17 @@ impl RoomInterface {
         page: &mut MenuPage,
         ray: Option<PointerRay>,
     ) -> (Vec<RoomSheet>, Vec<Action>) {
-        let Shown { presentation, readings, menu, now_s } = *shown;
+        let Shown { presentation, readings, menu, keys, now_s } = *shown;
         let (mut sheets, mut actions) = (Vec::new(), Vec::new());
         if presentation.readings {
-            self.readings.drawn.draw(gpu, now_s, SheetPointer::default(), |ui| interface::show_readings(ui, readings));
+            self.readings
+                .drawn
+                .draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| interface::show_readings(ui, readings));
             sheets.push(self.readings.sheet(self.head_m));
         }
         if presentation.help {
             let language = presentation.language;
-            self.help.drawn.draw(gpu, now_s, SheetPointer::default(), |ui| {
+            self.help.drawn.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
                 interface::show_help(ui, language, readings.kiosk);
             });
             sheets.push(self.help.sheet(self.head_m));
@@ -124,7 +128,7 @@ impl RoomInterface {
         let hit = ray.and_then(|ray| self.menu.met(self.head_m, &ray));
         let pointer =
             SheetPointer { place: hit.map(|hit| hit.place.to_array()), pressed: ray.is_some_and(|ray| ray.pressed) };
-        self.menu.drawn.draw(gpu, now_s, pointer, |ui| {
+        self.menu.drawn.draw(gpu, now_s, (pointer, keys), |ui| {
             actions.extend(interface::menu_sheet(ui, page, presentation, menu));
         });
         sheets.push(self.menu.sheet(self.head_m));

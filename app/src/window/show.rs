@@ -1,6 +1,7 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
+use super::operator::Operated;
 use super::room_interface::{self, Shown};
 use super::{calibrating, readings};
 use crate::canvas::Canvas;
@@ -56,9 +57,15 @@ impl Open {
         // Light to the windows, and the interface over the first.
         let readings = readings::readings(&self.ride, shown.language, self.kiosk);
         let is_flat = matches!(self.canvas, Canvas::Picture(_));
-        let menu = shown.menu.then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
-        let mut wanted = self.draw_room_interface(&shown, &readings, menu.as_ref());
+        let has_operator = self.operator.is_some();
+        let menu = (shown.menu || has_operator)
+            .then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
+        let keys = std::mem::take(&mut self.menu_keys);
+        let mut wanted = self.draw_room_interface(&shown, &readings, menu.as_ref().filter(|_| shown.menu), &keys);
         let is_flat = self.room_interface.is_none();
+        if is_flat {
+            self.interface.press(keys);
+        }
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let (page, kiosk) = (&mut self.page, self.kiosk);
         for (number, texture) in &screens {
@@ -77,7 +84,7 @@ impl Open {
                     if shown.readings && is_flat {
                         interface::show_readings(ui, &readings);
                     }
-                    if let Some(menu) = menu.as_ref().filter(|_| is_flat) {
+                    if let Some(menu) = menu.as_ref().filter(|_| is_flat && shown.menu) {
                         wanted.extend(interface::menu_window(ui, page, &shown, menu));
                     }
                     if shown.help && is_flat && !interface::show_help(ui, shown.language, kiosk) {
@@ -93,6 +100,11 @@ impl Open {
         }
         for action in wanted {
             self.ride.live.say(|at| Sample::action(at, &action));
+        }
+        if let (Some(operator), Some(menu)) = (&mut self.operator, &menu) {
+            let operated = Operated { presentation: &shown, readings: &readings, menu };
+            let chosen = operator.draw(&self.gpu, &mut self.canvas, &operated)?;
+            self.operate(chosen);
         }
         // Everything is drawn before anything is presented, so that nothing comes between the presents.
         if screens.len() > 1 {
@@ -129,6 +141,7 @@ impl Open {
         presentation: &Presentation,
         readings: &Readings,
         menu: Option<&MenuRide>,
+        keys: &[egui::Key],
     ) -> Vec<Action> {
         let (Some(interface), Some(walls)) = (&mut self.room_interface, self.canvas.walls_mut()) else {
             return Vec::new();
@@ -141,7 +154,7 @@ impl Open {
             room_interface::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
         };
         let now_s = self.ride.live.now() as f64 / SECOND as f64;
-        let shown = Shown { presentation, readings, menu, now_s };
+        let shown = Shown { presentation, readings, menu, keys, now_s };
         let (sheets, actions) = interface.draw(&self.gpu, &shown, &mut self.page, wand.or_else(mouse));
         walls.sheets = sheets;
         actions
