@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 27] = [
+const PLAN: [(&str, &[&str]); 28] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -34,6 +34,7 @@ const PLAN: [(&str, &[&str]); 27] = [
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
+    ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
     ("words", &[]),
     ("presentation", &["input", "render", "view", "words"]),
