@@ -41,11 +41,7 @@ impl HandKind {
         let times = (0..5).map(|quarter| f64::from(quarter) * self.round_s() / 4.0).collect();
         let keys = TrackKeys::slerp(times, quarters.to_vec()).expect("times ascend, and quarters are rotations");
         let keys = keys.repeating([0.0, self.round_s()], quarters[4]);
-        Keyed {
-            translation: Track::Fixed(DVec3::ZERO),
-            rotation: Track::Keyed(keys),
-            scale: Track::Fixed(DVec3::ONE),
-        }
+        Keyed { translation: Track::Fixed(DVec3::ZERO), rotation: Track::Keyed(keys), scale: Track::Fixed(DVec3::ONE) }
     }
 
     /// Shape of the hand on a dial of this radius, metres: it points up, in front of the dial.

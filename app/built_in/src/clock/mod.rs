@@ -4,4 +4,5 @@ mod clock_face;
 mod hand;
 
 pub(crate) use clock_face::ClockFace;
+pub(crate) use hand::HandKind;
 pub use hand::{ROUND_S, ROUNDS_S};

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::canvas::PaintCanvas;
-use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
+use super::paint::{dial, ground_floors, masonry, nature, signs, timber, tracery};
 use super::pictures::TownPicture;
 use scene::{Alpha, Material, Texture, Wrap};
 
@@ -165,7 +165,7 @@ impl TownSurface {
             TownSurface::Awning => Recipe { picture: square(256, signs::awning), double_sided: true, ..plain },
             TownSurface::Produce => Recipe { picture: square(512, nature::produce), ..plain },
             TownSurface::Signs => Recipe { picture: square(512, signs::signs), double_sided: true, ..plain },
-            TownSurface::Clock => Recipe { picture: square(512, signs::clock), wrap: clamped, ..plain },
+            TownSurface::Clock => Recipe { picture: square(512, dial::dial), wrap: clamped, ..plain },
             TownSurface::Lancet => Recipe {
                 picture: Some(Box::new(|seed| tracery::lancet([512, 1024], tracery::LANCET, seed))),
                 ..cut_out
