@@ -42,7 +42,7 @@ const PIPS: [&[(f32, f32)]; 6] = [
 
 /// Crossing file of dice: speed as a fraction of c (positive to the right), place along z, time at which the first
 /// one crosses the road, time between two, seconds, and their number.
-const CROSSINGS: [(f64, f32, f64, f64, u32); 2] = [(0.9, -12.0, 5.0, 9.0, 7), (-0.6, -44.0, 9.0, 11.0, 6)];
+const CROSSINGS: [(f64, f32, f64, f64, u32); 2] = [(0.9, -12.0, 3.0, 9.0, 7), (-0.6, -44.0, 5.0, 11.0, 6)];
 
 /// Outward normals of a die's faces and the pips on each; dice differ by a turn about the upright axis.
 pub fn faces(turn: u32) -> [(Vec3, usize); 6] {
@@ -52,14 +52,23 @@ pub fn faces(turn: u32) -> [(Vec3, usize); 6] {
     [front, right, back, left, (Vec3::Y, 3), (Vec3::NEG_Y, 4)]
 }
 
+/// Index of the material of flying dice.
+const LUMINOUS: usize = 1;
+
+/// Share of light on the face of a luminous die, so that its edges are seen.
+fn shade(normal: Vec3) -> f32 {
+    0.75 + 0.2 * normal.y + 0.08 * normal.z - 0.06 * normal.x
+}
+
 /// Adds a die about `centre`.
-fn die(shape: &mut Shape, centre: Vec3, edge: f32, number: u32) {
+fn die(shape: &mut Shape, centre: Vec3, edge: f32, number: u32, shade: fn(Vec3) -> f32) {
     let (body, ink) = COLOURS[number as usize % COLOURS.len()];
     let half = edge / 2.0;
     for (normal, pips) in faces(number) {
         let up = if normal.y == 0.0 { Vec3::Y } else { Vec3::NEG_Z };
         let right = up.cross(normal);
         let middle = centre + normal * half;
+        let [body, ink] = [body, ink].map(|colour| colour.map(|channel| channel * shade(normal)));
         shape.patch(middle - (right + up) * half, right * edge, up * edge, body);
         let size = half * if pips == 1 { 0.26 } else { 0.19 };
         for (x, y) in PIPS[pips - 1] {
@@ -97,13 +106,17 @@ pub fn build() -> Scene {
     let mut row = Shape::new("dice", 0, true);
     for number in 0..COUNT {
         let z = -SPACING_M * number as f32;
-        die(&mut row, vec3(-ASIDE_M, EDGE_M / 2.0, z), EDGE_M, number);
-        die(&mut row, vec3(ASIDE_M, EDGE_M / 2.0, z), EDGE_M, number + 2);
+        die(&mut row, vec3(-ASIDE_M, EDGE_M / 2.0, z), EDGE_M, number, |_| 1.0);
+        die(&mut row, vec3(ASIDE_M, EDGE_M / 2.0, z), EDGE_M, number + 2, |_| 1.0);
     }
 
     let mut scene = Scene {
         name: "dice".to_owned(),
-        materials: vec![Material { name: "painted".to_owned(), ..Material::default() }],
+        // Flying dice are luminous: in their own frame the sun would come from ahead, many times as bright.
+        materials: vec![
+            Material { name: "painted".to_owned(), ..Material::default() },
+            Material { name: "luminous".to_owned(), unlit: true, ..Material::default() },
+        ],
         meshes: vec![country.finish(None), road.finish(None), row.finish(None)],
         light: open_country::daylight(),
         start: Start { position: DVec3::Z * 10.0, ..Start::default() },
@@ -127,10 +140,10 @@ fn flying(number: usize, (beta, z, first_s, every_s, count): (f64, f32, f64, f64
     let anchor = Event { ct: first_s * SPEED_OF_LIGHT_M_S, position };
     // Their distance in their own frame is longer by γ than in the world.
     let apart = celerity.gamma() * beta * every_s * SPEED_OF_LIGHT_M_S;
-    let mut shape = Shape::new(&format!("flying dice {}", number + 1), 0, false);
+    let mut shape = Shape::new(&format!("flying dice {}", number + 1), LUMINOUS, false);
     for follower in 0..count {
         let behind = (-f64::from(follower) * apart) as f32;
-        die(&mut shape, vec3(behind, height, z), EDGE_M, 3 + 2 * number as u32 + follower);
+        die(&mut shape, vec3(behind, height, z), EDGE_M, 3 + 2 * number as u32 + follower, shade);
     }
     (shape.finish(None), Motion::Uniform(Uniform { celerity, anchor }))
 }

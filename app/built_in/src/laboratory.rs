@@ -114,7 +114,11 @@ pub fn build() -> Scene {
 
     let mut scene = Scene {
         name: "laboratory".to_owned(),
-        materials: vec![Material { name: "painted".to_owned(), ..Material::default() }],
+        // The moving ones are luminous: in their own frame the room's light comes from ahead, hundreds of times as bright.
+        materials: vec![
+            Material { name: "painted".to_owned(), ..Material::default() },
+            Material { name: "luminous".to_owned(), unlit: true, ..Material::default() },
+        ],
         meshes: vec![room.finish(None), resting.finish(None)],
         light: Lighting {
             sun_direction: vec3(-0.35, 0.75, 0.6).normalize(),
@@ -148,7 +152,7 @@ fn passing(scene: &mut Scene, name: &str, beta: f64, [first_s, every_s]: [f64; 2
     let anchor = Event { ct: first_s * SPEED_OF_LIGHT_M_S, position };
     // Their distance in their own frame is longer by γ than in the world.
     let apart = celerity.gamma() * beta * every_s * SPEED_OF_LIGHT_M_S;
-    let mut shape = Shape::new(name, 0, false);
+    let mut shape = Shape::new(name, 1, false);
     for follower in 0..COUNT {
         body(&mut shape, vec3((-f64::from(follower) * apart) as f32, HEIGHT_M, 0.0));
     }

@@ -29,7 +29,7 @@ impl ClockFace {
             let mesh = kind.mesh(self.radius, material);
             let name = format!("{}: {}", self.name.english, mesh.name);
             let hung = Animated::new(name.clone(), vec![self.hung(), ChainLink::Keyed(kind.turn())]);
-            let animated = self.motion.into_iter().fold(hung, Animated::aboard);
+            let animated = self.motion.into_iter().fold(hung.as_clockwork(), Animated::aboard);
             scene.meshes.push(Mesh { name, motion: Some(scene.motions.len()), ..mesh });
             scene.motions.push(Motion::Animated(Arc::new(animated)));
         }

@@ -30,6 +30,8 @@ pub struct Animated {
     pub(crate) ball: Ball,
     /// Motion of the frame in which the chain begins; `None` for the world.
     carrier: Option<Uniform>,
+    /// True for clockwork, see [`Animated::as_clockwork`].
+    is_clockwork: bool,
 }
 
 /// Transform of a chain.
@@ -119,13 +121,27 @@ impl Animated {
     /// Makes a body of this name at the end of a chain.
     pub fn new(name: impl Into<String>, links: Vec<ChainLink>) -> Self {
         let (speed_of_light_m_s, ball) = (SPEED_OF_LIGHT_M_S, Ball::default());
-        Self { name: name.into(), links, speed_of_light_m_s, ball, carrier: None }
+        Self { name: name.into(), links, speed_of_light_m_s, ball, carrier: None, is_clockwork: false }
     }
 
     /// Body whose chain begins in the frame of a uniformly moving object. Keys are then times of that frame, which
     /// shows the world's time at the anchor.
     pub fn aboard(self, carrier: Uniform) -> Self {
         Self { carrier: Some(carrier), ..self }
+    }
+
+    /// Small, slow, luminous body that shows its side +z, as the hand of a clock on a wall.
+    ///
+    /// A map of the world then holds it, in the pose that is exact at four of its points ([`Animated::pose_seen`]), so
+    /// it costs next to nothing. What is left out there is the shift of its light by its own speed; other ways of
+    /// drawing have it.
+    pub fn as_clockwork(self) -> Self {
+        Self { is_clockwork: true, ..self }
+    }
+
+    /// True for a small, slow, luminous body that shows its side +z.
+    pub fn is_clockwork(&self) -> bool {
+        self.is_clockwork
     }
 
     /// Motion of the frame in which the chain begins; `None` for the world.
