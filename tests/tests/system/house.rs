@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 24] = [
+const PLAN: [(&str, &[&str]); 25] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -35,6 +35,7 @@ const PLAN: [(&str, &[&str]); 24] = [
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
     ("kiosk", &["input", "ride"]),
+    ("tours", &["input", "regular_file", "ride", "scene", "view"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
