@@ -6,6 +6,7 @@
 //! there. `built_in` holds the tours of the program.
 
 mod built_in;
+mod change;
 mod plan;
 mod player;
 mod rider;
@@ -13,7 +14,10 @@ mod tour_error;
 mod tour_file;
 
 pub use built_in::{BUILT_IN, built_in};
-pub use plan::{StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourStation, TourText, TourView};
-pub use player::{TourChange, TourPlayer, TourStep};
+pub use change::{TourChange, TourShown};
+pub use plan::{
+    StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
+};
+pub use player::{TourPlayer, TourStep};
 pub use tour_error::{PlayError, TourError};
 pub use tour_file::{LARGEST_BYTES, parse, read};

@@ -1,24 +1,13 @@
 //! Player of a tour: a pure function of time and of the vehicle.
 
-use crate::plan::{StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourText, TourView};
+use crate::change::TourChange;
+use crate::plan::{StationRide, TourAnswer, TourPlan, TourQuestion, TourText};
 use crate::rider::Rider;
 use crate::tour_error::PlayError;
 use glam::DVec3;
 use input::{Action, DeskConfig, Nanos, SECOND, Sample};
 use ride::Vehicle;
 use std::sync::Arc;
-use view::Effects;
-
-/// Change of what is shown, at the beginning of a station.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TourChange {
-    /// Effects from now on.
-    Effects(Effects),
-    /// View from now on.
-    View(TourView),
-    /// Instruments from now on, and no others.
-    Show(Vec<TourPanel>),
-}
 
 /// Output of the player for one frame.
 #[derive(Clone, Debug, Default, PartialEq)]
