@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 28] = [
+const PLAN: [(&str, &[&str]); 29] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -36,6 +36,7 @@ const PLAN: [(&str, &[&str]); 28] = [
     ("ride", &["input", "physics", "scene", "view"]),
     ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
+    ("tours", &["input", "regular_file", "ride", "scene", "view"]),
     ("words", &[]),
     ("presentation", &["input", "render", "view", "words"]),
     ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
