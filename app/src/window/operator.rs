@@ -5,7 +5,8 @@ use super::surface_interface::SurfaceInterface;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
-use egui::{Image, RichText, ScrollArea, SidePanel, Ui, load::SizedTexture};
+use egui::load::SizedTexture;
+use egui::{Image, Panel, RichText, ScrollArea, Ui};
 use input::Action;
 use interface::{MenuPage, MenuRide, Readings};
 use presentation::Presentation;
@@ -106,7 +107,7 @@ impl Operator {
         let size = [target.texture.width(), target.texture.height()];
         let (page, copy) = (&mut self.page, self.copy.as_ref());
         self.interface.draw(gpu, &self.surface.window, &mut encoder, &screen, size, |ui| {
-            SidePanel::right("audience").exact_width(COPY_WIDTH + 20.0).show_inside(ui, |ui| audience(ui, copy, shown));
+            Panel::right("audience").exact_size(COPY_WIDTH + 20.0).show(ui, |ui| audience(ui, copy, shown));
             ScrollArea::vertical().show(ui, |ui| {
                 actions.extend(interface::menu_contents(ui, page, shown.presentation, shown.menu));
             });

@@ -70,6 +70,11 @@ impl FlatPicture {
         }
     }
 
+    /// Width and height of the window's picture, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// Changes the size of the window, pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
         if self.size != size {
