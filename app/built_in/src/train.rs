@@ -8,7 +8,7 @@ use crate::clock::ClockFace;
 use crate::clock::HandKind;
 use crate::open_country;
 use crate::shape::{FaceColour, Shape};
-use crate::town;
+use crate::town::paint::dial as dial_paint;
 use crate::turn::circle;
 use glam::{DVec3, Vec2, Vec3, vec2, vec3};
 use physics::{Beta, Event};
@@ -81,7 +81,7 @@ fn motion(train: usize) -> Uniform {
 }
 
 fn dial_texture() -> Texture {
-    let picture = town::dial_picture(512);
+    let picture = dial_paint::picture(512);
     let (width, height, rgba) = (picture.width, picture.height, picture.rgba);
     Texture { name: "dial".to_owned(), width, height, rgba, wrap: [Wrap::Clamp; 2], nearest: false }
 }

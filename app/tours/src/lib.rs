@@ -10,6 +10,7 @@ mod change;
 mod plan;
 mod player;
 mod rider;
+mod subtitles;
 mod tour_error;
 mod tour_file;
 
@@ -19,5 +20,6 @@ pub use plan::{
     StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
 };
 pub use player::{TourPlayer, TourStep};
+pub use subtitles::Subtitles;
 pub use tour_error::{PlayError, TourError};
 pub use tour_file::{LARGEST_BYTES, parse, read};

@@ -5,6 +5,7 @@ mod aberration_twin;
 mod adaptive;
 mod animated;
 mod camera;
+mod clocks;
 mod coarser_rooms;
 mod colour;
 mod directions;

@@ -8,11 +8,10 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
-use super::masonry::disc;
 use super::surface::TownSurface;
 use crate::clock::ClockFace;
 use crate::turn::circle;
-use scene::{LocalName, Mesh};
+use scene::Mesh;
 
 /// Linear colour that multiplies a surface's picture.
 pub(super) type Tint = Vec3;
@@ -89,13 +88,6 @@ impl Builder {
             self.districts.push(name.into());
             self.districts.len() - 1
         });
-    }
-
-    /// Adds the dial of a clock, for hands to turn before it. `frame` lies in its middle.
-    pub(super) fn clock(&mut self, name: LocalName, frame: &SiteFrame, radius: f32) {
-        disc(self, TownSurface::Clock, frame, radius);
-        let SiteFrame { origin: centre, right, out, .. } = *frame;
-        self.clocks.push(ClockFace { name, centre, right, out, radius, motion: None });
     }
 
     /// Finished meshes, in the order of districts and surfaces.

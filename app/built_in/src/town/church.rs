@@ -3,7 +3,7 @@
 use glam::{Vec3, vec3};
 
 use super::builder::{Builder, SiteFrame};
-use super::masonry::panel;
+use super::masonry::{clock, panel};
 use super::paint::tracery::{LANCET, PORTAL};
 use super::roof::Roof;
 use super::surface::TownSurface;
@@ -73,7 +73,7 @@ fn tower(builder: &mut Builder, frame: &SiteFrame) {
         }
         let side = [("front", "vorn"), ("right", "rechts"), ("back", "hinten"), ("left", "links")][quarter];
         let name = LocalName::new(format!("church clock, {}", side.0), format!("Kirchenuhr, {}", side.1));
-        builder.clock(name, &face.at(0.0, 23.75, 0.03), 1.85);
+        clock(builder, name, &face.at(0.0, 23.75, 0.03), 1.85);
     }
     let front = frame.at(0.0, 0.0, half + 0.3);
     panel(builder, TownSurface::Portal, &front, [-PORTAL.x / 2.0, 0.0], PORTAL.to_array());

@@ -4,7 +4,7 @@ use glam::{Vec3, vec3};
 
 use super::builder::{Builder, SiteFrame};
 use super::facade::Bay;
-use super::masonry::{Arch, panel};
+use super::masonry::{Arch, clock, panel};
 use super::paint::timber;
 use super::surface::TownSurface;
 use scene::LocalName;
@@ -42,7 +42,7 @@ pub(super) fn build(builder: &mut Builder, frame: &SiteFrame, depth: f32) {
         }
         let side = if turn == 0.0 { ("near", "vorn") } else { ("far", "hinten") };
         let name = LocalName::new(format!("gate clock, {} side", side.0), format!("Toruhr, {}", side.1));
-        builder.clock(name, &face.at(0.0, 7.95, 0.08), 1.65);
+        clock(builder, name, &face.at(0.0, 7.95, 0.08), 1.65);
         builder.beam(TownSurface::Ashlar, Vec3::ONE, &face, vec3(-1.75, 6.0, 0.0), vec3(1.75, 6.2, 0.14));
     }
     arch.vault(builder, TownSurface::Rubble, stone, &frame.at(0.0, -0.1, half));

@@ -17,7 +17,7 @@ mod house;
 mod market;
 mod masonry;
 mod nature;
-mod paint;
+pub(crate) mod paint;
 mod pictures;
 mod plan;
 mod roof;
@@ -52,11 +52,6 @@ fn dice(seed: u64, part: u64) -> ChaCha8Rng {
 /// Paints the pictures on the town's surfaces. `painted` hears, on any thread, how many are finished, and of how many.
 pub fn paint_pictures(seed: u64, painted: impl Fn(usize, usize) + Sync) -> Vec<TownPicture> {
     surface::paint(seed as u32, painted)
-}
-
-/// Picture of a dial without hands, of `pixels` by `pixels`.
-pub(crate) fn dial_picture(pixels: usize) -> TownPicture {
-    paint::dial::dial([pixels; 2], Vec2::ONE, TOWN_SEED as u32).finish()
 }
 
 /// Builds the old town, its pictures painted anew.

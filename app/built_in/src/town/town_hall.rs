@@ -7,7 +7,7 @@ use super::builder::{Builder, SiteFrame};
 use super::facade::Bay;
 use super::furniture;
 use super::house::linear;
-use super::masonry::{Arch, stepped_gable, window_panel};
+use super::masonry::{Arch, clock, stepped_gable, window_panel};
 use super::paint::{ground_floors, timber};
 use super::roof::{Roof, dormer};
 use super::surface::TownSurface;
@@ -102,7 +102,7 @@ pub(super) fn build(builder: &mut Builder, frame: &SiteFrame, width: f32) {
     let gable = frame.at(width / 2.0, eaves, 0.12);
     stepped_gable(builder, TownSurface::Plaster, wall, &gable, half, height, 6);
     let name = LocalName::new("town hall clock", "Rathausuhr");
-    builder.clock(name, &gable.at(0.0, 3.85, 0.05), 1.45);
+    clock(builder, name, &gable.at(0.0, 3.85, 0.05), 1.45);
     for x in [-1.75, 0.55] {
         window_panel(builder, timber::TOWN_HALL, &gable.at(0.0, 0.0, 0.04), [x, 0.5], [1.2, 1.75]);
     }

@@ -81,7 +81,7 @@ impl MovingParts {
 /// but clockwork moves.
 fn moving_part(scene: &Scene) -> Option<Scene> {
     // Clockwork alone stands in the map.
-    if scene.motions.iter().all(|motion| motion.animated().is_some_and(|body| body.is_clockwork())) {
+    if scene.motions.iter().all(|motion| motion.animated().is_some_and(|body| body.stands_in_maps())) {
         return None;
     }
     let mut meshes: Vec<Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_some()).cloned().collect();

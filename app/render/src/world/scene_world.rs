@@ -163,8 +163,8 @@ impl World {
     /// Poses in which clockwork is seen, one for each motion; empty unless all that moves is clockwork. A body that is
     /// not seen has shrunk to nothing.
     pub fn clockwork(&self, observer: &Observer) -> Vec<DAffine3> {
-        let is_clockwork = |motion: &Option<Arc<Animated>>| motion.as_ref().is_some_and(|body| body.is_clockwork());
-        if !self.animated.iter().all(is_clockwork) {
+        let stands = |motion: &Option<Arc<Animated>>| motion.as_ref().is_some_and(|body| body.stands_in_maps());
+        if !self.animated.iter().all(stands) {
             return Vec::new();
         }
         let unseen = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };

@@ -144,6 +144,11 @@ impl Animated {
         self.is_clockwork
     }
 
+    /// True for clockwork that no carrier takes along: a map of the world holds it.
+    pub fn stands_in_maps(&self) -> bool {
+        self.is_clockwork && self.carrier.is_none()
+    }
+
     /// Motion of the frame in which the chain begins; `None` for the world.
     pub fn carrier(&self) -> Option<&Uniform> {
         self.carrier.as_ref()

@@ -1,7 +1,7 @@
 //! Law: a tour rides where it says by samples that pass through the real decoders, stops where it asks, goes on from
 //! there, and ends. A wrong program would leave the route, lose the tour at a pause, or run on while somebody reads.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, too, may fail the test")]
 
 use built_in::{dice, town};
 use glam::DVec3;
@@ -50,7 +50,7 @@ impl Ridden {
     }
 
     /// Goes on until the tour waits or is over; answers and goes on again. Returns the number of times it waited.
-    fn to_the_end(&mut self) -> usize {
+    fn end(&mut self) -> usize {
         let mut waited = 0;
         for _ in 0..FRAMES_PER_SECOND * 90 {
             self.go();
@@ -93,7 +93,7 @@ fn old_town() -> (&'static Scene, Arc<Collision>) {
 fn the_tour_of_the_town_follows_its_street_and_brings_the_effects_one_at_a_time() {
     let (scene, collision) = old_town();
     let mut ridden = Ridden::new(built_in("searchlight").unwrap(), scene, collision);
-    assert_eq!(ridden.to_the_end(), 1);
+    assert_eq!(ridden.end(), 1);
     let off = scene.circuit.windows(2).map(|pair| {
         let along =
             ((ridden.position() - pair[0]).dot(pair[1] - pair[0]) / pair[0].distance_squared(pair[1])).clamp(0.0, 1.0);
@@ -126,7 +126,7 @@ fn the_tour_of_the_dice_is_fast_while_it_shows_what_is_seen_and_what_is_measured
     assert!(celerity > 1.0, "{celerity}");
     let beside = ridden.position().z;
     assert!((-100.0..-40.0).contains(&beside), "{beside}");
-    ridden.to_the_end();
+    ridden.end();
     // Still on the road, beside the last dice or just behind them.
     let end = ridden.position();
     assert!(end.x.abs() < 0.5 && (-180.0..-80.0).contains(&end.z), "{end}");
@@ -163,7 +163,7 @@ fn the_tour_of_slow_light_speeds_up_waits_and_brakes() {
     }
     let fast = DVec3::from_array(ridden.last.as_ref().unwrap().record.celerity).length();
     assert!(fast > 0.9, "{fast}");
-    assert_eq!(ridden.to_the_end(), 2);
+    assert_eq!(ridden.end(), 2);
     let slow = DVec3::from_array(ridden.last.as_ref().unwrap().record.celerity).length();
     assert!(slow < 0.2, "{slow}");
 }
@@ -206,7 +206,7 @@ fn a_tour_repeats_to_the_bit() {
     let scene = dice::build();
     let ride = || {
         let mut ridden = Ridden::new(built_in("terrell").unwrap(), &scene, Arc::new(OpenPlane));
-        ridden.to_the_end();
+        ridden.end();
         ridden.position().to_array().map(f64::to_bits)
     };
     assert_eq!(ride(), ride());

@@ -1,6 +1,7 @@
 //! Dial of a clock: twelve numbers round a pale face, without hands, which turn before it.
 
 use crate::town::canvas::{ENDLESS, PaintCanvas, cloud, smoothstep};
+use crate::town::pictures::TownPicture;
 use crate::turn::circle;
 use glam::{Vec2, Vec3, vec2, vec3};
 
@@ -115,6 +116,11 @@ pub(in crate::town) fn dial(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintC
         put(r - 0.03, INK);
         colour
     })
+}
+
+/// Picture of a dial, of `pixels` by `pixels`, for scenes other than the town.
+pub(crate) fn picture(pixels: usize) -> TownPicture {
+    dial([pixels; 2], Vec2::ONE, 1).finish()
 }
 
 /// Distance from the strokes of a number of one or two digits about the origin, in heights of a digit.
