@@ -134,8 +134,10 @@ pub enum Action {
     ToggleHelp,
     /// Focus of the menu, moved by one control.
     Focus(FocusStep),
-    /// Goes on after a pause of a tour, or chooses what the pointer shows.
+    /// Goes on with a tour or stops it, or chooses what the pointer shows.
     Choose,
+    /// Answer to a tour's question, by its number from 0.
+    Answer(u8),
     /// Fills the monitors, or leaves them.
     ToggleFullScreen,
     /// Shows or hides the test grids of a room.

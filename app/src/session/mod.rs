@@ -13,4 +13,5 @@ pub mod preferences;
 pub mod reel;
 pub mod scenes;
 pub mod start;
+pub mod tour_ride;
 pub mod tracker;

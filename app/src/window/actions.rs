@@ -29,7 +29,13 @@ impl Open {
 
     fn perform(&mut self, actions: Vec<Action>) {
         for action in actions {
+            if !self.presentation.menu && self.ride.live.act_on_tour(&action) {
+                continue;
+            }
             match action {
+                Action::Answer(_) => {
+                    self.ride.live.act_on_tour(&action);
+                }
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Recentre => {
                     let told = self.ride.live.straightened();

@@ -12,6 +12,7 @@ mod application;
 mod calibrate;
 mod calibrating;
 mod events;
+mod guide;
 mod keys;
 mod open;
 mod operator;

@@ -1,6 +1,7 @@
 //! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
+use super::guide::Guide;
 use super::operator::Operator;
 use super::place::{attributes, filling, fit};
 use super::room_interface::RoomInterface;
@@ -63,6 +64,8 @@ pub struct Open {
     pub(super) presentation: Presentation,
     /// How a fresh ride is shown, which a kiosk returns to.
     pub(super) fresh: Presentation,
+    /// What explains the ride.
+    pub(super) guide: Guide,
     /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
     pub(super) room_interface: Option<RoomInterface>,
     /// Window and pixel of the mouse, and true while its left button is held.
@@ -158,6 +161,7 @@ impl Open {
 
         let format = Format::fast(options.samples(gpu.is_software()));
         let dial = options.dial(gpu.is_software());
+        let guide = Guide::new(&scene);
         let spinner = progress::cutting(dial);
         let start = scene.start;
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
@@ -209,6 +213,7 @@ impl Open {
             canvas,
             presentation: fresh,
             fresh,
+            guide,
             room_interface,
             pointed: None,
             mouse_pressed: false,

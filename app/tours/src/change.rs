@@ -24,6 +24,17 @@ pub struct TourShown {
     pub panels: Vec<TourPanel>,
 }
 
+impl TourShown {
+    /// Takes a change over.
+    pub fn take(&mut self, change: &TourChange) {
+        match change {
+            TourChange::Effects(_) => {}
+            TourChange::View(view) => self.view = *view,
+            TourChange::Show(panels) => self.panels.clone_from(panels),
+        }
+    }
+}
+
 /// Views in the order in which one action leads from each to the next.
 const VIEWS: [TourView; 3] = [TourView::Seen, TourView::Measured, TourView::Instant];
 /// Instruments that have a switch, each with it.
