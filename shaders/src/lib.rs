@@ -22,9 +22,9 @@ pub use constants::{
 };
 pub use layout::{
     AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, LightingUniforms, MapUniforms, MaterialUniforms,
-    MeteringUniforms, PlacementUniforms, RoomViewUniforms, ViewUniforms,
+    MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
 };
 pub use modules::{
-    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW, SKY,
-    SURFACE, WARP,
+    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW, SHEET,
+    SKY, SURFACE, WARP,
 };

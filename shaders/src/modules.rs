@@ -77,6 +77,8 @@ pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/r
 /// Linear light as a screen takes it.
 pub const ENCODED: Module =
     Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
+/// Module that draws a sheet in a room over a channel's picture.
+pub const SHEET: Module = Module { name: "sheet", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/sheet.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// Module that enlarges a finished picture to the size of its window.
@@ -86,5 +88,7 @@ pub const ENLARGE: Module = Module { name: "enlarge", files: &[FULLSCREEN, inclu
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 14] =
-    [SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE, PROBE];
+pub const MODULES: [Module; 15] = [
+    SHEET, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE,
+    PROBE,
+];

@@ -13,6 +13,7 @@ use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
 use crate::world::{World, gather};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec4};
+use physics::interpolation_error::TriangleInterpolation;
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
@@ -183,6 +184,27 @@ impl SceneRenderer {
     /// True if nothing in the scene moves, so that an observer at rest sees the same at all times.
     pub fn is_still(&self) -> bool {
         self.motions.is_empty()
+    }
+
+    /// True if nothing that moves can be seen in the picture of a shot, so that an observer at rest sees the same in it
+    /// at all times.
+    pub fn is_still_in(&self, shot: &Shot, size: [u32; 2]) -> bool {
+        let sides = Sides::of(&shot.camera, size, MARGIN_PIXELS);
+        let may_show = |motion: &Motion| {
+            let Some(body) = motion.animated().filter(|body| body.carrier().is_none()) else { return true };
+            let pose = body.at(shot.observer.event.ct);
+            let eye = shot.observer.event.position;
+            // Clockwork shows one side.
+            let behind = pose.world_from_body.matrix3.z_axis.dot(eye - pose.world_from_body.translation) < 0.0;
+            if body.is_clockwork() && behind {
+                return false;
+            }
+            let reach = body.reach(body.ball());
+            let celerity = if shot.effects.geometry { shot.observer.celerity } else { Celerity::ZERO };
+            let cone = TriangleInterpolation::new(celerity).cone(reach.centre - eye, reach.radius);
+            cone.is_none_or(|cone| sides.may_show(&cone))
+        };
+        !self.motions.iter().any(may_show)
     }
 
     /// Sets the texels of the map for each pixel, if the method has a map, and their shift, parts of a texel, from the

@@ -2,6 +2,8 @@
 //! head's tracker, live devices, interruption.
 
 #[cfg(test)]
+mod crossing_tests;
+#[cfg(test)]
 mod desk_tests;
 pub mod gaps;
 pub mod interrupt;

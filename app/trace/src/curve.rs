@@ -30,9 +30,9 @@ const CROSSING: Newton = Newton { tolerance: 4.0 * f64::EPSILON, most_steps: 100
 /// Path of one ray in the frame of a body.
 pub struct Curve<'a> {
     pub animated: &'a Animated,
-    /// Observer that sees the light; s = 0 is here.
+    /// Observer that sees the light, in the frame in which the body's chain begins; s = 0 is here.
     pub observer: &'a Observer,
-    /// Direction of sight, unit vector, world axes.
+    /// Direction of sight, unit vector, axes of that frame.
     pub direction: DVec3,
 }
 
@@ -47,7 +47,7 @@ pub struct CurveChord {
 impl Curve<'_> {
     /// Place y and its derivative y'.
     pub fn at(&self, s: f64) -> (DVec3, DVec3) {
-        let pose = self.animated.at(self.observer.event.ct - s);
+        let pose = self.animated.in_carrier(self.observer.event.ct - s);
         let body_from_world: DMat3 = pose.world_from_body.matrix3.inverse();
         let light = self.observer.event.position + self.direction * s - pose.world_from_body.translation;
         let place = body_from_world * light;
@@ -56,7 +56,7 @@ impl Curve<'_> {
 
     /// Distance of the light from the middle of a ball of the body, metres.
     fn distance(&self, ball: &Ball, s: f64) -> f64 {
-        let centre = self.animated.at(self.observer.event.ct - s).position(ball.centre);
+        let centre = self.animated.in_carrier(self.observer.event.ct - s).position(ball.centre);
         centre.distance(self.observer.event.position + self.direction * s)
     }
 
@@ -64,7 +64,7 @@ impl Curve<'_> {
     ///
     /// * `ball` — around the body, in its own frame.
     /// * `world_radius` — largest radius of that ball in the world.
-    /// * `reach` — a ball of the world that the body never leaves.
+    /// * `reach` — a ball of the chain's first frame that the body never leaves.
     pub fn first<T>(
         &self,
         after: f64,

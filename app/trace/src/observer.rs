@@ -21,7 +21,8 @@ pub struct ObserverInBodies {
 pub struct ObserverInBody {
     /// Position, metres relative to the scene's origin.
     pub position: DVec3,
-    /// Time of the observer in the body's frame, metres of light travel; for animated bodies, in the world's.
+    /// Time of the observer in the body's frame, metres of light travel; for animated bodies, in that in which their
+    /// chain begins.
     pub ct: f64,
     group_from_observer: DQuat,
     /// Delay of the light between body and observer.
@@ -127,15 +128,19 @@ impl ObserverInBody {
         Self { position: seen_by.position - scene.origin, ct, group_from_observer, delay }
     }
 
-    /// Observer for an animated body. Light is followed in the world; if light takes no time, the body is in one
-    /// pose.
+    /// Observer for an animated body. Light is followed in the frame in which its chain begins; if light takes no time,
+    /// the body is in one pose.
     fn of_animated(observer: &Observer, geometry: bool, animated: &Animated) -> Self {
-        let ct = observer.event.ct;
+        let own = animated.own_observer(observer);
+        let ct = own.event.ct;
+        if geometry {
+            let turn =
+                animated.carrier().map_or(DQuat::IDENTITY, |carrier| carrier.seen_by(observer).observer_from_group);
+            let delay = LightDelay::Travel(Aberration::new(own.celerity));
+            return Self { position: own.event.position, ct, group_from_observer: turn.conjugate(), delay };
+        }
         let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
         let of_observer = Aberration::new(observer.celerity);
-        if geometry {
-            return Self { position, ct, group_from_observer, delay: LightDelay::Travel(of_observer) };
-        }
         let pose = animated.as_seen(observer, false);
         let body_from_world = pose.world_from_body.inverse();
         let object = Aberration::new(animated.celerity(&pose));

@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 25] = [
+const PLAN: [(&str, &[&str]); 29] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -36,6 +36,10 @@ const PLAN: [(&str, &[&str]); 25] = [
     ("ride", &["input", "physics", "scene", "view"]),
     ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
+    ("tours", &["input", "regular_file", "ride", "scene", "view"]),
+    ("words", &[]),
+    ("presentation", &["input", "render", "view", "words"]),
+    ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
@@ -45,12 +49,14 @@ const PLAN: [(&str, &[&str]); 25] = [
             "built_in",
             "hardware",
             "input",
+            "interface",
             "kiosk",
             "measure",
             "panoramas",
             "physics",
             "picture_cache",
             "picture_files",
+            "presentation",
             "probe",
             "regular_file",
             "render",
@@ -61,6 +67,7 @@ const PLAN: [(&str, &[&str]); 25] = [
             "trace",
             "view",
             "walls",
+            "words",
         ],
     ),
 ];

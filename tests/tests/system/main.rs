@@ -19,6 +19,7 @@ mod moving;
 mod radiance;
 mod raytrace;
 mod resting;
+mod room_sheets;
 mod shadows;
 mod sky;
 mod sphere;

@@ -8,9 +8,11 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 
+use super::masonry::disc;
 use super::surface::TownSurface;
+use crate::clock::ClockFace;
 use crate::turn::circle;
-use scene::Mesh;
+use scene::{LocalName, Mesh};
 
 /// Linear colour that multiplies a surface's picture.
 pub(super) type Tint = Vec3;
@@ -76,6 +78,8 @@ pub(super) struct Builder {
     districts: Vec<String>,
     current: usize,
     meshes: BTreeMap<(usize, TownSurface), Mesh>,
+    /// Clocks whose dials have been added, without hands.
+    pub(super) clocks: Vec<ClockFace>,
 }
 
 impl Builder {
@@ -85,6 +89,13 @@ impl Builder {
             self.districts.push(name.into());
             self.districts.len() - 1
         });
+    }
+
+    /// Adds the dial of a clock, for hands to turn before it. `frame` lies in its middle.
+    pub(super) fn clock(&mut self, name: LocalName, frame: &SiteFrame, radius: f32) {
+        disc(self, TownSurface::Clock, frame, radius);
+        let SiteFrame { origin: centre, right, out, .. } = *frame;
+        self.clocks.push(ClockFace { name, centre, right, out, radius, motion: None });
     }
 
     /// Finished meshes, in the order of districts and surfaces.

@@ -39,7 +39,8 @@ impl<'a> SeenDraw<'a> {
             None => sight.towards(draw.centre).length(),
         };
         // Keys move the corners of animated bodies, and in a plain picture moving bodies are where they are now.
-        let known = sight.body.is_none() && (draw.motion.is_none() || source != VertexSource::Plain);
+        let resting = draw.motion.is_none() || sight.pose.is_some();
+        let known = sight.body.is_none() && (resting || source != VertexSource::Plain);
         let cone = |centre: DVec3, radius: f64| {
             let cone = sight.bend.cone(sight.towards(centre), radius)?.turned(sight.observer_from_group);
             Some(DirectionCone { radius_rad: cone.radius_rad + MARGIN_RAD, ..cone })

@@ -1,6 +1,6 @@
 //! Views of a scene's parts: how an observer sees the resting scene, a uniformly moving frame or an animated body.
 
-use glam::{DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Observer};
 
@@ -19,6 +19,9 @@ pub struct SeenFrom {
     pub observer_from_group: DQuat,
     /// Animated body and its observer; `None` for resting and uniformly moving meshes.
     pub body: Option<ObservedBody>,
+    /// Transform of the meshes' places to the frame of `place`, for bodies that are drawn in the pose in which they are
+    /// seen; `None` for all others.
+    pub pose: Option<DAffine3>,
 }
 
 impl SeenFrom {
@@ -34,6 +37,7 @@ impl SeenFrom {
             place: position - origin,
             observer_from_group: turn,
             body: None,
+            pose: None,
         };
         match motion.map(|motion| &motions[motion]) {
             Some(Motion::Uniform(uniform)) => {
@@ -52,7 +56,7 @@ impl SeenFrom {
     /// animated body: its retarded position in the world, or NaN if there is none.
     pub fn towards(&self, place: DVec3) -> DVec3 {
         match &self.body {
-            None => place - self.place,
+            None => self.pose.map_or(place, |pose| pose.transform_point3(place)) - self.place,
             Some(body) => {
                 let nowhere = DVec3::splat(f64::NAN);
                 body.seen(place).map_or(nowhere, |seen| seen.event.position - body.observer().event.position)

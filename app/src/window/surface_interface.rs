@@ -6,13 +6,13 @@ use winit::event::WindowEvent;
 use winit::window::Window;
 
 /// State of egui for one window.
-pub struct Interface {
+pub struct SurfaceInterface {
     context: egui::Context,
     state: egui_winit::State,
     renderer: Renderer,
 }
 
-impl Interface {
+impl SurfaceInterface {
     /// Creates the interface of a window whose surface has `format`.
     pub fn new(gpu: &Gpu, window: &Window, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
@@ -33,6 +33,21 @@ impl Interface {
     /// Offers an event to the panels first. Returns true if one of them took it.
     pub fn event(&mut self, window: &Window, event: &WindowEvent) -> bool {
         self.state.on_window_event(window, event).consumed
+    }
+
+    /// Presses and releases keys for the panels.
+    pub fn press(&mut self, keys: impl IntoIterator<Item = egui::Key>) {
+        self.state.egui_input_mut().events.extend(keys.into_iter().flat_map(interface::key_events));
+    }
+
+    /// Makes a texture known, so that it can be shown.
+    pub fn register(&mut self, gpu: &Gpu, view: &wgpu::TextureView) -> egui::TextureId {
+        self.renderer.register_native_texture(&gpu.device, view, wgpu::FilterMode::Linear)
+    }
+
+    /// Forgets a texture that was made known.
+    pub fn forget(&mut self, texture: egui::TextureId) {
+        self.renderer.free_texture(&texture);
     }
 
     /// Lays out and draws `contents` over the picture in `target`. `size` is the target's size in pixels, which may

@@ -1,0 +1,105 @@
+//! Actions that concern the program: what is shown, pictures, recordings, windows, the end.
+
+use super::open::Open;
+use super::photo;
+use crate::session::preferences::Preferences;
+use egui::Key;
+use input::{Action, FocusStep, Sample, Switch};
+
+impl Open {
+    /// Carries out the rider's actions that concern the program. Those of the ride itself have been performed already.
+    pub(super) fn carry_out(&mut self, actions: Vec<Action>) {
+        if self.ride.live.has_turned() {
+            self.presentation = self.fresh;
+        }
+        let kiosk = self.kiosk;
+        self.perform(actions.into_iter().filter(|action| !kiosk || is_for_visitors(action)).collect());
+    }
+
+    /// Passes the operator's actions on to the ride. What visitors of a kiosk may not do, the operator may.
+    pub(super) fn operate(&mut self, actions: Vec<Action>) {
+        let kiosk = self.kiosk;
+        let (of_ride, own): (Vec<_>, Vec<_>) =
+            actions.into_iter().partition(|action| !kiosk || is_for_visitors(action));
+        for action in of_ride {
+            self.ride.live.say(|at| Sample::action(at, &action));
+        }
+        self.perform(own);
+    }
+
+    fn perform(&mut self, actions: Vec<Action>) {
+        for action in actions {
+            match action {
+                Action::ToggleRecording => self.ride.live.toggle_recording(),
+                Action::Recentre => {
+                    let told = self.ride.live.straightened();
+                    self.ride.live.tell(told);
+                }
+                Action::NextTracking | Action::Tracking(_) => {
+                    let told = self.ride.live.tracking_told(self.presentation.language);
+                    self.ride.live.tell(told);
+                }
+                Action::Photo => {
+                    let development = self.presentation.development;
+                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
+                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                }
+                Action::PhotoSphere => {
+                    let Some(gaze) = self.ride.frame.as_ref().map(|frame| frame.gaze) else { continue };
+                    let renderer = &mut self.ride.renderer;
+                    let taken = photo::take_sphere(&self.gpu, renderer, self.format, &gaze, &self.presentation);
+                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                }
+                Action::Focus(step) if self.presentation.menu => self.menu_keys.push(match step {
+                    FocusStep::Left => Key::ArrowLeft,
+                    FocusStep::Right => Key::ArrowRight,
+                    FocusStep::Up => Key::ArrowUp,
+                    FocusStep::Down => Key::ArrowDown,
+                }),
+                Action::Choose if self.presentation.menu => {
+                    // A wand chooses where it points, and the panels of a window see its enter key.
+                    let points = self.ride.frame.as_ref().is_some_and(|frame| frame.controls.wand.is_some());
+                    if !std::mem::take(&mut self.entered) && !points {
+                        self.menu_keys.push(Key::Enter);
+                    }
+                }
+                Action::ToggleFullScreen => self.fill_monitors(),
+                Action::ToggleCalibration => self.calibrate(),
+                Action::Leave => self.leaves = true,
+                _ => {
+                    let language = self.presentation.language;
+                    if let Some(told) = self.presentation.act(&action) {
+                        self.ride.live.tell(told);
+                    }
+                    if self.presentation.language != language {
+                        self.keep_language();
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Open {
+    /// Keeps the language that the rider has chosen for the rides to come.
+    fn keep_language(&mut self) {
+        if let (false, Err(error)) = (self.kiosk, Preferences::save_language(self.presentation.language)) {
+            self.ride.live.tell(error.to_string());
+        }
+    }
+}
+
+/// True for an action that visitors of a kiosk have. They keep no files, change no settings and do not leave.
+fn is_for_visitors(action: &Action) -> bool {
+    !matches!(
+        action,
+        Action::ToggleRecording
+            | Action::Photo
+            | Action::PhotoSphere
+            | Action::Toggle(Switch::Menu)
+            | Action::ToggleFullScreen
+            | Action::ToggleCalibration
+            | Action::Scene(_)
+            | Action::Leave
+    )
+}
