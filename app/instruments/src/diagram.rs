@@ -3,11 +3,13 @@
 use egui::{Align2, Color32, CornerRadius, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use physics::Event;
 
-use crate::diagram_view::{DiagramFrame, DiagramView, PAST_SHARE};
+use crate::diagram_frame::DiagramFrame;
+use crate::diagram_view::{DiagramView, PAST_SHARE};
 use crate::figures::{AxisUnits, multiple, round_step, round_time};
 use crate::pen::{self, ACCENT, EVENT, FAINT, GRID, INK, LIGHT, NOW, Pen};
 use crate::spacetime_map::{DiagramPlace, SpacetimeMap};
-use crate::trail::{PresentMoment, Trail, TrailPoint};
+use crate::trail::{PresentMoment, Trail};
+use crate::trail_point::TrailPoint;
 use crate::words::InstrumentWords;
 
 /// Least distance of two grid lines, points.

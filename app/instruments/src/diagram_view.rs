@@ -2,29 +2,11 @@
 
 use physics::glam::{DMat3, DVec3};
 
+use crate::diagram_frame::DiagramFrame;
 use crate::spacetime_map::SpacetimeMap;
-use crate::trail::{PresentMoment, Trail, TrailPoint};
+use crate::trail::{PresentMoment, Trail};
+use crate::trail_point::TrailPoint;
 use physics::Observer;
-
-/// Frame of reference in which a diagram is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DiagramFrame {
-    /// Frame in which the world rests.
-    #[default]
-    World,
-    /// Frame in which the vehicle rests at present, a boost about the present event.
-    Vehicle,
-}
-
-impl DiagramFrame {
-    /// The other frame, for a key that switches.
-    pub fn other(self) -> Self {
-        match self {
-            Self::World => Self::Vehicle,
-            Self::Vehicle => Self::World,
-        }
-    }
-}
 
 /// Choice of the diagram's axis of space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,6 +6,7 @@
 //! worldline frame by frame. Everything up to the drawing is a pure function of the frames: a replay shows the same.
 
 mod diagram;
+mod diagram_frame;
 mod diagram_view;
 mod figures;
 mod line_clip;
@@ -18,16 +19,19 @@ mod spacetime_map;
 mod texture_mean;
 mod trail;
 mod trail_levels;
+mod trail_point;
 mod turn_plan;
 mod words;
 
 pub use diagram::diagram;
-pub use diagram_view::{DiagramAxis, DiagramFrame, DiagramView};
+pub use diagram_frame::DiagramFrame;
+pub use diagram_view::{DiagramAxis, DiagramView};
 pub use miniature::{PlanTexture, miniature};
 pub use miniature_view::{MapUp, MiniatureView};
 pub use plan_picture::{PlanArea, PlanPicture};
 pub use planner::planner;
 pub use spacetime_map::{DiagramPlace, SpacetimeMap};
-pub use trail::{PresentMoment, Trail, TrailEvent, TrailPoint, WatchedClock};
+pub use trail::{PresentMoment, Trail, TrailEvent, WatchedClock};
+pub use trail_point::TrailPoint;
 pub use turn_plan::{PlannedJourney, TurnPlan, felt_g};
 pub use words::InstrumentWords;

@@ -3,7 +3,7 @@
 use physics::glam::DVec3;
 use physics::{Boost, Event, FourVector, Observer};
 
-use crate::diagram_view::DiagramFrame;
+use crate::diagram_frame::DiagramFrame;
 
 /// Place in the diagram relative to the present event, metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,6 +6,7 @@ use physics::{Celerity, Event};
 use ride::{LightSpeed, RideFrame};
 
 use crate::trail_levels::TrailLevels;
+use crate::trail_point::TrailPoint;
 
 /// Least own time between two points, seconds.
 const SPACING_S: f64 = 0.05;
@@ -15,17 +16,6 @@ const MOST_EVENTS: usize = 32;
 /// coordinates, whose rounding it allows for.
 const JUMP_M: f64 = 0.05;
 const JUMP_SHARE: f64 = 1e-9;
-
-/// Point of the ride's worldline.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrailPoint {
-    /// Event, world frame.
-    pub event: Event,
-    /// Time on the vehicle's own clock, seconds.
-    pub own_s: f64,
-    /// True if a line begins here: at the start, and after a jump.
-    pub begins: bool,
-}
 
 /// Named event of a ride or a tour.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 
 use std::collections::VecDeque;
 
-use crate::trail::TrailPoint;
+use crate::trail_point::TrailPoint;
 
 /// Number of points of a level that stay.
 const SIZE: usize = 1024;

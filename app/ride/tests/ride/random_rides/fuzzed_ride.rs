@@ -16,8 +16,9 @@ use scene::{Scene, Surroundings};
 use super::devices::MadDevices;
 use super::streets::Streets;
 
-/// Least distance of a vehicle on the ground from a wall, metres: the reach of its body, save for rounding.
-const BODY_M: f64 = 0.39;
+/// Least distance of a vehicle on the ground from a wall, metres: the reach of its body, save for rounding and for a wall
+/// that begins where a wheel has been lifted.
+const BODY_M: f64 = 0.38;
 /// Greatest height of a vehicle above or below the ground, metres: a doorstep's, until its ramp is ridden.
 const OFF_GROUND_M: f64 = 0.5;
 /// Distance from walls that a start needs, metres.

@@ -5,7 +5,9 @@
 //! The example `random_rides` rides as many as it is told to.
 
 mod devices;
+#[allow(dead_code, reason = "the example tells more of a ride")]
 mod fuzzed_ride;
+#[allow(dead_code, reason = "the example tells more of the streets")]
 mod streets;
 
 use rayon::prelude::*;
