@@ -28,7 +28,10 @@ impl Open {
         let Some(number) = self.windows.iter().position(|surface| surface.window.id() == window) else { return Ok(()) };
         // While corners are moved, no slider takes the keys.
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
-        let taken = offered && self.interface.event(&self.windows[0].window, &event);
+        // The tabulator key shows the map; it does not walk through panels.
+        let is_tab = matches!(&event, WindowEvent::KeyboardInput { event, .. }
+            if event.physical_key == PhysicalKey::Code(KeyCode::Tab));
+        let taken = offered && !is_tab && self.interface.event(&self.windows[0].window, &event);
         match event {
             WindowEvent::CloseRequested if self.kiosk => {}
             WindowEvent::CloseRequested => events.exit(),

@@ -107,7 +107,11 @@ impl Guide {
         }
         if presentation.diagram {
             let size = fit(DIAGRAM);
-            let at = Pos2::new(screen.right() - MARGIN - size.x, bottom - size.y);
+            // The menu has the right side; the map, if it is shown, the left.
+            let beside_map = if presentation.miniature { MAP.x + MARGIN } else { 0.0 };
+            let left = screen.left() + MARGIN + beside_map;
+            let at_left = if presentation.menu { left } else { screen.right() - MARGIN - size.x };
+            let at = Pos2::new(at_left, bottom - size.y);
             panel(ui, "diagram", at, size, |ui, area| self.diagram(ui, area, presentation.language));
         }
     }
