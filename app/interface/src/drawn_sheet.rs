@@ -59,6 +59,16 @@ impl DrawnSheet {
         f64::from(self.size.y / self.size.x)
     }
 
+    /// Middles of the controls in the newest layout, 0 to 1, from the upper left corner to the right and down.
+    pub fn controls(&self) -> Vec<[f64; 2]> {
+        self.context.viewport(|viewport| {
+            let all = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
+            let active = all.filter(|widget| widget.enabled && widget.sense.senses_click());
+            let place = |at: Pos2| [f64::from(at.x / self.size.x), f64::from(at.y / self.size.y)];
+            active.map(|widget| place(widget.interact_rect.center())).collect()
+        })
+    }
+
     /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already. `keys`: keys that
     /// were pressed since.
     pub fn draw(

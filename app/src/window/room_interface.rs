@@ -213,6 +213,20 @@ pub fn of_mouse(display: &Display, window: usize, pixel: DVec2, pressed: bool) -
 }
 
 #[cfg(test)]
+impl RoomInterface {
+    /// Points of the room at which the menu's controls are, room axes, metres.
+    fn menu_controls(&self) -> Vec<DVec3> {
+        let [corner, right, up] = self.menu.edges(self.head_m);
+        let point = |[x, y]: [f64; 2]| corner + x * right + (1.0 - y) * up;
+        self.menu.drawn.controls().into_iter().map(point).collect()
+    }
+}
+
+#[cfg(test)]
+#[path = "room_menu_tests.rs"]
+mod menu_tests;
+
+#[cfg(test)]
 mod tests {
     //! Law: whoever points at the middle of a channel with the mouse points where the head sees that point; a wand
     //! points along its −z.
