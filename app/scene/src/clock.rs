@@ -8,8 +8,8 @@
 use glam::DVec3;
 use physics::Observer;
 
+use crate::local_name::LocalName;
 use crate::motion::Uniform;
-use crate::place::LocalName;
 
 /// Clock: a place that shows the time of the frame in which it rests.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,11 @@
 use crate::clock::SceneClock;
 use crate::lamp::Lamp;
 use crate::lighting::Lighting;
+use crate::local_name::LocalName;
 use crate::material::{Material, Texture};
 use crate::mesh::Mesh;
 use crate::motion::Motion;
 use crate::panorama::Panorama;
-use crate::place::NamedPlace;
 use glam::DVec3;
 use physics::colour::Spectrum;
 
@@ -102,6 +102,15 @@ impl Start {
     pub fn is_on_ground(&self) -> bool {
         self.eye_height_m > 0.0
     }
+}
+
+/// Place to which an observer can jump.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPlace {
+    /// Name, for a menu.
+    pub name: LocalName,
+    /// Place and first view there.
+    pub start: Start,
 }
 
 /// Place from which a camera of the scene sees it.

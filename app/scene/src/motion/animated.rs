@@ -132,8 +132,8 @@ impl Animated {
 
     /// Small, slow, luminous body that shows its side +z, as the hand of a clock on a wall.
     ///
-    /// A map of the world then holds it, in the pose that is exact at four of its points ([`Animated::pose_seen`]), so
-    /// it costs next to nothing. What is left out there is the shift of its light by its own speed; other ways of
+    /// A map of the world then holds it, in the pose that fits what is seen ([`Animated::pose_seen`]), so it costs next
+    /// to nothing. What is left out there is the shift of its light by its own speed; other ways of
     /// drawing have it.
     pub fn as_clockwork(self) -> Self {
         Self { is_clockwork: true, ..self }
