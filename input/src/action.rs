@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::head::config::TrackingMode;
+use crate::head::tracking_mode::TrackingMode;
 
 /// Vehicle that the controls drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

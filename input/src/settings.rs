@@ -32,7 +32,7 @@ mod tests {
     //! An action must survive its own text, and a text that is no action must have no effect.
     use super::*;
     use crate::action::{Place, Setting, Switch, VehicleKind};
-    use crate::head::config::TrackingMode;
+    use crate::head::tracking_mode::TrackingMode;
 
     fn decode(bytes: &[u8]) -> (Vec<Action>, u64) {
         let mut actions = Actions::default();

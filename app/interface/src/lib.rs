@@ -11,6 +11,7 @@ mod help;
 mod hud;
 mod menu;
 mod menu_pages;
+mod menu_ride;
 mod notices;
 
 pub use caption::{Caption, sheet as caption_sheet, window as caption_window};
@@ -18,5 +19,6 @@ pub use clock_table::{ClockRow, show as show_clocks};
 pub use drawn_sheet::{DrawnSheet, SheetPointer, key_events};
 pub use help::show as show_help;
 pub use hud::{Readings, pace_line, show as show_readings, speed_line};
-pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, show as menu_contents, window as menu_window};
+pub use menu::{MenuPage, sheet as menu_sheet, show as menu_contents, window as menu_window};
+pub use menu_ride::MenuRide;
 pub use notices::notice;

@@ -1,7 +1,7 @@
 //! Pages of the menu.
 
 use crate::controls::Controls;
-use crate::menu::MenuRide;
+use crate::menu_ride::MenuRide;
 use clap::ValueEnum;
 use egui::{Align, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, Vec2};
 use hardware::heard::DeviceReport;
