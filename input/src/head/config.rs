@@ -14,7 +14,6 @@
 //! # assert_eq!(config.room_from_tracker.yaw, 90.0);
 //! ```
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::flip::FlipAxis;

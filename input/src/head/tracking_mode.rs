@@ -1,5 +1,6 @@
 //! Use that is made of a tracked head.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::state::HeadState;
