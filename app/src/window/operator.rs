@@ -6,7 +6,7 @@ use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
 use egui::load::SizedTexture;
-use egui::{Image, Panel, RichText, ScrollArea, Ui};
+use egui::{CentralPanel, Image, Panel, RichText, ScrollArea, Ui};
 use input::Action;
 use interface::{MenuPage, MenuRide, Readings};
 use presentation::Presentation;
@@ -108,8 +108,10 @@ impl Operator {
         let (page, copy) = (&mut self.page, self.copy.as_ref());
         self.interface.draw(gpu, &self.surface.window, &mut encoder, &screen, size, |ui| {
             Panel::right("audience").exact_size(COPY_WIDTH + 20.0).show(ui, |ui| audience(ui, copy, shown));
-            ScrollArea::vertical().show(ui, |ui| {
-                actions.extend(interface::menu_contents(ui, page, shown.presentation, shown.menu));
+            CentralPanel::default().show(ui, |ui| {
+                ScrollArea::vertical().show(ui, |ui| {
+                    actions.extend(interface::menu_contents(ui, page, shown.presentation, shown.menu));
+                });
             });
         });
         gpu.queue.submit([encoder.finish()]);
