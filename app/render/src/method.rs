@@ -14,7 +14,7 @@ use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World};
 use glam::DVec2;
 use physics::Observer;
-use scene::cut::SeenFrom;
+use scene::cut::{Cut, SeenFrom};
 use view::{Occasion, Shot, Sides};
 
 /// One way of drawing a scene as a moving observer sees it.
@@ -82,6 +82,11 @@ pub trait Method {
     /// Triangles that the method drew from a world of its own since the last call of this function.
     fn take_drawn(&self) -> DrawCounts {
         DrawCounts::default()
+    }
+
+    /// Newest cut of the scene, whose triangles the world shows; `None` for a scene that is drawn as it is.
+    fn shown_cut(&self) -> Option<&Cut> {
+        None
     }
 
     /// Size and accuracy of the newest cut, if the scene is cut for every picture.

@@ -6,7 +6,7 @@ use crate::image::{ImageRenderer, MapQuality};
 use crate::method::{Method, Sample};
 use crate::moving_objects;
 use crate::pending::Pending;
-use crate::polygon::{Adaptive, PhotoSurface, VertexStage};
+use crate::polygon::{Adaptive, PhotoSurface, VertexStage, place_streams, write_places};
 use crate::stats::{CutStats, DrawCounts, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
@@ -20,7 +20,7 @@ use scene::cut::SeenFrom;
 use scene::motion::Motion;
 use std::sync::Arc;
 use std::time::Duration;
-use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Sides, Stored, Transform};
+use view::{Dial, Effects, Occasion, PixelSample, Places, RendererName, Shot, Sides, Stored, Transform};
 
 /// Pixels by which pictures are taken to be wider than they are, so that nothing is left out that a sample beside the
 /// middle of its pixel sees.
@@ -41,6 +41,10 @@ pub struct SceneRenderer {
     /// Sample of the scene's edges.
     edges: Edges,
     motions: Vec<Motion>,
+    /// Meshes of the scene, if anything in it is animated: each of their vertices is measured at its own event.
+    animated: Option<Arc<Scene>>,
+    /// Measured places of all vertices, if anything is animated and the pictures show what is measured.
+    measured: Option<wgpu::Buffer>,
     format: Format,
     /// Content of pictures.
     pub subject: Subject,
@@ -90,17 +94,18 @@ impl SceneRenderer {
         let method = fixed_method(gpu, &scene, format, dial, occasion)?;
         let textures = std::mem::take(&mut scene.textures);
         gather(&mut scene);
+        let scene = Arc::new(scene);
+        let animated = motions.iter().any(|motion| motion.animated().is_some()).then(|| Arc::clone(&scene));
         let (world, method) = match method {
             Some(method) => (World::new(gpu, &scene, textures, background), method),
             None => {
-                let scene = Arc::new(scene);
                 let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
                 let world = World::to_be_cut(gpu, &scene, textures, background);
                 let method: Box<dyn Method> = Box::new(Adaptive::new(scene, tolerance_px, occasion));
                 (world, method)
             }
         };
-        Ok(Self { world, method, edges, motions, format, subject: Subject::Light })
+        Ok(Self { world, method, edges, motions, animated, measured: None, format, subject: Subject::Light })
     }
 
     /// Number of triangles that a draw of everything takes.
@@ -143,7 +148,7 @@ impl SceneRenderer {
 
     /// Estimated errors of directions in the picture of a shot that was drawn last.
     pub fn certainty(&self, shot: &Shot, size: [u32; 2]) -> Certainty {
-        if !shot.effects.geometry {
+        if !shot.effects.bend() {
             return Certainty::default();
         }
         let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
@@ -151,9 +156,11 @@ impl SceneRenderer {
         self.method.certainty(&self.edges, &estimate)
     }
 
-    /// View of the resting scene from the observer of a shot, then the view of each motion.
+    /// View of the resting scene from the observer of a shot, then the view of each motion: as measured, if the shot
+    /// shows that, else as seen.
     pub fn sights(&self, shot: &Shot) -> Vec<SeenFrom> {
-        let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
+        let of = if shot.effects.places == Places::Measured { SeenFrom::measured } else { SeenFrom::of };
+        let sight = |motion| of(self.world.origin, &self.motions, &shot.observer, motion);
         std::iter::once(None).chain((0..self.motions.len()).map(Some)).map(sight).collect()
     }
 
@@ -163,7 +170,7 @@ impl SceneRenderer {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, observer: &Observer, effects: Effects) -> Result<Pending, GpuError> {
-        if !effects.geometry {
+        if !effects.bend() {
             return Ok(Pending::default());
         }
         self.method.submit(gpu, moving_objects::observers(&self.motions, observer))
@@ -213,19 +220,30 @@ impl SceneRenderer {
     /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     pub fn prepare_eye(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
-        self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
-        if shot.effects.geometry {
+        self.world.light_animated(gpu, &shot.observer, shot.effects.places);
+        if shot.effects.bend() {
             self.method.prepare_eye(gpu, &mut self.world, shots);
         } else {
             self.world.complete(gpu);
         }
+        self.measured = self.measure(gpu, shot);
+    }
+
+    /// Measured places of all vertices of a scene with animated bodies. A matrix does for all others.
+    fn measure(&mut self, gpu: &Gpu, shot: &Shot) -> Option<wgpu::Buffer> {
+        let scene = self.animated.as_ref().filter(|_| shot.effects.places == Places::Measured)?;
+        let cut = self.method.shown_cut();
+        let before = self.measured.take();
+        let buffer = before.unwrap_or_else(|| place_streams(gpu, scene, cut));
+        write_places(gpu, scene, cut, &self.sights(shot), &buffer);
+        Some(buffer)
     }
 
     /// Computes everything that all samples of one picture of `size` pixels share, after
     /// [`SceneRenderer::prepare_eye`]. Several flat pictures, each with its size, stand for the one of a screen that is
     /// not flat.
     pub fn prepare_picture(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])], size: [u32; 2]) {
-        if shots.iter().all(|(shot, _)| shot.effects.geometry) {
+        if shots.iter().all(|(shot, _)| shot.effects.bend()) {
             let pixels = f64::from(size[0]) * f64::from(size[1]);
             self.method.prepare_picture(gpu, &mut self.world, shots, pixels, self.subject);
         }
@@ -233,7 +251,7 @@ impl SceneRenderer {
 
     /// True if the whole picture of a screen that is not flat can be [drawn at once](Self::draw_bent).
     pub fn shows_bent_screens(&self, effects: Effects) -> bool {
-        effects.geometry && self.method.shows_bent_screens()
+        effects.bend() && self.method.shows_bent_screens()
     }
 
     /// Draws one sample of a picture. One submission has room for one.
@@ -246,8 +264,7 @@ impl SceneRenderer {
         sample: PixelSample,
     ) {
         let observer = &shot.observer;
-        let view =
-            shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.geometry, shot.scale());
+        let view = shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.places, shot.scale());
         self.draw_view(gpu, encoder, target, (shot, view), None);
     }
 
@@ -263,7 +280,7 @@ impl SceneRenderer {
         screen: &BentScreen<'_>,
     ) {
         let celerity = shot.observer.celerity;
-        let view = shader_view(&shot.camera, target.size, sample, celerity, shot.effects.geometry, shot.scale());
+        let view = shader_view(&shot.camera, target.size, sample, celerity, shot.effects.places, shot.scale());
         let axis = |axis: DVec3| (screen.observer_from_room * axis).as_vec3().extend(0.0);
         let view = shaders::ViewUniforms {
             right: axis(DVec3::X),
@@ -284,38 +301,47 @@ impl SceneRenderer {
         (shot, resting): (&Shot, shaders::ViewUniforms),
         points: Option<&wgpu::TextureView>,
     ) {
-        let bent = shot.effects.geometry && self.method.is_ready();
-        let observer = &shot.observer;
+        let bent = shot.effects.bend() && self.method.is_ready();
+        let measured = shot.effects.places == Places::Measured;
+        let (observer, origin) = (&shot.observer, self.world.origin);
 
         // There is a view for the resting scene, then one for each motion; places say which it is.
         let mut views = vec![resting];
         for (number, motion) in self.motions.iter().enumerate() {
             let view = if bent {
                 moving_objects::view(&resting, motion, observer, self.method.axes())
+            } else if measured {
+                moving_objects::measured_view(&resting, Some(motion), observer, origin)
             } else {
-                moving_objects::plain_view(&resting, motion, observer, self.world.origin)
+                moving_objects::plain_view(&resting, motion, observer, origin)
             };
             views.push(shaders::ViewUniforms { layer: resting.layer + Vec4::X * (1 + number) as f32, ..view });
         }
-        if !bent {
-            // Positions of the plain world are relative to its origin, not to the eye.
-            let eye_from_origin = DMat4::from_translation(self.world.origin - observer.event.position);
+        // Positions of the plain world are relative to its origin, not to the eye.
+        if measured {
+            views[0] = moving_objects::measured_view(&resting, None, observer, origin);
+        } else if !bent {
+            let eye_from_origin = DMat4::from_translation(origin - observer.event.position);
             views[0].clip_from_observer *= matrix(&eye_from_origin);
+        }
+        if self.measured.is_some() {
+            // Measured places are about the eye, in the observer's axes.
+            views.iter_mut().for_each(|view| view.clip_from_observer = resting.clip_from_observer);
         }
 
         let mut sights = self.sights(shot);
-        if !bent {
+        if !bent && !measured {
             let at_rest = Observer { celerity: Celerity::ZERO, ..*observer };
-            sights[0] = SeenFrom::of(self.world.origin, &self.motions, &at_rest, None);
+            sights[0] = SeenFrom::of(origin, &self.motions, &at_rest, None);
         }
         let sides = Sides::of(&shot.camera, target.size, MARGIN_PIXELS);
-        let Self { world, method, format, subject, .. } = self;
+        let Self { world, method, format, subject, measured, .. } = self;
         let (subject, format) = (*subject, *format);
         let sample = Sample { world, target, shot, views, sights: &sights, sides, points, subject, format };
         if bent {
             method.draw(gpu, encoder, sample);
         } else {
-            sample.draw_streams(gpu, encoder, None, false);
+            sample.draw_streams(gpu, encoder, measured.as_ref(), false);
         }
     }
 }

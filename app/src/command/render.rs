@@ -13,7 +13,7 @@ use super::room::RoomOptions;
 use super::values::{self, Output};
 use super::world::WorldOptions;
 use scene::Start;
-use view::RendererName;
+use view::{Places, RendererName};
 
 /// Pictures per second of a film without `--fps`.
 const FRAMES_PER_SECOND: f64 = 30.0;
@@ -133,6 +133,11 @@ impl RenderOptions {
         }
         if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {
             return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));
+        }
+        if self.picture.effects.places == Places::Measured && self.rays.bounces.is_some_and(|bounces| bounces > 0) {
+            return Err("--bounces are of light, and no light brings what is measured; leave --bounces or --effects \
+                 measured out"
+                .to_owned());
         }
         if self.picture.exact_light && self.dial.renderer != RendererName::Raytrace {
             return Err("--exact-light is for --renderer raytrace; leave one out or add the other".to_owned());

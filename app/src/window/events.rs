@@ -158,7 +158,11 @@ impl Open {
             KeyCode::F3 => self.settings.open = !self.settings.open,
             KeyCode::F4 => self.calibrate(),
             KeyCode::F2 => self.settings.readings = !self.settings.readings,
-            KeyCode::KeyG => self.settings.look.effects.geometry = !self.settings.look.effects.geometry,
+            KeyCode::KeyG => {
+                let places = self.settings.look.effects.places.next();
+                self.settings.look.effects.places = places;
+                self.ride.live.tell(format!("places: {}", places.name()));
+            }
             KeyCode::KeyB => self.settings.look.effects.doppler = !self.settings.look.effects.doppler,
             KeyCode::KeyN => self.settings.look.effects.searchlight = !self.settings.look.effects.searchlight,
             KeyCode::KeyT => {

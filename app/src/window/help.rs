@@ -17,7 +17,7 @@ const WIDE: f32 = 1150.0;
 const COLUMN: f32 = 540.0;
 
 /// Keys and their meanings; the same list as in the README.
-const KEYS: [(&str, &str); 26] = [
+const KEYS: [(&str, &str); 27] = [
     ("W S  ↑ ↓", "pedal, push back; thrust forward, back; the arrows lower and raise the nose when flying"),
     ("A D  ← →", "steer; thrust sideways; the arrows turn the nose"),
     ("R F", "thrust up, down when flying"),
@@ -32,7 +32,8 @@ const KEYS: [(&str, &str); 26] = [
     ("P", "pause"),
     (".", "one step while paused"),
     ("− =", "your clock slower, faster"),
-    ("G B N", "geometry, Doppler shift, searchlight effect: on, off"),
+    ("G", "places as seen, as measured, in instant light"),
+    ("B N", "Doppler shift, searchlight effect: on, off"),
     ("T", "next tone curve"),
     ("[ ]", "darker, brighter"),
     ("C", "photo"),

@@ -9,6 +9,7 @@ use egui::{Align2, Grid, RichText, ScrollArea, Slider, Ui, Window};
 use hardware::heard::DeviceReport;
 use input::{Action, VehicleKind};
 use render::display::{Development, Exposure, Gamut, Tone, development};
+use view::Places;
 
 /// Settings that the panel changes by itself: how the picture is drawn, which no recording depends on.
 #[derive(Clone, Debug)]
@@ -46,6 +47,13 @@ pub struct PanelRide {
 
 /// Largest height of the section on devices, points.
 const DEVICES_HEIGHT: f32 = 160.0;
+
+/// Purpose of each view of places, in the order of [`Places::ALL`].
+const PURPOSES_OF_PLACES: [&str; 3] = [
+    "Bends and moves everything to where its light comes from.",
+    "Everything where it is now for you: contracted along your motion. No light brings this, so none is shifted.",
+    "Everything where it is now in the world, as if light were infinitely fast.",
+];
 
 /// Vehicles, with their purposes.
 const VEHICLES: [(VehicleKind, &str, &str); 3] = [
@@ -114,11 +122,11 @@ pub fn show(ui: &mut Ui, settings: &mut Settings, ride: &PanelRide) -> Vec<Actio
                 ui.horizontal(|ui| {
                     let effects = &mut settings.look.effects;
                     let mut controls = Controls::new(ui);
-                    controls.switch(
-                        &mut effects.geometry,
-                        "geometry",
-                        "Bends and moves everything to where its light comes from. Off: shapes as at rest.",
-                    );
+                    for (places, purpose) in Places::ALL.into_iter().zip(PURPOSES_OF_PLACES) {
+                        if controls.choice(effects.places == places, places.name(), purpose) {
+                            effects.places = places;
+                        }
+                    }
                     controls.switch(
                         &mut effects.doppler,
                         "Doppler",

@@ -59,7 +59,7 @@ impl Swept {
         after: f64,
         is_there: impl Fn(&RayHit) -> bool,
     ) -> Option<(RayHit, f64)> {
-        let curve = Curve { animated: &self.animated, observer, direction: line.direction };
+        let curve = Curve { animated: &self.animated, observer, direction: line.direction, time: line.time };
         let hit = curve.first(after, &self.ball, self.world_radius, &self.reach, |chord| {
             let [from, to] = chord.ends;
             let [first, last] = chord.span;
@@ -71,8 +71,12 @@ impl Swept {
             let direction = (to - from).try_normalize()?;
             tree.nearest(from, direction, meet, |hit| ((hit.distance - first) * share).max(0.0))
         })?;
-        let sent = self.celerity(observer.event.ct - hit.distance, hit.position);
-        let doppler = line.doppler / Aberration::new(sent).observer_from_world(line.direction).1;
+        let sent = self.celerity(curve.ct(hit.distance), hit.position);
+        let doppler = if line.is_of_light() {
+            line.doppler / Aberration::new(sent).observer_from_world(line.direction).1
+        } else {
+            1.0
+        };
         Some((hit, doppler))
     }
 }

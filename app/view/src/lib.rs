@@ -11,7 +11,7 @@ mod sides;
 
 pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
-pub use effects::{Effects, EffectsError};
+pub use effects::{Effects, EffectsError, Places};
 pub use sampling::{PixelSample, sample_offset};
 pub use shot::{EYE_HEIGHT_M, Gaze, Shot, Stored};
 pub use sides::Sides;

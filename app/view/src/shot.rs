@@ -48,13 +48,13 @@ impl Shot {
         if let Some(scale) = self.stored_scale {
             return scale;
         }
-        if !self.effects.searchlight {
+        if !self.effects.brighten() {
             return 1.0;
         }
         let steps = [-0.8, -0.4, 0.0, 0.4, 0.8];
         let places = steps.into_iter().flat_map(|x| steps.map(|y| DVec2::new(x, y)));
-        let (celerity, geometry) = (self.observer.celerity, self.effects.geometry);
-        let logs = places.map(|place| self.camera.doppler_at(place, celerity, geometry).ln());
+        let (celerity, bends) = (self.observer.celerity, self.effects.bend());
+        let logs = places.map(|place| self.camera.doppler_at(place, celerity, bends).ln());
         let mean = logs.sum::<f64>() / (steps.len() * steps.len()) as f64;
         (-4.0 * mean).exp().clamp(1e-30, 1e30)
     }

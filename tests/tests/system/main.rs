@@ -14,6 +14,7 @@ mod hidden;
 mod house;
 mod lamps;
 mod lattice_pixels;
+mod measured;
 mod mirrors;
 mod moving;
 mod radiance;

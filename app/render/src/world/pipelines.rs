@@ -137,7 +137,7 @@ impl Pipelines {
         let depth = self.is_depth_first(mode, source, format).then(|| self.depths(gpu, source, format));
         let surface = self.surfaces(gpu, materials, mode, format, (false, source));
         let shifted = source == VertexSource::Streams
-            && matches!(mode, Mode::Light(effects) if effects.geometry && effects.shift_light());
+            && matches!(mode, Mode::Light(effects) if effects.bend() && effects.shift_light());
         let animated = (self.animates && shifted).then(|| self.surfaces(gpu, materials, mode, format, (true, source)));
         let sky = Description {
             label: "sky",
@@ -299,9 +299,9 @@ impl Mode {
 /// Override values of `shift.wgsl`, for targets of `format`.
 pub fn effect_constants(effects: Effects, identity: bool, format: Format) -> [Constant; 5] {
     [
-        ("GEOMETRY", flag(effects.geometry)),
-        ("DOPPLER", flag(effects.doppler)),
-        ("SEARCHLIGHT", flag(effects.searchlight)),
+        ("GEOMETRY", flag(effects.bend())),
+        ("DOPPLER", flag(effects.shift_colour())),
+        ("SEARCHLIGHT", flag(effects.brighten())),
         ("IDENTITY", flag(identity)),
         ("LARGEST", f64::from(format.largest())),
     ]

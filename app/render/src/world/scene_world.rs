@@ -19,6 +19,7 @@ use scene::motion::Animated;
 use scene::{Lighting, Scene, Texture};
 use std::cell::Cell;
 use std::sync::Arc;
+use view::Places;
 
 /// Number of views that one submission may draw at first. The buffer grows if more are needed.
 const VIEWS: u64 = 64;
@@ -145,16 +146,15 @@ impl World {
         }
     }
 
-    /// Writes the light that falls on animated bodies, for the pictures of the next submissions. `delayed` is true if
-    /// light takes its time.
-    pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, delayed: bool) {
+    /// Writes the light that falls on animated bodies, for the pictures of the next submissions.
+    pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, places: Places) {
         let sky = &self.spectra.carriers[self.spectra.sky];
         // No shadow falls on what moves.
         let sun_direction = self.lit_at_rest.sun_direction.with_w(0.0);
         let lighting = shaders::LightingUniforms { sun_direction, ..self.lit_at_rest };
         for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
             let Some(animated) = animated else { continue };
-            let falling = Irradiance::on_animated(&self.light, animated, observer, delayed, sky);
+            let falling = Irradiance::on_animated(&self.light, animated, observer, places, sky);
             gpu.queue.write_buffer(uniform, 0, bytes_of(&with_falling(&lighting, &falling)));
         }
     }

@@ -38,10 +38,11 @@ impl<'a> SeenDraw<'a> {
             Some(_) => sight.apparent(draw.centre).length(),
             None => sight.towards(draw.centre).length(),
         };
-        // Keys move the corners of animated bodies, and in a plain picture moving bodies are where they are now.
-        let known = sight.body.is_none() && (draw.motion.is_none() || source != VertexSource::Plain);
+        // Keys move the corners of animated bodies, and in instant light moving bodies are where they are now.
+        let instant = source == VertexSource::Plain && sight.contraction.is_none();
+        let known = sight.body.is_none() && (draw.motion.is_none() || !instant);
         let cone = |centre: DVec3, radius: f64| {
-            let cone = sight.bend.cone(sight.towards(centre), radius)?.turned(sight.observer_from_group);
+            let cone = sight.cone(centre, radius)?;
             Some(DirectionCone { radius_rad: cone.radius_rad + MARGIN_RAD, ..cone })
         };
         let groups = if known { draw.groups.as_slice() } else { &[] };

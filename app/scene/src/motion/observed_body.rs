@@ -8,7 +8,9 @@ use std::sync::Arc;
 use glam::DVec3;
 use physics::interpolation_error::TriangleInterpolation;
 use physics::retarded::retarded;
-use physics::{Aberration, Beta, Celerity, Event, Observer};
+use physics::simultaneous::simultaneous;
+use physics::{Aberration, Beta, Celerity, Contraction, Event, Observer};
+use view::Places;
 
 use super::animated::{Animated, Pose};
 
@@ -19,12 +21,13 @@ pub struct ObservedBody {
     observer: Observer,
     bend: TriangleInterpolation,
     aberration: Aberration,
+    contraction: Contraction,
 }
 
-/// Point of an animated body as the observer sees it.
+/// Point of an animated body as the observer sees or measures it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPoint {
-    /// Retarded event: the event in the world at which the light left the point.
+    /// Event of the point in the world that is shown: the one at which the light left it, if it is seen.
     pub event: Event,
     /// Apparent position relative to the observer, observer's axes, metres.
     pub apparent: DVec3,
@@ -40,6 +43,7 @@ impl ObservedBody {
             observer: *observer,
             bend: TriangleInterpolation::new(observer.celerity),
             aberration: Aberration::new(observer.celerity),
+            contraction: Contraction::new(observer.celerity),
         }
     }
 
@@ -60,6 +64,18 @@ impl ObservedBody {
         (apparent.is_finite() && doppler > 0.0).then_some(SeenPoint { event, apparent, doppler })
     }
 
+    /// Place of a point at the observer's present, and its event there; D is 1, since no light brings it. `None` if the
+    /// worldline does not cross that present, which can happen to one faster than light.
+    ///
+    /// *Equation:* the event simultaneous for the observer ([`simultaneous`]); its place is that of a resting point
+    /// there ([`Contraction`]).
+    pub fn measured(&self, place: DVec3) -> Option<SeenPoint> {
+        let found = simultaneous(&self.observer, &self.animated.point(place)).ok()?;
+        let apparent = self.contraction.observer_from_world(found.position - self.observer.event.position);
+        let event = Event { ct: found.ct, position: found.position };
+        apparent.is_finite().then_some(SeenPoint { event, apparent, doppler: 1.0 })
+    }
+
     /// Observer that sees the body.
     pub fn observer(&self) -> &Observer {
         &self.observer
@@ -67,10 +83,15 @@ impl ObservedBody {
 }
 
 impl Animated {
-    /// Pose of the body when its middle is seen (`delayed`), or at the observer's time.
-    pub fn as_seen(&self, observer: &Observer, delayed: bool) -> Pose {
-        let seen = if delayed { retarded(observer.event, &self.point(self.ball.centre)).ok() } else { None };
-        self.at(seen.map_or(observer.event.ct, |seen| seen.ct))
+    /// Pose of the body at the event of its middle that is shown.
+    pub fn as_shown(&self, observer: &Observer, places: Places) -> Pose {
+        let middle = self.point(self.ball.centre);
+        let ct = match places {
+            Places::Seen => retarded(observer.event, &middle).ok().map(|seen| seen.ct),
+            Places::Measured => simultaneous(observer, &middle).ok().map(|present| present.ct),
+            Places::Instant => None,
+        };
+        self.at(ct.unwrap_or(observer.event.ct))
     }
 
     /// Celerity of the body's middle in such a pose.
