@@ -24,6 +24,7 @@ mod double_double;
 
 pub mod aberration;
 pub mod apparent;
+pub mod apparent_shape;
 pub mod boost;
 pub mod celerity;
 pub mod colour;

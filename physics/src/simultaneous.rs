@@ -70,7 +70,8 @@ pub fn simultaneous(observer: &Observer, worldline: &impl Worldline) -> Result<P
         Ok((PresentEvent { ct, position, beta }, lag, 1.0 - of_observer.dot(beta)))
     };
 
-    // Bracket: at the world's present it is before the observer's (f < 0) or after; go that way, twice as far each time.
+    // Bracket: at the world's present it is before the observer's (f < 0) or after. Go that way, twice as far each
+    // time.
     let start = observer.event.ct;
     let (now, lag, _) = look(start)?;
     if lag == 0.0 {

@@ -5,6 +5,7 @@ use crate::gpu::{Gpu, GpuError};
 use crate::image::{ImageRenderer, MapQuality};
 use crate::method::{Method, Sample};
 use crate::moving_objects;
+use crate::outside::{Marks, outside_views};
 use crate::pending::Pending;
 use crate::polygon::{Adaptive, PhotoSurface, VertexStage, place_streams, write_places};
 use crate::stats::{CutStats, DrawCounts, MapStats};
@@ -41,11 +42,19 @@ pub struct SceneRenderer {
     /// Sample of the scene's edges.
     edges: Edges,
     motions: Vec<Motion>,
-    /// Meshes of the scene, if anything in it is animated: each of their vertices is measured at its own event.
-    animated: Option<Arc<Scene>>,
+    /// Meshes of the scene, if it may be drawn in another way than the method's: if anything is animated, each vertex
+    /// is measured at its own event, and a map is seen from outside by `polygon`.
+    scene: Option<Arc<Scene>>,
     /// Measured places of all vertices, if anything is animated and the pictures show what is measured.
     measured: Option<wgpu::Buffer>,
+    /// Method by which a map's scene is drawn from outside, while it is. The world then shows its cut.
+    outside: Option<Adaptive>,
+    /// Marks of the observer, once a picture was drawn from outside.
+    marks: Option<Marks>,
     format: Format,
+    occasion: Occasion,
+    /// Tolerance of cuts, pixels.
+    tolerance_px: f64,
     /// Content of pictures.
     pub subject: Subject,
 }
@@ -95,17 +104,31 @@ impl SceneRenderer {
         let textures = std::mem::take(&mut scene.textures);
         gather(&mut scene);
         let scene = Arc::new(scene);
-        let animated = motions.iter().any(|motion| motion.animated().is_some()).then(|| Arc::clone(&scene));
+        let animated = motions.iter().any(|motion| motion.animated().is_some());
+        let kept = (animated || image).then(|| Arc::clone(&scene));
+        let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
         let (world, method) = match method {
             Some(method) => (World::new(gpu, &scene, textures, background), method),
             None => {
-                let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
                 let world = World::to_be_cut(gpu, &scene, textures, background);
                 let method: Box<dyn Method> = Box::new(Adaptive::new(scene, tolerance_px, occasion));
                 (world, method)
             }
         };
-        Ok(Self { world, method, edges, motions, animated, measured: None, format, subject: Subject::Light })
+        Ok(Self {
+            world,
+            method,
+            edges,
+            motions,
+            scene: kept,
+            measured: None,
+            outside: None,
+            marks: None,
+            format,
+            occasion,
+            tolerance_px,
+            subject: Subject::Light,
+        })
     }
 
     /// Number of triangles that a draw of everything takes.
@@ -126,7 +149,11 @@ impl SceneRenderer {
     /// Scale in which targets hold the light of a shot.
     pub fn stored(&self, shot: &Shot) -> Stored {
         let moves = shot.observer.celerity != Celerity::ZERO || !self.motions.is_empty();
-        Stored { white: self.white_luminance(), scale: shot.scale(), shifted: shot.effects.shift_light() && moves }
+        Stored {
+            white: self.white_luminance(),
+            scale: shot.scale(),
+            shifted: shot.shows_light() && shot.effects.shift_light() && moves,
+        }
     }
 
     /// Triangles drawn since the last call of this function, and the calls that drew them, shadows not counted.
@@ -148,7 +175,8 @@ impl SceneRenderer {
 
     /// Estimated errors of directions in the picture of a shot that was drawn last.
     pub fn certainty(&self, shot: &Shot, size: [u32; 2]) -> Certainty {
-        if !shot.effects.bend() {
+        // From outside there are no directions of sight.
+        if !shot.effects.bend() || shot.outside.is_some() {
             return Certainty::default();
         }
         let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
@@ -207,6 +235,8 @@ impl SceneRenderer {
     /// for each pixel.
     pub fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {
         self.format = format;
+        self.occasion = occasion;
+        self.close_outside(gpu);
         self.method.draw_in(gpu, format, occasion, map_scale);
     }
 
@@ -221,17 +251,40 @@ impl SceneRenderer {
     pub fn prepare_eye(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
         self.world.light_animated(gpu, &shot.observer, shot.effects.places);
-        if shot.effects.bend() {
-            self.method.prepare_eye(gpu, &mut self.world, shots);
+        let bends = shot.effects.bend();
+        if let Some(scene) = self.scene.as_ref().filter(|_| bends && shot.outside.is_some() && self.method.maps()) {
+            let cuts = || Adaptive::new(Arc::clone(scene), self.tolerance_px, self.occasion);
+            self.outside.get_or_insert_with(cuts).prepare_eye(gpu, &mut self.world, shots);
         } else {
-            self.world.complete(gpu);
+            self.close_outside(gpu);
+            if bends {
+                self.method.prepare_eye(gpu, &mut self.world, shots);
+            } else {
+                self.world.complete(gpu);
+            }
         }
         self.measured = self.measure(gpu, shot);
     }
 
+    /// Ends the drawing of a map's scene from outside.
+    fn close_outside(&mut self, gpu: &Gpu) {
+        if let (Some(_), Some(scene)) = (self.outside.take(), &self.scene) {
+            self.world.restore(gpu, scene);
+        }
+    }
+
+    /// Method that draws now.
+    fn drawing(&self) -> &dyn Method {
+        match &self.outside {
+            Some(cuts) => cuts,
+            None => self.method.as_ref(),
+        }
+    }
+
     /// Measured places of all vertices of a scene with animated bodies. A matrix does for all others.
     fn measure(&mut self, gpu: &Gpu, shot: &Shot) -> Option<wgpu::Buffer> {
-        let scene = self.animated.as_ref().filter(|_| shot.effects.places == Places::Measured)?;
+        let animated = self.motions.iter().any(|motion| motion.animated().is_some());
+        let scene = self.scene.as_ref().filter(|_| animated && shot.effects.places == Places::Measured)?;
         let cut = self.method.shown_cut();
         let before = self.measured.take();
         let buffer = before.unwrap_or_else(|| place_streams(gpu, scene, cut));
@@ -243,7 +296,7 @@ impl SceneRenderer {
     /// [`SceneRenderer::prepare_eye`]. Several flat pictures, each with its size, stand for the one of a screen that is
     /// not flat.
     pub fn prepare_picture(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])], size: [u32; 2]) {
-        if shots.iter().all(|(shot, _)| shot.effects.bend()) {
+        if self.outside.is_none() && shots.iter().all(|(shot, _)| shot.effects.bend()) {
             let pixels = f64::from(size[0]) * f64::from(size[1]);
             self.method.prepare_picture(gpu, &mut self.world, shots, pixels, self.subject);
         }
@@ -298,10 +351,16 @@ impl SceneRenderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &Radiance,
-        (shot, resting): (&Shot, shaders::ViewUniforms),
+        (shot, mut resting): (&Shot, shaders::ViewUniforms),
         points: Option<&wgpu::TextureView>,
     ) {
-        let bent = shot.effects.bend() && self.method.is_ready();
+        let bent = shot.effects.bend() && self.drawing().is_ready();
+        if let Some(outside) = &shot.outside {
+            resting.clip_from_observer *= matrix(&DMat4::from_translation(-outside.place));
+            let marks = self.marks.get_or_insert_with(|| Marks::new(gpu));
+            let clip_from_observer = resting.clip_from_observer.as_dmat4();
+            marks.prepare(gpu, (target.size, self.format), outside, &clip_from_observer, shot.scale());
+        }
         let measured = shot.effects.places == Places::Measured;
         let (observer, origin) = (&shot.observer, self.world.origin);
 
@@ -309,7 +368,7 @@ impl SceneRenderer {
         let mut views = vec![resting];
         for (number, motion) in self.motions.iter().enumerate() {
             let view = if bent {
-                moving_objects::view(&resting, motion, observer, self.method.axes())
+                moving_objects::view(&resting, motion, observer, self.drawing().axes())
             } else if measured {
                 moving_objects::measured_view(&resting, Some(motion), observer, origin)
             } else {
@@ -334,10 +393,18 @@ impl SceneRenderer {
             let at_rest = Observer { celerity: Celerity::ZERO, ..*observer };
             sights[0] = SeenFrom::of(origin, &self.motions, &at_rest, None);
         }
+        if let Some(outside) = shot.outside.as_ref().filter(|_| bent) {
+            outside_views(&mut views, &sights, outside);
+        }
         let sides = Sides::of(&shot.camera, target.size, MARGIN_PIXELS);
-        let Self { world, method, format, subject, measured, .. } = self;
+        let Self { world, method, outside, format, subject, measured, marks, .. } = self;
         let (subject, format) = (*subject, *format);
-        let sample = Sample { world, target, shot, views, sights: &sights, sides, points, subject, format };
+        let method: &mut dyn Method = match outside {
+            Some(cuts) => cuts,
+            None => method.as_mut(),
+        };
+        let marks = marks.as_ref().filter(|_| shot.outside.is_some() && subject == Subject::Light);
+        let sample = Sample { world, target, shot, views, sights: &sights, sides, points, marks, subject, format };
         if bent {
             method.draw(gpu, encoder, sample);
         } else {

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 mod apparent;
+mod apparent_shape;
 mod boost;
 mod colour_difference;
 mod colour_planck;

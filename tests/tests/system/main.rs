@@ -17,6 +17,7 @@ mod lattice_pixels;
 mod measured;
 mod mirrors;
 mod moving;
+mod outside;
 mod radiance;
 mod raytrace;
 mod resting;

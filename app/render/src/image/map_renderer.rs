@@ -178,6 +178,7 @@ impl MapRenderer {
                 mode,
                 format,
                 sights: std::slice::from_ref(&at_rest),
+                outside: None,
                 pixels: plan.texels(),
                 further_carrier: (layer > 0).then_some(layer as usize),
                 sky: true,

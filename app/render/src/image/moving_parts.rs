@@ -69,6 +69,7 @@ impl MovingParts {
             mode: sample.mode(),
             format: sample.format,
             sights: sample.sights,
+            outside: None,
             pixels: sample.pixels(),
             further_carrier: None,
             sky: false,

@@ -90,7 +90,8 @@ impl Adaptive {
     pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
         let Some((first, _)) = shots.first() else { return };
         let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
-        let viewpoint = CutViewpoint { observer: first.observer, pictures };
+        let viewpoint =
+            CutViewpoint { observer: first.observer, pictures, outside: first.outside.map(|outside| outside.place) };
         let made = match (&mut self.cutter, &self.shown) {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),

@@ -28,9 +28,9 @@ fn vertex_count(scene: &Scene, cut: Option<&Cut>) -> usize {
     cut.map_or_else(|| scene.vertex_count(), |cut| cut.vertices)
 }
 
-/// Writes the places of all vertices of a scene, or of one of its cuts, relative to the eye in the observer's axes: x, y
-/// and z streams, and one of log2 D if anything is animated. Vertices without a place are put at the eye. `sights` are
-/// of the resting scene, then of each motion.
+/// Writes the places of all vertices of a scene, or of one of its cuts, relative to the eye in the observer's axes: x,
+/// y and z streams, and one of log2 D if anything is animated. Vertices without a place are put at the eye. `sights`
+/// are of the resting scene, then of each motion.
 pub fn write_places(gpu: &Gpu, scene: &Scene, cut: Option<&Cut>, sights: &[SeenFrom], buffer: &wgpu::Buffer) {
     let vertices = vertex_count(scene, cut);
     let stride = stream_stride(vertices);

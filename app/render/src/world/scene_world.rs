@@ -131,6 +131,11 @@ impl World {
         self.draw_shadows(gpu);
     }
 
+    /// Replaces the triangles of a cut by those of the whole scene.
+    pub fn restore(&mut self, gpu: &Gpu, scene: &Scene) {
+        self.geometry = Some(Geometry::new(gpu, scene, self.own, None, DrawList::of(scene, None)));
+    }
+
     /// Uploads the whole scene, if nothing of it is there.
     pub fn complete(&mut self, gpu: &Gpu) {
         if let (None, Some(scene)) = (&self.geometry, &self.scene) {

@@ -1,5 +1,5 @@
-//! Views of a scene's parts: how an observer sees or measures the resting scene, a uniformly moving frame or an animated
-//! body.
+//! Views of a scene's parts: how an observer sees or measures the resting scene, a uniformly moving frame or an
+//! animated body.
 
 use glam::{DQuat, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
@@ -97,6 +97,13 @@ impl SeenFrom {
             }
         };
         Some(cone.turned(self.observer_from_group))
+    }
+
+    /// Cone in which a ball of a mesh's places is shown to a camera at `place` relative to the eye, observer's axes,
+    /// metres; else as [`SeenFrom::cone`].
+    pub fn cone_from(&self, place: DVec3, centre: DVec3, radius: f64) -> Option<DirectionCone> {
+        let stretch = if self.contraction.is_some() { 1.0 } else { self.bend.stretch() };
+        ball_cone(self.apparent(centre) - place, stretch * radius)
     }
 }
 
