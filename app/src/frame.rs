@@ -8,38 +8,24 @@
 //! ```
 
 use crate::canvas::{Canvas, Submitted, Watcher};
-use crate::command::Latency;
 use crate::error::Error;
 use crate::session::live::Live;
 use crate::session::tracker;
 use crate::stage_times::StageTimes;
-use input::{Action, SECOND};
+use glam::DVec3;
+use input::{Action, HeadState, SECOND};
+use presentation::{Latency, Presentation};
 use render::certainty::Certainty;
-use render::display::Development;
 use render::{Gpu, SceneRenderer};
 use ride::RideFrame;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
-use view::Effects;
 use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
 const STILL: Duration = Duration::from_millis(120);
 /// Time of a room's frame at rest after which rest is given up.
 const LONGEST_STILL: Duration = Duration::from_millis(225);
-
-/// Settings of a frame that no recording depends on.
-#[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// Effects of relativity on the picture.
-    pub effects: Effects,
-    /// Vertical field of view of a flat picture, degrees.
-    pub fov_deg: f64,
-    /// Development of radiance into the picture.
-    pub development: Development,
-    /// Division of a frame's time between transforming and drawing.
-    pub latency: Latency,
-}
 
 /// A ride, and the renderer that draws it.
 pub struct RideInProgress {
@@ -96,13 +82,18 @@ impl RideInProgress {
     ///
     /// # Errors
     /// A lost device, or a recording that cannot be replayed.
-    pub fn frame(&mut self, gpu: &Gpu, canvas: &mut Canvas, look: &Look) -> Result<Option<Vec<Action>>, Error> {
+    pub fn frame(
+        &mut self,
+        gpu: &Gpu,
+        canvas: &mut Canvas,
+        shown: &Presentation,
+    ) -> Result<Option<Vec<Action>>, Error> {
         self.times.begin();
 
         // Devices to observer: samples, controls, vehicle, worldline, head.
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let light_speed = frame.vehicle.light_speed().speed_of_light_m_s();
-        let head = frame.controls.head.as_ref().map(|state| tracker::head(state, light_speed));
+        let head = frame.controls.head.as_ref().map(|state| tracker::head(&held(state, frame.paused), light_speed));
         let watcher = Watcher {
             gaze: frame.gaze,
             vehicle: *frame.vehicle.state(),
@@ -117,20 +108,20 @@ impl RideInProgress {
 
         // Observer to photo-surfaces, on their own thread. The frame shown is this one, or with overlap the one
         // before it.
-        let newest = canvas.submit(gpu, &mut self.renderer, &watcher, look.effects, look.fov_deg)?;
+        let newest = canvas.submit(gpu, &mut self.renderer, &watcher, shown.effects, shown.fov_deg)?;
         self.overlaps = newest.is_under_way();
-        let ahead = usize::from(look.latency == Latency::Overlap && self.overlaps);
+        let ahead = usize::from(shown.latency == Latency::Overlap && self.overlaps);
         self.under_way.push_back(newest);
         self.under_way.drain(..self.under_way.len().saturating_sub(1 + ahead));
         while self.under_way.len() <= ahead {
-            let again = canvas.submit(gpu, &mut self.renderer, &watcher, look.effects, look.fov_deg)?;
+            let again = canvas.submit(gpu, &mut self.renderer, &watcher, shown.effects, shown.fov_deg)?;
             self.under_way.push_back(again);
         }
-        let shown = self.under_way.pop_front().expect("this frame was pushed");
+        let oldest = self.under_way.pop_front().expect("this frame was pushed");
         self.times.stage("submit");
 
         // Photo-surfaces to light.
-        let drawn = canvas.draw(gpu, &mut self.renderer, shown)?;
+        let drawn = canvas.draw(gpu, &mut self.renderer, oldest)?;
         self.times.transformed(drawn.transform);
         self.not_finite = drawn.not_finite;
         self.certainty = drawn.certainty;
@@ -139,7 +130,7 @@ impl RideInProgress {
         self.govern(canvas);
 
         // The viewer adapts to it. Windows show it: window/show.rs.
-        canvas.adapt(gpu, &look.development, elapsed_s);
+        canvas.adapt(gpu, &shown.development, elapsed_s);
         Ok(Some(actions))
     }
 }
@@ -172,6 +163,12 @@ impl RideInProgress {
         }
         canvas.set_shares(shares(governor, self.coarse_rest));
     }
+}
+
+/// Head of a rider who walks about while the simulation is held: no time passes, so wherever it is, it is at rest.
+fn held(state: &HeadState, paused: bool) -> HeadState {
+    let rests = HeadState { velocity_m_s: DVec3::ZERO, turn_rad_s: DVec3::ZERO, ..*state };
+    if paused { rests } else { *state }
 }
 
 /// Shares of the pictures' width and height that are drawn. `coarse_rest`: at rest no more than in motion.

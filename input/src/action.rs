@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::head::config::TrackingMode;
+
 /// Vehicle that the controls drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -18,11 +20,61 @@ pub enum VehicleKind {
     Fly,
 }
 
+/// Setting whose values have texts, those of the command line's option of the same name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Setting {
+    /// Effects of relativity on the picture.
+    Effects,
+    /// Vertical field of view of a flat picture, degrees.
+    Fov,
+    /// Brightness of the picture.
+    Exposure,
+    /// Curve from radiance to the screen's brightness.
+    Tone,
+    /// Treatment of colours that the screen cannot show.
+    Gamut,
+    /// Order of transforming and drawing within a frame.
+    Latency,
+    /// Method of drawing, and its dial.
+    Renderer,
+    /// Language of the interface.
+    Language,
+}
+
+/// Part of the picture or of the interface that is on or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Switch {
+    /// Apparent places instead of the present ones.
+    Geometry,
+    /// Doppler shift.
+    Doppler,
+    /// Searchlight effect.
+    Searchlight,
+    /// View from outside onto what is seen.
+    Outside,
+    /// View from outside onto what was seen at the moment of the switch.
+    Frozen,
+    /// Head-up display.
+    Readings,
+    /// Menu.
+    Menu,
+    /// Plan of the world.
+    Miniature,
+    /// Minkowski diagram of the ride.
+    Diagram,
+    /// Diagram in the vehicle's frame instead of the world's.
+    DiagramOfVehicle,
+}
+
 /// Command that takes effect once.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+///
+/// Every wish of a rider is one, whichever key, button, pointer or panel it comes from, and is recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
-    /// Stops the clock, or lets it run.
+    /// Stops the clock, or lets it run. The head still looks and walks meanwhile.
     TogglePause,
     /// Advances by one step while paused.
     Step,
@@ -38,15 +90,66 @@ pub enum Action {
     LookAhead,
     /// Makes the present pose of a tracked head the straight one.
     Recentre,
+    /// Use of the tracked head.
+    Tracking(TrackingMode),
+    /// The next use of the tracked head: place and velocity, place alone, none.
+    NextTracking,
     /// Return to the start.
     Restart,
+    /// Place of the world to be at rest at.
+    Jump(Place),
+    /// Scene to ride in, by its name or file. The ride ends, and another begins there.
+    Scene(String),
+    /// Value of a setting, as on the command line.
+    Set(Setting, String),
+    /// The next value of a setting that has a few.
+    Next(Setting),
+    /// A switch, turned.
+    Toggle(Switch),
+    /// The next of three views: seen, measured, instant.
+    NextView,
+    /// Stops by which the picture becomes brighter; finite.
+    Expose(f64),
     /// Request for a picture.
     Photo,
+    /// Request for a picture of all directions.
+    PhotoSphere,
     /// Starts or stops recording.
     ToggleRecording,
     /// Shows or hides the help.
     ToggleHelp,
+    /// Goes on after a pause of a tour, or chooses what the pointer shows.
+    Choose,
+    /// Fills the monitors, or leaves them.
+    ToggleFullScreen,
+    /// Shows or hides the test grids of a room.
+    ToggleCalibration,
+    /// End of the ride.
+    Leave,
 }
+
+/// Place and direction in the world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Point on the ground, or the eye where there is none, world axes, metres.
+    pub position_m: [f64; 3],
+    /// Direction of the nose, world axes, of any length but zero.
+    pub look: [f64; 3],
+}
+
+impl Place {
+    /// Largest coordinate, metres.
+    const FARTHEST_M: f64 = 1e12;
+
+    fn is_sound(&self) -> bool {
+        let within = |vector: &[f64; 3]| vector.iter().all(|part| part.abs() <= Self::FARTHEST_M);
+        within(&self.position_m) && within(&self.look) && self.look.iter().any(|part| part.abs() > 1e-9)
+    }
+}
+
+/// Most bytes of a text in an action.
+const LONGEST_TEXT: usize = 4096;
 
 impl Action {
     /// JSON text of the action, as the settings' decoder reads it.
@@ -54,11 +157,20 @@ impl Action {
         serde_json::to_vec(self).expect("an action is always representable as JSON").into_boxed_slice()
     }
 
-    /// True if the numbers of the action are in their ranges.
-    pub(crate) fn is_sound(self) -> bool {
+    /// Action of a text as in a table of keys: its JSON, or its bare name.
+    pub fn named(text: &str) -> Option<Self> {
+        let bare = || serde_json::from_value(serde_json::Value::String(text.to_owned()));
+        serde_json::from_str(text).or_else(|_| bare()).ok().filter(Self::is_sound)
+    }
+
+    /// True if the numbers and texts of the action are in their ranges.
+    pub(crate) fn is_sound(&self) -> bool {
         match self {
-            Self::TimeScale(scale) => scale.is_finite() && scale >= 0.0,
-            Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && factor > 0.0,
+            Self::TimeScale(scale) => scale.is_finite() && *scale >= 0.0,
+            Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && *factor > 0.0,
+            Self::Expose(stops) => stops.is_finite(),
+            Self::Jump(place) => place.is_sound(),
+            Self::Scene(text) | Self::Set(_, text) => text.len() <= LONGEST_TEXT,
             _ => true,
         }
     }

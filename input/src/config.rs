@@ -39,6 +39,10 @@ pub struct DeskConfig {
     /// True if a SpaceMouse may have more than 64 buttons, and report their numbers; false in recordings made before.
     #[serde(default = "not_in_old_recordings")]
     pub many_buttons: bool,
+    /// True if keys that change the picture alone are actions, and a wand rides and acts; false in recordings made
+    /// before they did.
+    #[serde(default = "not_in_old_recordings")]
+    pub all_act: bool,
     /// True if the rider may look round; false in recordings made before one could.
     #[serde(default = "not_in_old_recordings")]
     pub free_look: bool,
@@ -60,6 +64,7 @@ impl Default for DeskConfig {
             keys: KeyMap::default(),
             head: None,
             many_buttons: true,
+            all_act: true,
             free_look: true,
         }
     }

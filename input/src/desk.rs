@@ -21,7 +21,7 @@ use crate::decoder::{Actions, Decoder};
 use crate::dtrack::decoder::DtrackDecoder;
 use crate::faults::Faults;
 use crate::gamepad::GamepadDecoder;
-use crate::head::config::HeadConfig;
+use crate::head::config::TrackingMode;
 use crate::head::heard::HeardSensor;
 use crate::head::mouse::MouseDecoder;
 use crate::head::rigid::Rigid;
@@ -41,6 +41,7 @@ use crate::trainer::decoder::TrainerDecoder;
 use crate::vrpn::decoder::VrpnDecoder;
 use crate::wand::state::WandState;
 use crate::wand::tracked_wand::TrackedWand;
+use crate::wand::work::{self, WandPresses};
 use glam::DVec3;
 
 /// Decoders of all devices, and the state that they share.
@@ -64,6 +65,11 @@ pub struct Desk {
     by_hand: bool,
     head: Option<TrackedHead>,
     wand: Option<TrackedWand>,
+    presses: WandPresses,
+    /// Use of the tracked head, if there is one.
+    tracking: Option<TrackingMode>,
+    /// True if the present sample makes the pose of the head the straight one.
+    recentres: bool,
     settings: ActionDecoder,
     actions: Actions,
 }
@@ -91,12 +97,15 @@ impl Desk {
             by_hand: false,
             head: config.head.clone().map(TrackedHead::new).transpose()?,
             wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
-            keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys),
+            keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys, config.all_act),
             gamepad: GamepadDecoder::new(config.free_look, config.gamepad.clone()),
             space_mouse: SpaceMouseDecoder::new(config.space_mouse, config.many_buttons),
             spacenavd: SpacenavdDecoder::new(config.spacenavd),
             bicycle: BicycleDecoder::new(config.bicycle.clone()),
             trainer: TrainerDecoder::new(config.trainer.clone()),
+            presses: WandPresses::default(),
+            tracking: config.head.as_ref().map(|head| head.mode),
+            recentres: false,
             settings: ActionDecoder::default(),
             actions: Actions::default(),
             config,
@@ -129,10 +138,18 @@ impl Desk {
             Signal::Opened | Signal::Closed => decoder.reset(sample.at),
             Signal::Bytes(bytes) => decoder.bytes(sample.at, bytes, &mut self.actions),
         }
-        if self.actions.after(waiting).contains(&Action::Recentre) {
+        self.track(sample);
+        for action in self.actions.after(waiting) {
+            match action {
+                Action::Recentre => self.recentres = true,
+                Action::Tracking(mode) => self.tracking = self.tracking.map(|_| *mode),
+                Action::NextTracking => self.tracking = self.tracking.map(TrackingMode::next),
+                _ => {}
+            }
+        }
+        if std::mem::take(&mut self.recentres) {
             self.recentre(sample.at);
         }
-        self.track(sample);
         self.note_hand(sample);
         if matches!(sample.source, SampleSource::Keyboard) {
             self.look.hold(sample.at, self.keyboard.look(), self.keyboard.looks_back());
@@ -159,6 +176,9 @@ impl Desk {
             SampleSource::Gamepad => self.by_hand |= pushed(&self.gamepad.deflection()),
             SampleSource::SpaceMouse => self.by_hand |= pushed(&self.space_mouse.deflection(sample.at)),
             SampleSource::Spacenavd => self.by_hand |= pushed(&self.spacenavd.deflection()),
+            SampleSource::Vrpn | SampleSource::Dtrack if self.config.all_act => {
+                self.by_hand |= self.wand.as_ref().is_some_and(|wand| work::steer(&wand.state(sample.at)) != 0.0);
+            }
             _ => {}
         }
     }
@@ -206,11 +226,22 @@ impl Desk {
             head.gone(sample.at);
         }
         if let Some(wand) = &mut self.wand {
-            signals.into_iter().for_each(|signal| wand.signal(sample.at, signal));
+            for signal in signals {
+                wand.signal(sample.at, signal);
+                if self.config.all_act {
+                    let pressed = self.presses.take(&wand.state(sample.at), &wand.config().actions);
+                    pressed.into_iter().for_each(|action| self.actions.push(action));
+                }
+            }
             if !matches!(sample.signal, Signal::Bytes(_)) {
                 wand.gone(sample.at);
             }
         }
+    }
+
+    /// Use of the tracked head; `None` if none is configured.
+    pub fn tracking(&self) -> Option<TrackingMode> {
+        self.tracking
     }
 
     /// Tracked head, if one is configured.
@@ -257,8 +288,8 @@ impl Desk {
     /// Head at the time `at`, reduced to the parts that its mode uses.
     fn head_state(&self, at: Nanos) -> Option<HeadState> {
         let head = self.head.as_ref()?;
-        let HeadConfig { url, mode, .. } = head.config();
-        mode.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
+        let url = &head.config().url;
+        self.tracking?.of(if *url == TrackerUrl::Mouse { self.mouse.state(at) } else { head.state(at) })
     }
 
     /// Wand at the time `at`, in the room that the head's straight pose makes.
@@ -270,11 +301,14 @@ impl Desk {
     /// Controls at the time `at`, with the actions since the last call.
     pub fn controls(&mut self, at: Nanos) -> Controls {
         let rider = &self.config.rider;
+        let wand = self.wand_state(at);
+        let driven = wand.as_deref().filter(|_| self.config.all_act);
         let wheel_speed = [
             self.bicycle.wheel_speed(at),
             self.trainer.wheel_speed(at),
             self.keyboard.wheel_speed(at),
             self.gamepad.pedal().map(|pedal| pedal * rider.cruise_m_s),
+            driven.and_then(|wand| self.presses.pedal(wand)).map(|pedal| pedal * rider.cruise_m_s),
         ]
         .into_iter()
         .flatten()
@@ -282,7 +316,8 @@ impl Desk {
 
         let speed = wheel_speed.unwrap_or(0.0);
         let leaning_rad = libm::atan2(rider.lateral_m_s2 * rider.wheelbase_m, speed * speed);
-        let pretended = (self.keyboard.steer(at) + self.gamepad.steer()).clamp(-1.0, 1.0);
+        let by_wand = driven.map_or(0.0, work::steer);
+        let pretended = (self.keyboard.steer(at) + self.gamepad.steer() + by_wand).clamp(-1.0, 1.0);
         let steer_rad = self.bicycle.steer_rad() + pretended * rider.steer_rad.min(leaning_rad);
 
         let deflections = [
@@ -290,6 +325,7 @@ impl Desk {
             self.gamepad.deflection(),
             self.space_mouse.deflection(at),
             self.spacenavd.deflection(),
+            driven.map_or([0.0; 6], work::deflection),
         ];
         let deflection = |axis: usize| deflections.iter().map(|device| device[axis]).sum::<f64>().clamp(-1.0, 1.0);
         let actions = self.actions.take();
@@ -297,11 +333,13 @@ impl Desk {
             wheel_speed,
             cadence_hz: self.bicycle.cadence_hz(at).or_else(|| self.trainer.cadence_hz(at)),
             steer_rad,
-            brake: self.bicycle.brake().max(self.keyboard.brake(at)).max(self.gamepad.brake()),
+            brake: [self.keyboard.brake(at), self.gamepad.brake(), driven.map_or(0.0, work::brake)]
+                .into_iter()
+                .fold(self.bicycle.brake(), f64::max),
             thrust: [deflection(0), deflection(1), deflection(2)],
             turn: [deflection(3), deflection(4), deflection(5)],
             head: self.head_state(at),
-            wand: self.wand_state(at),
+            wand,
             look: self.free_look(at, &actions),
             actions,
         }

@@ -2,6 +2,7 @@
 use super::*;
 use crate::clock::SECOND;
 use crate::gamepad::GamepadItem;
+use crate::head::config::HeadConfig;
 use crate::head::mouse_event::{MouseButton, MouseEvent};
 use crate::key::KeyboardKey;
 

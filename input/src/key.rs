@@ -47,7 +47,7 @@ macro_rules! keys {
 keys! {
     /// The key A.
     A = 0x04,
-    /// The key B, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key B.
     B = 0x05,
     /// The key C.
     C = 0x06,
@@ -57,7 +57,7 @@ keys! {
     E = 0x08,
     /// The key F.
     F = 0x09,
-    /// The key G, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key G.
     G = 0x0a,
     /// The key H.
     H = 0x0b,
@@ -71,7 +71,7 @@ keys! {
     L = 0x0f,
     /// The key M.
     M = 0x10,
-    /// The key N, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key N.
     N = 0x11,
     /// The key O.
     O = 0x12,
@@ -83,7 +83,7 @@ keys! {
     R = 0x15,
     /// The key S.
     S = 0x16,
-    /// The key T, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key T.
     T = 0x17,
     /// The key U.
     U = 0x18,
@@ -91,11 +91,11 @@ keys! {
     V = 0x19,
     /// The key W.
     W = 0x1a,
-    /// The key X, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key X.
     X = 0x1b,
-    /// The key Y, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key Y.
     Y = 0x1c,
-    /// The key Z, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key Z.
     Z = 0x1d,
     /// The key 1 above the letters.
     One = 0x1e,
@@ -103,9 +103,25 @@ keys! {
     Two = 0x1f,
     /// The key 3 above the letters.
     Three = 0x20,
-    /// The enter key, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The key 4 above the letters.
+    Four = 0x21,
+    /// The key 5 above the letters.
+    Five = 0x22,
+    /// The key 6 above the letters.
+    Six = 0x23,
+    /// The key 7 above the letters.
+    Seven = 0x24,
+    /// The key 8 above the letters.
+    Eight = 0x25,
+    /// The key 9 above the letters.
+    Nine = 0x26,
+    /// The key 0 above the letters.
+    Zero = 0x27,
+    /// The enter key.
     Enter = 0x28,
-    /// The tabulator key, which means nothing to a ride unless a set-up gives it another key's work.
+    /// The escape key.
+    Escape = 0x29,
+    /// The tabulator key.
     Tab = 0x2b,
     /// The backspace key.
     Backspace = 0x2a,
@@ -115,10 +131,48 @@ keys! {
     Minus = 0x2d,
     /// The key = above the letters.
     Equal = 0x2e,
+    /// The key [ beside the letters.
+    BracketLeft = 0x2f,
+    /// The key ] beside the letters.
+    BracketRight = 0x30,
+    /// The key of the comma.
+    Comma = 0x36,
     /// The key of the full stop.
     Period = 0x37,
+    /// The key of the slash.
+    Slash = 0x38,
     /// The key F1.
     F1 = 0x3a,
+    /// The key F2.
+    F2 = 0x3b,
+    /// The key F3.
+    F3 = 0x3c,
+    /// The key F4.
+    F4 = 0x3d,
+    /// The key F5.
+    F5 = 0x3e,
+    /// The key F6.
+    F6 = 0x3f,
+    /// The key F7.
+    F7 = 0x40,
+    /// The key F8.
+    F8 = 0x41,
+    /// The key F9.
+    F9 = 0x42,
+    /// The key F10.
+    F10 = 0x43,
+    /// The key F11.
+    F11 = 0x44,
+    /// The key F12.
+    F12 = 0x45,
+    /// The key Home.
+    Home = 0x4a,
+    /// The key End.
+    End = 0x4d,
+    /// The key to the page before.
+    PageUp = 0x4b,
+    /// The key to the next page.
+    PageDown = 0x4e,
     /// The arrow to the right.
     Right = 0x4f,
     /// The arrow to the left.

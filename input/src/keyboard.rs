@@ -15,11 +15,9 @@
 //! | J, L, I, K | look left, right, up, down | the same |
 //! | M | look back | the same |
 //!
-//! P pauses, `.` makes a single step, − and = halve and double the time scale, 1 2 3 choose the vehicle, Backspace
-//! returns to the start, O looks ahead again, U makes the present pose of a tracked head the straight one, C takes a
-//! picture, V records, H and F1 show the help.
+//! All other keys are actions, as [`action`] lists them.
 
-use crate::action::{Action, VehicleKind};
+use crate::action::{Action, Setting, Switch, VehicleKind};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
@@ -32,6 +30,8 @@ use crate::rider_config::RiderConfig;
 const PRESS_RATE: f64 = 3.0;
 /// Rate of a control whose key is released, full deflections a second.
 const RELEASE_RATE: f64 = 5.0;
+/// Stops by which a key changes the exposure.
+const STOPS_PER_PRESS: f64 = 0.5;
 
 /// Action of a key when pressed; `None` for keys that are held.
 fn action(key: KeyboardKey) -> Option<Action> {
@@ -49,8 +49,34 @@ fn action(key: KeyboardKey) -> Option<Action> {
         KeyboardKey::C => Action::Photo,
         KeyboardKey::V => Action::ToggleRecording,
         KeyboardKey::H | KeyboardKey::F1 => Action::ToggleHelp,
+        KeyboardKey::G => Action::Toggle(Switch::Geometry),
+        KeyboardKey::B => Action::Toggle(Switch::Doppler),
+        KeyboardKey::N => Action::Toggle(Switch::Searchlight),
+        KeyboardKey::T => Action::Next(Setting::Tone),
+        KeyboardKey::BracketLeft => Action::Expose(-STOPS_PER_PRESS),
+        KeyboardKey::BracketRight => Action::Expose(STOPS_PER_PRESS),
+        KeyboardKey::X => Action::NextView,
+        KeyboardKey::Y => Action::Toggle(Switch::Outside),
+        KeyboardKey::Z => Action::Toggle(Switch::Diagram),
+        KeyboardKey::Tab => Action::Toggle(Switch::Miniature),
+        KeyboardKey::Enter => Action::Choose,
+        KeyboardKey::F2 => Action::Toggle(Switch::Readings),
+        KeyboardKey::F3 => Action::Toggle(Switch::Menu),
+        KeyboardKey::F4 => Action::ToggleCalibration,
+        KeyboardKey::F5 => Action::Toggle(Switch::Frozen),
+        KeyboardKey::F6 => Action::Toggle(Switch::DiagramOfVehicle),
+        KeyboardKey::F7 => Action::NextTracking,
+        KeyboardKey::F8 => Action::PhotoSphere,
+        KeyboardKey::F11 => Action::ToggleFullScreen,
+        KeyboardKey::Escape => Action::Leave,
         _ => return None,
     })
+}
+
+/// True for a key whose action has always been the ride's.
+fn is_of_ride(key: KeyboardKey) -> bool {
+    use KeyboardKey::{Backspace, C, Equal, F1, H, Minus, O, One, P, Period, Three, Two, U, V};
+    [P, Period, Minus, Equal, One, Two, Three, Backspace, O, U, C, V, H, F1].contains(&key)
 }
 
 /// True for the number of a key that turns the look or the head and nothing else.
@@ -80,6 +106,10 @@ pub struct KeyboardDecoder {
     rider: RiderConfig,
     /// Key whose work each key does, by their numbers.
     works: [u8; 256],
+    /// Keys that do no key's work: their numbers, their actions, and true while they are held.
+    actions: Vec<(u8, Action, bool)>,
+    /// True if keys that change the picture alone act, too.
+    all_keys_act: bool,
     held: HeldKeys,
     pedalled: bool,
     wheel: Ramp,
@@ -92,10 +122,14 @@ pub struct KeyboardDecoder {
 
 impl KeyboardDecoder {
     /// Keyboard without a pressed key.
-    pub fn new(rider: RiderConfig, keys: &KeyMap) -> Self {
+    ///
+    /// `all_keys_act`: false as in rides in which the window itself carried out the keys that change the picture alone.
+    pub fn new(rider: RiderConfig, keys: &KeyMap, all_keys_act: bool) -> Self {
         Self {
             rider,
             works: keys.works(),
+            actions: keys.actions().into_iter().map(|(key, action)| (key, action, false)).collect(),
+            all_keys_act,
             held: HeldKeys([false; 256]),
             pedalled: false,
             wheel: Ramp::default(),
@@ -190,6 +224,7 @@ impl Decoder for KeyboardDecoder {
     /// Releases every key: the window lost the focus. The bicycle coasts.
     fn reset(&mut self, at: Nanos) {
         self.held = HeldKeys([false; 256]);
+        self.actions.iter_mut().for_each(|(.., held)| *held = false);
         self.aim(at);
     }
 
@@ -197,13 +232,20 @@ impl Decoder for KeyboardDecoder {
         let (events, rest) = bytes.as_chunks::<2>();
         let works = self.works;
         for &[code, state] in events {
+            if let (Some((_, action, held)), 0 | 1) = (self.actions.iter_mut().find(|(key, ..)| *key == code), state) {
+                if state == 1 && !std::mem::replace(held, state == 1) {
+                    actions.push(action.clone());
+                }
+                *held = state == 1;
+                continue;
+            }
             let code = works[usize::from(code)];
             match (KeyboardKey::from_code(code), state) {
                 (Some(key), 0 | 1) => {
                     let held = &mut self.held.0[usize::from(code)];
                     let pressed = state == 1 && !*held;
                     *held = state == 1;
-                    if pressed && let Some(action) = action(key) {
+                    if pressed && let Some(action) = action(key).filter(|_| self.all_keys_act || is_of_ride(key)) {
                         actions.push(action);
                     }
                 }
@@ -232,7 +274,7 @@ mod tests {
     use crate::clock::SECOND;
 
     fn keyboard() -> (KeyboardDecoder, Actions) {
-        (KeyboardDecoder::new(RiderConfig::default(), &KeyMap::default()), Actions::default())
+        (KeyboardDecoder::new(RiderConfig::default(), &KeyMap::default(), true), Actions::default())
     }
 
     #[test]
@@ -290,18 +332,37 @@ mod tests {
 
     #[test]
     fn a_key_does_the_work_that_it_is_given() {
-        let swapped = [("a", "D"), ("D", "A"), ("Enter", "W"), ("X", "P")];
+        let swapped = [("a", "D"), ("D", "A"), ("Enter", "W"), ("X", "P"), ("W", "{\"time_scale\":0.5}")];
         let map = KeyMap(swapped.map(|(key, work)| (key.to_owned(), work.to_owned())).into());
         assert_eq!(map.check(), Ok(()));
-        let mut keys = KeyboardDecoder::new(RiderConfig::default(), &map);
+        let mut keys = KeyboardDecoder::new(RiderConfig::default(), &map, true);
         let mut actions = Actions::default();
-        for key in [KeyboardKey::A, KeyboardKey::Enter, KeyboardKey::X] {
+        for key in [KeyboardKey::A, KeyboardKey::Enter, KeyboardKey::X, KeyboardKey::W] {
             keys.bytes(0, &key.to_bytes(true), &mut actions);
         }
         assert_eq!((keys.steer(SECOND), keys.wheel_speed(SECOND)), (-1.0, Some(2.0)));
-        assert_eq!(actions.take(), [Action::TogglePause]);
+        assert_eq!(actions.take(), [Action::TogglePause, Action::TimeScale(0.5)]);
+        // A key that has an action pedals no longer.
+        keys.bytes(0, &KeyboardKey::Enter.to_bytes(false), &mut actions);
+        assert_eq!(keys.wheel_speed(99 * SECOND), Some(0.0));
         let bad = KeyMap([("Enter".to_owned(), "pedal".to_owned())].into());
-        assert!(bad.check().unwrap_err().to_string().contains("keys is \"pedal\": expected the name of a key"));
+        assert!(
+            bad.check()
+                .unwrap_err()
+                .to_string()
+                .contains("keys is \"pedal\": expected the name of a key, or an action")
+        );
+    }
+
+    #[test]
+    fn keys_of_the_picture_do_nothing_in_rides_whose_window_carried_them_out() {
+        for (all_keys_act, expected) in [(true, vec![Action::NextView, Action::Photo]), (false, vec![Action::Photo])] {
+            let mut keys = KeyboardDecoder::new(RiderConfig::default(), &KeyMap::default(), all_keys_act);
+            let mut actions = Actions::default();
+            keys.bytes(0, &KeyboardKey::X.to_bytes(true), &mut actions);
+            keys.bytes(0, &KeyboardKey::C.to_bytes(true), &mut actions);
+            assert_eq!(actions.take(), expected);
+        }
     }
 
     #[test]

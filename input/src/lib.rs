@@ -53,7 +53,7 @@ pub mod trainer;
 pub mod vrpn;
 pub mod wand;
 
-pub use action::{Action, VehicleKind};
+pub use action::{Action, Place, Setting, Switch, VehicleKind};
 pub use axis_table::AxisTable;
 pub use bicycle::config::{BareNumber, BicycleConfig, SpeedSource};
 pub use brake::BrakeCommand;
@@ -65,8 +65,11 @@ pub use desk::Desk;
 pub use devices::{Devices, DevicesConfig};
 pub use faults::Faults;
 pub use gamepad_map::GamepadMap;
-pub use head::{HeadConfig, HeadState, HeardKind, HeardSensor, MouseButton, MouseEvent, TrackedPose, TrackerUrl};
+pub use head::{
+    HeadConfig, HeadState, HeardKind, HeardSensor, MouseButton, MouseEvent, TrackedPose, TrackerUrl, TrackingMode,
+};
 pub use key::KeyboardKey;
+pub use key_map::KeyMap;
 pub use look::{FreeLook, LookDecoder, STEEPEST_LOOK_RAD};
 pub use rider_config::RiderConfig;
 pub use sample::{Sample, SampleSource, Signal};

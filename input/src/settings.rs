@@ -31,7 +31,8 @@ impl Decoder for ActionDecoder {
 mod tests {
     //! An action must survive its own text, and a text that is no action must have no effect.
     use super::*;
-    use crate::action::VehicleKind;
+    use crate::action::{Place, Setting, Switch, VehicleKind};
+    use crate::head::config::TrackingMode;
 
     fn decode(bytes: &[u8]) -> (Vec<Action>, u64) {
         let mut actions = Actions::default();
@@ -52,15 +53,33 @@ mod tests {
             Action::LookAhead,
             Action::Recentre,
             Action::Restart,
+            Action::Tracking(TrackingMode::Position),
+            Action::Jump(Place { position_m: [1.0, 0.0, -3.5], look: [0.0, 0.0, -1.0] }),
+            Action::Scene("models/hall.glb".to_owned()),
+            Action::Set(Setting::Effects, "geometry,doppler".to_owned()),
+            Action::Next(Setting::Tone),
+            Action::Toggle(Switch::Outside),
+            Action::Expose(-0.5),
         ] {
-            assert_eq!(decode(&action.to_bytes()), (vec![action], 0));
+            assert_eq!(decode(&action.to_bytes()), (vec![action.clone()], 0));
+            assert_eq!(Action::named(&String::from_utf8(action.to_bytes().into()).unwrap()), Some(action));
         }
     }
 
     #[test]
     fn texts_that_are_no_action_are_counted_and_do_nothing() {
-        let bad: [&[u8]; 6] =
-            [b"", b"\"fly\"", b"{\"time_scale\":-1}", b"{\"scale_time\":0}", b"{\"time_scale\":1e999}", b"\xff\xfe"];
+        let endless = format!("{{\"scene\":\"{}\"}}", "x".repeat(5000));
+        let bad: [&[u8]; 9] = [
+            b"",
+            b"\"fly\"",
+            b"{\"time_scale\":-1}",
+            b"{\"scale_time\":0}",
+            b"{\"time_scale\":1e999}",
+            b"\xff\xfe",
+            b"{\"jump\":{\"position_m\":[0,0,1e13],\"look\":[0,0,1]}}",
+            b"{\"jump\":{\"position_m\":[0,0,0],\"look\":[0,0,0]}}",
+            endless.as_bytes(),
+        ];
         for bytes in bad {
             assert_eq!(decode(bytes), (vec![], 1), "{bytes:?}");
         }

@@ -36,7 +36,7 @@ const BUTTONS: [Action; 2] = [Action::TogglePause, Action::ToggleHelp];
 
 /// Action of button `index` when pressed, on either back end.
 pub(crate) fn button(index: usize) -> Option<Action> {
-    BUTTONS.get(index).copied()
+    BUTTONS.get(index).cloned()
 }
 
 /// Six controls for a device's axes and their full deflection.

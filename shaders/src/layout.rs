@@ -175,6 +175,28 @@ pub struct FacetUniforms {
     pub texel: Vec4,
 }
 
+/// Sheet that floats in a room, and the channel that shows it. Axes of the room, metres.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct SheetUniforms {
+    /// Position of the eye; w unused.
+    pub eye: Vec4,
+    /// Lower left corner of the sheet; w unused.
+    pub corner: Vec4,
+    /// Vector along the lower edge of the sheet; w unused.
+    pub right: Vec4,
+    /// Vector along the left edge of the sheet; w unused.
+    pub up: Vec4,
+    /// Lower left corner of a flat screen's picture; w unused.
+    pub screen_corner: Vec4,
+    /// Vector along the lower edge of a flat screen's picture; w unused.
+    pub screen_right: Vec4,
+    /// Vector along the left edge of a flat screen's picture; w unused.
+    pub screen_up: Vec4,
+    /// Rectangle of the channel's picture: x, y, width, height, pixels.
+    pub viewport: Vec4,
+}
+
 /// Camera from which a room is seen.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

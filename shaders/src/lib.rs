@@ -23,9 +23,9 @@ pub use constants::{
 };
 pub use layout::{
     AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, LightingUniforms, MapUniforms, MaterialUniforms,
-    MeteringUniforms, PlacementUniforms, RoomViewUniforms, ViewUniforms,
+    MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
 };
 pub use modules::{
     ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, MARKS, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW,
-    SKY, SURFACE, WARP,
+    SHEET, SKY, SURFACE, WARP,
 };

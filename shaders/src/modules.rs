@@ -84,6 +84,8 @@ pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/r
 /// Linear light as a screen takes it.
 pub const ENCODED: Module =
     Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
+/// Module that draws a sheet in a room over a channel's picture.
+pub const SHEET: Module = Module { name: "sheet", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/sheet.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// Module that enlarges a finished picture to the size of its window.
@@ -95,7 +97,7 @@ pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 15] = [
-    SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE, MARKS,
-    PROBE,
+pub const MODULES: [Module; 16] = [
+    SHEET, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE,
+    MARKS, PROBE,
 ];

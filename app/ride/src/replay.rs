@@ -34,6 +34,11 @@ impl Replay<Recording> {
 }
 
 impl Replay<Recording> {
+    /// Setting of the recording's header by its key.
+    pub fn header_setting(&self, key: &str) -> Option<&str> {
+        self.entries.header().settings.get(key).map(String::as_str)
+    }
+
     /// Place at which another recording begins in the file behind this one, bytes. Asked for after the last frame.
     pub fn another(&self) -> Option<u64> {
         self.entries.another()

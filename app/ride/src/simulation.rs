@@ -22,8 +22,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use glam::DVec3;
 use input::recording::FrameRecord;
-use input::{Action, Controls, Desk, FreeLook, Nanos, Sample};
+use input::{Action, Controls, Desk, FreeLook, Nanos, Place, Sample};
 use scene::Surroundings;
 use view::Gaze;
 
@@ -150,7 +151,7 @@ impl Simulation {
         self.controls = self.desk.controls(at);
         let mut single_steps = 0;
         for index in 0..self.controls.actions.len() {
-            let action = self.controls.actions[index];
+            let action = self.controls.actions[index].clone();
             single_steps += u64::from(action == Action::Step);
             self.act(action, notices);
         }
@@ -196,9 +197,19 @@ impl Simulation {
             },
             Action::Vehicle(kind) => self.vehicle.set_kind(kind, &*self.surroundings),
             Action::Restart => self.restart(),
-            Action::LookAhead | Action::Recentre | Action::Step => {}
-            Action::Photo | Action::ToggleRecording | Action::ToggleHelp => {}
+            Action::Jump(place) => self.jump(&place),
+            // The desk turns look and head; the program shows, photographs, records and leaves.
+            _ => {}
         }
+    }
+
+    /// Puts the vehicle at rest at a place. Clocks and odometers run on; its kind and the speed of light stay.
+    fn jump(&mut self, place: &Place) {
+        let [position, look] = [place.position_m, place.look].map(DVec3::from_array);
+        if let Some(assist) = &mut self.assist {
+            assist.restart();
+        }
+        self.vehicle.jump(position, look, &*self.surroundings);
     }
 
     /// Puts the vehicle back to the start. Its kind and the speed of light stay as they are.

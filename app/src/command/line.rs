@@ -171,6 +171,7 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
     if let (Command::Ride(options), Some(matches)) = (&mut command, matches.subcommand_matches("ride")) {
         let given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
         options.drawing_is_given = ["renderer", "tolerance", "edge", "transform", "map_scale"].into_iter().any(given);
+        options.picture_is_given = ["effects", "fov", "exposure", "tone", "gamut"].into_iter().any(given);
     }
     match &command {
         Command::Ride(options) => options.check(),

@@ -10,9 +10,12 @@ use super::kiosk::KioskOptions;
 use super::picture::PictureOptions;
 use super::values;
 use super::world::WorldOptions;
-use input::{TrackerUrl, TrainerUrl};
+use input::{KeyMap, TrackerUrl, TrainerUrl};
+use presentation::{Latency, Presentation};
 use ride::{AssistMode, IntegratorKind, Nose};
+use scene::Start;
 use view::{Dial, Occasion, RendererName};
+use words::Language;
 
 /// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 const HARDWARE_SAMPLES: u32 = 4;
@@ -27,16 +30,6 @@ pub enum VehicleName {
     Drive,
     /// Vehicle with thrust in three directions, and roll.
     Fly,
-}
-
-/// Order of transforming and drawing within a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Latency {
-    /// Transform and draw one after the other, for the freshest picture.
-    Low,
-    /// Transform the next frame while this one is drawn, for more frames per second.
-    #[default]
-    Overlap,
 }
 
 /// Options of `rapidity ride`.
@@ -95,6 +88,10 @@ pub struct RideOptions {
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
+    /// Language of everything that is written in the picture: en or de [default: that of the settings, else that of the
+    /// system].
+    #[arg(long, value_name = "LANGUAGE", help_heading = "Session")]
+    pub language: Option<Language>,
     /// Options of a kiosk.
     #[command(flatten)]
     pub kiosk: KioskOptions,
@@ -107,6 +104,12 @@ pub struct RideOptions {
     /// True if the command line has an option for the renderer or one of its dials.
     #[arg(skip)]
     pub drawing_is_given: bool,
+    /// Keys that do other work than their own by the user's settings.
+    #[arg(skip)]
+    pub keys: KeyMap,
+    /// True if the command line has an option for the picture that a recording tells, too.
+    #[arg(skip)]
+    pub picture_is_given: bool,
 }
 
 impl RideOptions {
@@ -128,6 +131,18 @@ impl RideOptions {
             return Err("--exact-light is for --renderer raytrace; leave it out".to_owned());
         }
         Ok(())
+    }
+
+    /// Presentation with which a ride begins that starts as `start` says.
+    pub fn presentation(&self, start: &Start) -> Presentation {
+        Presentation {
+            effects: self.picture.effects,
+            latency: self.latency,
+            fov_deg: self.picture.fov_deg(start),
+            development: self.picture.development(),
+            language: self.language.unwrap_or_default(),
+            ..Presentation::default()
+        }
     }
 
     /// Dial by which the frames of the ride are drawn; `software`: on the CPU.

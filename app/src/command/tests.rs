@@ -10,6 +10,7 @@ use glam::DVec3;
 use view::{Effects, RendererName};
 
 use super::*;
+use presentation::Latency;
 
 /// Parses a line of words; an underscore stands for a space within a word.
 fn parse(line: &str) -> Result<Command, Stop> {

@@ -195,7 +195,7 @@ fn choose(rows: &[Row], goal: Goal, pixel_arcmin: f64, size: [u32; 2]) -> Result
         row.ms[1],
         row.arcmin[1] / pixel_arcmin
     );
-    let path = Preferences { ride: row.dial }.save(&note)?;
+    let path = Preferences::save_dial(row.dial, &note)?;
     tell(format_args!(
         "{} is best for --{goal}: {:.1} ms a frame, {:.1} in 95 of 100, and {:.2} pixels off in 99 of 100",
         row.dial,

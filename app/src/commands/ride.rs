@@ -8,11 +8,10 @@ use crate::output::say::{say, tell};
 use crate::session::live::Live;
 use crate::session::preferences;
 use crate::session::scenes;
-use crate::session::start::{RideRoom, has_display, kiosk, prepared, present, recorded};
-use crate::window;
+use crate::session::start::{PRESENTATION, RideRoom, has_display, kiosk, prepared, present, recorded};
+use crate::window::{self, WaitingRide};
 use input::recording::RecordingError;
 use picture_files::files::writable;
-use scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// File of the film if there is no graphical session and no file is named.
@@ -28,11 +27,10 @@ pub fn ride(options: &RideOptions) -> Result<(), Error> {
     if options.verify {
         return options.replay.as_deref().map_or(Ok(()), |path| verify(path, options));
     }
-    let options = &preferences::applied(options)?;
+    let options = &preferences::applied(options);
     if !films {
         let room = RideRoom::of(options)?;
-        let (scene, begin) = begin(options, &room)?;
-        return window::run(options, scene, room, begin);
+        return window::run(options, waiting(options, room)?);
     }
     if options.kiosk.kiosk {
         return Err(Error::KioskWithoutWindows);
@@ -60,14 +58,22 @@ fn verify(path: &Path, options: &RideOptions) -> Result<(), Error> {
     Ok(say(format_args!("{}: {} frames, identical to the bit", path.display(), frames?))?)
 }
 
-/// Scene, and the function that begins a live or a recorded ride in it.
-fn begin(options: &RideOptions, room: &RideRoom) -> Result<(Scene, window::Begin), Error> {
+/// Live or recorded ride for which the windows are opened.
+fn waiting(options: &RideOptions, room: RideRoom) -> Result<WaitingRide, Error> {
     let seconds = options.seconds;
     if let Some(path) = &options.replay {
         let (scene, replay) = recorded(path, &options.world)?;
-        return Ok((scene, Box::new(move || Ok(Live::recorded(replay, seconds)))));
+        let presentation = options.presentation(&scene.start);
+        // What the rider has seen is shown again, unless the command line asks for another picture.
+        let presentation = match replay.header_setting(PRESENTATION) {
+            Some(json) if !options.picture_is_given => presentation.with_json(json).in_language(presentation.language),
+            _ => presentation,
+        };
+        let begin = Box::new(move || Ok(Live::recorded(replay, seconds)));
+        return Ok(WaitingRide { scene, room, presentation, begin });
     }
     let world = scenes::load(&options.world)?;
+    let presentation = options.presentation(&world.scene.start);
     let (simulation, mut log) = prepared(options, &world, &room.set_up, room.head.clone())?;
     let scene = world.scene;
     let kiosk = kiosk(options, simulation.setup(), &scene)?;
@@ -75,5 +81,6 @@ fn begin(options: &RideOptions, room: &RideRoom) -> Result<(Scene, window::Begin
         log.record(path)?;
     }
     let (options, set_up) = (options.clone(), room.set_up.clone());
-    Ok((scene, Box::new(move || present(&options, &set_up, simulation, log, kiosk))))
+    let begin = Box::new(move || present(&options, &set_up, simulation, log, kiosk));
+    Ok(WaitingRide { scene, room, presentation, begin })
 }

@@ -9,20 +9,19 @@ use crate::session::lost_time::LostTime;
 use hardware::heard::{self, DeviceReport};
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl};
+use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl, TrackingMode};
 use kiosk::Kiosk;
 use picture_files::files::unused;
+use presentation::Presentation;
 use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
 use std::path::Path;
+use words::{Language, Phrase};
 
 /// Time for which a notice is shown.
 const NOTICE_TIME: Nanos = 4 * SECOND;
 
 /// Most things of a tracker that the settings panel lists.
 const MOST_THINGS: usize = 6;
-
-/// Sentence over the attract ride.
-const INVITATION: &str = "Press a key or start to pedal: the ride is yours";
 
 /// Ride in progress.
 pub struct Live {
@@ -43,6 +42,8 @@ pub struct Live {
     unseen: Option<String>,
     /// Sentences on devices that are open and do not do all that they should, and the next look for more.
     notes: (Vec<String>, Nanos),
+    /// Language of the sentences for the rider.
+    pub language: Language,
 }
 
 /// Source of the ride's frames.
@@ -90,6 +91,7 @@ impl Live {
             open: Vec::new(),
             unseen: None,
             notes: (Vec::new(), 0),
+            language: Language::default(),
         }
     }
 
@@ -103,9 +105,29 @@ impl Live {
         self
     }
 
-    /// Sentence for passers-by, while the attract ride is shown.
-    pub fn invitation(&self) -> Option<&'static str> {
-        self.kiosk.as_ref().is_some_and(|kiosk| kiosk.attracts()).then_some(INVITATION)
+    /// True while passers-by are invited: the attract ride is shown.
+    pub fn invites(&self) -> bool {
+        self.kiosk.as_ref().is_some_and(|kiosk| kiosk.attracts())
+    }
+
+    /// Use of the tracked head, if one is tracked.
+    pub fn tracking(&self) -> Option<TrackingMode> {
+        let desk = match &self.rider {
+            Rider::Present { simulation, .. } => simulation.desk(),
+            Rider::Recorded { replay, .. } => replay.simulation().desk(),
+        };
+        desk.tracking()
+    }
+
+    /// Sentence on the use of the tracked head.
+    pub fn tracking_told(&self, language: Language) -> String {
+        let mode = match self.tracking() {
+            None => return language.text(Phrase::NoHead).to_owned(),
+            Some(TrackingMode::PositionAndVelocity) => Phrase::HeadBoth,
+            Some(TrackingMode::Position) => Phrase::HeadPlace,
+            Some(TrackingMode::None) => Phrase::HeadOff,
+        };
+        language.fill(Phrase::HeadIs, &[&language.text(mode)])
     }
 
     /// Notes a touch of something that is no device of the ride, in a kiosk.
@@ -210,6 +232,7 @@ impl Live {
             }
             Rider::Recorded { replay, next, shown, differed, times } => {
                 let said = std::mem::take(&mut self.said);
+                let mut repeated = Vec::new();
                 // The frames that were ridden since the last call are simulated, and the last of them is shown.
                 let ended = loop {
                     let (frame, due_at) = match next.take() {
@@ -235,6 +258,8 @@ impl Live {
                     };
                     let due = due_at <= now;
                     if due || shown.is_none() {
+                        let actions = frame.controls.actions.iter().filter(|action| Presentation::repeats(action));
+                        repeated.extend(actions.cloned());
                         *shown = Some(Box::new(frame));
                     } else {
                         *next = Some(Box::new((frame, due_at)));
@@ -243,10 +268,12 @@ impl Live {
                         break false;
                     }
                 };
-                // Actions of the recorded rider are not performed again. Actions that the onlooker asks for now are.
+                // Of the recorded rider's actions, those are performed again that decide what is shown. Actions that the
+                // onlooker asks for now follow.
                 let mut frame = if ended && next.is_none() { None } else { shown.as_deref().cloned() };
                 if let Some(frame) = &mut frame {
-                    frame.controls.actions = onlooker(&said);
+                    repeated.extend(onlooker(&said));
+                    frame.controls.actions = repeated;
                 }
                 frame
             }
@@ -254,7 +281,7 @@ impl Live {
         self.tell_notes(now);
         if let Some(frame) = &frame {
             for notice in &frame.notices {
-                self.tell(notice.to_string());
+                self.tell(interface::notice(*notice, self.language));
             }
         }
         Ok(frame)
@@ -300,6 +327,11 @@ impl Live {
                 "this room's tracker is calibrated, so the head is not moved; recentre = \"key\" in [tracker] allows it"
             }
         }
+    }
+
+    /// True if the ride is a recorded one.
+    pub fn is_recorded(&self) -> bool {
+        matches!(self.rider, Rider::Recorded { .. })
     }
 
     /// True if a recording is being written.
@@ -410,5 +442,19 @@ fn onlooker(said: &[Sample]) -> Vec<Action> {
     let mut desk = Desk::new(DeskConfig::default()).expect("the default settings are sound");
     said.iter().for_each(|sample| desk.feed(sample));
     let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
-    actions.into_iter().filter(|action| matches!(action, Action::ToggleHelp | Action::Photo)).collect()
+    let of_window = |action: &Action| {
+        matches!(
+            action,
+            Action::ToggleHelp
+                | Action::Photo
+                | Action::PhotoSphere
+                | Action::ToggleFullScreen
+                | Action::ToggleCalibration
+                | Action::Leave
+                | Action::Toggle(_)
+                | Action::Set(..)
+                | Action::Next(_)
+        )
+    };
+    actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()
 }

@@ -1,11 +1,18 @@
-//! Preferences: the way of drawing for rides whose command line does not name one. A small file in the user's
-//! configuration directory, written by `rapidity measure`, holds them.
+//! The user's settings: a small file in the configuration directory.
 //!
 //! ```toml
-//! [ride]
+//! language = "de"
+//!
+//! [keys]                # keys that do other work than their own
+//! F12 = "photo"
+//!
+//! [ride]                # the way of drawing, written by `rapidity measure`
 //! renderer = "polygon"
-//! tolerance = 2.0     # or edge = 0.5, and transform = "gpu"; for the image renderer, map-scale = 0.9
+//! tolerance = 2.0       # or edge = 0.5, and transform = "gpu"; for the image renderer, map-scale = 0.9
 //! ```
+//!
+//! What is written into it keeps all that the user wrote. A file that cannot be understood is set aside under another
+//! name, and the program goes on.
 
 use std::path::{Path, PathBuf};
 
@@ -13,8 +20,12 @@ use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use input::KeyMap;
 use regular_file::FileFault;
 use view::{Dial, RendererName, Transform};
+use words::Language;
+
+use toml_edit::{DocumentMut, Item, Table, value};
 
 use crate::command::{DialOptions, RideOptions};
 use crate::output::say::tell;
@@ -27,11 +38,18 @@ const FILE: &str = "rapidity.toml";
 const LONGEST: u64 = 1 << 20;
 
 /// Contents of the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Preferences {
-    /// Way of drawing for rides.
-    pub ride: Dial,
+    /// Language of the interface; that of the system if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub language: Option<Language>,
+    /// Keys that do other work than their own, unless a set-up file has a table of its own.
+    #[serde(skip_serializing_if = "KeyMap::is_empty")]
+    pub keys: KeyMap,
+    /// Way of drawing for rides; the program's choice if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ride: Option<Dial>,
 }
 
 /// Reason why the file cannot be used.
@@ -41,7 +59,7 @@ pub enum PreferencesError {
     #[error("there is no place for {FILE}: the system names no configuration directory; set HOME or XDG_CONFIG_HOME")]
     NoPlace,
     /// A file that cannot be read.
-    #[error("{}: it cannot be read: {reason}; mend it, or delete it to have the program choose how to draw", path.display())]
+    #[error("{}: the settings cannot be read: {reason}; mend the file, or delete it to have the usual settings", path.display())]
     Unreadable {
         /// Path of the file.
         path: PathBuf,
@@ -64,13 +82,21 @@ impl Preferences {
         ProjectDirs::from("", "", "rapidity").map(|directories| directories.config_dir().join(FILE))
     }
 
-    /// Contents and path of the file; `None` if there is no file.
-    ///
-    /// # Errors
-    /// [`PreferencesError::Unreadable`].
-    pub fn load() -> Result<Option<(Self, PathBuf)>, PreferencesError> {
-        let Some(path) = Self::path() else { return Ok(None) };
-        Ok(Self::read(&path)?.map(|preferences| (preferences, path)))
+    /// Contents of the file, and its path if there is one. A file that cannot be understood is set aside, and one that
+    /// cannot be read is passed over; each is told.
+    pub fn load() -> (Self, Option<PathBuf>) {
+        let Some(path) = Self::path() else { return (Self::default(), None) };
+        match Self::read(&path) {
+            Ok(Some(preferences)) => (preferences, Some(path)),
+            Ok(None) => (Self::default(), None),
+            Err(error) => {
+                tell(&error);
+                if let Some(aside) = set_aside(&path) {
+                    tell(format_args!("{}: set aside as {}; the usual settings hold", path.display(), aside.display()));
+                }
+                (Self::default(), None)
+            }
+        }
     }
 
     /// Contents of the file; `None` if there is no file.
@@ -83,25 +109,31 @@ impl Preferences {
         }
     }
 
-    /// Writes the file with `note` at its head, and returns its path.
+    /// Writes the way of drawing into the file, with `note` above it, and returns the file's path.
     ///
     /// # Errors
     /// [`PreferencesError::NoPlace`], [`PreferencesError::Unwritable`].
-    pub fn save(&self, note: &str) -> Result<PathBuf, PreferencesError> {
+    pub fn save_dial(dial: Dial, note: &str) -> Result<PathBuf, PreferencesError> {
         let path = Self::path().ok_or(PreferencesError::NoPlace)?;
-        let text = toml::to_string(self).map_err(|error| error.to_string());
-        let written = text.and_then(|text| {
-            let text =
-                format!("# {note}\n# Delete this file to have `rapidity ride` choose by itself again.\n\n{text}");
-            let folder = path.parent().unwrap_or(Path::new("."));
-            std::fs::create_dir_all(folder)
-                .and_then(|()| whole(&path, |temporary| std::fs::write(temporary, &text)))
-                .map_err(|error| error.to_string())
-        });
-        match written {
-            Ok(()) => Ok(path),
-            Err(reason) => Err(PreferencesError::Unwritable { path, reason }),
-        }
+        change(&path, |document| {
+            let mut table: Table = match toml_edit::ser::to_document(&dial) {
+                Ok(document) => document.as_table().clone(),
+                Err(_) => return,
+            };
+            let note = format!("# {note}\n# Delete this table to have `rapidity ride` choose by itself again.\n");
+            table.decor_mut().set_prefix(note);
+            document["ride"] = Item::Table(table);
+        })?;
+        Ok(path)
+    }
+
+    /// Writes the language into the file.
+    ///
+    /// # Errors
+    /// [`PreferencesError::NoPlace`], [`PreferencesError::Unwritable`].
+    pub fn save_language(language: Language) -> Result<(), PreferencesError> {
+        let path = Self::path().ok_or(PreferencesError::NoPlace)?;
+        change(&path, |document| document["language"] = value(language.code()))
     }
 
     /// Reads and checks the text, with the same limits as on the command line.
@@ -111,7 +143,10 @@ impl Preferences {
             let place = line.map_or_else(String::new, |line| format!("line {line}: "));
             format!("{place}{}", error.message().lines().collect::<Vec<_>>().join(" "))
         })?;
-        let Dial { renderer, edge, transform, tolerance, map_scale } = preferences.ride;
+        preferences.keys.check().map_err(|error| error.to_string())?;
+        let Some(Dial { renderer, edge, transform, tolerance, map_scale }) = preferences.ride else {
+            return Ok(preferences);
+        };
         if renderer == RendererName::Raytrace {
             return Err(
                 "renderer is \"raytrace\", which is too slow for a ride: expected auto, polygon or image".to_owned()
@@ -142,21 +177,47 @@ impl Preferences {
     }
 }
 
-/// Options of a ride, with the file's way of drawing unless the command line has an option for it. Prints a line if
-/// the file is used.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn applied(options: &RideOptions) -> Result<RideOptions, PreferencesError> {
+/// Changes the file at `path`, and keeps everything else in it. A file that is no TOML is set aside.
+fn change(path: &Path, change: impl FnOnce(&mut DocumentMut)) -> Result<(), PreferencesError> {
+    let text = regular_file::read(path, LONGEST).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let mut document = match text.as_deref().map(str::parse::<DocumentMut>) {
+        Ok(Ok(document)) => document,
+        Ok(Err(_)) => {
+            set_aside(path);
+            DocumentMut::new()
+        }
+        Err(_) => DocumentMut::new(),
+    };
+    change(&mut document);
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)
+        .and_then(|()| whole(path, |temporary| std::fs::write(temporary, document.to_string())))
+        .map_err(|error| PreferencesError::Unwritable { path: path.to_owned(), reason: error.to_string() })
+}
+
+/// Gives a file another name beside its own, one that no file has. `None` if that cannot be done.
+fn set_aside(path: &Path) -> Option<PathBuf> {
+    if !path.is_file() {
+        return None;
+    }
+    let aside = |number: u32| path.with_extension(format!("toml.broken-{number}"));
+    let free = (1..1000).map(aside).find(|aside| !aside.exists())?;
+    std::fs::rename(path, &free).ok()?;
+    Some(free)
+}
+
+/// Options of a ride, with the user's settings where the command line has no option for them. Prints a line if the way
+/// of drawing is the file's.
+pub fn applied(options: &RideOptions) -> RideOptions {
     let mut options = options.clone();
-    if options.drawing_is_given {
-        return Ok(options);
+    let (preferences, path) = Preferences::load();
+    options.language = options.language.or(preferences.language).or_else(|| Some(Language::of_system()));
+    options.keys = preferences.keys;
+    if let (Some(dial), Some(path), false) = (preferences.ride, path, options.drawing_is_given) {
+        options.dial = DialOptions::of(dial);
+        tell(format_args!("{}: drawn with {dial}, unless options say otherwise", path.display()));
     }
-    if let Some((preferences, path)) = Preferences::load()? {
-        options.dial = DialOptions::of(preferences.ride);
-        tell(format_args!("{}: drawn with {}, unless options say otherwise", path.display(), preferences.ride));
-    }
-    Ok(options)
+    options
 }
 
 #[cfg(test)]
@@ -169,7 +230,8 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         for ride in [Dial::edge(0.5), Dial::vertex_stage(0.5), Dial::tolerance(2.0), Dial::map(0.9)] {
-            let preferences = Preferences { ride };
+            let keys = KeyMap([("F12".to_owned(), "photo".to_owned())].into());
+            let preferences = Preferences { ride: Some(ride), keys, language: Some(Language::German) };
             let text = toml::to_string(&preferences).unwrap();
             assert_eq!(Preferences::from_toml(&text), Ok(preferences), "{text}");
         }
@@ -189,12 +251,34 @@ mod tests {
     }
 
     #[test]
+    fn a_change_keeps_what_the_user_wrote_and_sets_aside_what_is_no_settings() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deeper").join(FILE);
+        let german = |document: &mut DocumentMut| document["language"] = value("de");
+        change(&path, german).unwrap();
+        assert_eq!(Preferences::read(&path).unwrap().unwrap().language, Some(Language::German));
+        let own = "# mine\n[keys]\nF12 = \"photo\" # with a flash\n";
+        std::fs::write(&path, own).unwrap();
+        change(&path, german).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("# mine") && text.contains("# with a flash"), "{text}");
+        assert_eq!(Preferences::from_toml(&text).unwrap().language, Some(Language::German));
+        for number in 1..3 {
+            std::fs::write(&path, "[keys").unwrap();
+            change(&path, german).unwrap();
+            let aside = path.with_extension(format!("toml.broken-{number}"));
+            assert_eq!(std::fs::read_to_string(aside).unwrap(), "[keys");
+        }
+    }
+
+    #[test]
     fn what_is_no_setting_is_refused() {
         for (text, told) in [
             ("[ride]\nrenderer = \"polygon\"\nedgee = 1", "line 3"),
             ("[ride]\nrenderer = \"raytrace\"", "expected auto, polygon or image"),
             ("[ride", "line 1"),
-            ("", "ride"),
+            ("[keys]\nF12 = \"jump high\"", "keys is \"jump high\""),
+            ("language = \"fr\"", "line 1"),
             ("[ride]\nrenderer = \"auto\"\ntolerance = 0.0", "tolerance is 0: expected a number from 0.01 to 100"),
             ("[ride]\nrenderer = \"auto\"\nedge = -1.0", "edge is -1: expected a finite number above 0"),
             ("[ride]\nrenderer = \"auto\"\nedge = inf", "edge is inf"),

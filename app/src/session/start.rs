@@ -23,6 +23,8 @@ use std::sync::Arc;
 
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
+/// Key of the recording's setting that says how the ride was shown at its beginning.
+pub const PRESENTATION: &str = "presentation";
 
 fn fingerprint(scene: &Scene) -> String {
     format!("{:016x}", scene.fingerprint())
@@ -148,9 +150,14 @@ pub fn prepared(
     head: Option<HeadConfig>,
 ) -> Result<(Simulation, RideLog), Error> {
     let scene = &world.scene;
-    let setup = setup(options, world, DeskConfig { head, ..set_up.desk()? })?;
+    let mut desk = DeskConfig { head, ..set_up.desk()? };
+    if desk.keys.is_empty() {
+        desk.keys = options.keys.clone();
+    }
+    let setup = setup(options, world, desk)?;
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
+    header.settings.insert(PRESENTATION.to_owned(), options.presentation(&scene.start).to_json());
     let collision = Arc::new(Collision::new(scene)?);
     // What flies without a hull asks for nothing.
     if setup.kind != VehicleKind::Fly || setup.vehicle.flight.hull_m > 0.0 {

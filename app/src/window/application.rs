@@ -7,6 +7,7 @@ use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
+use presentation::Presentation;
 use scene::Scene;
 use std::cell::Cell;
 use std::panic::AssertUnwindSafe;
@@ -20,19 +21,16 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
 
-/// Function that begins the ride. It is called when everything else is ready, since the ride's clock starts with it.
-pub type Begin = Box<dyn FnOnce() -> Result<Live, Error>>;
-
 /// Opens the windows and rides until they are closed.
 ///
 /// # Errors
 /// A missing graphical session or graphics device, or a fault while riding.
-pub fn run(options: &RideOptions, scene: Scene, room: RideRoom, begin: Begin) -> Result<(), Error> {
+pub fn run(options: &RideOptions, waiting: WaitingRide) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Wait);
     // What a lost graphics device takes with it, for a ride that goes on nevertheless.
-    let spare = options.kiosk.kiosk.then(|| (scene.clone(), room.clone()));
-    let waiting = Some(WaitingRide { scene, room, begin });
+    let spare = options.kiosk.kiosk.then(|| (waiting.scene.clone(), waiting.room.clone(), waiting.presentation));
+    let waiting = Some(waiting);
     let stranded = Rc::new(Cell::new(None));
     let mut application = Application { options: options.clone(), waiting, open: None, spare, stranded, failed: None };
     let ended = outlived(|| events.run_app(&mut application));
@@ -81,7 +79,7 @@ struct Application {
     waiting: Option<WaitingRide>,
     open: Option<Open>,
     /// Scene and room of a kiosk, whose windows are opened again after the loss of a graphics device.
-    spare: Option<(Scene, RideRoom)>,
+    spare: Option<(Scene, RideRoom, Presentation)>,
     /// Ride whose windows are not open again yet.
     stranded: Rc<Cell<Option<Live>>>,
     failed: Option<Error>,
@@ -113,7 +111,7 @@ impl ApplicationHandler for Application {
 impl Application {
     /// Opens the windows of a kiosk again after the loss of the graphics device. The ride goes on meanwhile.
     fn reopen(&mut self, events: &ActiveEventLoop, error: Error) {
-        let (Some((scene, room)), Some(open)) = (&self.spare, self.open.take()) else { return };
+        let (Some((scene, room, presentation)), Some(open)) = (&self.spare, self.open.take()) else { return };
         tell(format_args!("{error}; the windows are opened again"));
         let mut live = close(open);
         live.fault(&error.to_string());
@@ -122,8 +120,9 @@ impl Application {
         for _ in 0..ATTEMPTS {
             let stranded = Rc::clone(&self.stranded);
             let begin = Box::new(move || stranded.take().ok_or(Error::WindowLost));
-            let (scene, room) = (scene.clone(), room.clone());
-            if let Ok(open) = Open::new(events, &self.options, WaitingRide { scene, room, begin }) {
+            let (scene, room, presentation) = (scene.clone(), room.clone(), *presentation);
+            let waiting = WaitingRide { scene, room, presentation, begin };
+            if let Ok(open) = Open::new(events, &self.options, waiting) {
                 open.windows[0].window.request_redraw();
                 self.open = Some(open);
                 return;

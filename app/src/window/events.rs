@@ -5,16 +5,13 @@ use super::open::Open;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
+use glam::DVec2;
 use input::{MouseButton, MouseEvent, Sample, SampleSource};
-use render::display::development;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
 use winit::event_loop::ActiveEventLoop;
 use winit::keyboard::{KeyCode, PhysicalKey};
 use winit::window::{Fullscreen, WindowId};
-
-/// Stops by which an exposure key changes the exposure.
-const STOPS_PER_PRESS: f32 = 0.5;
 
 impl Open {
     /// Carries out an event of one of the windows.
@@ -27,7 +24,7 @@ impl Open {
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
         let taken = offered && self.interface.event(&self.windows[0].window, &event);
         match event {
-            WindowEvent::CloseRequested if self.settings.kiosk => {}
+            WindowEvent::CloseRequested if self.kiosk => {}
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::Resized(size) => self.resize(number, size),
             WindowEvent::Focused(false) => {
@@ -49,7 +46,6 @@ impl Open {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
                         self.ride.live.touch();
-                        self.window_key(events, code);
                     }
                     // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
                     if !(taken && pressed) {
@@ -58,17 +54,21 @@ impl Open {
                 }
             }
             WindowEvent::CursorMoved { position, .. } => {
+                self.pointed = Some((number, DVec2::new(position.x, position.y)));
                 let moved = self.cursor.replace(position).map(|before| (position.x - before.x, position.y - before.y));
                 if let Some((right, down)) = moved {
                     self.mouse(MouseEvent::Moved { right: right as f32, down: down as f32 });
                 }
             }
             WindowEvent::Touch(_) => self.ride.live.touch(),
-            WindowEvent::CursorLeft { .. } => self.cursor = None,
+            WindowEvent::CursorLeft { .. } => (self.cursor, self.pointed) = (None, None),
             WindowEvent::MouseInput { state, button, .. } => {
                 let pressed = state == ElementState::Pressed;
                 if pressed {
                     self.ride.live.touch();
+                }
+                if button == winit::event::MouseButton::Left {
+                    self.mouse_pressed = pressed;
                 }
                 let button = match button {
                     winit::event::MouseButton::Left => Some(MouseButton::Left),
@@ -119,7 +119,9 @@ impl Open {
         const TURN_RAD: f64 = 0.005;
         /// Factor of the distance for each notch of the wheel.
         const CLOSER: f64 = 1.1;
-        if self.mouse_moves_head {
+        if self.room_interface.is_some() && self.presentation.menu {
+            // The mouse points in the menu.
+        } else if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
         } else if self.mouse_looks {
             self.look(event);
@@ -150,45 +152,11 @@ impl Open {
         }
     }
 
-    /// Carries out a key that concerns the window alone.
-    fn window_key(&mut self, events: &ActiveEventLoop, code: KeyCode) {
-        match code {
-            KeyCode::Escape | KeyCode::F3 | KeyCode::F4 | KeyCode::F11 if self.settings.kiosk => {}
-            KeyCode::Escape => events.exit(),
-            KeyCode::F3 => self.settings.open = !self.settings.open,
-            KeyCode::F4 => self.calibrate(),
-            KeyCode::F2 => self.settings.readings = !self.settings.readings,
-            KeyCode::KeyG => {
-                let places = self.settings.look.effects.places.next();
-                self.settings.look.effects.places = places;
-                self.ride.live.tell(format!("places: {}", places.name()));
-            }
-            KeyCode::KeyB => self.settings.look.effects.doppler = !self.settings.look.effects.doppler,
-            KeyCode::KeyN => self.settings.look.effects.searchlight = !self.settings.look.effects.searchlight,
-            KeyCode::KeyT => {
-                let tone = development::next(self.settings.look.development.tone);
-                self.settings.look.development.tone = tone;
-                self.ride.live.tell(format!("tone curve: {}", development::name(&tone)));
-            }
-            KeyCode::BracketLeft => self.expose(-STOPS_PER_PRESS),
-            KeyCode::BracketRight => self.expose(STOPS_PER_PRESS),
-            KeyCode::F11 => self.fill_monitors(),
-            _ => {}
-        }
-    }
-
     /// Switches between full screen and windows.
     pub(super) fn fill_monitors(&self) {
         for WindowSurface { window, .. } in &self.windows {
             window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
         }
-    }
-
-    /// Brightens the picture by `stops`, and tells the rider.
-    fn expose(&mut self, stops: f32) {
-        let exposure = self.settings.look.development.exposure.changed(stops);
-        self.settings.look.development.exposure = exposure;
-        self.ride.live.tell(format!("exposure: {exposure}"));
     }
 
     /// Takes over a window's new size. The texture that it holds has the size before.

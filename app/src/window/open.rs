@@ -1,21 +1,24 @@
 //! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
-use super::interface::Interface;
-use super::panel::Settings;
 use super::place::{attributes, filling, fit};
+use super::room_interface::RoomInterface;
 use super::server_loss;
+use super::surface_interface::SurfaceInterface;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::command::{RideOptions, map_scale_of_windows};
 use crate::error::Error;
-use crate::frame::{Look, RideInProgress};
+use crate::frame::RideInProgress;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
+use glam::DVec2;
 use hardware::{DESK, WINDOW};
+use interface::MenuPage;
+use presentation::Presentation;
 use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
@@ -36,7 +39,10 @@ pub struct WaitingRide {
     pub scene: Scene,
     /// Room in which the ride is shown.
     pub room: RideRoom,
-    /// Beginning of the ride.
+    /// How the ride is shown at its beginning.
+    pub presentation: Presentation,
+    /// Function that begins the ride. It is called when everything else is ready, since the ride's clock starts with
+    /// it.
     pub begin: Box<dyn FnOnce() -> Result<Live, Error>>,
 }
 
@@ -49,10 +55,22 @@ pub struct Open {
     /// Windows; the first has the interface.
     pub(super) windows: Vec<WindowSurface>,
     pub(super) canvas: Canvas,
-    pub(super) interface: Interface,
-    pub(super) settings: Settings,
-    /// Settings of a fresh ride, which a kiosk returns to.
-    pub(super) fresh: Settings,
+    pub(super) interface: SurfaceInterface,
+    /// How the ride is shown at present.
+    pub(super) presentation: Presentation,
+    /// How a fresh ride is shown, which a kiosk returns to.
+    pub(super) fresh: Presentation,
+    /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
+    pub(super) room_interface: Option<RoomInterface>,
+    /// Window and pixel of the mouse, and true while its left button is held.
+    pub(super) pointed: Option<(usize, DVec2)>,
+    pub(super) mouse_pressed: bool,
+    /// Page of the menu.
+    pub(super) page: MenuPage,
+    /// True in a kiosk.
+    pub(super) kiosk: bool,
+    /// True once the rider has asked for the end.
+    pub(super) leaves: bool,
     /// True if the mouse moves the head.
     pub(super) mouse_moves_head: bool,
     /// True if the mouse turns the look.
@@ -78,7 +96,7 @@ impl Open {
     /// # Errors
     /// A missing window or graphics device, or a ride that cannot begin.
     pub fn new(events: &ActiveEventLoop, options: &RideOptions, waiting: WaitingRide) -> Result<Self, Error> {
-        let WaitingRide { scene, room, begin } = waiting;
+        let WaitingRide { scene, room, presentation, begin } = waiting;
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
         let turns = room.display.as_ref().is_none_or(|display| display.viewer.turns_pictures && !options.preview);
         let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
@@ -140,7 +158,7 @@ impl Open {
         let mut renderer = SceneRenderer::new(&gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
         gpu.wait()?;
         spinner.finish_and_clear();
-        let interface = Interface::new(&gpu, &surfaces[0].window, screen_format);
+        let interface = SurfaceInterface::new(&gpu, &surfaces[0].window, screen_format);
         let mut canvas = match display {
             Some(mut display) => {
                 let smaller = display.shrink_to(largest_side(&gpu));
@@ -159,26 +177,33 @@ impl Open {
                 Canvas::Picture(Box::new(FlatPicture::new(&gpu, size, format, screen_format, map_scale)))
             }
         };
-        let look = Look {
-            effects: options.picture.effects,
-            latency: options.latency,
-            fov_deg: options.picture.fov_deg(&start),
-            development: options.picture.development(),
+        let fresh = presentation;
+        let room_interface = match &canvas {
+            Canvas::Room(walls) => Some(&walls.display),
+            Canvas::Preview(room) => Some(&room.walls.display),
+            Canvas::Picture(_) => None,
         };
+        let room_interface = room_interface.filter(|display| display.channels.len() > 1);
+        let room_interface = room_interface.map(|display| RoomInterface::new(&gpu, display));
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
         let screens: Vec<_> = surfaces.iter().map(screen).collect();
         let spinner = progress::spinner("drawing the first picture");
-        let shown = (look.effects, look.fov_deg, &look.development);
+        let shown = (fresh.effects, fresh.fov_deg, &fresh.development);
         let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &screens)?;
         spinner.finish_and_clear();
         let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         ride.begin(&mut canvas, took);
-        let fresh = Settings { open: false, help: false, kiosk, readings: true, look };
         Ok(Self {
             canvas,
-            settings: fresh.clone(),
+            presentation: fresh,
             fresh,
+            room_interface,
+            pointed: None,
+            mouse_pressed: false,
+            page: MenuPage::default(),
+            kiosk,
+            leaves: false,
             mouse_moves_head,
             mouse_looks,
             dragged: false,

@@ -1,23 +1,23 @@
 //! Readings of a ride for the head-up display and the panel.
 
-use super::hud::Readings;
-use super::panel::PanelRide;
 use crate::frame::RideInProgress;
+use interface::{MenuRide, Readings};
 use render::Gpu;
+use words::{Language, Phrase};
 
 /// Readings for the head-up display.
-pub fn readings(ride: &RideInProgress, kiosk: bool) -> Readings {
+pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readings {
     let Some(frame) = &ride.frame else { return Readings::default() };
     let celerity = frame.gaze.observer.celerity;
     let odometer = frame.vehicle.odometer();
     let mut notices = ride.live.told();
     if ride.not_finite > 0 {
-        notices.push(format!("{} points of the scene have no visible place and are not drawn", ride.not_finite));
+        notices.push(language.fill(Phrase::PointsLost, &[&ride.not_finite]));
     }
     notices.extend(ride.behind.clone());
     notices.extend(ride.certainty.notice());
     if frame.time_scale != 1.0 {
-        notices.push(format!("your clock runs × {:.2}", frame.time_scale));
+        notices.push(language.fill(Phrase::ClockRuns, &[&format!("{:.2}", frame.time_scale)]));
     }
     Readings {
         beta: celerity.beta().vector().length(),
@@ -32,7 +32,8 @@ pub fn readings(ride: &RideInProgress, kiosk: bool) -> Readings {
         stages_ms: ride.times.stages_ms(),
         certainty: accuracy(ride),
         notices,
-        invitation: ride.live.invitation(),
+        invitation: ride.live.invites().then(|| language.text(Phrase::Invitation).to_owned()),
+        language,
         kiosk,
         paused: frame.paused,
         recording: ride.live.is_recording(),
@@ -45,21 +46,26 @@ fn accuracy(ride: &RideInProgress) -> String {
     if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
 }
 
-/// State of the ride that the settings panel shows. `in_step`: sentence on the windows, if there are several.
-pub fn panel(ride: &RideInProgress, gpu: &Gpu, in_step: Option<String>) -> PanelRide {
+/// State of the ride that the menu shows. `in_step`: sentence on the windows, if there are several.
+pub fn menu(ride: &RideInProgress, gpu: &Gpu, is_flat: bool, in_step: Option<String>) -> MenuRide {
     let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
-    PanelRide {
+    let drawing = format!(
+        "{} triangles by the {} renderer on {}",
+        ride.renderer.triangle_count(),
+        ride.renderer.name(),
+        gpu.description()
+    );
+    MenuRide {
         vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
         time_scale: ride.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
         speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.light_speed().speed_of_light_m_s()),
+        paused: ride.frame.as_ref().is_some_and(|frame| frame.paused),
+        recording: ride.live.is_recording(),
+        tracking: ride.live.tracking(),
+        places: Vec::new(),
         devices: ride.live.devices(),
-        drawing: format!(
-            "{} triangles by the {} renderer on {}",
-            ride.renderer.triangle_count(),
-            ride.renderer.name(),
-            gpu.description()
-        ),
+        drawing: [drawing].into_iter().chain(in_step).collect(),
         overlaps: ride.overlaps,
-        in_step,
+        is_flat,
     }
 }

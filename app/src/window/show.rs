@@ -1,10 +1,13 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
-use super::{calibrating, hud, panel, photo, readings};
+use super::room_interface::{self, Shown};
+use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
-use input::{Action, Sample};
+use input::{Action, SECOND, Sample};
+use interface::{MenuRide, Readings};
+use presentation::Presentation;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -30,6 +33,9 @@ impl Open {
             // The ride goes on while nothing can be shown.
             let Some(frame) = self.ride.live.frame()? else { return Ok(false) };
             self.carry_out(frame.controls.actions);
+            if self.leaves {
+                return Ok(false);
+            }
             std::thread::sleep(HELD_PAUSE.saturating_sub(began.elapsed()));
             return Ok(true);
         };
@@ -38,22 +44,29 @@ impl Open {
         }
 
         // Devices to light, on one page: frame.rs.
-        let look = self.settings.look;
-        let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &look)? else { return Ok(false) };
+        let shown = self.presentation;
+        self.ride.live.language = shown.language;
+        let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &shown)? else { return Ok(false) };
         self.carry_out(actions);
+        if self.leaves {
+            return Ok(false);
+        }
+        let shown = self.presentation;
 
         // Light to the windows, and the interface over the first.
-        let readings = readings::readings(&self.ride, self.settings.kiosk);
-        let panel = readings::panel(&self.ride, &self.gpu, self.in_step.sentence());
+        let readings = readings::readings(&self.ride, shown.language, self.kiosk);
+        let is_flat = matches!(self.canvas, Canvas::Picture(_));
+        let menu = shown.menu.then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
+        let mut wanted = self.draw_room_interface(&shown, &readings, menu.as_ref());
+        let is_flat = self.room_interface.is_none();
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
-        let settings = &mut self.settings;
-        let mut wanted = Vec::new();
+        let (page, kiosk) = (&mut self.page, self.kiosk);
         for (number, texture) in &screens {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
             let window = &self.windows[*number].window;
             let first_pixel = window.inner_position().map_or([0, 0], |place| [place.x, place.y]);
-            self.canvas.show(&self.gpu, &mut encoder, *number, &look.development, &screen, first_pixel);
+            self.canvas.show(&self.gpu, &mut encoder, *number, &shown.development, &screen, first_pixel);
             if *number == 0 {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
@@ -61,11 +74,16 @@ impl Open {
                         calibrating::show(ui, calibrating);
                         return;
                     }
-                    if settings.readings {
-                        hud::show(ui, &readings);
+                    if shown.readings && is_flat {
+                        interface::show_readings(ui, &readings);
                     }
-                    wanted.extend(panel::show(ui, settings, &panel));
-                    if settings.kiosk {
+                    if let Some(menu) = menu.as_ref().filter(|_| is_flat) {
+                        wanted.extend(interface::menu_window(ui, page, &shown, menu));
+                    }
+                    if shown.help && is_flat && !interface::show_help(ui, shown.language, kiosk) {
+                        wanted.push(Action::ToggleHelp);
+                    }
+                    if kiosk {
                         // The interface would show the pointer again.
                         ui.ctx().set_cursor_icon(egui::CursorIcon::None);
                     }
@@ -105,27 +123,27 @@ impl Open {
         Ok(())
     }
 
-    /// Carries out the rider's actions that concern the program.
-    fn carry_out(&mut self, actions: Vec<Action>) {
-        if self.ride.live.has_turned() {
-            self.settings = self.fresh.clone();
-        }
-        let development = self.settings.look.development;
-        for action in actions {
-            match action {
-                Action::ToggleRecording | Action::Photo if self.settings.kiosk => {}
-                Action::ToggleHelp => self.settings.help = !self.settings.help,
-                Action::ToggleRecording => self.ride.live.toggle_recording(),
-                Action::Recentre => {
-                    let told = self.ride.live.straightened();
-                    self.ride.live.tell(told);
-                }
-                Action::Photo => {
-                    let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
-                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
-                }
-                _ => {}
-            }
-        }
+    /// Draws the sheets of a room's interface. Returns the actions that were chosen on them.
+    fn draw_room_interface(
+        &mut self,
+        presentation: &Presentation,
+        readings: &Readings,
+        menu: Option<&MenuRide>,
+    ) -> Vec<Action> {
+        let (Some(interface), Some(walls)) = (&mut self.room_interface, self.canvas.walls_mut()) else {
+            return Vec::new();
+        };
+        // The wand of a recorded rider has chosen already.
+        let frame = self.ride.frame.as_ref().filter(|_| !self.ride.live.is_recorded());
+        let wand = frame.and_then(|frame| frame.controls.wand.as_deref()).and_then(room_interface::of_wand);
+        let mouse = || {
+            let (window, pixel) = self.pointed?;
+            room_interface::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
+        };
+        let now_s = self.ride.live.now() as f64 / SECOND as f64;
+        let shown = Shown { presentation, readings, menu, now_s };
+        let (sheets, actions) = interface.draw(&self.gpu, &shown, &mut self.page, wand.or_else(mouse));
+        walls.sheets = sheets;
+        actions
     }
 }

@@ -19,7 +19,7 @@ pub struct Curved {
     /// Point of the room for each pixel that is drawn, metres.
     pub points: wgpu::TextureView,
     /// Points of all pixels, kept while fewer are drawn.
-    whole_points: wgpu::TextureView,
+    pub whole_points: wgpu::TextureView,
     grid: SurfaceGrid,
     /// Flat pictures in which the screen is seen.
     pub facets: Vec<Facet>,

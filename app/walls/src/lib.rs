@@ -10,6 +10,8 @@
 //! 4. Both eyes adapt to all channels together, so that no edge between two screens shows. Then each channel is
 //!    developed, multiplied by its projector's gains, and put into its window.
 //!
+//! Sheets (`room_sheet`) float in the room over these pictures: menus and readings, which no speed bends or shifts.
+//!
 //! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
 //! (`governor`). A room draws as many of its channels' pixels (`governed`), and enlarges their light
 //! (`enlarged_light`).
@@ -33,6 +35,8 @@ mod picture_shares;
 pub mod preview;
 mod quality;
 mod room_rest;
+mod room_sheet;
+mod sheet_passes;
 mod show;
 mod test_grid;
 mod texture_waiter;
@@ -44,5 +48,6 @@ pub use head::{Occupant, OccupantEye, RoomHead};
 pub use in_step::{TextureAnswer, WindowsInStep};
 pub use picture_shares::{Drawing, PictureShares};
 pub use quality::Quality;
+pub use room_sheet::{RoomSheet, SheetHit, meet};
 pub use texture_waiter::{TextureWaiter, WaiterGone};
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

@@ -118,6 +118,14 @@ impl ChannelPicture {
         }
     }
 
+    /// Point of the room for each of the channel's pixels, if its screen is not flat.
+    pub fn points(&self) -> Option<&wgpu::TextureView> {
+        match &self.target {
+            PictureTarget::Flat(_) => None,
+            PictureTarget::Curved(curved) => Some(&curved.whole_points),
+        }
+    }
+
     /// Light of the newest sample.
     fn sample(&self) -> &wgpu::TextureView {
         self.enlarged.as_ref().unwrap_or_else(|| self.drawn())

@@ -2,6 +2,7 @@
 
 use crate::head::Occupant;
 use crate::preview::{Preview, RoomOnlooker};
+use crate::sheet_passes::{SheetChannel, SheetScreen};
 use crate::test_grid::DEVELOPMENT;
 use crate::walls::Walls;
 use image::RgbaImage;
@@ -146,6 +147,7 @@ impl Walls {
         match &self.grids {
             None => {
                 self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
+                self.show_sheets(gpu, encoder, channel, screen, viewport);
             }
             Some(grids) => {
                 let part = DevelopedPart { exposure: 1.0, ..part };
@@ -153,5 +155,28 @@ impl Walls {
                 self.passes.show_part(gpu, encoder, light, &grids.adaptation, &DEVELOPMENT, screen, &part);
             }
         }
+    }
+
+    /// Shows the sheets of the room over a channel's picture, as the eye sees them whose light was drawn last.
+    fn show_sheets(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        channel: usize,
+        screen: &wgpu::TextureView,
+        viewport: [u32; 4],
+    ) {
+        let Some((occupant, _)) = self.shown.as_ref().filter(|_| !self.sheets.is_empty()) else { return };
+        let (picture, of_display) = (&self.pictures[channel], &self.display.channels[channel]);
+        let eye_m = occupant.eye(&self.display.viewer, of_display.eye).place_m;
+        let surface = match (of_display.flat(&self.display), picture.points()) {
+            (Some(flat), _) => SheetScreen::Flat(flat),
+            (None, Some(points)) => SheetScreen::Table(points),
+            (None, None) => return,
+        };
+        let gamma = of_display.projector(&self.display).and_then(|projector| projector.gamma);
+        let gains = picture.gains.as_ref();
+        let channel = SheetChannel { screen: surface, eye_m, viewport, gains, gamma };
+        self.sheet_passes.draw(gpu, encoder, screen, &self.sheets, &channel);
     }
 }

@@ -8,6 +8,8 @@ use crate::picture::{ChannelPicture, EyeContext};
 use crate::picture_shares::PictureShares;
 use crate::quality::Quality;
 use crate::room_rest::RoomRest;
+use crate::room_sheet::RoomSheet;
+use crate::sheet_passes::SheetPasses;
 use crate::test_grid::TestGrids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
@@ -75,6 +77,9 @@ pub struct Walls {
     pub(crate) rest: Option<RoomRest>,
     pub(crate) rests: bool,
     pub(crate) adaptation: Adaptation,
+    /// Sheets that float in the room, the undermost first.
+    pub sheets: Vec<RoomSheet>,
+    pub(crate) sheet_passes: SheetPasses,
     /// Test grids that are shown instead of light.
     pub(crate) grids: Option<TestGrids>,
 }
@@ -98,6 +103,8 @@ impl Walls {
             rest: None,
             rests: false,
             adaptation: Adaptation::new(gpu),
+            sheets: Vec::new(),
+            sheet_passes: SheetPasses::default(),
             grids: None,
             passes,
             quality,

@@ -130,6 +130,15 @@ pub enum TrackingMode {
 }
 
 impl TrackingMode {
+    /// Next use in order; the first one follows the last.
+    pub fn next(self) -> Self {
+        match self {
+            Self::PositionAndVelocity => Self::Position,
+            Self::Position => Self::None,
+            Self::None => Self::PositionAndVelocity,
+        }
+    }
+
     /// Part of a head's state that this mode uses; `None` without tracking.
     pub fn of(self, state: HeadState) -> Option<HeadState> {
         match self {

@@ -17,6 +17,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::signal::MOST_AXES;
+use super::work::WandButtons;
 use crate::config_error::ConfigError;
 use crate::head::placement::{AxesPlacement, WAND_FROM_SENSOR};
 use crate::vrpn::wire::LONGEST_NAME;
@@ -45,6 +46,9 @@ pub struct WandConfig {
     /// Number of the trigger's axis. `None` without such an axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trigger: Option<u32>,
+    /// Actions of the buttons that have not their usual ones.
+    #[serde(skip_serializing_if = "WandButtons::are_usual")]
+    pub actions: WandButtons,
 }
 
 /// Numbers of the axes of a stick: to the right, ahead.
@@ -104,6 +108,7 @@ impl WandConfig {
                 return Err(ConfigError { key, value: format!("{numbers:?}"), expected });
             }
         }
+        self.actions.check()?;
         self.wand_from_sensor.check(&WAND_FROM_SENSOR)
     }
 }

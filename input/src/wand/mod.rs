@@ -8,9 +8,11 @@ pub(crate) mod held_buttons;
 pub(crate) mod signal;
 pub(crate) mod state;
 pub(crate) mod tracked_wand;
+pub(crate) mod work;
 
 pub use config::WandConfig;
 pub use held_buttons::HeldButtons;
 pub use signal::WandSignal;
 pub use state::WandState;
 pub use tracked_wand::TrackedWand;
+pub use work::WandButtons;

@@ -48,6 +48,11 @@ impl TrackedWand {
         Ok(Some(Self { config, hand, buttons: HeldButtons::default(), axes: Vec::new(), held_at: 0, repeats }))
     }
 
+    /// Settings of the wand.
+    pub fn config(&self) -> &WandConfig {
+        &self.config
+    }
+
     /// Track of the wand's pose, with the poses that were rejected.
     pub fn hand(&self) -> &TrackedHead {
         &self.hand

@@ -72,5 +72,9 @@ fn structs_have_the_same_layout_on_both_sides() {
     assert_mirrors!(parse(&shaders::DISPLAY), PlacementUniforms { origin, exposure, odd });
     assert_mirrors!(parse(&shaders::ROOM), RoomViewUniforms { clip_from_room });
     assert_mirrors!(parse(&shaders::RESAMPLE), FacetUniforms { eye, right, up, forward, texel });
+    assert_mirrors!(
+        parse(&shaders::SHEET),
+        SheetUniforms { eye, corner, right, up, screen_corner, screen_right, screen_up, viewport }
+    );
     assert_mirrors!(meter, AdaptationState { exposure, white, log2_exposure, gain, bright });
 }

@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 24] = [
+const PLAN: [(&str, &[&str]); 27] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -35,6 +35,9 @@ const PLAN: [(&str, &[&str]); 24] = [
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
     ("kiosk", &["input", "ride"]),
+    ("words", &[]),
+    ("presentation", &["input", "render", "view", "words"]),
+    ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
@@ -44,12 +47,14 @@ const PLAN: [(&str, &[&str]); 24] = [
             "built_in",
             "hardware",
             "input",
+            "interface",
             "kiosk",
             "measure",
             "panoramas",
             "physics",
             "picture_cache",
             "picture_files",
+            "presentation",
             "probe",
             "regular_file",
             "render",
@@ -60,6 +65,7 @@ const PLAN: [(&str, &[&str]); 24] = [
             "trace",
             "view",
             "walls",
+            "words",
         ],
     ),
 ];

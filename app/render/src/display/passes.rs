@@ -36,6 +36,29 @@ impl Pass {
         bindings: &[wgpu::BindingType],
         target: wgpu::TextureFormat,
     ) -> Self {
+        Self::with_blend(gpu, shader, overrides, bindings, target, None)
+    }
+
+    /// The same, whose pixels are laid over those of the target by their opacity, with which they are multiplied.
+    pub fn over(
+        gpu: &Gpu,
+        shader: &shaders::Module,
+        overrides: &[(&str, f64)],
+        bindings: &[wgpu::BindingType],
+        target: wgpu::TextureFormat,
+    ) -> Self {
+        let blend = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+        Self::with_blend(gpu, shader, overrides, bindings, target, Some(blend))
+    }
+
+    fn with_blend(
+        gpu: &Gpu,
+        shader: &shaders::Module,
+        overrides: &[(&str, f64)],
+        bindings: &[wgpu::BindingType],
+        target: wgpu::TextureFormat,
+        blend: Option<wgpu::BlendState>,
+    ) -> Self {
         let device = &gpu.device;
         let layout = layout(gpu, shader.name, wgpu::ShaderStages::FRAGMENT, bindings);
         let module = module(gpu, shader);
@@ -55,11 +78,7 @@ impl Pass {
                 module: &module,
                 entry_point: Some("fragment"),
                 compilation_options: wgpu::PipelineCompilationOptions { constants: overrides, ..Default::default() },
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: target,
-                    blend: None,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
+                targets: &[Some(wgpu::ColorTargetState { format: target, blend, write_mask: wgpu::ColorWrites::ALL })],
             }),
             multiview_mask: None,
             cache: None,
@@ -90,11 +109,27 @@ impl Pass {
         part: [u32; 4],
         over: bool,
     ) {
+        self.draw_within(gpu, encoder, target, resources, (part, part), over);
+    }
+
+    /// Fills a part of `target`, but only the pixels of a smaller rectangle in it. Each rectangle is x, y, width and
+    /// height in pixels.
+    pub fn draw_within(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        resources: &[wgpu::BindingResource<'_>],
+        (part, within): ([u32; 4], [u32; 4]),
+        over: bool,
+    ) {
         let group = group(gpu, self.name, &self.layout, resources);
         let transparent = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let mut pass = begin(encoder, target, if over { wgpu::LoadOp::Load } else { transparent });
         let [x, y, width, height] = part.map(|pixels| pixels as f32);
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
+        let [x, y, width, height] = within;
+        pass.set_scissor_rect(x, y, width, height);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);

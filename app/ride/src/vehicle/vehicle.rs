@@ -147,6 +147,18 @@ impl Vehicle {
         self.settle(surroundings);
     }
 
+    /// Puts the vehicle at rest at a point on the ground, world axes, metres, with its nose along `look`; in flight
+    /// the eye is above the point as a rider's would be. Its clocks run on.
+    pub fn jump(&mut self, position: DVec3, look: DVec3, surroundings: &dyn Surroundings) {
+        let level = DVec3 { y: 0.0, ..look };
+        let flies = self.kind == VehicleKind::Fly;
+        self.state.position = if flies { position + DVec3::from_array(self.settings.eye_m) } else { position };
+        self.state.orientation = upright(level.normalize_or(self.heading()));
+        self.state.celerity = Celerity::ZERO;
+        self.thrust = Thrust::default();
+        self.settle(surroundings);
+    }
+
     /// Puts a bicycle or a car upright on the ground.
     pub fn settle(&mut self, surroundings: &dyn Surroundings) {
         self.blocked = false;

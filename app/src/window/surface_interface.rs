@@ -6,13 +6,13 @@ use winit::event::WindowEvent;
 use winit::window::Window;
 
 /// State of egui for one window.
-pub struct Interface {
+pub struct SurfaceInterface {
     context: egui::Context,
     state: egui_winit::State,
     renderer: Renderer,
 }
 
-impl Interface {
+impl SurfaceInterface {
     /// Creates the interface of a window whose surface has `format`.
     pub fn new(gpu: &Gpu, window: &Window, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();

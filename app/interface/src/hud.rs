@@ -1,6 +1,7 @@
 //! Head-up display: speed, the rider's and the world's clock, distances, and the program's own pace.
 
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2};
+use words::{Language, Phrase};
 
 /// Values that the head-up display shows.
 #[derive(Clone, Debug, Default)]
@@ -30,7 +31,9 @@ pub struct Readings {
     /// Notices for the rider, the most urgent first.
     pub notices: Vec<String>,
     /// Sentence for passers-by.
-    pub invitation: Option<&'static str>,
+    pub invitation: Option<String>,
+    /// Language of the labels.
+    pub language: Language,
     /// True in a kiosk, where nobody asks for the program's pace.
     pub kiosk: bool,
     /// True if the ride is paused.
@@ -55,6 +58,7 @@ const BAR_HEIGHT: f32 = 92.0;
 pub fn show(ui: &Ui, readings: &Readings) {
     let painter = ui.painter();
     let screen = ui.ctx().content_rect();
+    let language = readings.language;
     let scale = (screen.width() / 1100.0).clamp(0.55, 1.0);
     let bar = Rect::from_min_max(Pos2::new(screen.left(), screen.bottom() - BAR_HEIGHT * scale), screen.max);
     painter.rect_filled(bar, CornerRadius::ZERO, BACKDROP);
@@ -86,7 +90,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
 
     let area = field(0);
     let kilometres_per_hour = readings.beta * readings.speed_of_light * 3.6;
-    let limit = format!("light: {}", speed(readings.speed_of_light * 3.6));
+    let limit = language.fill(Phrase::Light, &[&speed(readings.speed_of_light * 3.6)]);
     let own = speed(kilometres_per_hour);
     row(area, area.top() + 20.0 * scale, (&own, 34.0, INK), (&limit, 14.0, FAINT));
     let track = Rect::from_min_max(Pos2::new(area.left(), area.bottom() - 16.0 * scale), area.max);
@@ -94,13 +98,20 @@ pub fn show(ui: &Ui, readings: &Readings) {
     painter.rect_filled(filled, CornerRadius::same(3), ACCENT);
     painter.rect_stroke(track, CornerRadius::same(3), Stroke::new(1.0, FAINT), StrokeKind::Inside);
 
-    pair(field(1), [("your clock", clock(readings.own_clock_s)), ("the world's clock", clock(readings.world_clock_s))]);
-    pair(field(2), [("road travelled", metres(readings.road_m)), ("your odometer", metres(readings.own_m))]);
+    let label = |phrase| language.text(phrase);
+    pair(
+        field(1),
+        [
+            (label(Phrase::YourClock), clock(readings.own_clock_s)),
+            (label(Phrase::WorldClock), clock(readings.world_clock_s)),
+        ],
+    );
+    pair(field(2), [(label(Phrase::Road), metres(readings.road_m)), (label(Phrase::Odometer), metres(readings.own_m))]);
     pair(
         field(3),
         [
             ("β", beta(readings.beta, readings.gamma)),
-            ("γ · rapidity", format!("{} · {:.2}", number(readings.gamma), readings.rapidity)),
+            (label(Phrase::GammaRapidity), format!("{} · {:.2}", number(readings.gamma), readings.rapidity)),
         ],
     );
 
@@ -109,8 +120,8 @@ pub fn show(ui: &Ui, readings: &Readings) {
     let most = screen.width() - 24.0;
     let laid = |words: &str, most| painter.layout(words.to_owned(), FontId::proportional(13.0), INK, most);
     let pace = laid(&pace(readings, |words| laid(words, f32::INFINITY).size().x <= most), most);
-    let words = [(readings.recording, "recording", ALERT), (readings.paused, "paused", ACCENT)];
-    let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, words, colour)| (words, colour));
+    let words = [(readings.recording, Phrase::Recording, ALERT), (readings.paused, Phrase::Paused, ACCENT)];
+    let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, phrase, colour)| (language.text(phrase), colour));
     let lines: Vec<_> = states
         .chain(readings.notices.iter().map(|notice| (notice.as_str(), INK)))
         .map(|(words, colour)| {
@@ -131,9 +142,9 @@ pub fn show(ui: &Ui, readings: &Readings) {
         painter.rect_filled(Rect::from_min_size(at, line.size()).expand(5.0), CornerRadius::same(4), BACKDROP);
         painter.galley(at, line, INK);
     }
-    if let Some(invitation) = readings.invitation {
+    if let Some(invitation) = &readings.invitation {
         let font = FontId::proportional(34.0 * scale);
-        let line = painter.layout(invitation.to_owned(), font, INK, screen.width() - 80.0);
+        let line = painter.layout(invitation.clone(), font, INK, screen.width() - 80.0);
         let at = Pos2::new(screen.center().x - 0.5 * line.size().x, bar.top() - line.size().y - 36.0 * scale);
         painter.rect_filled(Rect::from_min_size(at, line.size()).expand(14.0), CornerRadius::same(8), BACKDROP);
         painter.galley(at, line, INK);
@@ -146,14 +157,16 @@ pub fn show(ui: &Ui, readings: &Readings) {
 /// Text of the program's own pace; without the stages of a frame if one line has no room for them. `fits`: true if a
 /// line has room for a text.
 fn pace(readings: &Readings, fits: impl Fn(&str) -> bool) -> String {
-    const KEYS: &str = "F1 help · F3 settings";
+    let language = readings.language;
     if readings.kiosk {
-        return "F1 help".to_owned();
+        return language.text(Phrase::HelpKey).to_owned();
     }
+    let keys = language.text(Phrase::HelpAndMenu);
     let stages: Vec<String> = readings.stages_ms.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    let pace = format!("{}   {:.1} frames/s", readings.certainty, readings.frame_rate);
-    let whole = format!("{pace}   {} ms   {KEYS}", stages.join(" · "));
-    if fits(&whole) { whole } else { format!("{pace}   {KEYS}") }
+    let rate = language.fill(Phrase::FramesPerSecond, &[&format!("{:.1}", readings.frame_rate)]);
+    let pace = format!("{}   {rate}", readings.certainty);
+    let whole = format!("{pace}   {} ms   {keys}", stages.join(" · "));
+    if fits(&whole) { whole } else { format!("{pace}   {keys}") }
 }
 
 /// Text of β with as many nines as it has: the number of digits follows 1 − β = 1/(γ² (1 + β)).
@@ -224,9 +237,9 @@ mod tests {
             ..Readings::default()
         };
         let whole = pace(&readings, |_| true);
-        assert_eq!(whole, "±5.0 arcmin   30.0 frames/s   ride 0.1 · draw 24.6 ms   F1 help · F3 settings");
+        assert_eq!(whole, "±5.0 arcmin   30.0 frames/s   ride 0.1 · draw 24.6 ms   F1 help · F3 menu");
         let short = pace(&readings, |words| words.len() < whole.len());
-        assert_eq!(short, "±5.0 arcmin   30.0 frames/s   F1 help · F3 settings");
+        assert_eq!(short, "±5.0 arcmin   30.0 frames/s   F1 help · F3 menu");
         assert_eq!(pace(&Readings { kiosk: true, ..readings }, |_| true), "F1 help");
     }
 

@@ -1,0 +1,139 @@
+//! Sheets in the vehicle: an egui interface of its own, drawn into a texture.
+
+use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, Vec2};
+use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
+use render::Gpu;
+use render::target::texture;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Format of a sheet's picture: sRGB, times its opacity.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Pointer on a sheet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SheetPointer {
+    /// Place on the sheet, 0 to 1, from its upper left corner to the right and down; `None` beside it.
+    pub place: Option<[f64; 2]>,
+    /// True while its button is held.
+    pub pressed: bool,
+}
+
+/// Interface on a sheet: its contents, and the texture that they are drawn into.
+pub struct DrawnSheet {
+    context: egui::Context,
+    renderer: Renderer,
+    picture: wgpu::TextureView,
+    /// Size of the sheet, points.
+    size: Vec2,
+    pixels_per_point: f32,
+    before: SheetPointer,
+    /// Hash of what is drawn at present.
+    drawn: Option<u64>,
+}
+
+impl DrawnSheet {
+    /// Sheet of `size` points, with so many pixels for each point along each axis.
+    pub fn new(gpu: &Gpu, size: [f32; 2], pixels_per_point: f32) -> Self {
+        let context = egui::Context::default();
+        context.set_theme(egui::Theme::Dark);
+        let pixels = size.map(|points| (points * pixels_per_point) as u32);
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        Self {
+            context,
+            renderer: Renderer::new(&gpu.device, FORMAT, RendererOptions::default()),
+            picture: texture(gpu, "sheet", pixels, FORMAT, 1, usage),
+            size: size.into(),
+            pixels_per_point,
+            before: SheetPointer::default(),
+            drawn: None,
+        }
+    }
+
+    /// Picture of the sheet.
+    pub fn picture(&self) -> &wgpu::TextureView {
+        &self.picture
+    }
+
+    /// Height over width.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.size.y / self.size.x)
+    }
+
+    /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already.
+    pub fn draw(&mut self, gpu: &Gpu, now_s: f64, pointer: SheetPointer, contents: impl FnMut(&mut Ui)) {
+        let screen = Rect::from_min_size(Pos2::ZERO, self.size);
+        let mut input = RawInput {
+            screen_rect: Some(screen),
+            time: Some(now_s),
+            focused: true,
+            events: self.events(pointer),
+            ..Default::default()
+        };
+        if let Some(viewport) = input.viewports.get_mut(&egui::ViewportId::ROOT) {
+            viewport.native_pixels_per_point = Some(self.pixels_per_point);
+        }
+        let mut output = self.context.run_ui(input, contents);
+        let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
+        let now = fingerprint(&shapes);
+        let changes = self.drawn != Some(now) || !output.textures_delta.set.is_empty();
+        for (id, deltas) in &output.textures_delta.set {
+            for delta in deltas {
+                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+            }
+        }
+        if changes {
+            self.drawn = Some(now);
+            let size = self.picture.texture().size();
+            let screen = ScreenDescriptor {
+                size_in_pixels: [size.width, size.height],
+                pixels_per_point: output.pixels_per_point,
+            };
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let uploads = self.renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &shapes, &screen);
+            let pass = render::display::clear(&mut encoder, &self.picture);
+            self.renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
+            gpu.queue.submit(uploads.into_iter().chain([encoder.finish()]));
+        }
+        for id in &output.textures_delta.free {
+            self.renderer.free_texture(id);
+        }
+        output.textures_delta.clear();
+    }
+
+    /// Events of the pointer since the last layout.
+    fn events(&mut self, pointer: SheetPointer) -> Vec<Event> {
+        let before = std::mem::replace(&mut self.before, pointer);
+        let at = |[x, y]: [f64; 2]| Pos2::new(x as f32 * self.size.x, y as f32 * self.size.y);
+        let mut events = Vec::new();
+        match (pointer.place, before.place) {
+            (Some(place), _) => events.push(Event::PointerMoved(at(place))),
+            (None, Some(_)) => events.push(Event::PointerGone),
+            (None, None) => {}
+        }
+        if pointer.pressed != before.pressed
+            && let Some(place) = pointer.place.or(before.place)
+        {
+            let pressed = pointer.pressed;
+            let modifiers = Modifiers::default();
+            events.push(Event::PointerButton { pos: at(place), button: PointerButton::Primary, pressed, modifiers });
+        }
+        events
+    }
+}
+
+/// Hash of the shapes that are drawn.
+fn fingerprint(shapes: &[egui::ClippedPrimitive]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for egui::ClippedPrimitive { clip_rect, primitive } in shapes {
+        let edges = [clip_rect.min.x, clip_rect.min.y, clip_rect.max.x, clip_rect.max.y];
+        edges.map(f32::to_bits).hash(&mut hasher);
+        if let egui::epaint::Primitive::Mesh(mesh) = primitive {
+            mesh.indices.hash(&mut hasher);
+            for vertex in &mesh.vertices {
+                let place = [vertex.pos.x, vertex.pos.y, vertex.uv.x, vertex.uv.y].map(f32::to_bits);
+                (place, vertex.color.to_array()).hash(&mut hasher);
+            }
+        }
+    }
+    hasher.finish()
+}

@@ -1,0 +1,177 @@
+//! Texts of the settings: those of the command line's options, for recordings and the settings file.
+
+use crate::presentation::Presentation;
+use clap::ValueEnum;
+use input::{Action, Setting};
+use render::display::development;
+use std::collections::BTreeMap;
+use view::{Effects, Places};
+
+/// Field of view that can be drawn, degrees, as on the command line.
+const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
+
+/// Settings by their names.
+const NAMES: [(&str, Setting); 8] = [
+    ("effects", Setting::Effects),
+    ("fov", Setting::Fov),
+    ("exposure", Setting::Exposure),
+    ("tone", Setting::Tone),
+    ("gamut", Setting::Gamut),
+    ("latency", Setting::Latency),
+    ("renderer", Setting::Renderer),
+    ("language", Setting::Language),
+];
+
+impl Presentation {
+    /// Gives a setting the value of a text. `None` if the text names none, which changes nothing.
+    pub(crate) fn set(&mut self, setting: Setting, text: &str) -> Option<()> {
+        match setting {
+            Setting::Effects => {
+                let effects: Effects = text.parse().ok()?;
+                // Effects of light have no part in what is measured, and are as before in the next view.
+                let measured = effects.places == Places::Measured;
+                self.effects = if measured { Effects { places: effects.places, ..self.effects } } else { effects };
+            }
+            Setting::Fov => self.fov_deg = text.parse().ok().filter(|fov| FOV_DEG.contains(fov))?,
+            Setting::Exposure => self.development.exposure = text.parse().ok()?,
+            Setting::Tone => self.development.tone = choice(text)?,
+            Setting::Gamut => self.development.gamut = choice(text)?,
+            Setting::Latency => self.latency = choice(text)?,
+            Setting::Renderer if text.is_empty() => self.dial = None,
+            Setting::Renderer => self.dial = Some(text.parse().ok()?),
+            Setting::Language => self.language = text.parse().ok()?,
+        }
+        Some(())
+    }
+
+    /// Text of a setting's value.
+    pub fn text(&self, setting: Setting) -> String {
+        match setting {
+            Setting::Effects => self.effects.to_string(),
+            Setting::Fov => self.fov_deg.to_string(),
+            Setting::Exposure => self.development.exposure.to_string(),
+            Setting::Tone => development::name(&self.development.tone),
+            Setting::Gamut => development::name(&self.development.gamut),
+            Setting::Latency => development::name(&self.latency),
+            Setting::Renderer => self.dial.map_or_else(String::new, |dial| dial.to_string()),
+            Setting::Language => self.language.to_string(),
+        }
+    }
+
+    /// JSON text of all settings, as it stands in a recording's header.
+    pub fn to_json(&self) -> String {
+        let texts: BTreeMap<_, _> = NAMES.into_iter().map(|(name, setting)| (name, self.text(setting))).collect();
+        serde_json::to_string(&texts).expect("texts are always JSON")
+    }
+
+    /// The same, with the settings of a recording's header. Those that are missing or unknown stay as they are.
+    #[must_use]
+    pub fn with_json(mut self, json: &str) -> Self {
+        let texts: BTreeMap<String, String> = serde_json::from_str(json).unwrap_or_default();
+        for (name, setting) in NAMES {
+            if let Some(text) = texts.get(name) {
+                self.act(&Action::Set(setting, text.clone()));
+            }
+        }
+        self
+    }
+}
+
+/// Choice of a name on the command line.
+fn choice<T: ValueEnum>(text: &str) -> Option<T> {
+    T::from_str(text, false).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Laws: what a presentation writes, it reads again as the same; a text that is no value changes nothing; a switch
+    //! turned twice is as it was.
+
+    use super::*;
+    use crate::latency::Latency;
+    use input::Switch;
+    use render::display::{Exposure, Tone};
+    use words::Language;
+
+    #[test]
+    fn settings_survive_their_texts() {
+        let mut other = Presentation::default();
+        for (setting, text) in [
+            (Setting::Effects, "geometry,doppler"),
+            (Setting::Fov, "75.5"),
+            (Setting::Exposure, "auto-0.5"),
+            (Setting::Tone, "filmic"),
+            (Setting::Gamut, "clamp"),
+            (Setting::Latency, "low"),
+            (Setting::Renderer, "--renderer polygon --tolerance 2"),
+            (Setting::Language, "de"),
+        ] {
+            assert_eq!(other.act(&Action::Set(setting, text.to_owned())), None, "{text}");
+            assert_eq!(other.text(setting), text);
+        }
+        assert_eq!((other.fov_deg, other.latency, other.language), (75.5, Latency::Low, Language::German));
+        assert_eq!((other.development.exposure, other.development.tone), (Exposure::Auto(-0.5), Tone::Filmic));
+        assert_eq!(Presentation::default().with_json(&other.to_json()), other);
+    }
+
+    #[test]
+    fn a_key_goes_through_three_views_and_keeps_the_switches_of_light() {
+        let mut shown = Presentation::default();
+        let views = shown.views();
+        for (number, (text, name, _)) in views.iter().enumerate() {
+            assert_eq!(shown.view(), *name);
+            let mut chosen = Presentation::default();
+            assert_eq!(chosen.act(&Action::Set(Setting::Effects, text.clone())), None);
+            assert_eq!(chosen.effects, shown.effects, "view {number}");
+            shown.act(&Action::NextView);
+        }
+        assert_eq!(shown, Presentation::default());
+    }
+
+    #[test]
+    fn a_text_that_is_no_value_changes_nothing() {
+        let before = Presentation::default();
+        for (_, setting) in NAMES {
+            for text in ["", "171", "nan", "loud"] {
+                if setting == Setting::Renderer && text.is_empty() {
+                    continue;
+                }
+                let mut after = before;
+                let told = after.act(&Action::Set(setting, text.to_owned()));
+                assert!(told.is_some_and(|told| told.contains("no such value")), "{setting:?} {text}");
+                assert_eq!(after, before, "{setting:?} {text}");
+            }
+        }
+        for json in ["", "[]", "{\"tone\":3}", "{\"tune\":\"x\",\"fov\":\"0\"}"] {
+            assert_eq!(before.with_json(json), before);
+        }
+    }
+
+    #[test]
+    fn a_switch_turned_twice_is_as_it_was() {
+        for switch in [
+            Switch::Geometry,
+            Switch::Doppler,
+            Switch::Searchlight,
+            Switch::Outside,
+            Switch::Readings,
+            Switch::Menu,
+            Switch::Miniature,
+            Switch::Diagram,
+            Switch::DiagramOfVehicle,
+        ] {
+            let mut after = Presentation::default();
+            let before = after.is_on(switch);
+            after.act(&Action::Toggle(switch));
+            assert_eq!(after.is_on(switch), !before, "{switch:?}");
+            after.act(&Action::Toggle(switch));
+            assert_eq!(after, Presentation::default(), "{switch:?}");
+        }
+        // What is frozen is seen from outside, and whoever goes back in thaws it.
+        let mut frozen = Presentation::default();
+        frozen.act(&Action::Toggle(Switch::Frozen));
+        assert!(frozen.outside && frozen.frozen);
+        frozen.act(&Action::Toggle(Switch::Outside));
+        assert_eq!(frozen, Presentation::default());
+    }
+}

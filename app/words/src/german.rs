@@ -1,0 +1,197 @@
+//! German texts.
+
+use crate::phrase::Phrase;
+
+/// German text of a phrase.
+#[expect(clippy::too_many_lines, reason = "one line a phrase")]
+pub fn text(phrase: Phrase) -> &'static str {
+    match phrase {
+        Phrase::MenuTitle => "Menü",
+        Phrase::Vehicle => "Fahrzeug",
+        Phrase::Bicycle => "Fahrrad",
+        Phrase::BicyclePurpose => "Auf der Straße treten und mit dem Lenker lenken.",
+        Phrase::Drive => "Auto",
+        Phrase::DrivePurpose => "In jede Richtung über den Boden gleiten.",
+        Phrase::Fly => "Flug",
+        Phrase::FlyPurpose => "Frei fliegen, auch auf und ab.",
+        Phrase::SpeedOfLight => "Lichtgeschwindigkeit",
+        Phrase::SpeedOfLightPurpose => {
+            "Wie schnell das Licht in dieser Welt ist. Je langsamer, desto eher sieht man die Relativität."
+        }
+        Phrase::WalkingPace => "Schritttempo",
+        Phrase::RealLight => "wirklich",
+        Phrase::ClockSpeed => "Gang deiner Uhr",
+        Phrase::ClockSpeedPurpose => {
+            "Wie viel deiner eigenen Zeit in einer Sekunde vergeht. Unter 1 siehst du alles in Zeitlupe."
+        }
+        Phrase::View => "Ansicht",
+        Phrase::Seen => "gesehen",
+        Phrase::SeenPurpose => "Alles dort, woher sein Licht kommt: was deine Augen sehen würden.",
+        Phrase::Measured => "gemessen",
+        Phrase::MeasuredPurpose => {
+            "Alles dort, wo es für dich jetzt ist, längs deiner Bewegung verkürzt. Das sieht niemand: Man \
+             rechnet es hinterher aus."
+        }
+        Phrase::Instant => "Licht sofort",
+        Phrase::InstantPurpose => "Alles dort, wo es für die Welt jetzt ist, als bräuchte das Licht keine Zeit.",
+        Phrase::Effects => "Effekte",
+        Phrase::Doppler => "Doppler",
+        Phrase::DopplerPurpose => "Verschiebt Farben: vorn blauer, hinten röter. Aus: Farben wie in Ruhe.",
+        Phrase::Searchlight => "Scheinwerfer",
+        Phrase::SearchlightPurpose => "Macht es vorn heller und hinten dunkler. Aus: Helligkeit wie in Ruhe.",
+        Phrase::Brightness => "Helligkeit",
+        Phrase::BrightnessPurpose => "Blendenstufen, um die das Bild heller ist. Jede verdoppelt das Licht.",
+        Phrase::Automatic => "automatisch",
+        Phrase::AutomaticPurpose => {
+            "Wie ein Auge, das sich anpasst: im Mittel so hell wie in Ruhe. Aus: Was in Ruhe weiß ist, ist weiß."
+        }
+        Phrase::ToneCurve => "Tonwertkurve",
+        Phrase::Colours => "Farben",
+        Phrase::FieldOfView => "Blickfeld",
+        Phrase::FieldOfViewPurpose => "Wie viel du von unten bis oben siehst. Klein ist wie ein Fernrohr.",
+        Phrase::Head => "Kopfverfolgung",
+        Phrase::HeadBoth => "Ort und Geschwindigkeit",
+        Phrase::HeadBothPurpose => "Auch die Bewegung deines Kopfes ist relativistisch.",
+        Phrase::HeadPlace => "Ort",
+        Phrase::HeadPlacePurpose => "Dein Kopf gilt als ruhend im Fahrzeug, wo immer er ist.",
+        Phrase::HeadOff => "aus",
+        Phrase::HeadOffPurpose => "Das Bild stimmt für einen Ort und bleibt so.",
+        Phrase::Frames => "Bilder",
+        Phrase::Smooth => "flüssig",
+        Phrase::SmoothPurpose => "Mehr Bilder in der Sekunde. Jedes kommt ein Bild später.",
+        Phrase::Quick => "schnelle Antwort",
+        Phrase::QuickPurpose => "Jedes Bild zeigt deine neueste Bewegung. Es sind weniger.",
+        Phrase::LanguageChoice => "Sprache",
+        Phrase::LanguagePurpose => "Sprache von allem, was hier geschrieben steht.",
+        Phrase::Places => "Gehe zu",
+        Phrase::PlacePurpose => "Setzt dich dort in Ruhe ab.",
+        Phrase::Pause => "Anhalten",
+        Phrase::PausePurpose => "Hält die Welt an oder lässt sie weitergehen. Umsehen und umhergehen kannst du weiter.",
+        Phrase::Step => "Schritt",
+        Phrase::StepPurpose => "Bewegt die angehaltene Welt um einen kleinen Schritt weiter.",
+        Phrase::Restart => "Zum Anfang",
+        Phrase::RestartPurpose => "Bringt dich dorthin zurück, wo die Fahrt begann.",
+        Phrase::Straighten => "Gerade",
+        Phrase::StraightenPurpose => "Macht Ort und Richtung deines verfolgten Kopfes zur Mitte.",
+        Phrase::Photo => "Foto",
+        Phrase::PhotoPurpose => "Speichert das Bild als Datei, photo-001.png und so weiter.",
+        Phrase::PhotoSphere => "Rundum-Foto",
+        Phrase::PhotoSpherePurpose => "Speichert ein Bild aller Richtungen, sphere-001.png und so weiter.",
+        Phrase::Record => "Aufnehmen",
+        Phrase::RecordPurpose => "Speichert die ganze Fahrt als Datei, ride-001.mcap und so weiter, oder beendet sie.",
+        Phrase::Outside => "Von außen",
+        Phrase::OutsidePurpose => "Zeigt, was du siehst, als Körper im Raum, von außen. Die Kugel bist du.",
+        Phrase::Freeze => "Einfrieren",
+        Phrase::FreezePurpose => "Behält die Außenansicht, wie sie jetzt ist, während du weiterfährst.",
+        Phrase::Miniature => "Karte",
+        Phrase::MiniaturePurpose => "Zeigt die Welt von oben, deinen Weg bisher und beide Uhren.",
+        Phrase::Diagram => "Diagramm",
+        Phrase::DiagramPurpose => "Zeichnet deinen Weg durch Raum und Zeit, Licht unter 45 Grad.",
+        Phrase::DiagramOfVehicle => "Dein System",
+        Phrase::DiagramOfVehiclePurpose => "Zeichnet das Diagramm, wie du misst, statt wie die Welt.",
+        Phrase::Readings => "Anzeigen",
+        Phrase::ReadingsPurpose => "Zeigt Geschwindigkeit, Uhren und Strecken.",
+        Phrase::Help => "Hilfe",
+        Phrase::HelpPurpose => "Nennt alle Tasten.",
+        Phrase::Leave => "Beenden",
+        Phrase::LeavePurpose => "Beendet die Fahrt. Eine Aufnahme wird fertiggestellt.",
+        Phrase::CloseMenu => "Schließen",
+        Phrase::CloseMenuPurpose => "Schließt dieses Menü. F3 öffnet es wieder.",
+        Phrase::Ride => "Fahrt",
+        Phrase::Picture => "Bild",
+        Phrase::Understand => "Verstehen",
+        Phrase::Program => "Programm",
+        Phrase::Devices => "Geräte",
+        Phrase::RidePurpose => "Fahrzeug, Lichtgeschwindigkeit, deine Uhr, Orte.",
+        Phrase::PicturePurpose => "Effekte, Helligkeit, Farben, Blickfeld.",
+        Phrase::UnderstandPurpose => "Was man sieht und was ist: Ansichten, Karte, Diagramm.",
+        Phrase::ProgramPurpose => "Sprache, Geräte und das Ende.",
+        Phrase::ReinhardPurpose => "Erhält Einzelheiten im Hellen und lässt den Rest, wie er ist.",
+        Phrase::LinearPurpose => "Zeigt Helligkeit, wie sie ist. Was heller als Weiß ist, ist weiß.",
+        Phrase::ExponentialPurpose => "Helle Stellen laufen ins Weiße, wie auf Film.",
+        Phrase::FilmicPurpose => "Mehr Kontrast mit dunklen Schatten, wie im Kino.",
+        Phrase::HistogramPurpose => {
+            "Teilt die Helligkeit des Schirms auf, sodass Dunkles und Helles Einzelheiten zeigen."
+        }
+        Phrase::DesaturatePurpose => "Farben, die der Schirm nicht zeigen kann, werden blasser.",
+        Phrase::WhitePurpose => {
+            "Farben, die der Schirm nicht zeigen kann, werden mit Weiß gemischt und dann abgedunkelt."
+        }
+        Phrase::ClampPurpose => {
+            "Farben, die der Schirm nicht zeigen kann, werden abgeschnitten. Ihr Ton kann sich ändern."
+        }
+        Phrase::Light => "Licht: {0}",
+        Phrase::YourClock => "deine Uhr",
+        Phrase::WorldClock => "Uhr der Welt",
+        Phrase::Road => "Straße gefahren",
+        Phrase::Odometer => "dein Kilometerzähler",
+        Phrase::GammaRapidity => "γ · Rapidität",
+        Phrase::Felt => "gespürt",
+        Phrase::Recording => "Aufnahme läuft",
+        Phrase::Paused => "angehalten: P geht weiter",
+        Phrase::HelpAndMenu => "F1 Hilfe · F3 Menü",
+        Phrase::HelpKey => "F1 Hilfe",
+        Phrase::FramesPerSecond => "{0} Bilder/s",
+        Phrase::Invitation => "Taste drücken oder lostreten: Die Fahrt gehört dir",
+        Phrase::ClockRuns => "deine Uhr läuft × {0}",
+        Phrase::PointsLost => "{0} Punkte der Szene haben keinen sichtbaren Ort und werden nicht gezeichnet",
+        Phrase::ViewIs => "Ansicht: {0}",
+        Phrase::ToneIs => "Tonwertkurve: {0}",
+        Phrase::ExposureIs => "Belichtung: {0}",
+        Phrase::On => "{0}: an",
+        Phrase::Off => "{0}: aus",
+        Phrase::HeadIs => "Kopfverfolgung: {0}",
+        Phrase::NoHead => "kein Kopf wird verfolgt; --tracker nennt einen Tracker",
+        Phrase::PhotoSaved => "Foto: {0}",
+        Phrase::NotUnderstood => "{0}: keinen solchen Wert gibt es; nichts wurde geändert",
+        Phrase::RapidityCapped => "Rapidität auf {0} begrenzt",
+        Phrase::ControlsNotFinite => "ein Steuerwert ist keine endliche Zahl: er gilt als losgelassen",
+        Phrase::TakenByRk4 => "das gewählte Verfahren gab einen Schritt auf: RK4 hat ihn gerechnet",
+        Phrase::NotIntegrated => "ein Schritt ließ sich nicht rechnen: das Fahrzeug wartet",
+        Phrase::HeldByWalls => "zu schnell für diese Mauern: abgebremst",
+        Phrase::SpeedOfLightRefused => "mit dieser Lichtgeschwindigkeit lässt sich keine Welt rechnen",
+        Phrase::ToGo => "Losfahren",
+        Phrase::ToGoHow => {
+            "W oder den Pfeil nach oben halten oder treten; A und D oder die Pfeile links und rechts lenken"
+        }
+        Phrase::ToStop => "Anhalten",
+        Phrase::ToStopHow => "die Leertaste halten; die Rücktaste bringt dich zum Anfang",
+        Phrase::ForHelp => "Hilfe",
+        Phrase::ForHelpHow => "F1 zeigt und verbirgt diese Seite",
+        Phrase::KeyPedal => "treten, zurückschieben; Schub vor, zurück; im Flug senken und heben die Pfeile die Nase",
+        Phrase::KeySteer => "lenken; Schub seitwärts; die Pfeile drehen die Nase",
+        Phrase::KeyLift => "Schub auf, ab im Flug",
+        Phrase::KeyRoll => "rollen",
+        Phrase::KeySprint => "sprinten",
+        Phrase::KeyBrake => "bremsen",
+        Phrase::KeyLook => {
+            "nach links, rechts, oben, unten schauen, wie ein Zug mit der Maus; Räume und verfolgte Köpfe \
+             schauen selbst"
+        }
+        Phrase::KeyAhead => "wieder nach vorn schauen, wie die mittlere Maustaste",
+        Phrase::KeyStraight => "gerade sitzen: Ort und Richtung des verfolgten Kopfes werden die Mitte",
+        Phrase::KeyBack => "zurückschauen, solange gehalten",
+        Phrase::KeyVehicles => "Fahrrad, Auto, Flug",
+        Phrase::KeyPause => "die Welt anhalten oder weitergehen lassen; umsehen geht weiter",
+        Phrase::KeyStep => "ein Schritt, während angehalten ist",
+        Phrase::KeyClock => "deine Uhr langsamer, schneller",
+        Phrase::KeyView => "nächste Ansicht: gesehen, gemessen, Licht sofort",
+        Phrase::KeyEffects => "Geometrie, Doppler-Verschiebung, Scheinwerfereffekt: an, aus",
+        Phrase::KeyTone => "nächste Tonwertkurve",
+        Phrase::KeyBrightness => "dunkler, heller",
+        Phrase::KeyOutside => "von außen sehen, was du siehst; es einfrieren",
+        Phrase::KeyMap => "Karte der Welt, mit beiden Uhren",
+        Phrase::KeyDiagram => "Raum-Zeit-Diagramm der Fahrt; in deinem System oder dem der Welt",
+        Phrase::KeyPhoto => "Foto; Foto aller Richtungen",
+        Phrase::KeyRecord => "die ganze Fahrt von Anfang an aufnehmen",
+        Phrase::KeyRestart => "zurück zum Anfang",
+        Phrase::KeyHelp => "diese Hilfe",
+        Phrase::KeyReadings => "Anzeigen zeigen oder verbergen",
+        Phrase::KeyMenu => "Menü",
+        Phrase::KeyChoose => "im Menü wählen; eine Führung fortsetzen",
+        Phrase::KeyCalibrate => "die Ecken der Bilder eines Raums verschieben",
+        Phrase::KeyHead => "nächste Nutzung des verfolgten Kopfes",
+        Phrase::KeyFullScreen => "ganzer Bildschirm",
+        Phrase::KeyLeave => "beenden",
+    }
+}

@@ -1,0 +1,353 @@
+//! Phrases of the interface.
+
+macro_rules! phrases {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
+        /// Phrase of the interface, which every language has a text of. Numbers in braces stand for values.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Phrase {
+            $($(#[$doc])* $name),*
+        }
+
+        impl Phrase {
+            /// All phrases.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+        }
+    };
+}
+
+phrases! {
+    /// Title of the menu.
+    MenuTitle,
+    /// Choice of the vehicle.
+    Vehicle,
+    /// The bicycle.
+    Bicycle,
+    /// Use of the bicycle.
+    BicyclePurpose,
+    /// The car.
+    Drive,
+    /// Use of the car.
+    DrivePurpose,
+    /// Flight.
+    Fly,
+    /// Use of flight.
+    FlyPurpose,
+    /// Speed of light in the world.
+    SpeedOfLight,
+    /// Use of the speed of light.
+    SpeedOfLightPurpose,
+    /// Speed of light of 5 km/h.
+    WalkingPace,
+    /// Speed of light of nature.
+    RealLight,
+    /// Ratio of own time to real time.
+    ClockSpeed,
+    /// Use of the time scale.
+    ClockSpeedPurpose,
+    /// Choice of what is shown of the world.
+    View,
+    /// View of arriving light.
+    Seen,
+    /// Use of the view of arriving light.
+    SeenPurpose,
+    /// View of the observer's present.
+    Measured,
+    /// Use of the view of the observer's present.
+    MeasuredPurpose,
+    /// View of the world's present.
+    Instant,
+    /// Use of the view of the world's present.
+    InstantPurpose,
+    /// Choice of the effects of relativity.
+    Effects,
+    /// Doppler shift.
+    Doppler,
+    /// Use of the Doppler shift.
+    DopplerPurpose,
+    /// Searchlight effect.
+    Searchlight,
+    /// Use of the searchlight effect.
+    SearchlightPurpose,
+    /// Exposure of the picture.
+    Brightness,
+    /// Use of the exposure.
+    BrightnessPurpose,
+    /// Automatic exposure.
+    Automatic,
+    /// Use of automatic exposure.
+    AutomaticPurpose,
+    /// Tone curve of the picture.
+    ToneCurve,
+    /// Treatment of colours that the screen cannot show.
+    Colours,
+    /// Vertical field of view.
+    FieldOfView,
+    /// Use of the field of view.
+    FieldOfViewPurpose,
+    /// Use of the tracked head.
+    Head,
+    /// Place and velocity of the head.
+    HeadBoth,
+    /// Use of place and velocity of the head.
+    HeadBothPurpose,
+    /// Place of the head alone.
+    HeadPlace,
+    /// Use of the place of the head alone.
+    HeadPlacePurpose,
+    /// Tracking switched off.
+    HeadOff,
+    /// Use of no tracking.
+    HeadOffPurpose,
+    /// Order of a frame's work.
+    Frames,
+    /// Frames that overlap.
+    Smooth,
+    /// Use of frames that overlap.
+    SmoothPurpose,
+    /// Frames in sequence.
+    Quick,
+    /// Use of frames in sequence.
+    QuickPurpose,
+    /// Choice of the language.
+    LanguageChoice,
+    /// Use of the choice of the language.
+    LanguagePurpose,
+    /// Choice of a place to jump to.
+    Places,
+    /// Use of a place to jump to.
+    PlacePurpose,
+    /// Stop of the simulation.
+    Pause,
+    /// Use of the stop.
+    PausePurpose,
+    /// One step of the simulation.
+    Step,
+    /// Use of the step.
+    StepPurpose,
+    /// Return to the start.
+    Restart,
+    /// Use of the return to the start.
+    RestartPurpose,
+    /// Straight pose of the head.
+    Straighten,
+    /// Use of the straight pose.
+    StraightenPurpose,
+    /// Picture of the window.
+    Photo,
+    /// Use of the picture.
+    PhotoPurpose,
+    /// Picture of all directions.
+    PhotoSphere,
+    /// Use of the picture of all directions.
+    PhotoSpherePurpose,
+    /// Recording of the ride.
+    Record,
+    /// Use of the recording.
+    RecordPurpose,
+    /// View from outside.
+    Outside,
+    /// Use of the view from outside.
+    OutsidePurpose,
+    /// View from outside that stays.
+    Freeze,
+    /// Use of the view that stays.
+    FreezePurpose,
+    /// Plan of the world.
+    Miniature,
+    /// Use of the plan.
+    MiniaturePurpose,
+    /// Minkowski diagram.
+    Diagram,
+    /// Use of the diagram.
+    DiagramPurpose,
+    /// Diagram in the vehicle's frame.
+    DiagramOfVehicle,
+    /// Use of the diagram in the vehicle's frame.
+    DiagramOfVehiclePurpose,
+    /// Head-up display.
+    Readings,
+    /// Use of the head-up display.
+    ReadingsPurpose,
+    /// Help.
+    Help,
+    /// Use of the help.
+    HelpPurpose,
+    /// End of the ride.
+    Leave,
+    /// Use of the end.
+    LeavePurpose,
+    /// End of the menu.
+    CloseMenu,
+    /// Use of the end of the menu.
+    CloseMenuPurpose,
+    /// Page of the menu on the ride.
+    Ride,
+    /// Page of the menu on the picture.
+    Picture,
+    /// Page of the menu on what explains.
+    Understand,
+    /// Page of the menu on the program.
+    Program,
+    /// Devices of the ride.
+    Devices,
+    /// Use of the page on the ride.
+    RidePurpose,
+    /// Use of the page on the picture.
+    PicturePurpose,
+    /// Use of the page on what explains.
+    UnderstandPurpose,
+    /// Use of the page on the program.
+    ProgramPurpose,
+    /// Use of a tone curve.
+    ReinhardPurpose,
+    /// Use of a tone curve.
+    LinearPurpose,
+    /// Use of a tone curve.
+    ExponentialPurpose,
+    /// Use of a tone curve.
+    FilmicPurpose,
+    /// Use of a tone curve.
+    HistogramPurpose,
+    /// Use of a treatment of colours.
+    DesaturatePurpose,
+    /// Use of a treatment of colours.
+    WhitePurpose,
+    /// Use of a treatment of colours.
+    ClampPurpose,
+    /// Label of the speed of light on the display; {0}: the speed.
+    Light,
+    /// Label of the rider's clock.
+    YourClock,
+    /// Label of the world's clock.
+    WorldClock,
+    /// Label of the road travelled.
+    Road,
+    /// Label of the rider's odometer.
+    Odometer,
+    /// Label of γ and rapidity.
+    GammaRapidity,
+    /// Label of the felt acceleration.
+    Felt,
+    /// State: a recording is written.
+    Recording,
+    /// State: the ride is held.
+    Paused,
+    /// Keys of help and menu.
+    HelpAndMenu,
+    /// Key of the help.
+    HelpKey,
+    /// Frame rate; {0}: frames a second.
+    FramesPerSecond,
+    /// Sentence for passers-by of a kiosk.
+    Invitation,
+    /// Notice of the time scale; {0}: ratio.
+    ClockRuns,
+    /// Notice of points without a place; {0}: number.
+    PointsLost,
+    /// Notice of the view; {0}: its name.
+    ViewIs,
+    /// Notice of the tone curve; {0}: its name.
+    ToneIs,
+    /// Notice of the exposure; {0}: its text.
+    ExposureIs,
+    /// Notice of a switch that is on; {0}: its name.
+    On,
+    /// Notice of a switch that is off; {0}: its name.
+    Off,
+    /// Notice of the use of the head; {0}: its name.
+    HeadIs,
+    /// Notice that no head is tracked.
+    NoHead,
+    /// Notice of a picture; {0}: its file.
+    PhotoSaved,
+    /// Notice of a value that a setting does not take; {0}: the value.
+    NotUnderstood,
+    /// Notice: the rapidity has reached its cap; {0}: the cap.
+    RapidityCapped,
+    /// Notice: a control is not finite.
+    ControlsNotFinite,
+    /// Notice: RK4 took a step.
+    TakenByRk4,
+    /// Notice: a step was not taken.
+    NotIntegrated,
+    /// Notice: walls hold the vehicle.
+    HeldByWalls,
+    /// Notice: a speed of light out of range.
+    SpeedOfLightRefused,
+    /// Help: heading of the first line.
+    ToGo,
+    /// Help: how to go.
+    ToGoHow,
+    /// Help: heading of the second line.
+    ToStop,
+    /// Help: how to stop.
+    ToStopHow,
+    /// Help: heading of the third line.
+    ForHelp,
+    /// Help: how to get help.
+    ForHelpHow,
+    /// Help: keys W, S and arrows.
+    KeyPedal,
+    /// Help: keys A, D and arrows.
+    KeySteer,
+    /// Help: keys R, F.
+    KeyLift,
+    /// Help: keys Q, E.
+    KeyRoll,
+    /// Help: key Shift.
+    KeySprint,
+    /// Help: space bar.
+    KeyBrake,
+    /// Help: keys J, L, I, K.
+    KeyLook,
+    /// Help: key O.
+    KeyAhead,
+    /// Help: key U.
+    KeyStraight,
+    /// Help: key M.
+    KeyBack,
+    /// Help: keys 1, 2, 3.
+    KeyVehicles,
+    /// Help: key P.
+    KeyPause,
+    /// Help: full stop.
+    KeyStep,
+    /// Help: keys − and =.
+    KeyClock,
+    /// Help: key X.
+    KeyView,
+    /// Help: keys G, B, N.
+    KeyEffects,
+    /// Help: key T.
+    KeyTone,
+    /// Help: brackets.
+    KeyBrightness,
+    /// Help: keys Y, F5.
+    KeyOutside,
+    /// Help: tabulator.
+    KeyMap,
+    /// Help: keys Z, F6.
+    KeyDiagram,
+    /// Help: key C, F8.
+    KeyPhoto,
+    /// Help: key V.
+    KeyRecord,
+    /// Help: backspace.
+    KeyRestart,
+    /// Help: keys F1, H.
+    KeyHelp,
+    /// Help: key F2.
+    KeyReadings,
+    /// Help: key F3.
+    KeyMenu,
+    /// Help: enter key.
+    KeyChoose,
+    /// Help: key F4.
+    KeyCalibrate,
+    /// Help: key F7.
+    KeyHead,
+    /// Help: key F11.
+    KeyFullScreen,
+    /// Help: escape key.
+    KeyLeave,
+}

@@ -1,0 +1,96 @@
+// Draws a sheet that floats in a room over a channel's picture: each pixel's point on the screen, seen from the eye,
+// finds its place on the sheet. It is at rest beside the eye, so nothing bends it.
+
+struct SheetUniforms {
+    eye: vec4<f32>,
+    corner: vec4<f32>,
+    right: vec4<f32>,
+    up: vec4<f32>,
+    screen_corner: vec4<f32>,
+    screen_right: vec4<f32>,
+    screen_up: vec4<f32>,
+    viewport: vec4<f32>,
+}
+
+// True if each pixel's point on the screen is in a table, false if the screen is flat.
+override TABLE: bool = false;
+// True if each pixel is multiplied by a factor of its own, and a value is added to it.
+override GAINS: bool = false;
+// Power of its light that is the screen's signal; 0 for the sRGB curve.
+override SIGNAL_POWER: f32 = 0.0;
+
+@group(0) @binding(0) var<uniform> sheet: SheetUniforms;
+// Picture on the sheet: sRGB, times its opacity.
+@group(0) @binding(1) var picture: texture_2d<f32>;
+@group(0) @binding(2) var mixed: sampler;
+// Point of the screen for each pixel, room's axes, metres; w = 0 if the projector meets no surface.
+@group(0) @binding(3) var points: texture_2d<f32>;
+@group(0) @binding(4) var gains: texture_2d<f32>;
+
+fn linear_of(encoded: vec3<f32>) -> vec3<f32> {
+    let curve = pow((encoded + 0.055) / 1.055, vec3(2.4));
+    return select(curve, encoded / 12.92, encoded <= vec3(0.04045));
+}
+
+// Value of a table that is coarser than the picture.
+fn mixed_at(table: texture_2d<f32>, share: vec2<f32>) -> vec4<f32> {
+    let size = vec2<f32>(textureDimensions(table));
+    let scaled = clamp(share * size - 0.5, vec2(0.0), size - 1.0);
+    let first = vec2<i32>(scaled);
+    let last = min(first + 1, vec2<i32>(size) - 1);
+    let between = fract(scaled);
+    let above = mix(textureLoad(table, first, 0), textureLoad(table, vec2(last.x, first.y), 0), between.x);
+    let below = mix(textureLoad(table, vec2(first.x, last.y), 0), textureLoad(table, last, 0), between.x);
+    return mix(above, below, between.y);
+}
+
+@fragment
+fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+    // Find the pixel's point on the screen.
+    let share = (at.xy - sheet.viewport.xy) / sheet.viewport.zw;
+    var point = vec4(sheet.screen_corner.xyz + share.x * sheet.screen_right.xyz
+        + (1.0 - share.y) * sheet.screen_up.xyz, 1.0);
+    if (TABLE) {
+        point = textureLoad(points, vec2<i32>(share * vec2<f32>(textureDimensions(points))), 0);
+    }
+
+    // Meet the sheet on the way from the eye through it.
+    let direction = point.xyz - sheet.eye.xyz;
+    let normal = cross(sheet.right.xyz, sheet.up.xyz);
+    let towards = dot(direction, normal);
+    let way = dot(sheet.corner.xyz - sheet.eye.xyz, normal) / select(towards, 1e-9, abs(towards) < 1e-9);
+    let met = sheet.eye.xyz + way * direction - sheet.corner.xyz;
+    let place = vec2(dot(met, sheet.right.xyz) / dot(sheet.right.xyz, sheet.right.xyz),
+        1.0 - dot(met, sheet.up.xyz) / dot(sheet.up.xyz, sheet.up.xyz));
+    let across = dpdx(place);
+    let down = dpdy(place);
+    let pixel = max(abs(across) + abs(down), vec2(1e-9));
+    let inside = min(place, 1.0 - place) / pixel + 0.5;
+    let cover = clamp(inside.x, 0.0, 1.0) * clamp(inside.y, 0.0, 1.0);
+    if (point.w == 0.0 || way <= 0.0 || cover <= 0.0) {
+        discard;
+    }
+
+    // Take the mean of four places of the pixel.
+    var sum = vec4(0.0);
+    for (var tap = 0; tap < 4; tap += 1) {
+        let offset = vec2(f32(tap & 1), f32(tap >> 1u)) * 0.5 - 0.25;
+        sum += textureSampleLevel(picture, mixed, place + offset.x * across + offset.y * down, 0.0);
+    }
+    let opacity = 0.25 * sum.a;
+    let encoded = clamp(0.25 * sum.rgb / max(opacity, 1e-4), vec3(0.0), vec3(1.0));
+
+    // Show it as the channel's own light is shown.
+    var linear = linear_of(encoded);
+    if (GAINS) {
+        let gain = mixed_at(gains, share);
+        linear = clamp(linear * gain.r + gain.g, vec3(0.0), vec3(1.0));
+    }
+    var shown = linear;
+    if (ENCODE && SIGNAL_POWER > 0.0) {
+        shown = pow(linear, vec3(SIGNAL_POWER));
+    } else if (ENCODE) {
+        shown = srgb(linear);
+    }
+    return vec4(shown, 1.0) * opacity * cover;
+}
