@@ -110,6 +110,15 @@ impl Canvas {
         }
     }
 
+    /// Size of the first window's picture, pixels; `None` for a room that is seen from outside.
+    pub fn first_window_size(&self) -> Option<[u32; 2]> {
+        match self {
+            Self::Picture(picture) => Some(picture.size()),
+            Self::Room(walls) => walls.display.windows.first().map(|window| window.size),
+            Self::Preview(_) => None,
+        }
+    }
+
     /// Way in which the frame was drawn last.
     pub fn drawing(&self) -> Drawing {
         match self {

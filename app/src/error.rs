@@ -20,6 +20,7 @@ use scene_files::check::CheckError;
 use scene_files::export::ExportError;
 use std::path::PathBuf;
 use thiserror::Error;
+use tours::{PlayError, TourError};
 
 /// Error as one sentence: the fault, its place, and the remedy.
 #[derive(Debug, Error)]
@@ -30,6 +31,12 @@ pub enum Error {
     /// A goal that no setting reaches.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
+    /// A tour that cannot be read.
+    #[error(transparent)]
+    Tour(#[from] TourError),
+    /// A tour that cannot be ridden.
+    #[error(transparent)]
+    Play(#[from] PlayError),
     /// Preferences of the user that cannot be read or written.
     #[error(transparent)]
     Preferences(#[from] PreferencesError),

@@ -68,6 +68,20 @@ pub enum Switch {
     DiagramOfVehicle,
 }
 
+/// Direction in which the focus of a menu moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FocusStep {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+    /// Upward.
+    Up,
+    /// Downward.
+    Down,
+}
+
 /// Command that takes effect once.
 ///
 /// Every wish of a rider is one, whichever key, button, pointer or panel it comes from, and is recorded.
@@ -118,8 +132,12 @@ pub enum Action {
     ToggleRecording,
     /// Shows or hides the help.
     ToggleHelp,
-    /// Goes on after a pause of a tour, or chooses what the pointer shows.
+    /// Focus of the menu, moved by one control.
+    Focus(FocusStep),
+    /// Goes on with a tour or stops it, or chooses what the pointer shows.
     Choose,
+    /// Answer to a tour's question, by its number from 0.
+    Answer(u8),
     /// Fills the monitors, or leaves them.
     ToggleFullScreen,
     /// Shows or hides the test grids of a room.

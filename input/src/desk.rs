@@ -98,7 +98,7 @@ impl Desk {
             head: config.head.clone().map(TrackedHead::new).transpose()?,
             wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
             keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys, config.all_act),
-            gamepad: GamepadDecoder::new(config.free_look, config.gamepad.clone()),
+            gamepad: GamepadDecoder::new(config.free_look, config.all_act, config.gamepad.clone()),
             space_mouse: SpaceMouseDecoder::new(config.space_mouse, config.many_buttons),
             spacenavd: SpacenavdDecoder::new(config.spacenavd),
             bicycle: BicycleDecoder::new(config.bicycle.clone()),

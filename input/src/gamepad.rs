@@ -20,9 +20,9 @@
 //! long as it is pressed down.
 //!
 //! On a gamepad Start pauses, Select shows the help, the upper button returns to the start and the left one takes a
-//! picture.
+//! picture. The right button opens the menu, in which the cross moves and the lower button chooses.
 
-use crate::action::Action;
+use crate::action::{Action, FocusStep, Switch};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
@@ -114,6 +114,10 @@ impl GamepadItem {
     }
 }
 
+/// Axes of the cross, with the steps of the menu's focus to their ends.
+const FOCUS: [(u16, FocusStep, FocusStep); 2] =
+    [(codes::HAT_X, FocusStep::Left, FocusStep::Right), (codes::HAT_Y, FocusStep::Up, FocusStep::Down)];
+
 /// Axis that has been announced.
 #[derive(Clone, Copy, Debug)]
 struct GamepadAxis {
@@ -147,6 +151,8 @@ pub struct GamepadDecoder {
     pedalled: bool,
     /// True if the second stick, pressed down, turns the look.
     looks_round: bool,
+    /// True if the cross and all buttons act in the menu.
+    all_act: bool,
     /// Work of the axes and buttons.
     map: GamepadMap,
     faults: Faults,
@@ -160,6 +166,7 @@ impl Default for GamepadDecoder {
             held: Vec::new(),
             pedalled: false,
             looks_round: false,
+            all_act: false,
             map: GamepadMap::default(),
             faults: Faults::default(),
         }
@@ -170,9 +177,10 @@ impl GamepadDecoder {
     /// Most buttons remembered, more than any pad has.
     const MOST_HELD: usize = 64;
 
-    /// Gamepad at rest; `looks_round`: its second stick, pressed down, turns the look.
-    pub fn new(looks_round: bool, map: GamepadMap) -> Self {
-        Self { looks_round, map, ..Self::default() }
+    /// Gamepad at rest; `looks_round`: its second stick, pressed down, turns the look; `all_act`: its cross and all its
+    /// buttons act in the menu.
+    pub fn new(looks_round: bool, all_act: bool, map: GamepadMap) -> Self {
+        Self { looks_round, all_act, map, ..Self::default() }
     }
 
     /// Strength of pedalling, 0 to 1; `None` before the first.
@@ -238,11 +246,15 @@ impl GamepadDecoder {
     }
 
     fn press(&mut self, code: u16, pressed: bool, actions: &mut Actions) {
+        let own = self.map.action(code).filter(|_| self.all_act);
         let code = self.map.button(code);
         let was_held = self.held.contains(&code);
         if pressed && !was_held && self.held.len() < Self::MOST_HELD {
             self.held.push(code);
             match code {
+                _ if own.is_some() => own.into_iter().for_each(|action| actions.push(action)),
+                codes::SOUTH if self.all_act => actions.push(Action::Choose),
+                codes::EAST if self.all_act => actions.push(Action::Toggle(Switch::Menu)),
                 codes::START => actions.push(Action::TogglePause),
                 codes::SELECT => actions.push(Action::ToggleHelp),
                 codes::NORTH => actions.push(Action::Restart),
@@ -272,7 +284,14 @@ impl GamepadDecoder {
             }
             GamepadItem::Event { kind: codes::ABSOLUTE, code, value } => {
                 match self.axes.get_mut(usize::from(self.map.axis(code).code)) {
-                    Some(Some(axis)) => axis.value = f64::from(value),
+                    Some(Some(axis)) => {
+                        let before = std::mem::replace(&mut axis.value, f64::from(value));
+                        let focus = FOCUS.iter().find(|(axis, ..)| *axis == code);
+                        if let (Some((_, less, more)), true, true) = (focus, self.all_act, before == 0.0 && value != 0)
+                        {
+                            actions.push(Action::Focus(if value < 0 { *less } else { *more }));
+                        }
+                    }
                     _ => self.faults.count(format!("axis {code}, which was not announced")),
                 }
             }
@@ -287,7 +306,7 @@ impl GamepadDecoder {
 impl Decoder for GamepadDecoder {
     fn reset(&mut self, _at: Nanos) {
         let (faults, map) = (std::mem::take(&mut self.faults), std::mem::take(&mut self.map));
-        *self = Self { faults, ..Self::new(self.looks_round, map) };
+        *self = Self { faults, ..Self::new(self.looks_round, self.all_act, map) };
     }
 
     fn bytes(&mut self, _at: Nanos, mut bytes: &[u8], actions: &mut Actions) {
@@ -320,6 +339,40 @@ mod tests {
         let mut bytes = Vec::new();
         items.iter().for_each(|item| item.encode(&mut bytes));
         pad.bytes(0, &bytes, actions);
+    }
+
+    #[test]
+    fn the_menu_is_opened_walked_through_and_chosen_in() {
+        let map = GamepadMap { actions: [("west".to_owned(), "photo_sphere".to_owned())].into(), ..Default::default() };
+        let mut pad = GamepadDecoder::new(true, true, map);
+        let mut actions = Actions::default();
+        let hat = GamepadItem::Axis { code: codes::HAT_Y, value: 0, least: -1, most: 1 };
+        let key = |code, value| event(codes::KEY, code, value);
+        let cross = |value| event(codes::ABSOLUTE, codes::HAT_Y, value);
+        let items = [
+            GamepadItem::Gamepad,
+            hat,
+            key(codes::EAST, 1),
+            cross(1),
+            cross(1),
+            cross(0),
+            cross(-1),
+            key(codes::SOUTH, 1),
+            key(codes::WEST, 1),
+        ];
+        feed(&mut pad, &items, &mut actions);
+        let chosen = [
+            Action::Toggle(Switch::Menu),
+            Action::Focus(FocusStep::Down),
+            Action::Focus(FocusStep::Up),
+            Action::Choose,
+            Action::PhotoSphere,
+        ];
+        assert_eq!(actions.take(), chosen);
+        // In rides without a menu only the old buttons act.
+        let mut pad = GamepadDecoder::new(true, false, GamepadMap::default());
+        feed(&mut pad, &items, &mut actions);
+        assert_eq!(actions.take(), [Action::Photo]);
     }
 
     fn axis(code: u16, value: i32) -> GamepadItem {

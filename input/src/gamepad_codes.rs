@@ -19,6 +19,7 @@ pub const TRIGGER: u16 = 0x120;
 pub(crate) const THUMB: u16 = 0x121;
 /// First button of a gamepad.
 pub const SOUTH: u16 = 0x130;
+pub(crate) const EAST: u16 = 0x131;
 pub(crate) const NORTH: u16 = 0x133;
 pub(crate) const WEST: u16 = 0x134;
 pub(crate) const LEFT_SHOULDER: u16 = 0x136;

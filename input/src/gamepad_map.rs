@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::action::Action;
 use crate::config_error::ConfigError;
 use crate::gamepad_codes::{self as codes, AXES};
 
@@ -32,7 +33,7 @@ const AXIS_NAMES: [(&str, u16); 8] = [
 /// Names of buttons.
 const BUTTON_NAMES: [(&str, u16); 14] = [
     ("south", codes::SOUTH),
-    ("east", 0x131),
+    ("east", codes::EAST),
     ("north", codes::NORTH),
     ("west", codes::WEST),
     ("left_shoulder", codes::LEFT_SHOULDER),
@@ -56,6 +57,9 @@ pub struct GamepadMap {
     pub axes: BTreeMap<String, String>,
     /// Buttons that do the work of others: name or number of the button, and that of the one whose work it does.
     pub buttons: BTreeMap<String, String>,
+    /// Actions of buttons that have not their usual work: name or number of the button, and the text of its action.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub actions: BTreeMap<String, String>,
     /// Share of the range within which a stick counts as centred.
     pub stick_dead_zone: f64,
     /// Share of the range within which a trigger counts as released.
@@ -65,7 +69,13 @@ pub struct GamepadMap {
 impl Default for GamepadMap {
     /// Dead zones of worn sticks, which rest off centre.
     fn default() -> Self {
-        Self { axes: BTreeMap::new(), buttons: BTreeMap::new(), stick_dead_zone: 0.12, trigger_dead_zone: 0.04 }
+        Self {
+            axes: BTreeMap::new(),
+            buttons: BTreeMap::new(),
+            actions: BTreeMap::new(),
+            stick_dead_zone: 0.12,
+            trigger_dead_zone: 0.04,
+        }
     }
 }
 
@@ -97,6 +107,12 @@ impl GamepadMap {
         found.and_then(|(_, work)| number(work, &BUTTON_NAMES)).unwrap_or(code)
     }
 
+    /// Action of a button, if it has one of its own.
+    pub(crate) fn action(&self, code: u16) -> Option<Action> {
+        let found = self.actions.iter().find(|(button, _)| number(button, &BUTTON_NAMES) == Some(code));
+        found.and_then(|(_, text)| Action::named(text))
+    }
+
     /// Checks the names and the dead zones.
     ///
     /// # Errors
@@ -111,11 +127,14 @@ impl GamepadMap {
                 return bad("gamepad.axes", name, expected);
             }
         }
-        let mut buttons = self.buttons.iter().flat_map(|(button, work)| [button, work]);
+        let mut buttons = self.buttons.iter().flat_map(|(button, work)| [button, work]).chain(self.actions.keys());
         if let Some(name) = buttons.find(|name| number(name, &BUTTON_NAMES).is_none()) {
             let expected = "a button: south, east, north, west, left_shoulder, right_shoulder, left_trigger, \
                             right_trigger, select, start, left_stick, right_stick, trigger, thumb or a number";
             return bad("gamepad.buttons", name, expected);
+        }
+        if let Some(text) = self.actions.values().find(|text| Action::named(text).is_none()) {
+            return bad("gamepad.actions", text, "an action such as \"photo\" or '{\"toggle\":\"outside\"}'");
         }
         for (key, zone) in
             [("gamepad.stick_dead_zone", self.stick_dead_zone), ("gamepad.trigger_dead_zone", self.trigger_dead_zone)]
@@ -158,6 +177,9 @@ mod tests {
         let buttons = BTreeMap::from([("south".to_owned(), "jump".to_owned())]);
         let map = GamepadMap { buttons, ..GamepadMap::default() };
         assert!(map.check().unwrap_err().to_string().contains("gamepad.buttons is \"jump\""));
+        let actions = BTreeMap::from([("south".to_owned(), "jump".to_owned())]);
+        let map = GamepadMap { actions, ..GamepadMap::default() };
+        assert!(map.check().unwrap_err().to_string().contains("gamepad.actions is \"jump\""));
         let map = GamepadMap { stick_dead_zone: 1.0, ..GamepadMap::default() };
         assert_eq!(map.check().unwrap_err().key, "gamepad.stick_dead_zone");
     }

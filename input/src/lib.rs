@@ -53,7 +53,7 @@ pub mod trainer;
 pub mod vrpn;
 pub mod wand;
 
-pub use action::{Action, Place, Setting, Switch, VehicleKind};
+pub use action::{Action, FocusStep, Place, Setting, Switch, VehicleKind};
 pub use axis_table::AxisTable;
 pub use bicycle::config::{BareNumber, BicycleConfig, SpeedSource};
 pub use brake::BrakeCommand;

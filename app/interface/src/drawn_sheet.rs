@@ -59,14 +59,21 @@ impl DrawnSheet {
         f64::from(self.size.y / self.size.x)
     }
 
-    /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already.
-    pub fn draw(&mut self, gpu: &Gpu, now_s: f64, pointer: SheetPointer, contents: impl FnMut(&mut Ui)) {
+    /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already. `keys`: keys that
+    /// were pressed since.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        now_s: f64,
+        (pointer, keys): (SheetPointer, &[egui::Key]),
+        contents: impl FnMut(&mut Ui),
+    ) {
         let screen = Rect::from_min_size(Pos2::ZERO, self.size);
         let mut input = RawInput {
             screen_rect: Some(screen),
             time: Some(now_s),
             focused: true,
-            events: self.events(pointer),
+            events: self.events(pointer).into_iter().chain(keys.iter().flat_map(|key| key_events(*key))).collect(),
             ..Default::default()
         };
         if let Some(viewport) = input.viewports.get_mut(&egui::ViewportId::ROOT) {
@@ -119,6 +126,12 @@ impl DrawnSheet {
         }
         events
     }
+}
+
+/// Events of a key that is pressed and released.
+pub fn key_events(key: egui::Key) -> [Event; 2] {
+    let modifiers = Modifiers::default();
+    [true, false].map(|pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers })
 }
 
 /// Hash of the shapes that are drawn.

@@ -154,6 +154,20 @@ pub fn show(ui: &Ui, readings: &Readings) {
     painter.galley(at, pace, INK);
 }
 
+/// Line of the speed, beside that of light.
+pub fn speed_line(readings: &Readings, language: Language) -> String {
+    let kilometres_per_hour = readings.beta * readings.speed_of_light * 3.6;
+    let limit = language.fill(Phrase::Light, &[&speed(readings.speed_of_light * 3.6)]);
+    format!("{} · {limit} · β {}", speed(kilometres_per_hour), beta(readings.beta, readings.gamma))
+}
+
+/// Line of the clocks and the frame rate.
+pub fn pace_line(readings: &Readings, language: Language) -> String {
+    let rate = language.fill(Phrase::FramesPerSecond, &[&format!("{:.1}", readings.frame_rate)]);
+    let [own, world] = [readings.own_clock_s, readings.world_clock_s].map(clock);
+    format!("{} {own} · {} {world} · {rate}", language.text(Phrase::YourClock), language.text(Phrase::WorldClock))
+}
+
 /// Text of the program's own pace; without the stages of a frame if one line has no room for them. `fits`: true if a
 /// line has room for a text.
 fn pace(readings: &Readings, fits: impl Fn(&str) -> bool) -> String {

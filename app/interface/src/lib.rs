@@ -3,6 +3,8 @@
 //! Everything here draws into an [`egui::Ui`], in a window or on a panel in the vehicle, and returns
 //! [`input::Action`]s: nothing is changed here.
 
+mod caption;
+mod clock_table;
 mod controls;
 mod drawn_sheet;
 mod help;
@@ -11,8 +13,10 @@ mod menu;
 mod menu_pages;
 mod notices;
 
-pub use drawn_sheet::{DrawnSheet, SheetPointer};
+pub use caption::{Caption, sheet as caption_sheet, window as caption_window};
+pub use clock_table::{ClockRow, show as show_clocks};
+pub use drawn_sheet::{DrawnSheet, SheetPointer, key_events};
 pub use help::show as show_help;
-pub use hud::{Readings, show as show_readings};
-pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, window as menu_window};
+pub use hud::{Readings, pace_line, show as show_readings, speed_line};
+pub use menu::{MenuPage, MenuRide, sheet as menu_sheet, show as menu_contents, window as menu_window};
 pub use notices::notice;

@@ -17,6 +17,7 @@ mod pending;
 pub mod picture;
 mod polygon;
 mod scene_renderer;
+pub mod sphere;
 mod stats;
 mod subject;
 pub mod target;

@@ -201,6 +201,22 @@ impl Studio {
         light(gpu, radiance, &stored)
     }
 
+    /// Draws a picture, and fetches its light as the renderers draw it: texels row by row, and their scale.
+    ///
+    /// # Errors
+    /// Those of [`Studio::photograph`].
+    pub fn texels(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shot: &Shot,
+        pending: Pending,
+    ) -> Result<(Vec<[f32; 4]>, Stored), GpuError> {
+        let stored = self.draw(gpu, renderer, shot, pending)?;
+        let radiance = if self.samples > 1 { self.sum.result() } else { self.radiance.result() };
+        Ok((texels(gpu, radiance)?, stored))
+    }
+
     /// Develops light that was computed elsewhere: texels as the renderers draw them, row by row, for a picture of
     /// this studio's size.
     ///

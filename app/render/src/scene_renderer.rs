@@ -18,7 +18,7 @@ use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
 use scene::cut::SeenFrom;
-use scene::motion::Motion;
+use scene::motion::{Animated, Motion};
 use std::sync::Arc;
 use std::time::Duration;
 use view::{Dial, Effects, Occasion, PixelSample, Places, RendererName, Shot, Sides, Stored, Transform};
@@ -45,7 +45,7 @@ pub struct SceneRenderer {
     /// Meshes of the scene, if it may be drawn in another way than the method's: if anything is animated, each vertex
     /// is measured at its own event, and a map is seen from outside by `polygon`.
     scene: Option<Arc<Scene>>,
-    /// Measured places of all vertices, if anything is animated and the pictures show what is measured.
+    /// Measured places of all vertices, if more than clockwork is animated and the pictures show what is measured.
     measured: Option<wgpu::Buffer>,
     /// Method by which a map's scene is drawn from outside, while it is. The world then shows its cut.
     outside: Option<Adaptive>,
@@ -220,6 +220,32 @@ impl SceneRenderer {
         self.motions.is_empty()
     }
 
+    /// True if nothing that moves can be seen in the picture of a shot, so that an observer at rest sees the same in it
+    /// at all times.
+    pub fn is_still_in(&self, shot: &Shot, size: [u32; 2]) -> bool {
+        let sides = Sides::of(&shot.camera, size, MARGIN_PIXELS);
+        let at_rest = Observer { celerity: Celerity::ZERO, ..shot.observer };
+        let sight = match shot.effects.places {
+            Places::Seen => SeenFrom::of(DVec3::ZERO, &[], &shot.observer, None),
+            Places::Measured => SeenFrom::measured(DVec3::ZERO, &[], &shot.observer, None),
+            Places::Instant => SeenFrom::of(DVec3::ZERO, &[], &at_rest, None),
+        };
+        let may_show = |motion: &Motion| {
+            let here = |body: &&Arc<Animated>| body.carrier().is_none() && shot.outside.is_none();
+            let Some(body) = motion.animated().filter(here) else { return true };
+            let pose = body.at(shot.observer.event.ct);
+            let eye = shot.observer.event.position;
+            // Clockwork shows one side.
+            let behind = pose.world_from_body.matrix3.z_axis.dot(eye - pose.world_from_body.translation) < 0.0;
+            if body.is_clockwork() && behind {
+                return false;
+            }
+            let reach = body.reach(body.ball());
+            sight.cone(reach.centre, reach.radius).is_none_or(|cone| sides.may_show(&cone))
+        };
+        !self.motions.iter().any(may_show)
+    }
+
     /// Sets the texels of the map for each pixel, if the method has a map, and their shift, parts of a texel, from the
     /// next picture on.
     pub fn set_map_texels(&mut self, texels_per_pixel: f64, shift: DVec2) {
@@ -281,9 +307,11 @@ impl SceneRenderer {
         }
     }
 
-    /// Measured places of all vertices of a scene with animated bodies. A matrix does for all others.
+    /// Measured places of all vertices of a scene with animated bodies. A matrix does for all others, and for
+    /// clockwork.
     fn measure(&mut self, gpu: &Gpu, shot: &Shot) -> Option<wgpu::Buffer> {
-        let animated = self.motions.iter().any(|motion| motion.animated().is_some());
+        let solved = |motion: &Motion| motion.animated().is_some_and(|body| !body.is_clockwork());
+        let animated = self.motions.iter().any(solved);
         let scene = self.scene.as_ref().filter(|_| animated && shot.effects.places == Places::Measured)?;
         let cut = self.method.shown_cut();
         let before = self.measured.take();

@@ -16,7 +16,7 @@ use crate::vehicle::Vehicle;
 
 /// Number of sensor lines per second.
 const LINES_PER_SECOND: u64 = 100;
-/// Rates at which the pedalled wheel gains (pedal) and loses (ease) speed, m/s².
+/// Usual rates at which the pedalled wheel gains (pedal) and loses (ease) speed, m/s².
 const PEDAL_M_S2: f64 = 1.0;
 const EASE_M_S2: f64 = 1.5;
 /// Fastest turn in bends, radians per second of own time.
@@ -48,6 +48,9 @@ pub struct Tour {
     crank: Magnet,
     /// Present length along the route, metres.
     along_m: f64,
+    /// Top speed, m/s, and rate at which the pedalled wheel gains speed, m/s².
+    top_m_s: f64,
+    gain_m_s2: f64,
 }
 
 impl Tour {
@@ -64,8 +67,21 @@ impl Tour {
             wheel: Magnet::new(bicycle.metres_per_pulse()),
             crank: Magnet::new(bicycle.metres_per_crank_turn / bicycle.pulses_per_crank_turn),
             along_m: f64::NAN,
+            top_m_s: Self::CRUISE_M_S,
+            gain_m_s2: PEDAL_M_S2,
             bicycle: bicycle.clone(),
         })
+    }
+
+    /// Changes the top speed, m/s of road per second of the rider's own time, and the rate at which the rider gains
+    /// speed, m/s².
+    pub fn ride_at(&mut self, top_m_s: f64, gain_m_s2: f64) {
+        (self.top_m_s, self.gain_m_s2) = (top_m_s, gain_m_s2);
+    }
+
+    /// Length along the route at the last samples, metres; NaN before them.
+    pub fn along_m(&self) -> f64 {
+        self.along_m
     }
 
     /// Samples of the sensors up to the time `until`, following those returned before. `vehicle` is the rider's
@@ -108,7 +124,7 @@ impl Tour {
 
         // The rider slows down in time for the bends ahead.
         let looks = (0..).map(|n| f64::from(n) * OUTLOOK_SPACING_M).take_while(|&distance| distance < OUTLOOK_M);
-        let wanted_m_s = looks.fold(Self::CRUISE_M_S, |slowest, distance| {
+        let wanted_m_s = looks.fold(self.top_m_s, |slowest, distance| {
             let bend_m_s = BEND_RAD_S / self.route.curvature(self.along_m + distance, OUTLOOK_SPACING_M);
             slowest.min(libm::hypot(bend_m_s, (2.0 * FORESIGHT_M_S2 * distance).sqrt()))
         });
@@ -120,7 +136,7 @@ impl Tour {
     fn pedal(&mut self, at: Nanos, wanted_m_s: f64) {
         let span_s = 1.0 / LINES_PER_SECOND as f64;
         let change = wanted_m_s - self.wheel_m_s;
-        self.wheel_m_s += change.clamp(-EASE_M_S2 * span_s, PEDAL_M_S2 * span_s);
+        self.wheel_m_s += change.clamp(-EASE_M_S2.max(self.gain_m_s2) * span_s, self.gain_m_s2 * span_s);
         let end_us = at / 1000;
         self.wheel.roll(self.wheel_m_s * span_s, span_s, end_us);
         self.crank.roll(self.wheel_m_s * span_s, span_s, end_us);

@@ -8,6 +8,7 @@
 //! not count. Triangles that share an edge agree on which side of it a point lies, to the last bit, so that nothing
 //! falls through a seam.
 
+use std::cell::Cell;
 use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -29,6 +30,9 @@ pub const BODY: f64 = 1.8;
 
 /// Least upward or downward component of a floor's unit normal. Triangles with less are walls: steeper than 60°.
 const STEEP: f64 = 0.5;
+
+/// Rounding of distances that is allowed for in a search, as a share of them and in metres.
+const ROUNDING: f64 = 1e-9;
 
 /// Solid part of a scene. Positions are world metres.
 pub struct Collision {
@@ -119,15 +123,31 @@ impl Surroundings for Collision {
         if walls.triangles.is_empty() || !foot.is_finite() || radius.is_nan() {
             return None;
         }
-        let corner = DVec3::new(foot.x - radius, lowest, foot.z - radius);
-        let opposite = DVec3::new(foot.x + radius, highest, foot.z + radius);
-        let reach = Aabb::new(vector(corner), vector(opposite));
-        let nearest = walls.hierarchy.intersect_aabb(&reach).filter_map(|index| {
+        let near = |index| {
             let slab = between(walls.triangle(index), lowest, highest);
             let point = nearest_in_plan(&slab, plan(foot))?;
             Some((point.distance(plan(foot)), index, point))
-        });
-        let (distance, index, point) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        };
+        let first = |a: &(f64, u32, DVec2), b: &(f64, u32, DVec2)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        // Of walls that are as near, the first counts. The search comes to all of them, since it takes boxes for nearer
+        // than they are, unless the point is in a wall.
+        let found = Cell::new(None);
+        let to_box = |node: &BvhNode, _| plan_distance(&node.aabb(), foot, lowest, highest);
+        let to_wall = |index, _| {
+            let wall = near(index)?;
+            found.set(found.get().into_iter().chain([wall]).min_by(first));
+            Some(wall.0)
+        };
+        walls.hierarchy.find_best(radius.next_up(), to_box, to_wall)?;
+        let (distance, index, point) = match found.get()? {
+            (0.0, ..) => {
+                let corner = DVec3::new(foot.x - ROUNDING, lowest, foot.z - ROUNDING);
+                let opposite = DVec3::new(foot.x + ROUNDING, highest, foot.z + ROUNDING);
+                let here = Aabb::new(vector(corner), vector(opposite));
+                walls.hierarchy.intersect_aabb(&here).filter_map(near).min_by(first)?
+            }
+            nearest => nearest,
+        };
         let away = (plan(foot) - point).try_normalize().or_else(|| {
             let normal = normal(walls.triangle(index))?;
             plan(normal).try_normalize()
@@ -216,6 +236,18 @@ impl SolidTree {
 
 fn vector(v: DVec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
+}
+
+/// Distance in plan from a place to a box, as far as the box lies between two heights; [`f64::MAX`] if it does not.
+fn plan_distance(bounds: &Aabb, place: DVec3, lowest: f64, highest: f64) -> f64 {
+    if bounds.maxs.y < lowest || bounds.mins.y > highest {
+        return f64::MAX;
+    }
+    let beside = |least: f64, most: f64, at: f64| (least - at).max(at - most).max(0.0);
+    let x = beside(bounds.mins.x, bounds.maxs.x, place.x);
+    let z = beside(bounds.mins.z, bounds.maxs.z, place.z);
+    // A box's distance must not be rounded beyond that of what it holds.
+    DVec2::new(x, z).length() * (1.0 - ROUNDING)
 }
 
 /// Position in plan (seen from above): x and z.
@@ -512,6 +544,48 @@ mod tests {
         let within = street.nearest_surface(DVec3::new(-5.0, 3.0, 3.0), 1.0).unwrap();
         assert_eq!((within.distance, within.normal.abs()), (0.0, DVec3::X));
         assert_eq!(street.nearest_surface(DVec3::new(f64::NAN, 3.0, 3.0), 1.0), None);
+    }
+
+    #[test]
+    fn the_nearest_wall_is_the_first_of_all_that_are_nearest() {
+        let mut random = ChaCha8Rng::seed_from_u64(12);
+        // Places on a coarse grid, so that many walls are equally near, and many points lie in walls.
+        let mut whole = |most: i32| 0.5 * random.random_range(-most..=most) as f32;
+        let triangles: Vec<[Vec3; 3]> = (0..1500)
+            .map(|_| {
+                let (centre, way) = (Vec3::new(whole(30), whole(3), whole(30)), Vec3::new(whole(2), 0.0, whole(2)));
+                [centre, centre + way, centre + Vec3::new(0.0, 2.0, 0.0)]
+            })
+            .collect();
+        let points: Vec<DVec3> =
+            (0..1500).map(|_| DVec3::new(whole(40).into(), whole(4).into(), whole(40).into())).collect();
+        let collision = collision(DVec3::ZERO, vec![mesh(&triangles, true)]);
+        let walls = &collision.sorted.walls;
+        let (mut tied, mut within) = (0, 0);
+        for point in points {
+            let slab = |index| between(walls.triangle(index), point.y + STEP, point.y + BODY);
+            let all = (0..walls.triangles.len() as u32).filter_map(|index| {
+                let place = nearest_in_plan(&slab(index), plan(point))?;
+                Some((place.distance(plan(point)), index, place))
+            });
+            let mut all: Vec<_> = all.collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            for radius in [0.0, 0.5, 2.0, 1e9, f64::INFINITY] {
+                let found = collision.nearest_wall(point, radius);
+                let Some(&(distance, _, place)) = all.first().filter(|wall| wall.0 <= radius) else {
+                    assert_eq!(found, None, "at {point} within {radius}");
+                    continue;
+                };
+                let found = found.unwrap();
+                assert_eq!(found.distance, distance, "at {point} within {radius}");
+                if let Some(away) = (plan(point) - place).try_normalize() {
+                    assert_eq!(found.normal, DVec3::new(away.x, 0.0, away.y), "another wall at {point}");
+                }
+            }
+            tied += usize::from(all.len() > 1 && all[0].0 == all[1].0);
+            within += usize::from(all.first().is_some_and(|wall| wall.0 == 0.0));
+        }
+        assert!(tied > 50 && within > 10, "{tied} ties, {within} within walls");
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! the world's origin keeps its millimetres.
 
 pub mod carriers;
+mod clock;
 pub mod collision;
 pub mod cut;
 mod extent;
@@ -19,6 +20,7 @@ mod mesh;
 pub mod mipmap;
 pub mod motion;
 mod panorama;
+mod place;
 pub mod refine;
 mod scene;
 mod speed_limit;
@@ -26,11 +28,13 @@ mod surroundings;
 mod triangle_point;
 mod validate;
 
+pub use clock::{ClockReading, SceneClock};
 pub use lamp::{Lamp, Lamplight, Spot};
 pub use lighting::Lighting;
 pub use material::{Alpha, Material, Texture, Wrap};
 pub use mesh::Mesh;
 pub use panorama::Panorama;
+pub use place::{LocalName, NamedPlace};
 pub use scene::{MAX_SPECTRA, MAX_TRIANGLES, Scene, Start, ViewCamera};
 pub use speed_limit::{Fastest, TooFast};
 pub use surroundings::{Ground, OpenPlane, OpenSpace, Surroundings, Wall};

@@ -1,11 +1,13 @@
 //! A scene: geometry, materials, light, and a place to start from, as plain data.
 
+use crate::clock::SceneClock;
 use crate::lamp::Lamp;
 use crate::lighting::Lighting;
 use crate::material::{Material, Texture};
 use crate::mesh::Mesh;
 use crate::motion::Motion;
 use crate::panorama::Panorama;
+use crate::place::NamedPlace;
 use glam::DVec3;
 use physics::colour::Spectrum;
 
@@ -54,6 +56,10 @@ pub struct Scene {
     /// Closed route round the scene (world metres, on the ground) that the built-in tour follows; empty if there is
     /// none.
     pub circuit: Vec<DVec3>,
+    /// Places with a name, to which an observer can jump; the start is not among them.
+    pub places: Vec<NamedPlace>,
+    /// Clocks whose dials are part of the scene's meshes.
+    pub clocks: Vec<SceneClock>,
     /// Features that the file asks for and this program does not draw, one sentence each.
     pub notices: Vec<String>,
 }

@@ -88,6 +88,14 @@ pub struct RideOptions {
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
     pub preview: bool,
+    /// Guided tour: searchlight, terrell, twins, slow-light, or a tour's file (.toml). Captions say what is seen; Enter
+    /// stops the tour and goes on.
+    #[arg(long, value_name = "TOUR", help_heading = "Session")]
+    #[arg(conflicts_with_all = ["replay", "out", "scene", "speed_of_light", "vehicle", "kiosk", "assist"])]
+    pub tour: Option<String>,
+    /// Open a window for an operator beside those of the audience: menu, devices, pace, and a copy of the picture.
+    #[arg(long, help_heading = "Session")]
+    pub operator: bool,
     /// Language of everything that is written in the picture: en or de [default: that of the settings, else that of the
     /// system].
     #[arg(long, value_name = "LANGUAGE", help_heading = "Session")]

@@ -19,6 +19,12 @@ pub enum SceneChoice {
     Spectra,
     /// The built-in lattice of boxes, for seeing and measuring the geometry alone.
     Lattice,
+    /// The built-in row of dice beside a road, for seeing that what passes is turned.
+    Dice,
+    /// The built-in platform and trains, with clocks on both.
+    Train,
+    /// The built-in laboratory, which a wire cube and a sphere pass.
+    Laboratory,
     /// A glTF 2.0 file, or a panorama.
     File(PathBuf),
 }
@@ -30,6 +36,9 @@ impl SceneChoice {
             "town" => Self::Town,
             "spectra" => Self::Spectra,
             "lattice" => Self::Lattice,
+            "dice" => Self::Dice,
+            "train" => Self::Train,
+            "laboratory" => Self::Laboratory,
             file => Self::File(file.into()),
         }
     }
@@ -40,6 +49,9 @@ impl SceneChoice {
             Self::Town => "town".to_owned(),
             Self::Spectra => "spectra".to_owned(),
             Self::Lattice => "lattice".to_owned(),
+            Self::Dice => "dice".to_owned(),
+            Self::Train => "train".to_owned(),
+            Self::Laboratory => "laboratory".to_owned(),
             Self::File(path) => std::path::absolute(path).as_ref().unwrap_or(path).display().to_string(),
         }
     }
@@ -49,8 +61,8 @@ impl SceneChoice {
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(next_help_heading = "World")]
 pub struct WorldOptions {
-    /// Scene: `town`, `spectra` or `lattice` (built in), a glTF 2.0 file (.gltf, .glb), or a panorama (.png, .jpg,
-    /// .webp, .tif, .hdr, .exr).
+    /// Scene: `town`, `spectra`, `lattice`, `dice`, `train` or `laboratory` (built in), a glTF 2.0 file (.gltf, .glb),
+    /// or a panorama (.png, .jpg, .webp, .tif, .hdr, .exr).
     ///
     /// [default: town, or the scene of the recording]
     #[arg(long, value_name = "SCENE", value_parser = scene())]
@@ -109,9 +121,15 @@ mod tests {
 
     #[test]
     fn every_scene_is_found_again_by_its_name() {
-        for choice in
-            [SceneChoice::Town, SceneChoice::Spectra, SceneChoice::Lattice, SceneChoice::File("/a/b.hdr".into())]
-        {
+        for choice in [
+            SceneChoice::Town,
+            SceneChoice::Spectra,
+            SceneChoice::Lattice,
+            SceneChoice::Dice,
+            SceneChoice::Train,
+            SceneChoice::Laboratory,
+            SceneChoice::File("/a/b.hdr".into()),
+        ] {
             assert_eq!(SceneChoice::from_name(&choice.name()), choice);
         }
     }

@@ -1,6 +1,6 @@
 //! `rapidity ride`: prepares the ride, and opens a window on it, or films it if there is no graphical session.
 
-use crate::command::RideOptions;
+use crate::command::{RideOptions, SceneChoice};
 use crate::commands::ride_film;
 use crate::error::Error;
 use crate::output::progress;
@@ -8,11 +8,16 @@ use crate::output::say::{say, tell};
 use crate::session::live::Live;
 use crate::session::preferences;
 use crate::session::scenes;
-use crate::session::start::{PRESENTATION, RideRoom, has_display, kiosk, prepared, present, recorded};
+use crate::session::start::{
+    PRESENTATION, RideRoom, has_display, kiosk, prepared, prepared_for_tour, present, recorded,
+};
+use crate::session::tour_ride::TourRide;
 use crate::window::{self, WaitingRide};
 use input::recording::RecordingError;
 use picture_files::files::writable;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tours::TourPlayer;
 
 /// File of the film if there is no graphical session and no file is named.
 const FILM: &str = "ride.mp4";
@@ -72,6 +77,9 @@ fn waiting(options: &RideOptions, room: RideRoom) -> Result<WaitingRide, Error> 
         let begin = Box::new(move || Ok(Live::recorded(replay, seconds)));
         return Ok(WaitingRide { scene, room, presentation, begin });
     }
+    if let Some(name) = &options.tour {
+        return on_tour(options, room, name);
+    }
     let world = scenes::load(&options.world)?;
     let presentation = options.presentation(&world.scene.start);
     let (simulation, mut log) = prepared(options, &world, &room.set_up, room.head.clone())?;
@@ -83,4 +91,26 @@ fn waiting(options: &RideOptions, room: RideRoom) -> Result<WaitingRide, Error> 
     let (options, set_up) = (options.clone(), room.set_up.clone());
     let begin = Box::new(move || present(&options, &set_up, simulation, log, kiosk));
     Ok(WaitingRide { scene, room, presentation, begin })
+}
+
+/// Ride on a tour, by its name or file.
+fn on_tour(options: &RideOptions, room: RideRoom, name: &str) -> Result<WaitingRide, Error> {
+    let file = Path::new(name);
+    let plan = if name.ends_with(".toml") { tours::read(file)? } else { tours::built_in(name)? };
+    let mut options = options.clone();
+    options.world.scene = Some(match (SceneChoice::from_name(&plan.scene), file.parent()) {
+        (SceneChoice::File(path), Some(folder)) if name.ends_with(".toml") => SceneChoice::File(folder.join(path)),
+        (choice, _) => choice,
+    });
+    options.world.speed_of_light = plan.speed_of_light_m_s;
+    let world = scenes::load(&options.world)?;
+    let presentation = options.presentation(&world.scene.start);
+    let (simulation, mut log) = prepared_for_tour(&options, &world, &room.set_up, room.head.clone(), &plan)?;
+    let player = TourPlayer::new(Arc::new(plan), &world.scene.circuit, &simulation.setup().desk)?;
+    if let Some(path) = &options.record {
+        log.record(path)?;
+    }
+    let set_up = room.set_up.clone();
+    let begin = move || Ok(present(&options, &set_up, simulation, log, None)?.on_tour(TourRide::new(player)));
+    Ok(WaitingRide { scene: world.scene, room, presentation, begin: Box::new(begin) })
 }

@@ -6,10 +6,12 @@
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
 use crate::session::lost_time::LostTime;
+use crate::session::tour_ride::TourRide;
 use hardware::heard::{self, DeviceReport};
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
 use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl, TrackingMode};
+use interface::Caption;
 use kiosk::Kiosk;
 use picture_files::files::unused;
 use presentation::Presentation;
@@ -32,6 +34,8 @@ pub struct Live {
     told: Vec<(Nanos, String)>,
     /// Own time that was not ridden because frames came too late.
     lost: LostTime,
+    /// Tour that rides, if there is one.
+    tour: Option<Box<TourRide>>,
     /// Visitors, if the ride is for them.
     kiosk: Option<Box<Kiosk>>,
     /// True once another rider's turn has begun.
@@ -86,6 +90,7 @@ impl Live {
             said: Vec::new(),
             told: Vec::new(),
             lost: LostTime::default(),
+            tour: None,
             kiosk: None,
             turned: false,
             open: Vec::new(),
@@ -103,6 +108,22 @@ impl Live {
         }
         self.kiosk = Some(Box::new(kiosk));
         self
+    }
+
+    /// The same ride, on a tour.
+    pub fn on_tour(mut self, tour: TourRide) -> Self {
+        self.tour = Some(Box::new(tour));
+        self
+    }
+
+    /// Caption of the tour; `None` without one, and once it is over.
+    pub fn caption(&self) -> Option<Caption> {
+        self.tour.as_ref()?.caption(self.language)
+    }
+
+    /// Carries out an action that concerns the tour. True if it was one.
+    pub fn act_on_tour(&mut self, action: &Action) -> bool {
+        self.tour.as_mut().is_some_and(|tour| tour.act(action))
     }
 
     /// True while passers-by are invited: the attract ride is shown.
@@ -197,6 +218,9 @@ impl Live {
             Rider::Present { simulation, devices, log } => {
                 let mut samples = devices.drain();
                 samples.append(&mut self.said);
+                if let Some(tour) = &mut self.tour {
+                    samples.append(&mut tour.samples(now, simulation.vehicle()));
+                }
                 samples.sort_by_key(|sample| sample.at);
                 if let Some(kiosk) = &mut self.kiosk {
                     note_devices(kiosk, devices, &mut self.open);

@@ -2,6 +2,8 @@
 //! head's tracker, live devices, interruption.
 
 #[cfg(test)]
+mod crossing_tests;
+#[cfg(test)]
 mod desk_tests;
 pub mod gaps;
 pub mod interrupt;
@@ -11,4 +13,5 @@ pub mod preferences;
 pub mod reel;
 pub mod scenes;
 pub mod start;
+pub mod tour_ride;
 pub mod tracker;

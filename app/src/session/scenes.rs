@@ -4,7 +4,7 @@ use crate::command::{SceneChoice, WorldOptions};
 use crate::output::progress::{self, LateBar};
 use crate::output::say::tell;
 use built_in::lattice::Lattice;
-use built_in::{spectra, town};
+use built_in::{dice, laboratory, spectra, town, train};
 use picture_cache::PictureCache;
 use scene::{Scene, TooFast, ViewCamera};
 use scene_files::gltf::{LoadStage, ReadRules};
@@ -159,6 +159,9 @@ fn read_scene(choice: &SceneChoice, options: &WorldOptions) -> Result<Scene, Sce
         SceneChoice::Town => Ok(old_town(options.no_cache)),
         SceneChoice::Spectra => Ok(spectra::build()),
         SceneChoice::Lattice => Ok(Lattice::default().build()),
+        SceneChoice::Dice => Ok(dice::build()),
+        SceneChoice::Train => Ok(train::build()),
+        SceneChoice::Laboratory => Ok(laboratory::build()),
         SceneChoice::File(path) => {
             let bar = progress::bar(path.display().to_string(), 0);
             let budget = options.reading.budget();

@@ -20,6 +20,7 @@ use scene::collision::Collision;
 use scene::motion::Ball;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tours::TourPlan;
 
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
@@ -149,12 +150,37 @@ pub fn prepared(
     set_up: &SetUp,
     head: Option<HeadConfig>,
 ) -> Result<(Simulation, RideLog), Error> {
-    let scene = &world.scene;
+    let setup = setup(options, world, desk(options, set_up, head)?)?;
+    prepared_with(options, world, setup)
+}
+
+/// Simulation of a tour that has not begun, and its log.
+///
+/// # Errors
+/// Those of [`prepared`].
+pub fn prepared_for_tour(
+    options: &RideOptions,
+    world: &World,
+    set_up: &SetUp,
+    head: Option<HeadConfig>,
+    plan: &TourPlan,
+) -> Result<(Simulation, RideLog), Error> {
+    let light_speed = LightSpeed::new(world.speed_of_light_m_s)?;
+    let setup = plan.setup(&world.scene.start, light_speed, desk(options, set_up, head)?);
+    prepared_with(options, world, setup)
+}
+
+/// Settings of the devices.
+fn desk(options: &RideOptions, set_up: &SetUp, head: Option<HeadConfig>) -> Result<DeskConfig, Error> {
     let mut desk = DeskConfig { head, ..set_up.desk()? };
     if desk.keys.is_empty() {
         desk.keys = options.keys.clone();
     }
-    let setup = setup(options, world, desk)?;
+    Ok(desk)
+}
+
+fn prepared_with(options: &RideOptions, world: &World, setup: Setup) -> Result<(Simulation, RideLog), Error> {
+    let scene = &world.scene;
     let mut header = setup.header(env!("CARGO_PKG_VERSION"), &options.world.scene().name());
     header.settings.insert(FINGERPRINT.to_owned(), fingerprint(scene));
     header.settings.insert(PRESENTATION.to_owned(), options.presentation(&scene.start).to_json());

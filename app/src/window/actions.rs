@@ -3,7 +3,8 @@
 use super::open::Open;
 use super::photo;
 use crate::session::preferences::Preferences;
-use input::{Action, Switch};
+use egui::Key;
+use input::{Action, FocusStep, Sample, Switch};
 
 impl Open {
     /// Carries out the rider's actions that concern the program. Those of the ride itself have been performed already.
@@ -12,8 +13,29 @@ impl Open {
             self.presentation = self.fresh;
         }
         let kiosk = self.kiosk;
-        for action in actions.into_iter().filter(|action| !kiosk || is_for_visitors(action)) {
+        self.perform(actions.into_iter().filter(|action| !kiosk || is_for_visitors(action)).collect());
+    }
+
+    /// Passes the operator's actions on to the ride. What visitors of a kiosk may not do, the operator may.
+    pub(super) fn operate(&mut self, actions: Vec<Action>) {
+        let kiosk = self.kiosk;
+        let (of_ride, own): (Vec<_>, Vec<_>) =
+            actions.into_iter().partition(|action| !kiosk || is_for_visitors(action));
+        for action in of_ride {
+            self.ride.live.say(|at| Sample::action(at, &action));
+        }
+        self.perform(own);
+    }
+
+    fn perform(&mut self, actions: Vec<Action>) {
+        for action in actions {
+            if !self.presentation.menu && self.ride.live.act_on_tour(&action) {
+                continue;
+            }
             match action {
+                Action::Answer(_) => {
+                    self.ride.live.act_on_tour(&action);
+                }
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Recentre => {
                     let told = self.ride.live.straightened();
@@ -27,6 +49,25 @@ impl Open {
                     let development = self.presentation.development;
                     let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
                     self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                }
+                Action::PhotoSphere => {
+                    let Some(gaze) = self.ride.frame.as_ref().map(|frame| frame.gaze) else { continue };
+                    let renderer = &mut self.ride.renderer;
+                    let taken = photo::take_sphere(&self.gpu, renderer, self.format, &gaze, &self.presentation);
+                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                }
+                Action::Focus(step) if self.presentation.menu => self.menu_keys.push(match step {
+                    FocusStep::Left => Key::ArrowLeft,
+                    FocusStep::Right => Key::ArrowRight,
+                    FocusStep::Up => Key::ArrowUp,
+                    FocusStep::Down => Key::ArrowDown,
+                }),
+                Action::Choose if self.presentation.menu => {
+                    // A wand chooses where it points, and the panels of a window see its enter key.
+                    let points = self.ride.frame.as_ref().is_some_and(|frame| frame.controls.wand.is_some());
+                    if !std::mem::take(&mut self.entered) && !points {
+                        self.menu_keys.push(Key::Enter);
+                    }
                 }
                 Action::ToggleFullScreen => self.fill_monitors(),
                 Action::ToggleCalibration => self.calibrate(),

@@ -19,10 +19,19 @@ impl Open {
     /// # Errors
     /// A fault while riding.
     pub fn event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) -> Result<(), Error> {
+        if let Some(operator) = self.operator.as_mut().filter(|operator| operator.is(window)) {
+            if operator.event(&self.gpu, &event) {
+                self.operator = None;
+            }
+            return Ok(());
+        }
         let Some(number) = self.windows.iter().position(|surface| surface.window.id() == window) else { return Ok(()) };
         // While corners are moved, no slider takes the keys.
         let offered = number == 0 && !(self.calibrates() && matches!(event, WindowEvent::KeyboardInput { .. }));
-        let taken = offered && self.interface.event(&self.windows[0].window, &event);
+        // The tabulator key shows the map; it does not walk through panels.
+        let is_tab = matches!(&event, WindowEvent::KeyboardInput { event, .. }
+            if event.physical_key == PhysicalKey::Code(KeyCode::Tab));
+        let taken = offered && !is_tab && self.interface.event(&self.windows[0].window, &event);
         match event {
             WindowEvent::CloseRequested if self.kiosk => {}
             WindowEvent::CloseRequested => events.exit(),
@@ -46,6 +55,7 @@ impl Open {
                     let pressed = event.state == ElementState::Pressed;
                     if pressed {
                         self.ride.live.touch();
+                        self.entered |= code == KeyCode::Enter && self.room_interface.is_none();
                     }
                     // A slider that was clicked takes the arrows. The release of a key is passed on to everyone.
                     if !(taken && pressed) {

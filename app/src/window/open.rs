@@ -1,6 +1,8 @@
 //! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
+use super::guide::Guide;
+use super::operator::Operator;
 use super::place::{attributes, filling, fit};
 use super::room_interface::RoomInterface;
 use super::server_loss;
@@ -52,6 +54,8 @@ pub struct Open {
     // Dropped before the windows: textures belong to their surfaces.
     /// Textures that windows hold for the next frame.
     pub(super) in_step: WindowsInStep<wgpu::SurfaceTexture>,
+    /// Window of the operator, if there is one.
+    pub(super) operator: Option<Operator>,
     /// Windows; the first has the interface.
     pub(super) windows: Vec<WindowSurface>,
     pub(super) canvas: Canvas,
@@ -60,13 +64,21 @@ pub struct Open {
     pub(super) presentation: Presentation,
     /// How a fresh ride is shown, which a kiosk returns to.
     pub(super) fresh: Presentation,
+    /// What explains the ride.
+    pub(super) guide: Guide,
     /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
     pub(super) room_interface: Option<RoomInterface>,
     /// Window and pixel of the mouse, and true while its left button is held.
     pub(super) pointed: Option<(usize, DVec2)>,
     pub(super) mouse_pressed: bool,
+    /// Keys of the menu, pressed by actions since the last picture.
+    pub(super) menu_keys: Vec<egui::Key>,
+    /// True after a press of the enter key, which the panels take by themselves.
+    pub(super) entered: bool,
     /// Page of the menu.
     pub(super) page: MenuPage,
+    /// Format in which the renderer draws.
+    pub(super) format: Format,
     /// True in a kiosk.
     pub(super) kiosk: bool,
     /// True once the rider has asked for the end.
@@ -149,6 +161,7 @@ impl Open {
 
         let format = Format::fast(options.samples(gpu.is_software()));
         let dial = options.dial(gpu.is_software());
+        let guide = Guide::new(&scene);
         let spinner = progress::cutting(dial);
         let start = scene.start;
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
@@ -194,14 +207,20 @@ impl Open {
         spinner.finish_and_clear();
         let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         ride.begin(&mut canvas, took);
+        let operator = options.operator.then(|| Operator::open(events, &gpu)).transpose()?;
         Ok(Self {
+            operator,
             canvas,
             presentation: fresh,
             fresh,
+            guide,
             room_interface,
             pointed: None,
             mouse_pressed: false,
+            menu_keys: Vec::new(),
+            entered: false,
             page: MenuPage::default(),
+            format,
             kiosk,
             leaves: false,
             mouse_moves_head,

@@ -3,9 +3,13 @@
 use crate::canvas::Canvas;
 use crate::error::Error;
 use picture_files::files::{save, unused};
+use presentation::Presentation;
 use render::display::Development;
-use render::picture::Darkroom;
+use render::picture::{Darkroom, Studio};
+use render::sphere::SphereLight;
+use render::target::Format;
 use render::{Gpu, SceneRenderer};
+use view::Gaze;
 use walls::{FlatPicture, Walls};
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
@@ -24,6 +28,29 @@ pub fn take(
         Canvas::Room(walls) => take_room(gpu, renderer, walls, development),
         Canvas::Preview(room) => take_room(gpu, renderer, &mut room.walls, development),
     }
+}
+
+/// Height of a picture of all directions, pixels, and samples of each of its pixels.
+const SPHERE: (u32, u32) = (1440, 2);
+
+/// Writes a picture of all directions into `sphere-001.png` or the next free number. Its middle is where the gaze goes.
+/// Returns a sentence that names the file.
+///
+/// # Errors
+/// A lost device, or a folder that cannot be written to.
+pub fn take_sphere(
+    gpu: &Gpu,
+    renderer: &mut SceneRenderer,
+    format: Format,
+    gaze: &Gaze,
+    presentation: &Presentation,
+) -> Result<String, Error> {
+    let light = SphereLight::around(gpu, renderer, gaze, presentation.effects, SPHERE, format)?;
+    let mut studio = Studio::with_format(gpu, light.size, 1, format);
+    let picture = studio.develop(gpu, &light.texels, light.stored, &presentation.development, None)?;
+    let path = unused("sphere", "png");
+    save(&picture, &path)?;
+    Ok(format!("photo: {}", path.display()))
 }
 
 fn take_picture(
@@ -48,6 +75,8 @@ fn take_room(
     development: &Development,
 ) -> Result<String, Error> {
     walls.draw_whole(gpu, renderer)?;
+    // A photo shows the world, without the menu that asked for it.
+    walls.sheets.clear();
     let mut told = Vec::new();
     for window in 0..walls.display.windows.len() {
         let picture = walls.develop_window(gpu, window, development)?;

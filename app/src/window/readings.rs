@@ -1,6 +1,7 @@
 //! Readings of a ride for the head-up display and the panel.
 
 use crate::frame::RideInProgress;
+use input::Place;
 use interface::{MenuRide, Readings};
 use render::Gpu;
 use words::{Language, Phrase};
@@ -47,7 +48,12 @@ fn accuracy(ride: &RideInProgress) -> String {
 }
 
 /// State of the ride that the menu shows. `in_step`: sentence on the windows, if there are several.
-pub fn menu(ride: &RideInProgress, gpu: &Gpu, is_flat: bool, in_step: Option<String>) -> MenuRide {
+pub fn menu(
+    ride: &RideInProgress,
+    gpu: &Gpu,
+    places: Vec<(String, Place)>,
+    (is_flat, in_step): (bool, Option<String>),
+) -> MenuRide {
     let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
     let drawing = format!(
         "{} triangles by the {} renderer on {}",
@@ -62,7 +68,7 @@ pub fn menu(ride: &RideInProgress, gpu: &Gpu, is_flat: bool, in_step: Option<Str
         paused: ride.frame.as_ref().is_some_and(|frame| frame.paused),
         recording: ride.live.is_recording(),
         tracking: ride.live.tracking(),
-        places: Vec::new(),
+        places,
         devices: ride.live.devices(),
         drawing: [drawing].into_iter().chain(in_step).collect(),
         overlaps: ride.overlaps,

@@ -1,10 +1,11 @@
 //! Interface of a room: sheets that float in the vehicle, which every eye sees on every screen, and the pointer that
 //! chooses on them.
 
+use super::guide::Guide;
 use glam::{DQuat, DVec2, DVec3};
 use input::head::Tracking;
 use input::{Action, WandState};
-use interface::{DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
+use interface::{Caption, ClockRow, DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
 use presentation::Presentation;
 use render::Gpu;
 use room::{Display, EyeSide};
@@ -45,6 +46,12 @@ pub struct Shown<'a> {
     pub readings: &'a Readings,
     /// State that the menu shows, while it is open.
     pub menu: Option<&'a MenuRide>,
+    /// Caption of a tour.
+    pub caption: Option<&'a Caption>,
+    /// Readings of clocks.
+    pub clocks: &'a [ClockRow],
+    /// Keys of the menu that were pressed since the last picture.
+    pub keys: &'a [egui::Key],
     /// Time, seconds.
     pub now_s: f64,
 }
@@ -55,6 +62,8 @@ pub struct RoomInterface {
     readings: PlacedSheet,
     menu: PlacedSheet,
     help: PlacedSheet,
+    guide: PlacedSheet,
+    caption: PlacedSheet,
     beam: wgpu::TextureView,
 }
 
@@ -80,6 +89,11 @@ impl PlacedSheet {
         meet(corner, right, up, ray.from_m, ray.direction)
     }
 
+    fn pointer(&self, head_m: DVec3, ray: Option<&PointerRay>) -> SheetPointer {
+        let place = ray.and_then(|ray| self.met(head_m, ray)).map(|hit| hit.place.to_array());
+        SheetPointer { place, pressed: ray.is_some_and(|ray| ray.pressed) }
+    }
+
     fn sheet(&self, head_m: DVec3) -> RoomSheet {
         let [corner_m, right_m, up_m] = self.edges(head_m);
         RoomSheet { corner_m, right_m, up_m, picture: self.drawn.picture().clone() }
@@ -95,6 +109,8 @@ impl RoomInterface {
             readings: PlacedSheet::new(gpu, [700.0, 210.0], [0.0, -25.0], [2.0, 3.0]),
             menu: PlacedSheet::new(gpu, [560.0, 280.0], [0.0, 7.0], [1.5, 1.5]),
             help: PlacedSheet::new(gpu, [560.0, 560.0], [-52.0, 0.0], [1.5, 1.5]),
+            guide: PlacedSheet::new(gpu, [720.0, 460.0], [56.0, 0.0], [1.6, 2.0]),
+            caption: PlacedSheet::new(gpu, [560.0, 220.0], [0.0, -10.0], [1.6, 1.5]),
             beam: render::view_from_rows(gpu, "beam", [1, 1, 1], wgpu::TextureFormat::Rgba8Unorm, &amber),
         }
     }
@@ -104,27 +120,46 @@ impl RoomInterface {
         &mut self,
         gpu: &Gpu,
         shown: &Shown<'_>,
+        guide: &Guide,
         page: &mut MenuPage,
         ray: Option<PointerRay>,
     ) -> (Vec<RoomSheet>, Vec<Action>) {
-        let Shown { presentation, readings, menu, now_s } = *shown;
+        let Shown { presentation, readings, menu, caption, clocks, keys, now_s } = *shown;
         let (mut sheets, mut actions) = (Vec::new(), Vec::new());
         if presentation.readings {
-            self.readings.drawn.draw(gpu, now_s, SheetPointer::default(), |ui| interface::show_readings(ui, readings));
+            self.readings
+                .drawn
+                .draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| interface::show_readings(ui, readings));
             sheets.push(self.readings.sheet(self.head_m));
         }
         if presentation.help {
             let language = presentation.language;
-            self.help.drawn.draw(gpu, now_s, SheetPointer::default(), |ui| {
+            self.help.drawn.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
                 interface::show_help(ui, language, readings.kiosk);
             });
             sheets.push(self.help.sheet(self.head_m));
         }
-        let Some(menu) = menu else { return (sheets, actions) };
+        if presentation.miniature || presentation.diagram {
+            self.guide.drawn.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
+                guide.show_on_sheet(ui, presentation, clocks);
+            });
+            sheets.push(self.guide.sheet(self.head_m));
+        }
+        if let Some(caption) = caption {
+            let pointer = self.caption.pointer(self.head_m, ray.as_ref());
+            self.caption.drawn.draw(gpu, now_s, (pointer, &[]), |ui| {
+                actions.extend(interface::caption_sheet(ui, presentation.language, caption));
+            });
+            sheets.push(self.caption.sheet(self.head_m));
+        }
+        let Some(menu) = menu else {
+            sheets.extend(ray.filter(|ray| ray.has_beam && caption.is_some()).map(|ray| self.beam(&ray, None)));
+            return (sheets, actions);
+        };
         let hit = ray.and_then(|ray| self.menu.met(self.head_m, &ray));
         let pointer =
             SheetPointer { place: hit.map(|hit| hit.place.to_array()), pressed: ray.is_some_and(|ray| ray.pressed) };
-        self.menu.drawn.draw(gpu, now_s, pointer, |ui| {
+        self.menu.drawn.draw(gpu, now_s, (pointer, keys), |ui| {
             actions.extend(interface::menu_sheet(ui, page, presentation, menu));
         });
         sheets.push(self.menu.sheet(self.head_m));

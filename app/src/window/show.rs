@@ -1,13 +1,12 @@
 //! Frame in the windows: drawn, developed, with the interface over it.
 
 use super::open::Open;
+use super::operator::Operated;
 use super::room_interface::{self, Shown};
 use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
 use input::{Action, SECOND, Sample};
-use interface::{MenuRide, Readings};
-use presentation::Presentation;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -56,11 +55,34 @@ impl Open {
         // Light to the windows, and the interface over the first.
         let readings = readings::readings(&self.ride, shown.language, self.kiosk);
         let is_flat = matches!(self.canvas, Canvas::Picture(_));
-        let menu = shown.menu.then(|| readings::menu(&self.ride, &self.gpu, is_flat, self.in_step.sentence()));
-        let mut wanted = self.draw_room_interface(&shown, &readings, menu.as_ref());
+        let has_operator = self.operator.is_some();
+        let menu = (shown.menu || has_operator).then(|| {
+            let places = self.guide.places(shown.language);
+            readings::menu(&self.ride, &self.gpu, places, (is_flat, self.in_step.sentence()))
+        });
+        let [width, height] = self.windows[0].size().map(f64::from);
+        if let Some(frame) = &self.ride.frame {
+            self.guide.note(frame, &shown, width / height);
+        }
+        let clocks = if shown.miniature { self.guide.clocks(&self.ride, shown.language) } else { Vec::new() };
+        let caption = self.ride.live.caption();
+        let keys = std::mem::take(&mut self.menu_keys);
+        let room = Shown {
+            presentation: &shown,
+            readings: &readings,
+            menu: menu.as_ref().filter(|_| shown.menu),
+            caption: caption.as_ref(),
+            clocks: &clocks,
+            keys: &keys,
+            now_s: self.ride.live.now() as f64 / SECOND as f64,
+        };
+        let mut wanted = self.draw_room_interface(&room);
         let is_flat = self.room_interface.is_none();
+        if is_flat {
+            self.interface.press(keys);
+        }
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
-        let (page, kiosk) = (&mut self.page, self.kiosk);
+        let (page, guide, kiosk) = (&mut self.page, &self.guide, self.kiosk);
         for (number, texture) in &screens {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -77,7 +99,13 @@ impl Open {
                     if shown.readings && is_flat {
                         interface::show_readings(ui, &readings);
                     }
-                    if let Some(menu) = menu.as_ref().filter(|_| is_flat) {
+                    if is_flat {
+                        guide.show(ui, &shown, &clocks);
+                    }
+                    if let Some(caption) = caption.as_ref().filter(|_| is_flat) {
+                        wanted.extend(interface::caption_window(ui, shown.language, caption));
+                    }
+                    if let Some(menu) = menu.as_ref().filter(|_| is_flat && shown.menu) {
                         wanted.extend(interface::menu_window(ui, page, &shown, menu));
                     }
                     if shown.help && is_flat && !interface::show_help(ui, shown.language, kiosk) {
@@ -93,6 +121,11 @@ impl Open {
         }
         for action in wanted {
             self.ride.live.say(|at| Sample::action(at, &action));
+        }
+        if let (Some(operator), Some(menu)) = (&mut self.operator, &menu) {
+            let operated = Operated { presentation: &shown, readings: &readings, menu };
+            let chosen = operator.draw(&self.gpu, &mut self.canvas, &operated)?;
+            self.operate(chosen);
         }
         // Everything is drawn before anything is presented, so that nothing comes between the presents.
         if screens.len() > 1 {
@@ -124,12 +157,7 @@ impl Open {
     }
 
     /// Draws the sheets of a room's interface. Returns the actions that were chosen on them.
-    fn draw_room_interface(
-        &mut self,
-        presentation: &Presentation,
-        readings: &Readings,
-        menu: Option<&MenuRide>,
-    ) -> Vec<Action> {
+    fn draw_room_interface(&mut self, shown: &Shown<'_>) -> Vec<Action> {
         let (Some(interface), Some(walls)) = (&mut self.room_interface, self.canvas.walls_mut()) else {
             return Vec::new();
         };
@@ -140,9 +168,7 @@ impl Open {
             let (window, pixel) = self.pointed?;
             room_interface::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
         };
-        let now_s = self.ride.live.now() as f64 / SECOND as f64;
-        let shown = Shown { presentation, readings, menu, now_s };
-        let (sheets, actions) = interface.draw(&self.gpu, &shown, &mut self.page, wand.or_else(mouse));
+        let (sheets, actions) = interface.draw(&self.gpu, shown, &self.guide, &mut self.page, wand.or_else(mouse));
         walls.sheets = sheets;
         actions
     }

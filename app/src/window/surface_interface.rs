@@ -35,6 +35,21 @@ impl SurfaceInterface {
         self.state.on_window_event(window, event).consumed
     }
 
+    /// Presses and releases keys for the panels.
+    pub fn press(&mut self, keys: impl IntoIterator<Item = egui::Key>) {
+        self.state.egui_input_mut().events.extend(keys.into_iter().flat_map(interface::key_events));
+    }
+
+    /// Makes a texture known, so that it can be shown.
+    pub fn register(&mut self, gpu: &Gpu, view: &wgpu::TextureView) -> egui::TextureId {
+        self.renderer.register_native_texture(&gpu.device, view, wgpu::FilterMode::Linear)
+    }
+
+    /// Forgets a texture that was made known.
+    pub fn forget(&mut self, texture: egui::TextureId) {
+        self.renderer.free_texture(&texture);
+    }
+
     /// Lays out and draws `contents` over the picture in `target`. `size` is the target's size in pixels, which may
     /// still be the window's previous one.
     pub fn draw(

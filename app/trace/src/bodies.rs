@@ -126,7 +126,8 @@ impl Bodies {
         let world_ct = observer.world_ct();
         let ct = match (&own.delay, self.uniform(scene, found.body)) {
             (LightDelay::Travel(_) | LightDelay::Present(_), _) => own.ct + found.time * found.hit.distance,
-            (LightDelay::PoseNow { .. }, _) | (LightDelay::MomentNow { .. }, None) => world_ct,
+            (LightDelay::PoseNow { .. }, _) => own.ct,
+            (LightDelay::MomentNow { .. }, None) => world_ct,
             (LightDelay::MomentNow { .. }, Some(Uniform { celerity, anchor })) => {
                 let away = found.hit.position + scene.origin - anchor.position;
                 anchor.ct + (world_ct - anchor.ct) / celerity.gamma() - celerity.beta().vector().dot(away)
@@ -138,9 +139,7 @@ impl Bodies {
     /// Event of a body in the world, with the body's celerity there.
     pub fn in_world(&self, scene: &Scene, emission: Emission, position: DVec3) -> Observer {
         if let Some(swept) = &self.bodies[emission.body].swept {
-            let celerity = swept.celerity(emission.ct, position);
-            let position = swept.animated.at(emission.ct).position(position);
-            return Observer { event: Event { ct: emission.ct, position }, celerity };
+            return swept.in_world(emission.ct, position);
         }
         let own = Event { ct: emission.ct, position: position + scene.origin };
         match self.uniform(scene, emission.body) {
@@ -155,7 +154,7 @@ impl Bodies {
     /// Rotation of a body's axes against the world's.
     pub fn axes(&self, emission: Emission) -> DMat3 {
         let swept = self.bodies[emission.body].swept.as_ref();
-        swept.map_or(DMat3::IDENTITY, |swept| swept.animated.at(emission.ct).axes())
+        swept.map_or(DMat3::IDENTITY, |swept| swept.animated.in_carrier(emission.ct).axes())
     }
 
     /// Turn of a ray at the surface that it meets. Animated bodies turn no rays.

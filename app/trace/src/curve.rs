@@ -2,13 +2,13 @@
 //! present.
 //!
 //! The light that is seen now from the direction n was at o + n s when it had s metres still to travel; the place at
-//! o + n s of the observer's present has the world's time ct + u·n' s' (`time` metres for each of s). The body then
-//! stood as its keys say. In the body's frame, where its triangles rest, the path is a curve, y(s) = M(ct + k s)⁻¹ (o +
-//! n s), y' = M⁻¹ (n − k β(y)), with k = −1 for light and |k| < 1 for the present. The curve is followed only inside a
-//! ball around the body. Outside, steps are bounded by the gap, since nothing outruns light. Inside, it is followed in
-//! chords whose distance from it is less than the margin of the boxes around the triangles. For every triangle whose
-//! box a chord meets, the hit is solved for on the curve itself (Newton's method on the distance from the triangle's
-//! plane), so that it is as exact as the keys.
+//! o + n s of the observer's present has the time ct + k s (`time` metres for each of s). Time and places are those of
+//! the frame in which the body's chain begins. The body then stood as its keys say. In the body's frame, where its
+//! triangles rest, the path is a curve, y(s) = M(ct + k s)⁻¹ (o + n s), y' = M⁻¹ (n − k β(y)), with k = −1 for light and
+//! |k| < 1 for the present. The curve is followed only inside a ball around the body. Outside, steps are bounded by the
+//! gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less than the margin of
+//! the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved for on the curve
+//! itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the keys.
 
 use glam::{DMat3, DVec3};
 use physics::Observer;
@@ -32,11 +32,11 @@ const CROSSING: Newton = Newton { tolerance: 4.0 * f64::EPSILON, most_steps: 100
 /// Path of one ray in the frame of a body.
 pub struct Curve<'a> {
     pub animated: &'a Animated,
-    /// Observer from whom the ray is followed; s = 0 is here.
+    /// Observer from whom the ray is followed, in the frame in which the body's chain begins; s = 0 is here.
     pub observer: &'a Observer,
-    /// Direction of the ray, unit vector, world axes.
+    /// Direction of the ray, unit vector, axes of that frame.
     pub direction: DVec3,
-    /// World time for each metre of the ray, k; −1 for light.
+    /// Time of that frame for each metre of the ray, k; −1 for light.
     pub time: f64,
 }
 
@@ -49,14 +49,14 @@ pub struct CurveChord {
 }
 
 impl Curve<'_> {
-    /// World time at s, metres.
+    /// Time at s, of the frame in which the body's chain begins, metres.
     pub fn ct(&self, s: f64) -> f64 {
         self.observer.event.ct + self.time * s
     }
 
     /// Place y and its derivative y'.
     pub fn at(&self, s: f64) -> (DVec3, DVec3) {
-        let pose = self.animated.at(self.ct(s));
+        let pose = self.animated.in_carrier(self.ct(s));
         let body_from_world: DMat3 = pose.world_from_body.matrix3.inverse();
         let light = self.observer.event.position + self.direction * s - pose.world_from_body.translation;
         let place = body_from_world * light;
@@ -65,7 +65,7 @@ impl Curve<'_> {
 
     /// Distance of the ray from the middle of a ball of the body, metres.
     fn distance(&self, ball: &Ball, s: f64) -> f64 {
-        let centre = self.animated.at(self.ct(s)).position(ball.centre);
+        let centre = self.animated.in_carrier(self.ct(s)).position(ball.centre);
         centre.distance(self.observer.event.position + self.direction * s)
     }
 
@@ -73,7 +73,7 @@ impl Curve<'_> {
     ///
     /// * `ball` — around the body, in its own frame.
     /// * `world_radius` — largest radius of that ball in the world.
-    /// * `reach` — a ball of the world that the body never leaves.
+    /// * `reach` — a ball of the chain's first frame that the body never leaves.
     pub fn first<T>(
         &self,
         after: f64,

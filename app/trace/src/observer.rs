@@ -2,7 +2,7 @@
 //!
 //! The observer's event and celerity are taken to each body's frame once for each picture, a pixel's direction once
 //! for each ray. In that frame the body rests, so light travels there along a straight line. Animated bodies rest in
-//! no frame: their rays are followed in the world.
+//! no frame: their rays are followed in the frame in which their chain begins.
 
 use glam::{DMat3, DQuat, DVec3};
 use physics::{Aberration, Boost, Celerity, Contraction, FourVector, Observer};
@@ -22,7 +22,8 @@ pub struct ObserverInBodies {
 pub struct ObserverInBody {
     /// Position, metres relative to the scene's origin.
     pub position: DVec3,
-    /// Time of the observer in the body's frame, metres of light travel; for animated bodies, in the world's.
+    /// Time of the observer in the body's frame, metres of light travel; for animated bodies, in that in which their
+    /// chain begins.
     pub ct: f64,
     group_from_observer: DQuat,
     /// Delay of the light between body and observer.
@@ -49,8 +50,8 @@ pub struct SightLine {
     pub doppler: f64,
     /// Apparent metres for each metre of the ray.
     pub apparent: f64,
-    /// Metres of time, in the body's frame (for animated bodies, in the world), for each metre of the ray: −1 for light
-    /// that is followed back.
+    /// Metres of time, in the body's frame (for animated bodies, in that in which their chain begins), for each metre of
+    /// the ray: −1 for light that is followed back.
     pub time: f64,
 }
 
@@ -141,20 +142,23 @@ impl ObserverInBody {
         Self { position: seen_by.position - scene.origin, ct, group_from_observer, delay }
     }
 
-    /// Observer for an animated body. Light, or the observer's present, is followed in the world; if light takes no
-    /// time, the body is in one pose.
+    /// Observer for an animated body. Light, or the observer's present, is followed in the frame in which its chain
+    /// begins; if light takes no time, the body is in one pose.
     fn of_animated(observer: &Observer, places: Places, animated: &Animated) -> Self {
-        let ct = observer.event.ct;
-        let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
-        let of_observer = Aberration::new(observer.celerity);
+        let own = animated.own_observer(observer);
+        let ct = own.event.ct;
         let followed = match places {
-            Places::Seen => Some(LightDelay::Travel(of_observer)),
-            Places::Measured => Some(LightDelay::Present(Contraction::new(observer.celerity))),
+            Places::Seen => Some(LightDelay::Travel(Aberration::new(own.celerity))),
+            Places::Measured => Some(LightDelay::Present(Contraction::new(own.celerity))),
             Places::Instant => None,
         };
         if let Some(delay) = followed {
-            return Self { position, ct, group_from_observer, delay };
+            let turn =
+                animated.carrier().map_or(DQuat::IDENTITY, |carrier| carrier.seen_by(observer).observer_from_group);
+            return Self { position: own.event.position, ct, group_from_observer: turn.conjugate(), delay };
         }
+        let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
+        let of_observer = Aberration::new(observer.celerity);
         let pose = animated.as_shown(observer, places);
         let body_from_world = pose.world_from_body.inverse();
         let object = Aberration::new(animated.celerity(&pose));

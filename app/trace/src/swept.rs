@@ -5,7 +5,7 @@ use crate::hit::RayHit;
 use crate::observer::SightLine;
 use crate::triangles::{Triangle, TriangleTree};
 use glam::DVec3;
-use physics::{Aberration, Beta, Celerity, Observer};
+use physics::{Aberration, Beta, Celerity, Event, Observer, compose};
 use scene::Scene;
 use scene::motion::{Animated, Ball};
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub struct Swept {
     ball: Ball,
     /// Largest radius of that ball in the world, metres.
     world_radius: f64,
-    /// Ball of the world that the body never leaves.
+    /// Ball that the body never leaves, in the frame in which the chain begins.
     reach: Ball,
 }
 
@@ -44,13 +44,23 @@ impl Swept {
         SLACK * self.ball.radius
     }
 
-    /// Celerity of a point of the body at a time of the world, world axes; zero if the point is not slower than light.
-    pub fn celerity(&self, ct: f64, place: DVec3) -> Celerity {
-        Beta::new(self.animated.at(ct).beta(place)).map(Beta::celerity).unwrap_or_default()
+    /// Celerity of a point of the body at a time of the frame in which the chain begins, axes of that frame; zero if
+    /// the point is not slower than light.
+    fn own_celerity(&self, ct: f64, place: DVec3) -> Celerity {
+        Beta::new(self.animated.in_carrier(ct).beta(place)).map(Beta::celerity).unwrap_or_default()
+    }
+
+    /// Event of a point of the body in the world, at a time of the frame in which the chain begins, with the celerity.
+    pub fn in_world(&self, ct: f64, place: DVec3) -> Observer {
+        let position = self.animated.in_carrier(ct).position(place);
+        let own = self.own_celerity(ct, place);
+        let carrier = self.animated.carrier();
+        let celerity = carrier.map_or(own, |carrier| compose(carrier.celerity, own).celerity);
+        Observer { event: self.animated.world_event(Event { ct, position }), celerity }
     }
 
     /// Nearest hit beyond `after` on the curve of a ray in the body's frame, and D from there. The distance is that in
-    /// the world.
+    /// the frame in which the chain begins.
     pub fn first(
         &self,
         tree: &TriangleTree,
@@ -59,6 +69,7 @@ impl Swept {
         after: f64,
         is_there: impl Fn(&RayHit) -> bool,
     ) -> Option<(RayHit, f64)> {
+        let observer = &self.animated.own_observer(observer);
         let curve = Curve { animated: &self.animated, observer, direction: line.direction, time: line.time };
         let hit = curve.first(after, &self.ball, self.world_radius, &self.reach, |chord| {
             let [from, to] = chord.ends;
@@ -71,7 +82,7 @@ impl Swept {
             let direction = (to - from).try_normalize()?;
             tree.nearest(from, direction, meet, |hit| ((hit.distance - first) * share).max(0.0))
         })?;
-        let sent = self.celerity(curve.ct(hit.distance), hit.position);
+        let sent = self.own_celerity(curve.ct(hit.distance), hit.position);
         let doppler = if line.is_of_light() {
             line.doppler / Aberration::new(sent).observer_from_world(line.direction).1
         } else {

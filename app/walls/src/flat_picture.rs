@@ -70,6 +70,11 @@ impl FlatPicture {
         }
     }
 
+    /// Width and height of the window's picture, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// Changes the size of the window, pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
         if self.size != size {
@@ -110,7 +115,10 @@ impl FlatPicture {
     ) -> Result<DrawnChannels, GpuError> {
         let transformed = renderer.show(gpu, pending)?;
         self.stored = renderer.stored(shot);
-        let rests_since = self.shown.filter(|(before, _)| renderer.is_still() && looks_alike(before, shot));
+        let rests_since = self.shown.filter(|(before, _)| {
+            let held = before.observer.event.ct == shot.observer.event.ct;
+            looks_alike(before, shot) && (held || renderer.is_still_in(shot, self.size))
+        });
         let since = rests_since.map_or_else(Instant::now, |(_, since)| since);
         self.shown = Some((*shot, since));
         if rests_since.is_some() && since.elapsed() >= STILL_AFTER {

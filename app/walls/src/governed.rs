@@ -40,8 +40,12 @@ impl Walls {
 
     /// Fits the targets of all channels to the share with which this room is drawn.
     pub(crate) fn fit(&mut self, gpu: &Gpu, renderer: &SceneRenderer, room: &SubmittedRoom) {
-        let eyes = room.eyes.iter().map(|eye| eye.eye).collect();
-        let rest = RoomRest::after(self.rest.take().filter(|_| renderer.is_still()), eyes, room.effects);
+        let eyes: Vec<_> = room.eyes.iter().map(|eye| eye.eye).collect();
+        let rest = RoomRest::after(
+            self.rest.take().filter(|rest| renderer.is_still() || rest.is_at(&eyes)),
+            eyes,
+            room.effects,
+        );
         self.rests = rest.is_still() && self.shares.resting > self.shares.moving;
         self.rest = Some(rest);
         self.shown = Some((room.occupant, room.effects));

@@ -23,6 +23,13 @@ impl RoomRest {
         Self { since: since.map_or_else(Instant::now, |before| before.since), eyes, effects }
     }
 
+    /// True if these eyes look at the time of the frame before, as while a ride is held.
+    pub fn is_at(&self, eyes: &[OccupantEye]) -> bool {
+        let times = self.eyes.iter().zip(eyes);
+        times.clone().count() == eyes.len()
+            && times.into_iter().all(|(one, other)| one.observer.event.ct == other.observer.event.ct)
+    }
+
     /// True if nothing has changed for a while.
     pub fn is_still(&self) -> bool {
         self.since.elapsed() >= STILL_AFTER

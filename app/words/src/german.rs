@@ -120,6 +120,19 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::ClampPurpose => {
             "Farben, die der Schirm nicht zeigen kann, werden abgeschnitten. Ihr Ton kann sich ändern."
         }
+        Phrase::ClockOf => "Uhr",
+        Phrase::ClockSeen => "wie du sie siehst",
+        Phrase::ClockForYou => "jetzt, für dich",
+        Phrase::ClockForWorld => "jetzt, für die Welt",
+        Phrase::Clocks => "Uhren",
+        Phrase::GoOn => "Weiter",
+        Phrase::GoOnPurpose => "Setzt die Führung fort. Die Eingabetaste tut dasselbe.",
+        Phrase::LookAround => "Anhalten und umsehen",
+        Phrase::LookAroundPurpose => "Hält die Führung hier an. Weiter geht es, wann du willst.",
+        Phrase::AnswerPurpose => "Wählt diese Antwort. Die Führung sagt, ob sie stimmt, und warum.",
+        Phrase::Right => "Richtig.",
+        Phrase::Wrong => "Nicht ganz.",
+        Phrase::TourOver => "Die Führung ist zu Ende: Die Fahrt gehört dir.",
         Phrase::Light => "Licht: {0}",
         Phrase::YourClock => "deine Uhr",
         Phrase::WorldClock => "Uhr der Welt",

@@ -214,6 +214,32 @@ phrases! {
     WhitePurpose,
     /// Use of a treatment of colours.
     ClampPurpose,
+    /// Heading of the clocks' names.
+    ClockOf,
+    /// Heading of what dials are seen to show.
+    ClockSeen,
+    /// Heading of what dials show at present for the rider.
+    ClockForYou,
+    /// Heading of what dials show at present for the world.
+    ClockForWorld,
+    /// Title of the table of clocks.
+    Clocks,
+    /// Button that goes on with a tour.
+    GoOn,
+    /// Use of the button that goes on.
+    GoOnPurpose,
+    /// Button that stops a tour.
+    LookAround,
+    /// Use of the button that stops a tour.
+    LookAroundPurpose,
+    /// Use of an answer.
+    AnswerPurpose,
+    /// Verdict on a right answer.
+    Right,
+    /// Verdict on a wrong answer.
+    Wrong,
+    /// Notice at the end of a tour.
+    TourOver,
     /// Label of the speed of light on the display; {0}: the speed.
     Light,
     /// Label of the rider's clock.

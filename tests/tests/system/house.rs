@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 27] = [
+const PLAN: [(&str, &[&str]); 29] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -34,7 +34,9 @@ const PLAN: [(&str, &[&str]); 27] = [
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
+    ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
+    ("tours", &["input", "regular_file", "ride", "scene", "view"]),
     ("words", &[]),
     ("presentation", &["input", "render", "view", "words"]),
     ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
@@ -47,6 +49,7 @@ const PLAN: [(&str, &[&str]); 27] = [
             "built_in",
             "hardware",
             "input",
+            "instruments",
             "interface",
             "kiosk",
             "measure",
@@ -62,6 +65,7 @@ const PLAN: [(&str, &[&str]); 27] = [
             "room",
             "scene",
             "scene_files",
+            "tours",
             "trace",
             "view",
             "walls",

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use glam::{Vec2, Vec3, vec2, vec3};
 
 use super::surface::TownSurface;
+use crate::clock::ClockFace;
 use crate::turn::circle;
 use scene::Mesh;
 
@@ -76,6 +77,8 @@ pub(super) struct Builder {
     districts: Vec<String>,
     current: usize,
     meshes: BTreeMap<(usize, TownSurface), Mesh>,
+    /// Clocks whose dials have been added, without hands.
+    pub(super) clocks: Vec<ClockFace>,
 }
 
 impl Builder {

@@ -3,10 +3,11 @@
 use glam::{Vec3, vec3};
 
 use super::builder::{Builder, SiteFrame};
-use super::masonry::{disc, panel};
+use super::masonry::{clock, panel};
 use super::paint::tracery::{LANCET, PORTAL};
 use super::roof::Roof;
 use super::surface::TownSurface;
+use scene::LocalName;
 
 /// Half the width of the tower, and its height up to the spire, metres.
 const TOWER: f32 = 3.8;
@@ -65,12 +66,14 @@ fn tower(builder: &mut Builder, frame: &SiteFrame) {
     }
 
     // Four faces: bell openings and a clock; the portal and a great window in front.
-    for quarter in 0..4 {
+    for quarter in 0..4_usize {
         let face = frame.rotated(quarter as f32 / 4.0).at(0.0, 0.0, half + 0.05);
         for x in [-1.5, 0.3] {
             panel(builder, TownSurface::Lancet, &face, [x, 18.6], [1.2, 3.3]);
         }
-        disc(builder, TownSurface::Clock, &face.at(0.0, 24.0, 0.03), 1.25);
+        let side = [("front", "vorn"), ("right", "rechts"), ("back", "hinten"), ("left", "links")][quarter];
+        let name = LocalName::new(format!("church clock, {}", side.0), format!("Kirchenuhr, {}", side.1));
+        clock(builder, name, &face.at(0.0, 23.75, 0.03), 1.85);
     }
     let front = frame.at(0.0, 0.0, half + 0.3);
     panel(builder, TownSurface::Portal, &front, [-PORTAL.x / 2.0, 0.0], PORTAL.to_array());

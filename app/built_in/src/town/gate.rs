@@ -4,9 +4,10 @@ use glam::{Vec3, vec3};
 
 use super::builder::{Builder, SiteFrame};
 use super::facade::Bay;
-use super::masonry::{Arch, panel};
+use super::masonry::{Arch, clock, panel};
 use super::paint::timber;
 use super::surface::TownSurface;
+use scene::LocalName;
 
 /// Half the width of the tower, height of its stone, of its timbered top and of its roof, metres.
 const HALF: f32 = 5.2;
@@ -39,7 +40,9 @@ pub(super) fn build(builder: &mut Builder, frame: &SiteFrame, depth: f32) {
         for x in [-3.2, 3.2] {
             panel(builder, TownSurface::Lancet, &face.at(0.0, 0.0, 0.05), [x - 0.35, 6.6], [0.7, 1.9]);
         }
-        panel(builder, TownSurface::Signs, &face.at(0.0, 0.0, 0.06), [-1.6, 6.2], [3.2, 3.2]);
+        let side = if turn == 0.0 { ("near", "vorn") } else { ("far", "hinten") };
+        let name = LocalName::new(format!("gate clock, {} side", side.0), format!("Toruhr, {}", side.1));
+        clock(builder, name, &face.at(0.0, 7.95, 0.08), 1.65);
         builder.beam(TownSurface::Ashlar, Vec3::ONE, &face, vec3(-1.75, 6.0, 0.0), vec3(1.75, 6.2, 0.14));
     }
     arch.vault(builder, TownSurface::Rubble, stone, &frame.at(0.0, -0.1, half));

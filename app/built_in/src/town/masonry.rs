@@ -5,7 +5,9 @@ use glam::{Vec3, vec2, vec3};
 use super::builder::{Builder, MeshCorner, SiteFrame, Tint};
 use super::paint::timber;
 use super::surface::TownSurface;
+use crate::clock::ClockFace;
 use crate::turn::circle;
+use scene::LocalName;
 
 /// Number of pieces of a half circle in an arch.
 const VOUSSOIRS: u32 = 8;
@@ -110,7 +112,7 @@ pub(super) fn window_panel(
 }
 
 /// Builds a round face about the frame's origin that shows its whole picture.
-pub(super) fn disc(builder: &mut Builder, surface: TownSurface, frame: &SiteFrame, radius: f32) {
+fn disc(builder: &mut Builder, surface: TownSurface, frame: &SiteFrame, radius: f32) {
     let corners: Vec<MeshCorner> = (0..16)
         .map(|k| {
             let c = circle(k as f32 / 16.0);
@@ -118,6 +120,13 @@ pub(super) fn disc(builder: &mut Builder, surface: TownSurface, frame: &SiteFram
         })
         .collect();
     builder.face(surface, Vec3::ONE, &corners);
+}
+
+/// Builds the dial of a clock, for hands to turn before it. `frame` lies in its middle.
+pub(super) fn clock(builder: &mut Builder, name: LocalName, frame: &SiteFrame, radius: f32) {
+    disc(builder, TownSurface::Clock, frame, radius);
+    let SiteFrame { origin: centre, right, out, .. } = *frame;
+    builder.clocks.push(ClockFace { name, centre, right, out, radius, motion: None });
 }
 
 /// Builds a gable wall in steps about x = 0, from `half` its width at the foot to its top, each step capped with

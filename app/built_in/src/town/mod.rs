@@ -17,7 +17,7 @@ mod house;
 mod market;
 mod masonry;
 mod nature;
-mod paint;
+pub(crate) mod paint;
 mod pictures;
 mod plan;
 mod roof;
@@ -27,15 +27,17 @@ mod street;
 mod surface;
 mod town_hall;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use crate::clock::HandKind;
 use builder::{Builder, SiteFrame};
 use house::Builders;
 pub use pictures::{EDITION, TownPicture};
 use plan::{TownPlan, Use, on_ground};
-use scene::{Lighting, Scene, Start};
+use scene::{Lighting, LocalName, NamedPlace, Scene, Start};
+use surface::TownSurface;
 
 /// Seed of the town that everybody sees.
 pub const TOWN_SEED: u64 = 1;
@@ -111,17 +113,48 @@ pub fn build_with(seed: u64, pictures: Vec<TownPicture>) -> Option<Scene> {
     // Hand everything over.
     let circuit = plan.circuit();
     let look = (circuit[1] - circuit[0]).normalize();
-    Some(Scene {
+    let clocks = std::mem::take(&mut builder.clocks);
+    let mut scene = Scene {
         name: "old town".into(),
         origin: DVec3::ZERO,
         textures,
         materials,
-        meshes: builder.finish(surface::TownSurface::number),
+        meshes: builder.finish(TownSurface::number),
         light: daylight(),
         start: Start { position: circuit[0], look, ..Start::default() },
+        places: places(&plan),
         circuit,
         ..Scene::default()
-    })
+    };
+    for clock in clocks {
+        clock.furnish(&mut scene, &[HandKind::Seconds, HandKind::Rounds], TownSurface::Hand.number());
+    }
+    Some(scene)
+}
+
+/// Places to which an observer can jump, all on the way.
+fn places(plan: &TownPlan) -> Vec<NamedPlace> {
+    let way = &plan.way;
+    let place = |english: &str, german: &str, station: usize, look: Vec2| NamedPlace {
+        name: LocalName::new(english, german),
+        start: Start {
+            position: on_ground(way[station].at).as_dvec3(),
+            look: Vec3::new(look.x, 0.0, look.y).normalize().as_dvec3(),
+            ..Start::default()
+        },
+    };
+    // Twenty metres before the gate and behind it, and where the way passes between church and town hall.
+    let [enter, leave] = plan.gate.map(|station| way[station].at);
+    let [before, behind] = [plan.gate[0] - 14, plan.gate[1] + 14];
+    let at_square = (0..plan.street[0]).min_by(|&a, &b| way[a].at.y.abs().total_cmp(&way[b].at.y.abs()));
+    let at_square = at_square.unwrap_or_default();
+    vec![
+        place("market square", "Marktplatz", 0, way[1].at - way[0].at),
+        place("before the church", "vor der Kirche", at_square, Vec2::X),
+        place("before the town hall", "vor dem Rathaus", at_square, Vec2::NEG_X),
+        place("before the gate", "vor dem Tor", before, enter - way[before].at),
+        place("behind the gate", "hinter dem Tor", behind, leave - way[behind].at),
+    ]
 }
 
 /// Light of a clear late morning: the sun stands in the south-east.

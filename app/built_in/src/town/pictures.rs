@@ -14,8 +14,9 @@ pub struct TownPicture {
 }
 
 /// Text of everything that decides which pixels a seed gives.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 13] = [
     include_str!("canvas.rs"),
+    include_str!("paint/dial.rs"),
     include_str!("paint/ground_floors.rs"),
     include_str!("paint/masonry.rs"),
     include_str!("paint/mod.rs"),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::canvas::PaintCanvas;
-use super::paint::{ground_floors, masonry, nature, signs, timber, tracery};
+use super::paint::{dial, ground_floors, masonry, nature, signs, timber, tracery};
 use super::pictures::TownPicture;
 use scene::{Alpha, Material, Texture, Wrap};
 
@@ -38,6 +38,8 @@ pub(super) enum TownSurface {
     Produce,
     Signs,
     Clock,
+    /// Hands of clocks, which turn.
+    Hand,
     Lancet,
     Portal,
     Staves,
@@ -70,7 +72,7 @@ impl TownSurface {
         use TownSurface::*;
         let mut all = vec![
             Cobbles, Setts, Slabs, Ashlar, Rubble, Plaster, Tiles, Slate, Planks, Paint, Iron, Gold, Lantern, Water,
-            Awning, Produce, Signs, Clock, Lancet, Portal, Staves, Bark, Leaves, Flowers, Ivy, Grass, Hills,
+            Awning, Produce, Signs, Clock, Hand, Lancet, Portal, Staves, Bark, Leaves, Flowers, Ivy, Grass, Hills,
         ];
         all.extend((0..timber::FRONTS.len()).map(Front));
         all.extend((0..ground_floors::GROUND_FLOORS.len()).map(GroundFloor));
@@ -112,6 +114,7 @@ impl TownSurface {
                 | TownSurface::Signs
                 | TownSurface::Awning
                 | TownSurface::Clock
+                | TownSurface::Hand
                 | TownSurface::Lancet
                 | TownSurface::Lantern
         )
@@ -165,7 +168,8 @@ impl TownSurface {
             TownSurface::Awning => Recipe { picture: square(256, signs::awning), double_sided: true, ..plain },
             TownSurface::Produce => Recipe { picture: square(512, nature::produce), ..plain },
             TownSurface::Signs => Recipe { picture: square(512, signs::signs), double_sided: true, ..plain },
-            TownSurface::Clock => Recipe { picture: square(512, signs::clock), wrap: clamped, ..plain },
+            TownSurface::Clock => Recipe { picture: square(512, dial::dial), wrap: clamped, ..plain },
+            TownSurface::Hand => Recipe { base_colour: [0.6, 0.6, 0.6, 1.0], unlit: true, ..plain },
             TownSurface::Lancet => Recipe {
                 picture: Some(Box::new(|seed| tracery::lancet([512, 1024], tracery::LANCET, seed))),
                 ..cut_out

@@ -7,10 +7,11 @@ use super::builder::{Builder, SiteFrame};
 use super::facade::Bay;
 use super::furniture;
 use super::house::linear;
-use super::masonry::{Arch, disc, stepped_gable, window_panel};
+use super::masonry::{Arch, clock, stepped_gable, window_panel};
 use super::paint::{ground_floors, timber};
 use super::roof::{Roof, dormer};
 use super::surface::TownSurface;
+use scene::LocalName;
 
 const ARCHES: u32 = 6;
 /// Depth of the arcade and of the whole building, thickness of its piers, metres.
@@ -100,7 +101,8 @@ pub(super) fn build(builder: &mut Builder, frame: &SiteFrame, width: f32) {
     let (half, height) = (4.4, 7.6);
     let gable = frame.at(width / 2.0, eaves, 0.12);
     stepped_gable(builder, TownSurface::Plaster, wall, &gable, half, height, 6);
-    disc(builder, TownSurface::Clock, &gable.at(0.0, 4.1, 0.05), 1.15);
+    let name = LocalName::new("town hall clock", "Rathausuhr");
+    clock(builder, name, &gable.at(0.0, 3.85, 0.05), 1.45);
     for x in [-1.75, 0.55] {
         window_panel(builder, timber::TOWN_HALL, &gable.at(0.0, 0.0, 0.04), [x, 0.5], [1.2, 1.75]);
     }

@@ -9,10 +9,10 @@ use crate::stats::MapStats;
 use crate::subject::Subject;
 use crate::target::{DEPTH_FORMAT, Format};
 use crate::textures::from_rows;
-use crate::view_matrix::NEAR_M;
+use crate::view_matrix::{NEAR_M, matrix};
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World, bind_group, effect_constants, layout};
 use bytemuck::{bytes_of, cast_slice};
-use glam::{DVec2, Vec4};
+use glam::{DMat4, DVec2, Vec4};
 use physics::{Celerity, Observer};
 use scene::cut::SeenFrom;
 use std::time::Instant;
@@ -125,6 +125,7 @@ impl MapRenderer {
     ) {
         let Some((shot, _)) = shots.first() else { return };
         let started = Instant::now();
+        let places = subject == Subject::Places;
         let (mode, layers) = match subject {
             Subject::Light => (Mode::Weights, world.spectra.carriers.len() as u32),
             Subject::Places => (Mode::Places, 1),
@@ -151,9 +152,22 @@ impl MapRenderer {
         let from_eye = world.origin - shot.observer.event.position;
         let views: Vec<_> =
             plan.placed.iter().map(|pane| pane.view(&picture_map.cube_from_world, from_eye, NEAR_M)).collect();
+        // Clockwork stands in the map as it is seen: each view is followed by one for each of its parts.
+        let poses = world.clockwork(&shot.observer);
+        let poses_from_origin: Vec<_> =
+            poses.iter().map(|pose| DMat4::from_translation(-world.origin) * DMat4::from(*pose)).collect();
         let of_layer = |layer: u32| {
-            let layer = Vec4::new(layer as f32, 1.0, 0.0, 0.0);
-            views.iter().map(move |(view, _)| shaders::ViewUniforms { layer, ..*view })
+            let poses = &poses_from_origin;
+            views.iter().flat_map(move |(view, _)| {
+                let layer = Vec4::new(layer as f32, 1.0, 0.0, 0.0);
+                let resting = shaders::ViewUniforms { layer, ..*view };
+                let of_pose = move |(number, pose): (usize, &DMat4)| shaders::ViewUniforms {
+                    clip_from_observer: resting.clip_from_observer * matrix(pose),
+                    layer: if places { layer + Vec4::X * (1 + number) as f32 } else { layer },
+                    ..resting
+                };
+                std::iter::once(resting).chain(poses.iter().enumerate().map(of_pose))
+            })
         };
         world.write_views(gpu, &(0..layers).flat_map(of_layer).collect::<Vec<_>>());
         world.prepare(gpu, mode, VertexSource::Plain, format);
@@ -171,13 +185,15 @@ impl MapRenderer {
         // The map is of directions in the world, whatever the observer's motion.
         let observer = Observer { celerity: Celerity::ZERO, ..shot.observer };
         let at_rest = SeenFrom::of(world.origin, &[], &observer, None);
+        let posed = |pose| SeenFrom { pose: Some(pose), place: observer.event.position, ..at_rest.clone() };
+        let sights: Vec<_> = std::iter::once(at_rest.clone()).chain(poses.iter().copied().map(posed)).collect();
         for layer in 0..layers {
             let draws = Draws {
                 streams: None,
                 bends: false,
                 mode,
                 format,
-                sights: std::slice::from_ref(&at_rest),
+                sights: &sights,
                 outside: None,
                 pixels: plan.texels(),
                 further_carrier: (layer > 0).then_some(layer as usize),
@@ -185,8 +201,8 @@ impl MapRenderer {
             };
             let part = |(number, (pane, (_, sides))): (usize, (&Placed, &(_, Sides)))| {
                 let ([x, y], [width, height]) = (pane.place, pane.drawn());
-                let view = layer * views.len() as u32 + number as u32;
-                TargetPart { view, place: Some([x, y, width, height]), sides: *sides }
+                let view = (layer as usize * views.len() + number) * sights.len();
+                TargetPart { view: view as u32, place: Some([x, y, width, height]), sides: *sides }
             };
             let parts: Vec<TargetPart> = plan.placed.iter().zip(&views).enumerate().map(part).collect();
             world.draw(gpu, &mut atlas.begin(&mut encoder, layer), &draws, &parts);

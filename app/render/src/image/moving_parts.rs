@@ -79,8 +79,12 @@ impl MovingParts {
 }
 
 /// Moving part of a scene, with the materials and textures that it uses, under the same light; `None` if nothing
-/// moves.
+/// but clockwork moves.
 fn moving_part(scene: &Scene) -> Option<Scene> {
+    // Clockwork alone stands in the map.
+    if scene.motions.iter().all(|motion| motion.animated().is_some_and(|body| body.stands_in_maps())) {
+        return None;
+    }
     let mut meshes: Vec<Mesh> = scene.meshes.iter().filter(|mesh| mesh.motion.is_some()).cloned().collect();
     if meshes.is_empty() {
         return None;

@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::stats::DrawCounts;
 use crate::target::Format;
 use bytemuck::bytes_of;
-use glam::DVec3;
+use glam::{DAffine3, DMat3, DVec3};
 use physics::Observer;
 use scene::carriers::SceneCarriers;
 use scene::cut::Cut;
@@ -158,10 +158,22 @@ impl World {
         let sun_direction = self.lit_at_rest.sun_direction.with_w(0.0);
         let lighting = shaders::LightingUniforms { sun_direction, ..self.lit_at_rest };
         for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
-            let Some(animated) = animated else { continue };
+            // Clockwork is luminous.
+            let Some(animated) = animated.as_ref().filter(|body| !body.is_clockwork()) else { continue };
             let falling = Irradiance::on_animated(&self.light, animated, observer, places, sky);
             gpu.queue.write_buffer(uniform, 0, bytes_of(&with_falling(&lighting, &falling)));
         }
+    }
+
+    /// Poses in which clockwork is seen, one for each motion; empty unless all that moves is clockwork. A body that is
+    /// not seen has shrunk to nothing.
+    pub fn clockwork(&self, observer: &Observer) -> Vec<DAffine3> {
+        let stands = |motion: &Option<Arc<Animated>>| motion.as_ref().is_some_and(|body| body.stands_in_maps());
+        if !self.animated.iter().all(stands) {
+            return Vec::new();
+        }
+        let unseen = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
+        self.animated.iter().flatten().map(|body| body.pose_shown(observer, Places::Seen).unwrap_or(unseen)).collect()
     }
 
     /// Layout of the bind group that holds view, light and spectra.

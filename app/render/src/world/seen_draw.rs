@@ -41,8 +41,9 @@ impl<'a> SeenDraw<'a> {
             None => sight.towards(draw.centre).length(),
         };
         // Keys move the corners of animated bodies, and in instant light moving bodies are where they are now.
+        let resting = draw.motion.is_none() || sight.pose.is_some();
         let instant = source == VertexSource::Plain && sight.contraction.is_none();
-        let known = sight.body.is_none() && (draw.motion.is_none() || !instant);
+        let known = sight.body.is_none() && (resting || !instant);
         let cone = |centre: DVec3, radius: f64| {
             let cone = match outside {
                 None => sight.cone(centre, radius)?,

@@ -34,6 +34,9 @@ const CRAWL_M_S: f64 = 2.0;
 /// Length of the ways that are compared, metres, and distance within which bends are looked for.
 const OUTLOOK_M: f64 = 14.0;
 const FARTHEST_M: f64 = 60.0;
+/// Longest way that is followed, metres. Nothing in a street goes so fast that it aims further, and where nothing ends a
+/// way it would be followed for hours.
+const LONGEST_WAY_M: f64 = 200.0;
 /// Spacing of the places of the circuit whose bends are looked at, metres.
 const SPACING_M: f64 = 2.0;
 /// Largest angle of the handlebar, radians.
@@ -158,7 +161,7 @@ impl Assist {
             None => (nose, None),
         };
         // A circuit is followed as far as the point that is aimed at; walls alone show their way from further off.
-        let most_m = if bends_m_s.is_some() { AIM_M.max(AIM_S * speed_m_s) } else { OUTLOOK_M };
+        let most_m = if bends_m_s.is_some() { AIM_M.max(AIM_S * speed_m_s).min(LONGEST_WAY_M) } else { OUTLOOK_M };
         let (direction, free) = ways::best(surroundings, from, wanted, most_m);
         let ease = |distance_m: f64| libm::hypot(CRAWL_M_S, (2.0 * EASE_M_S2 * distance_m).sqrt());
         let fastest_m_s = match bends_m_s {

@@ -7,6 +7,7 @@ use scene::{Surroundings, Wall};
 
 use super::bicycle::BicycleControl;
 use super::flight::FlightControl;
+use super::footing::Footing;
 use super::ground::{GroundCourse, heading, upright};
 use super::notice::Notice;
 use super::safe_controls::SafeControls;
@@ -34,10 +35,14 @@ impl Vehicle {
 
             let before = self.state.position;
             self.drive_on(span_s, controls, surroundings);
+            self.hold_back(before, wall, free_m, span_s);
             match walls::settled(surroundings, wall, self.state.position, self.distance_m(left_s)) {
                 Some((position, wall_there)) => {
                     self.state.position = position;
                     wall = wall_there;
+                    if self.settings.keeps_to_ground && self.keep_footing(before, surroundings) {
+                        wall = walls::nearest(surroundings, self.state.position, self.distance_m(left_s));
+                    }
                 }
                 None => {
                     self.state.position = before;
@@ -49,6 +54,28 @@ impl Vehicle {
             }
             left_s -= span_s;
         }
+    }
+
+    /// Holds the vehicle to the ground that it was on before a stride. True if that has moved it.
+    fn keep_footing(&mut self, before: DVec3, surroundings: &dyn Surroundings) -> bool {
+        let footing = Footing::of(surroundings, before, self.state.position);
+        self.at_edge = matches!(footing, Footing::Edge(_));
+        match footing {
+            Footing::Free => return false,
+            Footing::Level(position) => {
+                let celerity = self.state.celerity.vector();
+                let level = DVec3 { y: 0.0, ..celerity }.normalize_or_zero() * celerity.length();
+                self.state.position = position;
+                self.state.celerity = Celerity::new(level).unwrap_or(Celerity::ZERO);
+                self.state.orientation = upright(heading(self.state.orientation));
+                self.constrain();
+            }
+            Footing::Edge(position) => {
+                self.state.position = position;
+                self.state.celerity = Celerity::ZERO;
+            }
+        }
+        true
     }
 
     /// Takes one stride on the ground, without regard to walls.
@@ -75,7 +102,7 @@ impl Vehicle {
     fn keep_clear(&mut self, wall: Option<Wall>, own_s: f64) {
         let celerity = self.state.celerity.vector();
         let wall = wall.filter(|wall| walls::excess(wall, celerity, self.light_speed) > 0.0);
-        self.blocked = wall.is_some();
+        self.blocked = wall.is_some() || self.at_edge;
         let Some(wall) = wall else { return };
         let slid = walls::slid(&wall, celerity, self.light_speed);
         let kept = if self.kind == VehicleKind::Bicycle {
@@ -102,6 +129,17 @@ impl Vehicle {
         let nose = heading(self.state.orientation);
         let motion = self.state.celerity.direction().unwrap_or(nose);
         (if motion.y.abs() < STEEPEST_ROAD { motion } else { nose }, backward)
+    }
+
+    /// Takes back the part of a stride that thrust has made longer than the space that is free.
+    fn hold_back(&mut self, before: DVec3, wall: Option<Wall>, free_m: f64, span_s: f64) {
+        let free_m = if wall.is_some() { free_m } else { free_m.max(walls::FREE_M) };
+        let moved = self.state.position - before;
+        if self.settings.keeps_to_ground && moved.length() > free_m {
+            self.state.position = before + moved * (free_m / moved.length());
+            self.state.celerity = walls::slowed(self.state.celerity, free_m, span_s, self.light_speed);
+            self.tell(Notice::HeldByWalls);
+        }
     }
 
     /// Distance covered in a time at the present celerity, metres of road.

@@ -20,6 +20,14 @@ pub struct VehicleSettings {
     pub eye_m: [f64; 3],
     /// Condition for assisted steering on the ground.
     pub assist: AssistMode,
+    /// True if the ground keeps a bicycle and a car on it at any speed, and stops them where it ends; false in
+    /// recordings made before it did.
+    #[serde(default = "not_in_old_recordings")]
+    pub keeps_to_ground: bool,
+}
+
+fn not_in_old_recordings() -> bool {
+    false
 }
 
 impl Default for VehicleSettings {
@@ -31,6 +39,7 @@ impl Default for VehicleSettings {
             integrator: IntegratorKind::default(),
             eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
             assist: AssistMode::Off,
+            keeps_to_ground: true,
         }
     }
 }
@@ -41,7 +50,7 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m, assist: _ } = self;
+        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _ } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),

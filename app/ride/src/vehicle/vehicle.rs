@@ -31,6 +31,8 @@ pub struct Vehicle {
     pub(super) odometer: Odometer,
     /// True if a wall blocks the way ahead.
     pub(super) blocked: bool,
+    /// True if the ground ends ahead.
+    pub(super) at_edge: bool,
     pub(super) resistance: f64,
     /// Acceleration and turn at the end of the last step.
     pub(super) thrust: Thrust,
@@ -57,6 +59,7 @@ impl Vehicle {
             state,
             odometer,
             blocked: false,
+            at_edge: false,
             resistance: 0.0,
             thrust: Thrust::default(),
             notices: Vec::new(),
@@ -161,7 +164,7 @@ impl Vehicle {
 
     /// Puts a bicycle or a car upright on the ground.
     pub fn settle(&mut self, surroundings: &dyn Surroundings) {
-        self.blocked = false;
+        (self.blocked, self.at_edge) = (false, false);
         if self.kind == VehicleKind::Fly {
             return;
         }

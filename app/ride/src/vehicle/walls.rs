@@ -20,6 +20,8 @@ const BODY_RADIUS_M: f64 = 0.4;
 const YIELD_S: f64 = 0.25;
 /// Distance within which walls are looked for at usual speeds, metres.
 const REACH_M: f64 = 3.0;
+/// Distance that is free where no wall is found, metres.
+pub(super) const FREE_M: f64 = REACH_M - BODY_RADIUS_M;
 /// Longest stride beside a wall, metres: less than the body's radius.
 const STRIDE_M: f64 = 0.15;
 /// Shortest stride, metres. It lets a vehicle that begins inside a wall get out.

@@ -3,6 +3,7 @@
 mod assist;
 mod log;
 mod old_recordings;
+mod random_rides;
 mod simulation;
 mod tour;
 mod town;

@@ -1,7 +1,7 @@
 //! Views of a scene's parts: how an observer sees or measures the resting scene, a uniformly moving frame or an
 //! animated body.
 
-use glam::{DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Contraction, DirectionCone, Observer};
 
@@ -22,6 +22,9 @@ pub struct SeenFrom {
     pub body: Option<ObservedBody>,
     /// Contraction of what is measured at the observer's present; `None` for what is seen.
     pub contraction: Option<Contraction>,
+    /// Transform of the meshes' places to the frame of `place`, for bodies that are drawn in the pose in which they are
+    /// seen; `None` for all others.
+    pub pose: Option<DAffine3>,
 }
 
 impl SeenFrom {
@@ -38,6 +41,7 @@ impl SeenFrom {
             observer_from_group: turn,
             body: None,
             contraction: None,
+            pose: None,
         };
         match motion.map(|motion| &motions[motion]) {
             Some(Motion::Uniform(uniform)) => {
@@ -65,7 +69,7 @@ impl SeenFrom {
     /// animated body: its position in the world at the event that is shown, or NaN if there is none.
     pub fn towards(&self, place: DVec3) -> DVec3 {
         match &self.body {
-            None => place - self.place,
+            None => self.pose.map_or(place, |pose| pose.transform_point3(place)) - self.place,
             Some(body) => {
                 let shown = if self.contraction.is_some() { body.measured(place) } else { body.seen(place) };
                 let nowhere = DVec3::splat(f64::NAN);

@@ -3,11 +3,17 @@
 //! A point p of the body is at x = M p at each moment of the world, and moves at β = M' p, with M' from the product
 //! rule along the chain. Both are exact functions of time, so the retarded event can be solved for to the last bits
 //! ([`super::ObservedBody`]).
+//!
+//! The chain may begin in the frame of a uniformly moving object, its carrier, instead of the world's: the hands of a
+//! clock on a train turn by the train's time. There the retarded event is solved for, so each point of a hand is seen
+//! as the train's time at that point has it.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use physics::retarded::Worldline;
+use physics::{Beta, Event, compose};
 
 use super::track::Track;
+use super::uniform::Uniform;
 
 /// Default speed of light, m/s: the real one, until a scene sets another.
 const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
@@ -22,6 +28,10 @@ pub struct Animated {
     pub(crate) speed_of_light_m_s: f64,
     /// Bounding ball of the whole body, in its own frame.
     pub(crate) ball: Ball,
+    /// Motion of the frame in which the chain begins; `None` for the world.
+    carrier: Option<Uniform>,
+    /// True for clockwork, see [`Animated::as_clockwork`].
+    is_clockwork: bool,
 }
 
 /// Transform of a chain.
@@ -110,7 +120,38 @@ impl Keyed {
 impl Animated {
     /// Makes a body of this name at the end of a chain.
     pub fn new(name: impl Into<String>, links: Vec<ChainLink>) -> Self {
-        Self { name: name.into(), links, speed_of_light_m_s: SPEED_OF_LIGHT_M_S, ball: Ball::default() }
+        let (speed_of_light_m_s, ball) = (SPEED_OF_LIGHT_M_S, Ball::default());
+        Self { name: name.into(), links, speed_of_light_m_s, ball, carrier: None, is_clockwork: false }
+    }
+
+    /// Body whose chain begins in the frame of a uniformly moving object. Keys are then times of that frame, which
+    /// shows the world's time at the anchor.
+    pub fn aboard(self, carrier: Uniform) -> Self {
+        Self { carrier: Some(carrier), ..self }
+    }
+
+    /// Small, slow, luminous body that shows its side +z, as the hand of a clock on a wall.
+    ///
+    /// A map of the world then holds it, in the pose that is exact at four of its points ([`Animated::pose_shown`]), so
+    /// it costs next to nothing. What is left out there is the shift of its light by its own speed; other ways of
+    /// drawing have it.
+    pub fn as_clockwork(self) -> Self {
+        Self { is_clockwork: true, ..self }
+    }
+
+    /// True for a small, slow, luminous body that shows its side +z.
+    pub fn is_clockwork(&self) -> bool {
+        self.is_clockwork
+    }
+
+    /// True for clockwork that no carrier takes along: a map of the world holds it.
+    pub fn stands_in_maps(&self) -> bool {
+        self.is_clockwork && self.carrier.is_none()
+    }
+
+    /// Motion of the frame in which the chain begins; `None` for the world.
+    pub fn carrier(&self) -> Option<&Uniform> {
+        self.carrier.as_ref()
     }
 
     /// Transforms of the chain, from the root down.
@@ -128,10 +169,65 @@ impl Animated {
         self.speed_of_light_m_s
     }
 
-    /// Pose at world time `ct`, metres of light travel.
+    /// Pose in the world at world time `ct`, metres of light travel.
+    ///
+    /// *Accuracy:* exact without a carrier. With one, the whole body is in the pose that it has by the carrier's time at
+    /// the middle of its ball, contracted along the motion; other points are earlier or later by β·x'.
+    pub fn at(&self, ct: f64) -> Pose {
+        match &self.carrier {
+            None => self.in_carrier(ct),
+            Some(carrier) => self.world_pose(carrier, self.own_ct(carrier, ct)),
+        }
+    }
+
+    /// Time of the carrier's frame at the middle of the ball at world time `ct`, metres: the root of
+    /// γ (t' − a + β·(x'(t') − x_a)) = ct − a.
+    fn own_ct(&self, carrier: &Uniform, ct: f64) -> f64 {
+        /// Steps that double precision takes, however fast the middle moves.
+        const STEPS: usize = 30;
+        let (beta, gamma) = (carrier.celerity.beta().vector(), carrier.celerity.gamma());
+        let anchor = carrier.anchor;
+        let mut own = anchor.ct + (ct - anchor.ct) / gamma;
+        for _ in 0..STEPS {
+            let pose = self.in_carrier(own);
+            let away = pose.position(self.ball.centre) - anchor.position;
+            let late = (own - anchor.ct) + beta.dot(away) - (ct - anchor.ct) / gamma;
+            let next = own - late / (1.0 + beta.dot(pose.beta(self.ball.centre)));
+            if next == own || !next.is_finite() {
+                break;
+            }
+            own = next;
+        }
+        own
+    }
+
+    /// Pose in the world when the carrier's clocks at the middle of the ball show `own`.
+    fn world_pose(&self, carrier: &Uniform, own: f64) -> Pose {
+        let pose = self.in_carrier(own);
+        let centre = pose.position(self.ball.centre);
+        let there = carrier.world_from_own(Event { ct: own, position: centre });
+        let along = carrier.celerity.direction().unwrap_or(DVec3::ZERO);
+        let gamma = carrier.celerity.gamma();
+        let shorter = DMat3::from_cols(along * along.x, along * along.y, along * along.z) * (1.0 - 1.0 / gamma);
+        let contraction = DMat3::IDENTITY - shorter;
+        let matrix3 = contraction * pose.world_from_body.matrix3;
+        let translation = there.position - matrix3 * self.ball.centre;
+        // Both velocities of the middle, and the turn about it, slower by the world's time for each of the carrier's.
+        let own_beta = pose.beta(self.ball.centre);
+        let pace = 1.0 / (gamma * (1.0 + carrier.celerity.beta().vector().dot(own_beta)));
+        let turn = contraction * pose.rate.matrix3 * pace;
+        let own_celerity = Beta::new(own_beta).map(Beta::celerity).unwrap_or_default();
+        let middle = compose(carrier.celerity, own_celerity).celerity.beta().vector();
+        Pose {
+            world_from_body: DAffine3 { matrix3, translation },
+            rate: DAffine3 { matrix3: turn, translation: middle - turn * self.ball.centre },
+        }
+    }
+
+    /// Pose in the frame in which the chain begins, at that frame's time `ct`, metres of light travel.
     ///
     /// *Equation:* (A B)' = A' B + A B'.
-    pub fn at(&self, ct: f64) -> Pose {
+    pub fn in_carrier(&self, ct: f64) -> Pose {
         let time_s = ct / self.speed_of_light_m_s;
         let mut whole = DAffine3::IDENTITY;
         let mut rate = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
@@ -157,7 +253,7 @@ impl Animated {
         Pose { world_from_body: whole, rate }
     }
 
-    /// Worldline of a point of the body.
+    /// Worldline of a point of the body in the frame in which the chain begins.
     pub fn point(&self, place: DVec3) -> impl Worldline + use<'_> {
         Point { animated: self, place }
     }
@@ -171,7 +267,7 @@ impl Animated {
         self.links.iter().map(of_link).product()
     }
 
-    /// Ball in the world that a ball fixed to the body never leaves.
+    /// Ball in the frame in which the chain begins that a ball fixed to the body never leaves.
     pub fn reach(&self, ball: Ball) -> Ball {
         self.links.iter().rev().fold(ball, |ball, link| match link {
             ChainLink::Fixed(fixed) => {
@@ -213,7 +309,7 @@ struct Point<'a> {
 
 impl Worldline for Point<'_> {
     fn at(&self, ct: f64) -> (DVec3, DVec3) {
-        let pose = self.animated.at(ct);
+        let pose = self.animated.in_carrier(ct);
         (pose.position(self.place), pose.beta(self.place))
     }
 }

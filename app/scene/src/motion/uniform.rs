@@ -31,6 +31,16 @@ pub struct SeenBy {
 }
 
 impl Uniform {
+    /// Event in the object's own frame. At the anchor both frames show the same four numbers.
+    pub fn own_from_world(&self, event: Event) -> Event {
+        self.anchor + Boost::observer_from_world(self.celerity).apply(event - self.anchor)
+    }
+
+    /// Event in the world, from the object's own frame.
+    pub fn world_from_own(&self, event: Event) -> Event {
+        self.anchor + Boost::observer_from_world(self.celerity).inverse().apply(event - self.anchor)
+    }
+
     /// Observer in the object's frame.
     ///
     /// *Equation:* B(u_o) B(−u) = R(wigner) B(u_rel): from the object's frame to the world's, and on to the

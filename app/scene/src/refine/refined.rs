@@ -74,6 +74,8 @@ fn refine_within(scene: &Scene, edge: f32, limit: usize) -> Result<Scene, Refine
         cameras: scene.cameras.clone(),
         speed_of_light_m_s: scene.speed_of_light_m_s,
         circuit: scene.circuit.clone(),
+        places: scene.places.clone(),
+        clocks: scene.clocks.clone(),
         notices: scene.notices.clone(),
         illuminant: scene.illuminant.clone(),
         white: scene.white,

@@ -1,40 +1,9 @@
-//! Signs: clock faces and guild signs; also the stripes of awnings.
+//! Guild signs, and the stripes of awnings.
 
 use glam::{Vec2, Vec3, Vec4, ivec2, vec2, vec3};
 
 use crate::town::canvas::{Area, ENDLESS, PaintCanvas, cloud, noise, smoothstep};
 use crate::turn::circle;
-
-/// Paints a clock face that fills a unit square: gilt hours on blue, hands at twenty to eleven.
-pub(in crate::town) fn clock(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {
-    let hand = |p: Vec2, turns: f32, length: f32, width: f32| {
-        let c = circle(turns);
-        let axis = vec2(c.y, c.x);
-        let along = p.dot(axis);
-        (p.perp_dot(axis).abs() - width * (1.0 - 0.6 * (along / length).clamp(0.0, 1.0)))
-            .max(along - length)
-            .max(-0.06 - along)
-    };
-    PaintCanvas::new(pixels, size, |at| {
-        let p = at - size / 2.0;
-        let r = p.length();
-        let gold = vec3(0.86, 0.68, 0.28) * (0.92 + 0.1 * noise(at * 60.0, ENDLESS, seed));
-        let mut colour = vec3(0.12, 0.17, 0.33) * (0.95 + 0.08 * cloud(at * 8.0, ENDLESS, 2, seed + 1));
-        let mut put = |d: f32| colour = colour.lerp(gold, smoothstep(0.003, -0.003, d));
-        put((r - 0.465).abs() - 0.02);
-        put((r - 0.30).abs() - 0.006);
-        for hour in 0..12 {
-            let c = circle(hour as f32 / 12.0);
-            let axis = vec2(c.y, c.x);
-            let along = p.dot(axis);
-            put((p.perp_dot(axis).abs() - if hour % 3 == 0 { 0.022 } else { 0.013 }).max((along - 0.375).abs() - 0.05));
-        }
-        put(hand(p, 10.667 / 12.0, 0.25, 0.024));
-        put(hand(p, 40.0 / 60.0, 0.38, 0.018));
-        put(r - 0.035);
-        colour
-    })
-}
 
 /// Paints striped cloth, four kinds above one another, two stripes of each per metre.
 pub(in crate::town) fn awning(pixels: [usize; 2], size: Vec2, seed: u32) -> PaintCanvas {

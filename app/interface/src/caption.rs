@@ -1,0 +1,79 @@
+//! Caption of a tour, with its question and what goes on.
+
+use crate::controls::Controls;
+use egui::{Align2, Area, Color32, Frame, Id, RichText, Ui};
+use input::Action;
+use words::{Language, Phrase};
+
+/// Caption of a tour at present.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Caption {
+    /// Title of the tour.
+    pub title: String,
+    /// Text on what is seen; empty if there is none.
+    pub text: String,
+    /// Question, its answers, and the one chosen last: its number, whether it is right, and the explanation.
+    pub question: Option<(String, Vec<String>, Option<(usize, bool, String)>)>,
+    /// True if the tour waits for the visitor.
+    pub waits: bool,
+}
+
+const RIGHT: Color32 = Color32::from_rgb(0x8f, 0xd1, 0x7f);
+const WRONG: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
+
+/// Widest caption, points, and its distance from the lower edge, above the readings.
+const WIDTH: f32 = 620.0;
+const ABOVE: f32 = 108.0;
+
+/// Shows a caption. What is asked for is returned as actions.
+pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
+    let mut actions = Vec::new();
+    ui.label(RichText::new(&caption.title).small().weak());
+    if !caption.text.is_empty() {
+        ui.label(RichText::new(&caption.text).size(18.0).strong());
+    }
+    if let Some((question, answers, chosen)) = &caption.question {
+        ui.label(RichText::new(question).size(18.0).color(WRONG));
+        for (number, answer) in answers.iter().enumerate() {
+            let is_chosen = chosen.as_ref().is_some_and(|(chosen, ..)| *chosen == number);
+            if Controls::new(ui, language).named_choice(is_chosen, answer, Phrase::AnswerPurpose) {
+                actions.push(Action::Answer(u8::try_from(number).unwrap_or(u8::MAX)));
+            }
+        }
+        if let Some((_, is_right, why)) = chosen {
+            let (verdict, colour) = if *is_right { (Phrase::Right, RIGHT) } else { (Phrase::Wrong, WRONG) };
+            ui.label(RichText::new(format!("{} {why}", language.text(verdict))).color(colour));
+        }
+    }
+    let can_go_on = caption.waits && caption.question.as_ref().is_none_or(|(.., chosen)| chosen.is_some());
+    if can_go_on && Controls::new(ui, language).button(Phrase::GoOn, Phrase::GoOnPurpose) {
+        actions.push(Action::Choose);
+    }
+    if !caption.waits && Controls::new(ui, language).button(Phrase::LookAround, Phrase::LookAroundPurpose) {
+        actions.push(Action::Choose);
+    }
+    actions
+}
+
+/// Shows a caption above the readings of a window.
+pub fn window(ui: &Ui, language: Language, caption: &Caption) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let width = (ui.ctx().content_rect().width() - 60.0).min(WIDTH);
+    Area::new(Id::unique("caption")).anchor(Align2::CENTER_BOTTOM, [0.0, -ABOVE]).show(ui.ctx(), |ui| {
+        Frame::window(ui.style()).show(ui, |ui| {
+            ui.set_max_width(width);
+            actions = show(ui, language, caption);
+        });
+    });
+    actions
+}
+
+/// Shows a caption on a sheet of its own.
+pub fn sheet(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
+    let mut actions = Vec::new();
+    Frame::window(ui.style()).show(ui, |ui| {
+        ui.set_min_width(ui.available_width());
+        actions = show(ui, language, caption);
+    });
+    actions
+}

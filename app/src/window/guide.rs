@@ -1,0 +1,187 @@
+//! What explains a ride: map, space-time diagram, clocks, places to go to.
+
+use crate::frame::RideInProgress;
+use egui::{Area, Color32, ColorImage, Id, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+use input::Place;
+use instruments::{DiagramFrame, DiagramView, InstrumentWords, MiniatureView, PlanPicture, PlanTexture, Trail};
+use instruments::{WatchedClock, diagram, miniature};
+use interface::ClockRow;
+use presentation::Presentation;
+use ride::RideFrame;
+use scene::{LocalName, NamedPlace, Scene, SceneClock};
+use words::Language;
+
+/// Largest side of the map's picture, pixels.
+const PLAN_SIDE: u32 = 768;
+/// Sizes of the map and the diagram in a window, points.
+const MAP: Vec2 = Vec2::new(270.0, 350.0);
+const DIAGRAM: Vec2 = Vec2::new(380.0, 400.0);
+/// Distance from the window's sides, and from its lower edge, above the readings, points.
+const MARGIN: f32 = 12.0;
+const ABOVE: f32 = 104.0;
+/// Most clocks in the table.
+const MOST_CLOCKS: usize = 3;
+
+/// Knowledge of the scene and of the way so far.
+pub struct Guide {
+    places: Vec<NamedPlace>,
+    clocks: Vec<SceneClock>,
+    plan: Option<PlanPicture>,
+    trail: Trail,
+    diagram: DiagramView,
+    miniature: MiniatureView,
+}
+
+impl Guide {
+    /// Guide of a scene, before the ride.
+    pub fn new(scene: &Scene) -> Self {
+        let mut trail = Trail::default();
+        let at_rest = scene.clocks.iter().filter(|clock| clock.motion.is_none());
+        let watched = at_rest.map(|clock| WatchedClock { name: clock.name.english.clone(), position: clock.position });
+        trail.watch(watched.take(MOST_CLOCKS).collect());
+        Self {
+            places: scene.places.clone(),
+            clocks: scene.clocks.clone(),
+            plan: PlanPicture::draw(scene, PLAN_SIDE),
+            trail,
+            diagram: DiagramView::default(),
+            miniature: MiniatureView::default(),
+        }
+    }
+
+    /// Notes a frame of the ride. `aspect`: width of the picture over its height.
+    pub fn note(&mut self, frame: &RideFrame, presentation: &Presentation, aspect: f64) {
+        self.trail.note(frame);
+        self.diagram.frame = if presentation.diagram_of_vehicle { DiagramFrame::Vehicle } else { DiagramFrame::World };
+        self.diagram.follow(&self.trail);
+        let half = 0.5 * presentation.fov_deg.to_radians();
+        self.miniature.field_of_view_rad = 2.0 * (half.tan() * aspect).atan();
+        self.miniature.aberration = presentation.effects.bend();
+        self.miniature.follow(&self.trail, self.plan.as_ref().map(|plan| plan.area));
+    }
+
+    /// Places to go to, with their names.
+    pub fn places(&self, language: Language) -> Vec<(String, Place)> {
+        let place = |place: &NamedPlace| Place {
+            position_m: place.start.position.to_array(),
+            look: place.start.look.to_array(),
+        };
+        self.places.iter().map(|named| (name(&named.name, language).to_owned(), place(named))).collect()
+    }
+
+    /// Readings of the clocks that are nearest to the rider.
+    pub fn clocks(&self, ride: &RideInProgress, language: Language) -> Vec<ClockRow> {
+        let Some(frame) = &ride.frame else { return Vec::new() };
+        let observer = &frame.gaze.observer;
+        let light_m_s = frame.vehicle.light_speed().speed_of_light_m_s();
+        let away = |clock: &SceneClock| match &clock.motion {
+            None => clock.position.distance(observer.event.position),
+            Some(motion) => clock.position.distance(motion.own_from_world(observer.event).position),
+        };
+        let mut nearest: Vec<&SceneClock> = self.clocks.iter().collect();
+        nearest.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        let row = |clock: &SceneClock| {
+            let reading = clock.reading(observer, light_m_s);
+            let readings_s = [reading.seen_s, reading.measured_s, reading.world_s];
+            ClockRow { name: name(&clock.name, language).to_owned(), readings_s }
+        };
+        nearest.into_iter().take(MOST_CLOCKS).map(row).collect()
+    }
+
+    /// Shows what is asked for over the picture of a window.
+    pub fn show(&self, ui: &Ui, presentation: &Presentation, clocks: &[ClockRow]) {
+        let screen = ui.ctx().content_rect();
+        let room = screen.height() - ABOVE - MARGIN - 40.0;
+        let bottom = screen.bottom() - ABOVE;
+        let fit = |size: Vec2| size * (room / size.y).min(1.0);
+        if presentation.miniature {
+            let size = fit(MAP);
+            let at = Pos2::new(screen.left() + MARGIN, bottom - size.y);
+            panel(ui, "map", at, size, |ui, area| self.map(ui, area, presentation.language));
+            if !clocks.is_empty() {
+                let area = Area::new(Id::unique("clocks")).interactable(false);
+                area.fixed_pos(Pos2::new(screen.left() + MARGIN, at.y - 8.0))
+                    .pivot(egui::Align2::LEFT_BOTTOM)
+                    .show(ui.ctx(), |ui| interface::show_clocks(ui, presentation.language, clocks));
+            }
+        }
+        if presentation.diagram {
+            let size = fit(DIAGRAM);
+            // The menu has the right side; the map, if it is shown, the left.
+            let beside_map = if presentation.miniature { MAP.x + MARGIN } else { 0.0 };
+            let left = screen.left() + MARGIN + beside_map;
+            let at_left = if presentation.menu { left } else { screen.right() - MARGIN - size.x };
+            let at = Pos2::new(at_left, bottom - size.y);
+            panel(ui, "diagram", at, size, |ui, area| self.diagram(ui, area, presentation.language));
+        }
+    }
+
+    /// Shows what is asked for side by side on a sheet in a room.
+    pub fn show_on_sheet(&self, ui: &mut Ui, presentation: &Presentation, clocks: &[ClockRow]) {
+        let whole = ui.max_rect();
+        let language = presentation.language;
+        let half = Vec2::new(0.5 * whole.width() - 4.0, whole.height());
+        let left = Rect::from_min_size(whole.min, half);
+        if presentation.miniature {
+            let map = if clocks.is_empty() { left } else { left.with_max_y(left.bottom() - 110.0) };
+            self.map(ui, map, language);
+            if !clocks.is_empty() {
+                let mut below = ui.new_child(egui::UiBuilder::new().max_rect(left.with_min_y(map.bottom() + 4.0)));
+                interface::show_clocks(&mut below, language, clocks);
+            }
+        }
+        if presentation.diagram {
+            self.diagram(
+                ui,
+                Rect::from_min_size(whole.min + Vec2::new(0.5 * whole.width() + 4.0, 0.0), half),
+                language,
+            );
+        }
+    }
+
+    fn map(&self, ui: &Ui, area: Rect, language: Language) {
+        let plan = self.plan.as_ref().map(|plan| PlanTexture { id: texture(ui, plan).id(), area: plan.area });
+        miniature(ui.painter(), area, &self.trail, &self.miniature, plan, instrument_words(language));
+    }
+
+    fn diagram(&self, ui: &Ui, area: Rect, language: Language) {
+        diagram(ui.painter(), area, &self.trail, &self.diagram, instrument_words(language));
+    }
+}
+
+/// Texts of the instruments in a language.
+fn instrument_words(language: Language) -> &'static InstrumentWords {
+    match language {
+        Language::English => &InstrumentWords::ENGLISH,
+        Language::German => &InstrumentWords::GERMAN,
+    }
+}
+
+fn name(name: &LocalName, language: Language) -> &str {
+    match language {
+        Language::English => &name.english,
+        Language::German => &name.german,
+    }
+}
+
+/// Picture of the map as a texture of this interface, which is made once.
+fn texture(ui: &Ui, plan: &PlanPicture) -> TextureHandle {
+    let key = Id::unique("plan");
+    let known = ui.ctx().data(|data| data.get_temp::<TextureHandle>(key));
+    known.unwrap_or_else(|| {
+        let size = plan.size.map(|side| side as usize);
+        let image = ColorImage::from_rgba_unmultiplied(size, &plan.rgba);
+        let made = ui.ctx().load_texture("plan", image, TextureOptions::LINEAR);
+        ui.ctx().data_mut(|data| data.insert_temp(key, made.clone()));
+        made
+    })
+}
+
+/// Panel of a size at a place over the picture.
+fn panel(ui: &Ui, name: &'static str, at: Pos2, size: Vec2, contents: impl FnOnce(&mut Ui, Rect)) {
+    Area::new(Id::unique(name)).fixed_pos(at).interactable(false).show(ui.ctx(), |ui| {
+        let (area, _) = ui.allocate_exact_size(size, Sense::hover());
+        ui.painter().rect_filled(area, 0, Color32::TRANSPARENT);
+        contents(ui, area);
+    });
+}

@@ -1,0 +1,100 @@
+//! Rider of a tour: samples of a bicycle's sensors along the route, or of keys that thrust.
+
+use crate::plan::{StationRide, TourPlan, TourRoute};
+use crate::tour_error::PlayError;
+use glam::DVec3;
+use input::{DeskConfig, KeyboardKey, Nanos, Sample, SampleSource, VehicleKind};
+use ride::{Tour, Vehicle};
+
+/// Keys that thrust along an axis, negative and positive: right, up, backward.
+const THRUST_KEYS: [[KeyboardKey; 2]; 3] =
+    [[KeyboardKey::A, KeyboardKey::D], [KeyboardKey::F, KeyboardKey::R], [KeyboardKey::W, KeyboardKey::S]];
+
+/// Rider that nobody is.
+pub(crate) struct Rider {
+    desk: DeskConfig,
+    gain_m_s2: f64,
+    cyclist: Option<Box<Tour>>,
+    /// Keys that are down.
+    down: Vec<KeyboardKey>,
+}
+
+impl Rider {
+    /// Rider of a plan in a scene with this circuit.
+    pub(crate) fn new(plan: &TourPlan, circuit: &[DVec3], desk: &DeskConfig) -> Result<Self, PlayError> {
+        let title = || plan.title.in_language("en").to_owned();
+        let rides = plan.vehicle == VehicleKind::Bicycle && plan.recording.is_none();
+        let moves = plan
+            .stations
+            .iter()
+            .any(|station| matches!(station.ride, StationRide::Along { speed_m_s } if speed_m_s > 0.0));
+        let mut cyclist = None;
+        if rides && moves {
+            let route = match &plan.route {
+                TourRoute::Circuit if circuit.is_empty() => return Err(PlayError::NoCircuit { title: title() }),
+                TourRoute::Circuit => circuit.to_vec(),
+                TourRoute::Points(points) => there_and_back(points),
+            };
+            let tour = Tour::new(&route, &desk.bicycle).ok_or_else(|| PlayError::NoRoute { title: title() })?;
+            cyclist = Some(Box::new(tour));
+        }
+        Ok(Self { desk: desk.clone(), gain_m_s2: plan.gain_m_s2, cyclist, down: Vec::new() })
+    }
+
+    /// Length along the route, metres; NaN before the first samples and without a route.
+    pub(crate) fn along_m(&self) -> f64 {
+        self.cyclist.as_ref().map_or(f64::NAN, |cyclist| cyclist.along_m())
+    }
+
+    /// Samples for a motion, of the time `until` of the tour, which is `late` earlier than the ride's.
+    pub(crate) fn samples(&mut self, ride: StationRide, vehicle: &Vehicle, until: Nanos, late: Nanos) -> Vec<Sample> {
+        match (ride, &mut self.cyclist) {
+            (StationRide::Along { speed_m_s }, Some(cyclist)) => {
+                cyclist.ride_at(speed_m_s, self.gain_m_s2);
+                let mut samples = cyclist.samples(vehicle, until);
+                samples.iter_mut().for_each(|sample| sample.at += late);
+                samples
+            }
+            (StationRide::Thrust(axes), _) => self.press(axes, until + late),
+            _ => self.press([0; 3], until + late),
+        }
+    }
+
+    /// Changes of keys that thrust along these axes.
+    fn press(&mut self, axes: [i8; 3], now: Nanos) -> Vec<Sample> {
+        let wanted: Vec<KeyboardKey> = axes
+            .into_iter()
+            .zip(THRUST_KEYS)
+            .filter_map(|(axis, [negative, positive])| match axis {
+                0 => None,
+                _ => self.desk.keys.key_for(if axis < 0 { negative } else { positive }),
+            })
+            .collect();
+        let released = self.down.iter().filter(|key| !wanted.contains(key)).map(|key| (*key, false));
+        let pressed = wanted.iter().filter(|key| !self.down.contains(key)).map(|key| (*key, true));
+        let samples = released.chain(pressed).map(|(key, down)| Sample::key(now, key, down)).collect();
+        self.down = wanted;
+        samples
+    }
+
+    /// Samples that release everything at the ride's time `now`.
+    pub(crate) fn end(&mut self, now: Nanos) -> Vec<Sample> {
+        let mut samples = self.press([0; 3], now);
+        if self.cyclist.take().is_some() {
+            samples.push(Sample::closed(now, SampleSource::Bicycle));
+        }
+        samples
+    }
+}
+
+/// Closed route along an open one and back again. The rider stops before it turns.
+fn there_and_back(points: &[DVec3]) -> Vec<DVec3> {
+    let mut points = points.to_vec();
+    points.dedup();
+    if let [from, to] = points[..] {
+        points.insert(1, 0.5 * (from + to));
+    }
+    let back: Vec<DVec3> = points.iter().rev().skip(1).take(points.len().saturating_sub(2)).copied().collect();
+    points.extend(back);
+    points
+}

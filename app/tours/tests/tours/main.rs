@@ -1,0 +1,4 @@
+//! Tests of the tours from outside: their files and their rides.
+
+mod files;
+mod rides;
