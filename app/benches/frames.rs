@@ -179,7 +179,13 @@ impl Way {
         let newest = self.renderer.submit(gpu, &eye.observer, self.effects)?;
         let shown = if self.overlaps { self.under_way.replace(newest).unwrap_or_default() } else { newest };
         let report = self.renderer.show(gpu, shown)?;
-        let shot = Shot { camera: eye.camera, observer: eye.observer, effects: self.effects, stored_scale: None };
+        let shot = Shot {
+            camera: eye.camera,
+            observer: eye.observer,
+            effects: self.effects,
+            stored_scale: None,
+            outside: None,
+        };
         self.renderer.prepare(gpu, &shot, self.target.size);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(gpu, &mut encoder, &self.target, &shot, PixelSample::WHOLE);

@@ -197,7 +197,7 @@ impl<'gpu> Stage<'gpu> {
         let celerity = Beta::new(self.look * beta).expect("a speed below light's").celerity();
         let observer = Observer { event: Event { ct: 0.0, position: self.eye }, celerity };
         let camera = Camera::looking(self.look, self.up, 60.0_f64.to_radians());
-        let shot = Shot { camera, observer, effects, stored_scale: None };
+        let shot = Shot { camera, observer, effects, stored_scale: None, outside: None };
         self.renderer.prepare(self.gpu, &shot, self.target.size);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.renderer.draw(self.gpu, &mut encoder, &self.target, &shot, PixelSample::WHOLE);

@@ -146,7 +146,13 @@ fn shot(scene: &Scene, speed: f64) -> Result<Shot, Box<dyn Error>> {
     let celerity = if speed > 0.0 { Beta::new(look * speed)?.celerity() } else { Celerity::ZERO };
     let event = physics::Event { ct: 0.0, position: scene.start.eye() };
     let camera = Camera::looking(look, scene.start.up, FOV_DEG.to_radians());
-    Ok(Shot { camera, observer: Observer { event, celerity }, effects: Effects::ALL, stored_scale: None })
+    Ok(Shot {
+        camera,
+        observer: Observer { event, celerity },
+        effects: Effects::ALL,
+        stored_scale: None,
+        outside: None,
+    })
 }
 
 /// One way to draw a frame.

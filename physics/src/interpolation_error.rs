@@ -191,6 +191,44 @@ impl TriangleInterpolation {
         InterpolationBound { error_rad, ..bound }
     }
 
+    /// Largest factor by which a small step in the world is longer between apparent positions: κ.
+    ///
+    /// *Equation:* the derivative of x' is a boost, which lengthens by γ at most, and u⊗n of length w
+    /// ([`crate::apparent_shape::jacobian`]).
+    pub fn stretch(&self) -> f64 {
+        self.kappa
+    }
+
+    /// Bound for all triangles of which an edge of this `length` is the longest, as looked at from `place` instead of
+    /// from the eye; `middle` is the displacement from the eye to the middle of the edge, world axes; `place` is
+    /// relative to the eye, observer's axes; metres.
+    ///
+    /// *Equation:* the flat triangle is off by at most w δ, and lies in a ball about the apparent position of the
+    /// middle, of κ √3/2 L and w δ ([`TriangleInterpolation::stretch`]).
+    pub fn bound_from(&self, place: DVec3, middle: DVec3, length: f64) -> InterpolationBound {
+        let radius = REACH * length;
+        let nearest = middle.length() - radius;
+        let off = if self.w == 0.0 {
+            0.0
+        } else if nearest > 0.0 {
+            self.w * INTERPOLATION * length * length / nearest
+        } else {
+            return InterpolationBound::NONE;
+        };
+        let towards = self.apparent(middle) - place;
+        let (distance, reach) = (towards.length(), self.kappa * radius + off);
+        let share = off / (distance - reach);
+        if !(reach < distance && share < LARGEST_SHARE) {
+            return if self.w == 0.0 {
+                InterpolationBound { error_rad: 0.0, ..InterpolationBound::NONE }
+            } else {
+                InterpolationBound::NONE
+            };
+        }
+        let cone = DirectionCone { axis: towards / distance, radius_rad: (reach / distance).asin() };
+        InterpolationBound { error_rad: share.asin(), cone }
+    }
+
     /// Angle by which a place is drawn wrongly if its distance is taken to be `interpolated` instead, radians.
     ///
     /// *Equation:* tan of the angle between x' and x' + u δ, by their cross and dot products.

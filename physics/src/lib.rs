@@ -24,10 +24,12 @@ mod double_double;
 
 pub mod aberration;
 pub mod apparent;
+pub mod apparent_shape;
 pub mod boost;
 pub mod celerity;
 pub mod colour;
 pub mod composition;
+pub mod contraction;
 pub mod direction_cone;
 pub mod event;
 pub mod eyes;
@@ -37,6 +39,7 @@ pub mod newton;
 pub mod observer;
 pub mod photo_surface;
 pub mod retarded;
+pub mod simultaneous;
 pub mod stereo_perception;
 pub mod worldline;
 
@@ -45,6 +48,7 @@ pub use apparent::{Apparent, PointSource};
 pub use boost::Boost;
 pub use celerity::{Beta, Celerity, CelerityError};
 pub use composition::{Composition, compose};
+pub use contraction::Contraction;
 pub use direction_cone::DirectionCone;
 pub use event::{Event, FourVector};
 pub use light_cone::LightConeCoordinates;

@@ -120,3 +120,10 @@ pub const SKY_GLOW_POWER: u32 = 24;
 pub const SKY_SUN: f32 = 4.0;
 /// Cosines of the angles from the sun's middle at the outer and inner edge of its disc.
 pub const SKY_SUN_EDGE: [f32; 2] = [0.99985, 0.99995];
+
+/// Colours of an outside view show light.
+pub const OUTSIDE_LIGHT: u32 = 0;
+/// Colours of an outside view show Doppler factors.
+pub const OUTSIDE_DOPPLER: u32 = 1;
+/// Colours of an outside view show delays.
+pub const OUTSIDE_DELAY: u32 = 2;

@@ -33,7 +33,14 @@ const SHIFT: &str = include_str!("../wgsl/shift.wgsl");
 /// Module that draws triangles of the photo-surface (or of the plain world) under sun and sky.
 pub const SURFACE: Module = Module {
     name: "surface",
-    files: &[SHARED, ABERRATION, SHIFT, PHOTO_SURFACE, include_str!("../wgsl/surface.wgsl")],
+    files: &[
+        SHARED,
+        ABERRATION,
+        SHIFT,
+        PHOTO_SURFACE,
+        include_str!("../wgsl/surface.wgsl"),
+        include_str!("../wgsl/outside.wgsl"),
+    ],
 };
 /// Module that draws the sky behind everything, per pixel.
 pub const SKY: Module = Module { name: "sky", files: &[SHARED, ABERRATION, SHIFT, include_str!("../wgsl/sky.wgsl")] };
@@ -83,12 +90,14 @@ pub const SHEET: Module = Module { name: "sheet", files: &[FULLSCREEN, ENCODE, i
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// Module that enlarges a finished picture to the size of its window.
 pub const ENLARGE: Module = Module { name: "enlarge", files: &[FULLSCREEN, include_str!("../wgsl/enlarge.wgsl")] };
+/// Module that draws marks over a picture from outside.
+pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl/marks.wgsl")] };
 /// Module of the shared functions alone, called from a compute shader so that they can be held against their Rust
 /// twins.
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 15] = [
+pub const MODULES: [Module; 16] = [
     SHEET, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, RESAMPLE, ENLARGE,
-    PROBE,
+    MARKS, PROBE,
 ];

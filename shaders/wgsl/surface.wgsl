@@ -146,20 +146,33 @@ fn falling(world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    return seen(in, front, 0.0);
+    var doppler = 1.0;
+    if (DOPPLER || SEARCHLIGHT) {
+        doppler = pixel_doppler(in.clip.xy);
+    }
+    return seen(in, front, doppler);
 }
 
 @fragment
 fn fragment_animated(in: AnimatedFragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    return seen(Fragment(in.clip, in.world, in.normal, in.uv, in.colour), front, in.log2_doppler);
+    return seen(Fragment(in.clip, in.world, in.normal, in.uv, in.colour), front, exp2(in.log2_doppler));
 }
 
-// Radiance, weights or position that a fragment shows.
-fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
-    // A sample stands for a part of its pixel only.
-    let level = log2(view.layer.y) + TEXTURE_BIAS;
-    let texel = textureSampleBias(base_colour_texture, base_colour_sampler, in.uv.xy, level);
-    let base = material.base_colour * in.colour * texel;
+// Level added to that of textures' smaller copies: a sample stands for a part of its pixel only.
+fn texture_level() -> f32 {
+    return log2(view.layer.y) + TEXTURE_BIAS;
+}
+
+// Base colour and opacity of a fragment.
+fn base_colour(in: Fragment) -> vec4<f32> {
+    let texel = textureSampleBias(base_colour_texture, base_colour_sampler, in.uv.xy, texture_level());
+    return material.base_colour * in.colour * texel;
+}
+
+// Radiance, weights or position that a fragment shows; `doppler`: factor of its light.
+fn seen(in: Fragment, front: bool, doppler: f32) -> vec4<f32> {
+    let level = texture_level();
+    let base = base_colour(in);
     var emitted = vec3(0.0);
     if (EMISSIVE) {
         emitted = material.emissive.rgb * textureSampleBias(emissive_texture, emissive_sampler, in.uv.zw, level).rgb;
@@ -197,12 +210,6 @@ fn seen(in: Fragment, front: bool, log2_doppler: f32) -> vec4<f32> {
         return vec4(min(kept, vec3(LARGEST)), base.a);
     }
 
-    var doppler = 1.0;
-    if (ANIMATED) {
-        doppler = exp2(log2_doppler);
-    } else if (DOPPLER || SEARCHLIGHT) {
-        doppler = pixel_doppler(in.clip.xy);
-    }
     var light = observed_light(weights, u32(material.carriers.x), doppler);
     if (SPLIT) {
         light += observed_light(emitted, u32(material.carriers.y), doppler);

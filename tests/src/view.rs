@@ -42,7 +42,7 @@ impl View {
 
     /// Shot of the program for the same picture, as this observer sees it.
     pub fn shot(&self, observer: &Observer, effects: Effects) -> Shot {
-        Shot { camera: self.camera(), observer: *observer, effects, stored_scale: None }
+        Shot { camera: self.camera(), observer: *observer, effects, stored_scale: None, outside: None }
     }
 }
 

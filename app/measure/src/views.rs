@@ -51,7 +51,13 @@ pub fn along_circuit(scene: &Scene, count: u32) -> Vec<Shot> {
         let look = if number.is_multiple_of(2) { ahead } else { ahead + 0.7 * ahead.cross(DVec3::Y) };
         let event = Event { ct: 0.0, position: place + DVec3::Y * EYE_HEIGHT_M };
         let camera = Camera::looking(look, DVec3::Y, FOV_DEGREES.to_radians());
-        Shot { camera, observer: Observer { event, celerity }, effects: Effects::ALL, stored_scale: None }
+        Shot {
+            camera,
+            observer: Observer { event, celerity },
+            effects: Effects::ALL,
+            stored_scale: None,
+            outside: None,
+        }
     };
     (0..count).map(pose).collect()
 }

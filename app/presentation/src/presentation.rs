@@ -3,7 +3,7 @@
 use crate::latency::Latency;
 use input::{Action, Setting, Switch};
 use render::display::{Development, development};
-use view::{Dial, Effects};
+use view::{Dial, Effects, Places};
 use words::{Language, Phrase};
 
 /// State of all that decides how a ride is shown, and nothing of how it goes.
@@ -69,12 +69,14 @@ impl Presentation {
 
     /// True if this switch is on.
     pub fn is_on(mut self, switch: Switch) -> bool {
-        *self.switch(switch)
+        let bends = self.effects.bend();
+        self.switch(switch).map_or(bends, |on| *on)
     }
 
-    fn switch(&mut self, switch: Switch) -> &mut bool {
-        match switch {
-            Switch::Geometry => &mut self.effects.geometry,
+    /// State of a switch; `None` for that of the geometry, which is one of three views.
+    fn switch(&mut self, switch: Switch) -> Option<&mut bool> {
+        let on = match switch {
+            Switch::Geometry => return None,
             Switch::Doppler => &mut self.effects.doppler,
             Switch::Searchlight => &mut self.effects.searchlight,
             Switch::Outside => &mut self.outside,
@@ -84,7 +86,8 @@ impl Presentation {
             Switch::Miniature => &mut self.miniature,
             Switch::Diagram => &mut self.diagram,
             Switch::DiagramOfVehicle => &mut self.diagram_of_vehicle,
-        }
+        };
+        Some(on)
     }
 
     /// Carries out an action, if it is one of these. Returns a sentence for the rider where the picture alone would not
@@ -92,9 +95,11 @@ impl Presentation {
     pub fn act(&mut self, action: &Action) -> Option<String> {
         match action {
             Action::Toggle(switch) => {
-                let on = self.switch(*switch);
-                *on = !*on;
-                let on = *on;
+                let on = !self.is_on(*switch);
+                match self.switch(*switch) {
+                    Some(state) => *state = on,
+                    None => self.effects.places = if on { Places::Seen } else { Places::Instant },
+                }
                 if *switch == Switch::Frozen && on {
                     self.outside = true;
                 }
@@ -110,7 +115,7 @@ impl Presentation {
                 None
             }
             Action::NextView => {
-                self.effects.geometry = !self.effects.geometry;
+                self.effects.places = self.effects.places.next();
                 Some(self.language.fill(Phrase::ViewIs, &[&self.language.text(self.view())]))
             }
             Action::Expose(stops) => {
@@ -139,13 +144,21 @@ impl Presentation {
 
     /// Name of the view.
     pub fn view(&self) -> Phrase {
-        if self.effects.geometry { Phrase::Seen } else { Phrase::Instant }
+        match self.effects.places {
+            Places::Seen => Phrase::Seen,
+            Places::Measured => Phrase::Measured,
+            Places::Instant => Phrase::Instant,
+        }
     }
 
     /// Views that the present effects allow: the text of the effects with each, its name and its purpose.
     pub fn views(&self) -> Vec<(String, Phrase, Phrase)> {
-        let with = |geometry| Effects { geometry, ..self.effects }.to_string();
-        vec![(with(true), Phrase::Seen, Phrase::SeenPurpose), (with(false), Phrase::Instant, Phrase::InstantPurpose)]
+        let with = |places| Effects { places, ..self.effects }.to_string();
+        vec![
+            (with(Places::Seen), Phrase::Seen, Phrase::SeenPurpose),
+            (with(Places::Measured), Phrase::Measured, Phrase::MeasuredPurpose),
+            (with(Places::Instant), Phrase::Instant, Phrase::InstantPurpose),
+        ]
     }
 
     /// Takes the next value of a setting that has a few.

@@ -5,6 +5,7 @@ use clap::ValueEnum;
 use input::{Action, Setting};
 use render::display::development;
 use std::collections::BTreeMap;
+use view::{Effects, Places};
 
 /// Field of view that can be drawn, degrees, as on the command line.
 const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
@@ -25,7 +26,12 @@ impl Presentation {
     /// Gives a setting the value of a text. `None` if the text names none, which changes nothing.
     pub(crate) fn set(&mut self, setting: Setting, text: &str) -> Option<()> {
         match setting {
-            Setting::Effects => self.effects = text.parse().ok()?,
+            Setting::Effects => {
+                let effects: Effects = text.parse().ok()?;
+                // Effects of light have no part in what is measured, and are as before in the next view.
+                let measured = effects.places == Places::Measured;
+                self.effects = if measured { Effects { places: effects.places, ..self.effects } } else { effects };
+            }
             Setting::Fov => self.fov_deg = text.parse().ok().filter(|fov| FOV_DEG.contains(fov))?,
             Setting::Exposure => self.development.exposure = text.parse().ok()?,
             Setting::Tone => self.development.tone = choice(text)?,
@@ -106,6 +112,20 @@ mod tests {
         assert_eq!((other.fov_deg, other.latency, other.language), (75.5, Latency::Low, Language::German));
         assert_eq!((other.development.exposure, other.development.tone), (Exposure::Auto(-0.5), Tone::Filmic));
         assert_eq!(Presentation::default().with_json(&other.to_json()), other);
+    }
+
+    #[test]
+    fn a_key_goes_through_three_views_and_keeps_the_switches_of_light() {
+        let mut shown = Presentation::default();
+        let views = shown.views();
+        for (number, (text, name, _)) in views.iter().enumerate() {
+            assert_eq!(shown.view(), *name);
+            let mut chosen = Presentation::default();
+            assert_eq!(chosen.act(&Action::Set(Setting::Effects, text.clone())), None);
+            assert_eq!(chosen.effects, shown.effects, "view {number}");
+            shown.act(&Action::NextView);
+        }
+        assert_eq!(shown, Presentation::default());
     }
 
     #[test]

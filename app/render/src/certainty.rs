@@ -276,6 +276,7 @@ mod tests {
             },
             effects: Effects::ALL,
             stored_scale: None,
+            outside: None,
         };
         let sight = |motion| SeenFrom::new(scene, &shot.observer, motion);
         Certainty::of(&Edges::of(scene), sight, &shot, [1280, 720], drawn)

@@ -12,6 +12,7 @@ mod gpu;
 mod image;
 mod method;
 mod moving_objects;
+mod outside;
 mod pending;
 pub mod picture;
 mod polygon;

@@ -7,6 +7,7 @@
 use crate::certainty::{Certainty, Edges, EdgesDrawn};
 use crate::gpu::{Gpu, GpuError};
 use crate::moving_objects::Axes;
+use crate::outside::Marks;
 use crate::pending::{Pending, Transformed};
 use crate::stats::{CutStats, DrawCounts, MapStats};
 use crate::subject::Subject;
@@ -14,8 +15,8 @@ use crate::target::{Format, Radiance};
 use crate::world::{Draws, Mode, TargetPart, VertexSource, World};
 use glam::DVec2;
 use physics::Observer;
-use scene::cut::SeenFrom;
-use view::{Occasion, Shot, Sides};
+use scene::cut::{Cut, SeenFrom};
+use view::{Effects, Occasion, Shot, Sides};
 
 /// One way of drawing a scene as a moving observer sees it.
 ///
@@ -62,6 +63,11 @@ pub trait Method {
     ) {
     }
 
+    /// True if the method draws a map of the world around the eye, which cannot be looked at from outside.
+    fn maps(&self) -> bool {
+        false
+    }
+
     /// True if the method can draw now. Until then the plain world is drawn.
     fn is_ready(&self) -> bool {
         true
@@ -82,6 +88,11 @@ pub trait Method {
     /// Triangles that the method drew from a world of its own since the last call of this function.
     fn take_drawn(&self) -> DrawCounts {
         DrawCounts::default()
+    }
+
+    /// Newest cut of the scene, whose triangles the world shows; `None` for a scene that is drawn as it is.
+    fn shown_cut(&self) -> Option<&Cut> {
+        None
     }
 
     /// Size and accuracy of the newest cut, if the scene is cut for every picture.
@@ -117,6 +128,8 @@ pub struct Sample<'a> {
     pub sides: Sides,
     /// Points of the room that the pixels show, if the screen is not flat.
     pub points: Option<&'a wgpu::TextureView>,
+    /// Marks of the observer, in a picture from outside.
+    pub marks: Option<&'a Marks>,
     /// Content of the picture.
     pub subject: Subject,
     /// Format of the target.
@@ -127,7 +140,12 @@ impl Sample<'_> {
     /// Mode in which surfaces are drawn.
     pub fn mode(&self) -> Mode {
         match self.subject {
-            Subject::Light => Mode::Light(self.shot.effects),
+            Subject::Light => match self.shot.outside {
+                Some(outside) if self.shot.effects.bend() => Mode::Outside(outside.colouring, self.shot.effects),
+                // Light that arrives at the eye has no place outside of it in other views.
+                Some(_) => Mode::Light(Effects { doppler: false, searchlight: false, ..self.shot.effects }),
+                None => Mode::Light(self.shot.effects),
+            },
             Subject::Places => Mode::Places,
         }
     }
@@ -165,10 +183,16 @@ impl Sample<'_> {
             mode,
             format: self.format,
             sights: self.sights,
+            outside: self.shot.outside.map(|outside| outside.place),
             pixels: self.pixels(),
             further_carrier: None,
-            sky: true,
+            // The sky has no place that could be seen from outside.
+            sky: self.shot.outside.is_none(),
         };
-        self.world.draw(gpu, &mut self.target.begin(encoder), &draws, &[self.whole()]);
+        let mut pass = self.target.begin(encoder);
+        self.world.draw(gpu, &mut pass, &draws, &[self.whole()]);
+        if let Some(marks) = self.marks {
+            marks.draw(&mut pass, self.format);
+        }
     }
 }

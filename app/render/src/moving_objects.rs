@@ -7,9 +7,10 @@
 //! line of sight the nearer apparent position is the later emission.
 
 use crate::view_matrix::matrix;
-use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
-use physics::{Celerity, Event, Observer};
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4, Vec4, Vec4Swizzles};
+use physics::{Celerity, Contraction, Event, Observer};
 use scene::motion::{Animated, Motion, SeenBy};
+use view::Places;
 
 /// Axes of the apparent positions of a moving body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,10 +95,47 @@ pub fn plain_view(
     }
 }
 
+/// View of the resting scene (`None`) or of a moving body in a picture of what the observer measures about the eye. Its
+/// own positions are relative to `origin`. Clockwork is in one pose, exact at four of its points; not for other animated
+/// bodies, each of whose points is at its own event.
+///
+/// *Equation:* in the body's frame, in which it rests, x' = d − (1 − 1/γ)(d·n) n with the observer's place and motion
+/// there ([`Contraction`]), turned into the observer's axes.
+pub fn measured_view(
+    at_eye: &shaders::ViewUniforms,
+    motion: Option<&Motion>,
+    observer: &Observer,
+    origin: DVec3,
+) -> shaders::ViewUniforms {
+    if let Some(animated) = motion.and_then(Motion::animated) {
+        return measured_pose(at_eye, animated, observer);
+    }
+    let seen = motion.map_or_else(|| by_axes_of(observer), |motion| seen_by(motion, observer));
+    let contraction = Contraction::new(seen.celerity);
+    let observer_from_group = DMat3::from_quat(seen.observer_from_group) * contraction.matrix();
+    let place = observer_from_group * (origin - seen.position);
+    let mut eye_from_group = DMat4::from_mat3(observer_from_group);
+    eye_from_group.w_axis = place.extend(1.0);
+    shaders::ViewUniforms { clip_from_observer: at_eye.clip_from_observer * matrix(&eye_from_group), ..*at_eye }
+}
+
+/// View of an animated body in a picture of what the observer measures: all of it in one pose. A body that is nowhere
+/// at the observer's present has shrunk to nothing.
+fn measured_pose(at_eye: &shaders::ViewUniforms, animated: &Animated, observer: &Observer) -> shaders::ViewUniforms {
+    let nowhere = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
+    let pose = animated.pose_shown(observer, Places::Measured).unwrap_or(nowhere);
+    let contraction = DMat4::from_mat3(Contraction::new(observer.celerity).matrix());
+    let eye_from_world = contraction * DMat4::from_translation(-observer.event.position);
+    shaders::ViewUniforms {
+        clip_from_observer: at_eye.clip_from_observer * matrix(&(eye_from_world * DMat4::from(pose))),
+        ..*at_eye
+    }
+}
+
 /// View of an animated body in a picture of the plain world: the body at the observer's time. The velocity of its
 /// middle shifts the light of the whole body.
 fn plain_pose(at_eye: &shaders::ViewUniforms, animated: &Animated, observer: &Observer) -> shaders::ViewUniforms {
-    let pose = animated.as_seen(observer, false);
+    let pose = animated.as_shown(observer, Places::Instant);
     let eye_from_world = DMat4::from_translation(-observer.event.position);
     shaders::ViewUniforms {
         clip_from_observer: at_eye.clip_from_observer * matrix(&(eye_from_world * DMat4::from(pose.world_from_body))),
@@ -111,12 +149,13 @@ fn plain_pose(at_eye: &shaders::ViewUniforms, animated: &Animated, observer: &Ob
 fn seen_by(motion: &Motion, observer: &Observer) -> SeenBy {
     match motion {
         Motion::Uniform(uniform) => uniform.seen_by(observer),
-        Motion::Animated(_) => SeenBy {
-            position: observer.event.position,
-            celerity: observer.celerity,
-            observer_from_group: DQuat::IDENTITY,
-        },
+        Motion::Animated(_) => by_axes_of(observer),
     }
+}
+
+/// View of what rests in the world.
+fn by_axes_of(observer: &Observer) -> SeenBy {
+    SeenBy { position: observer.event.position, celerity: observer.celerity, observer_from_group: DQuat::IDENTITY }
 }
 
 /// Unit vector along a motion, and κ = γ + |u|.

@@ -5,23 +5,23 @@ use crate::gpu::{Gpu, GpuError};
 use crate::image::{ImageRenderer, MapQuality};
 use crate::method::{Method, Sample};
 use crate::moving_objects;
+use crate::outside::{Marks, outside_views};
 use crate::pending::Pending;
-use crate::polygon::{Adaptive, PhotoSurface, VertexStage};
+use crate::polygon::{Adaptive, PhotoSurface, VertexStage, place_streams, write_places};
 use crate::stats::{CutStats, DrawCounts, MapStats};
 use crate::subject::Subject;
 use crate::target::{Format, Radiance};
 use crate::view_matrix::{matrix, shader_view};
 use crate::world::{World, gather};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec4};
-use physics::interpolation_error::TriangleInterpolation;
 use physics::photo_surface::PhotoSurfaceError;
 use physics::{Celerity, Observer};
 use scene::Scene;
 use scene::cut::SeenFrom;
-use scene::motion::Motion;
+use scene::motion::{Animated, Motion};
 use std::sync::Arc;
 use std::time::Duration;
-use view::{Dial, Effects, Occasion, PixelSample, RendererName, Shot, Sides, Stored, Transform};
+use view::{Dial, Effects, Occasion, PixelSample, Places, RendererName, Shot, Sides, Stored, Transform};
 
 /// Pixels by which pictures are taken to be wider than they are, so that nothing is left out that a sample beside the
 /// middle of its pixel sees.
@@ -42,7 +42,19 @@ pub struct SceneRenderer {
     /// Sample of the scene's edges.
     edges: Edges,
     motions: Vec<Motion>,
+    /// Meshes of the scene, if it may be drawn in another way than the method's: if anything is animated, each vertex
+    /// is measured at its own event, and a map is seen from outside by `polygon`.
+    scene: Option<Arc<Scene>>,
+    /// Measured places of all vertices, if more than clockwork is animated and the pictures show what is measured.
+    measured: Option<wgpu::Buffer>,
+    /// Method by which a map's scene is drawn from outside, while it is. The world then shows its cut.
+    outside: Option<Adaptive>,
+    /// Marks of the observer, once a picture was drawn from outside.
+    marks: Option<Marks>,
     format: Format,
+    occasion: Occasion,
+    /// Tolerance of cuts, pixels.
+    tolerance_px: f64,
     /// Content of pictures.
     pub subject: Subject,
 }
@@ -91,17 +103,32 @@ impl SceneRenderer {
         let method = fixed_method(gpu, &scene, format, dial, occasion)?;
         let textures = std::mem::take(&mut scene.textures);
         gather(&mut scene);
+        let scene = Arc::new(scene);
+        let animated = motions.iter().any(|motion| motion.animated().is_some());
+        let kept = (animated || image).then(|| Arc::clone(&scene));
+        let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
         let (world, method) = match method {
             Some(method) => (World::new(gpu, &scene, textures, background), method),
             None => {
-                let scene = Arc::new(scene);
-                let tolerance_px = dial.tolerance.unwrap_or(occasion.usual_tolerance());
                 let world = World::to_be_cut(gpu, &scene, textures, background);
                 let method: Box<dyn Method> = Box::new(Adaptive::new(scene, tolerance_px, occasion));
                 (world, method)
             }
         };
-        Ok(Self { world, method, edges, motions, format, subject: Subject::Light })
+        Ok(Self {
+            world,
+            method,
+            edges,
+            motions,
+            scene: kept,
+            measured: None,
+            outside: None,
+            marks: None,
+            format,
+            occasion,
+            tolerance_px,
+            subject: Subject::Light,
+        })
     }
 
     /// Number of triangles that a draw of everything takes.
@@ -122,7 +149,11 @@ impl SceneRenderer {
     /// Scale in which targets hold the light of a shot.
     pub fn stored(&self, shot: &Shot) -> Stored {
         let moves = shot.observer.celerity != Celerity::ZERO || !self.motions.is_empty();
-        Stored { white: self.white_luminance(), scale: shot.scale(), shifted: shot.effects.shift_light() && moves }
+        Stored {
+            white: self.white_luminance(),
+            scale: shot.scale(),
+            shifted: shot.shows_light() && shot.effects.shift_light() && moves,
+        }
     }
 
     /// Triangles drawn since the last call of this function, and the calls that drew them, shadows not counted.
@@ -144,7 +175,8 @@ impl SceneRenderer {
 
     /// Estimated errors of directions in the picture of a shot that was drawn last.
     pub fn certainty(&self, shot: &Shot, size: [u32; 2]) -> Certainty {
-        if !shot.effects.geometry {
+        // From outside there are no directions of sight.
+        if !shot.effects.bend() || shot.outside.is_some() {
             return Certainty::default();
         }
         let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
@@ -152,9 +184,11 @@ impl SceneRenderer {
         self.method.certainty(&self.edges, &estimate)
     }
 
-    /// View of the resting scene from the observer of a shot, then the view of each motion.
+    /// View of the resting scene from the observer of a shot, then the view of each motion: as measured, if the shot
+    /// shows that, else as seen.
     pub fn sights(&self, shot: &Shot) -> Vec<SeenFrom> {
-        let sight = |motion| SeenFrom::of(self.world.origin, &self.motions, &shot.observer, motion);
+        let of = if shot.effects.places == Places::Measured { SeenFrom::measured } else { SeenFrom::of };
+        let sight = |motion| of(self.world.origin, &self.motions, &shot.observer, motion);
         std::iter::once(None).chain((0..self.motions.len()).map(Some)).map(sight).collect()
     }
 
@@ -164,7 +198,7 @@ impl SceneRenderer {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, observer: &Observer, effects: Effects) -> Result<Pending, GpuError> {
-        if !effects.geometry {
+        if !effects.bend() {
             return Ok(Pending::default());
         }
         self.method.submit(gpu, moving_objects::observers(&self.motions, observer))
@@ -190,8 +224,15 @@ impl SceneRenderer {
     /// at all times.
     pub fn is_still_in(&self, shot: &Shot, size: [u32; 2]) -> bool {
         let sides = Sides::of(&shot.camera, size, MARGIN_PIXELS);
+        let at_rest = Observer { celerity: Celerity::ZERO, ..shot.observer };
+        let sight = match shot.effects.places {
+            Places::Seen => SeenFrom::of(DVec3::ZERO, &[], &shot.observer, None),
+            Places::Measured => SeenFrom::measured(DVec3::ZERO, &[], &shot.observer, None),
+            Places::Instant => SeenFrom::of(DVec3::ZERO, &[], &at_rest, None),
+        };
         let may_show = |motion: &Motion| {
-            let Some(body) = motion.animated().filter(|body| body.carrier().is_none()) else { return true };
+            let here = |body: &&Arc<Animated>| body.carrier().is_none() && shot.outside.is_none();
+            let Some(body) = motion.animated().filter(here) else { return true };
             let pose = body.at(shot.observer.event.ct);
             let eye = shot.observer.event.position;
             // Clockwork shows one side.
@@ -200,9 +241,7 @@ impl SceneRenderer {
                 return false;
             }
             let reach = body.reach(body.ball());
-            let celerity = if shot.effects.geometry { shot.observer.celerity } else { Celerity::ZERO };
-            let cone = TriangleInterpolation::new(celerity).cone(reach.centre - eye, reach.radius);
-            cone.is_none_or(|cone| sides.may_show(&cone))
+            sight.cone(reach.centre, reach.radius).is_none_or(|cone| sides.may_show(&cone))
         };
         !self.motions.iter().any(may_show)
     }
@@ -222,6 +261,8 @@ impl SceneRenderer {
     /// for each pixel.
     pub fn draw_in(&mut self, gpu: &Gpu, format: Format, occasion: Occasion, map_scale: Option<f64>) {
         self.format = format;
+        self.occasion = occasion;
+        self.close_outside(gpu);
         self.method.draw_in(gpu, format, occasion, map_scale);
     }
 
@@ -235,19 +276,55 @@ impl SceneRenderer {
     /// Computes everything that all pictures of one eye at one moment share. Each has its size in pixels.
     pub fn prepare_eye(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
-        self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
-        if shot.effects.geometry {
-            self.method.prepare_eye(gpu, &mut self.world, shots);
+        self.world.light_animated(gpu, &shot.observer, shot.effects.places);
+        let bends = shot.effects.bend();
+        if let Some(scene) = self.scene.as_ref().filter(|_| bends && shot.outside.is_some() && self.method.maps()) {
+            let cuts = || Adaptive::new(Arc::clone(scene), self.tolerance_px, self.occasion);
+            self.outside.get_or_insert_with(cuts).prepare_eye(gpu, &mut self.world, shots);
         } else {
-            self.world.complete(gpu);
+            self.close_outside(gpu);
+            if bends {
+                self.method.prepare_eye(gpu, &mut self.world, shots);
+            } else {
+                self.world.complete(gpu);
+            }
         }
+        self.measured = self.measure(gpu, shot);
+    }
+
+    /// Ends the drawing of a map's scene from outside.
+    fn close_outside(&mut self, gpu: &Gpu) {
+        if let (Some(_), Some(scene)) = (self.outside.take(), &self.scene) {
+            self.world.restore(gpu, scene);
+        }
+    }
+
+    /// Method that draws now.
+    fn drawing(&self) -> &dyn Method {
+        match &self.outside {
+            Some(cuts) => cuts,
+            None => self.method.as_ref(),
+        }
+    }
+
+    /// Measured places of all vertices of a scene with animated bodies. A matrix does for all others, and for
+    /// clockwork.
+    fn measure(&mut self, gpu: &Gpu, shot: &Shot) -> Option<wgpu::Buffer> {
+        let solved = |motion: &Motion| motion.animated().is_some_and(|body| !body.is_clockwork());
+        let animated = self.motions.iter().any(solved);
+        let scene = self.scene.as_ref().filter(|_| animated && shot.effects.places == Places::Measured)?;
+        let cut = self.method.shown_cut();
+        let before = self.measured.take();
+        let buffer = before.unwrap_or_else(|| place_streams(gpu, scene, cut));
+        write_places(gpu, scene, cut, &self.sights(shot), &buffer);
+        Some(buffer)
     }
 
     /// Computes everything that all samples of one picture of `size` pixels share, after
     /// [`SceneRenderer::prepare_eye`]. Several flat pictures, each with its size, stand for the one of a screen that is
     /// not flat.
     pub fn prepare_picture(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])], size: [u32; 2]) {
-        if shots.iter().all(|(shot, _)| shot.effects.geometry) {
+        if self.outside.is_none() && shots.iter().all(|(shot, _)| shot.effects.bend()) {
             let pixels = f64::from(size[0]) * f64::from(size[1]);
             self.method.prepare_picture(gpu, &mut self.world, shots, pixels, self.subject);
         }
@@ -255,7 +332,7 @@ impl SceneRenderer {
 
     /// True if the whole picture of a screen that is not flat can be [drawn at once](Self::draw_bent).
     pub fn shows_bent_screens(&self, effects: Effects) -> bool {
-        effects.geometry && self.method.shows_bent_screens()
+        effects.bend() && self.method.shows_bent_screens()
     }
 
     /// Draws one sample of a picture. One submission has room for one.
@@ -268,8 +345,7 @@ impl SceneRenderer {
         sample: PixelSample,
     ) {
         let observer = &shot.observer;
-        let view =
-            shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.geometry, shot.scale());
+        let view = shader_view(&shot.camera, target.size, sample, observer.celerity, shot.effects.places, shot.scale());
         self.draw_view(gpu, encoder, target, (shot, view), None);
     }
 
@@ -285,7 +361,7 @@ impl SceneRenderer {
         screen: &BentScreen<'_>,
     ) {
         let celerity = shot.observer.celerity;
-        let view = shader_view(&shot.camera, target.size, sample, celerity, shot.effects.geometry, shot.scale());
+        let view = shader_view(&shot.camera, target.size, sample, celerity, shot.effects.places, shot.scale());
         let axis = |axis: DVec3| (screen.observer_from_room * axis).as_vec3().extend(0.0);
         let view = shaders::ViewUniforms {
             right: axis(DVec3::X),
@@ -303,41 +379,64 @@ impl SceneRenderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &Radiance,
-        (shot, resting): (&Shot, shaders::ViewUniforms),
+        (shot, mut resting): (&Shot, shaders::ViewUniforms),
         points: Option<&wgpu::TextureView>,
     ) {
-        let bent = shot.effects.geometry && self.method.is_ready();
-        let observer = &shot.observer;
+        let bent = shot.effects.bend() && self.drawing().is_ready();
+        if let Some(outside) = &shot.outside {
+            resting.clip_from_observer *= matrix(&DMat4::from_translation(-outside.place));
+            let marks = self.marks.get_or_insert_with(|| Marks::new(gpu));
+            let clip_from_observer = resting.clip_from_observer.as_dmat4();
+            marks.prepare(gpu, (target.size, self.format), outside, &clip_from_observer, shot.scale());
+        }
+        let measured = shot.effects.places == Places::Measured;
+        let (observer, origin) = (&shot.observer, self.world.origin);
 
         // There is a view for the resting scene, then one for each motion; places say which it is.
         let mut views = vec![resting];
         for (number, motion) in self.motions.iter().enumerate() {
             let view = if bent {
-                moving_objects::view(&resting, motion, observer, self.method.axes())
+                moving_objects::view(&resting, motion, observer, self.drawing().axes())
+            } else if measured {
+                moving_objects::measured_view(&resting, Some(motion), observer, origin)
             } else {
-                moving_objects::plain_view(&resting, motion, observer, self.world.origin)
+                moving_objects::plain_view(&resting, motion, observer, origin)
             };
             views.push(shaders::ViewUniforms { layer: resting.layer + Vec4::X * (1 + number) as f32, ..view });
         }
-        if !bent {
-            // Positions of the plain world are relative to its origin, not to the eye.
-            let eye_from_origin = DMat4::from_translation(self.world.origin - observer.event.position);
+        // Positions of the plain world are relative to its origin, not to the eye.
+        if measured {
+            views[0] = moving_objects::measured_view(&resting, None, observer, origin);
+        } else if !bent {
+            let eye_from_origin = DMat4::from_translation(origin - observer.event.position);
             views[0].clip_from_observer *= matrix(&eye_from_origin);
+        }
+        if self.measured.is_some() {
+            // Measured places are about the eye, in the observer's axes.
+            views.iter_mut().for_each(|view| view.clip_from_observer = resting.clip_from_observer);
         }
 
         let mut sights = self.sights(shot);
-        if !bent {
+        if !bent && !measured {
             let at_rest = Observer { celerity: Celerity::ZERO, ..*observer };
-            sights[0] = SeenFrom::of(self.world.origin, &self.motions, &at_rest, None);
+            sights[0] = SeenFrom::of(origin, &self.motions, &at_rest, None);
+        }
+        if let Some(outside) = shot.outside.as_ref().filter(|_| bent) {
+            outside_views(&mut views, &sights, outside);
         }
         let sides = Sides::of(&shot.camera, target.size, MARGIN_PIXELS);
-        let Self { world, method, format, subject, .. } = self;
+        let Self { world, method, outside, format, subject, measured, marks, .. } = self;
         let (subject, format) = (*subject, *format);
-        let sample = Sample { world, target, shot, views, sights: &sights, sides, points, subject, format };
+        let method: &mut dyn Method = match outside {
+            Some(cuts) => cuts,
+            None => method.as_mut(),
+        };
+        let marks = marks.as_ref().filter(|_| shot.outside.is_some() && subject == Subject::Light);
+        let sample = Sample { world, target, shot, views, sights: &sights, sides, points, marks, subject, format };
         if bent {
             method.draw(gpu, encoder, sample);
         } else {
-            sample.draw_streams(gpu, encoder, None, false);
+            sample.draw_streams(gpu, encoder, measured.as_ref(), false);
         }
     }
 }

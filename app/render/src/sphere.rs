@@ -55,7 +55,7 @@ impl SphereLight {
             let tangents = Tangents { low: DVec2::splat(-HALF), high: DVec2::splat(HALF) };
             let observer_from_eye = gaze.observer_from_eye * DQuat::from_mat3(&eye_from_face);
             let camera = Camera { observer_from_eye, field: Field::Screen(tangents) };
-            let shot = Shot { camera, observer: gaze.observer, effects, stored_scale: Some(scale) };
+            let shot = Shot { camera, observer: gaze.observer, effects, stored_scale: Some(scale), outside: None };
             let pending = renderer.submit(gpu, &gaze.observer, effects)?;
             let (texels, of_face) = studio.texels(gpu, renderer, &shot, pending)?;
             stored = of_face;

@@ -11,6 +11,7 @@ use crate::motion::Animated;
 use glam::{DMat3, DVec3, DVec4, Vec3};
 use physics::colour::Carrier;
 use physics::{Aberration, Celerity, Observer};
+use view::Places;
 
 /// Irradiance of a diffuse surface by its normal: weights on the sky's carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,8 +76,7 @@ impl Irradiance {
         Self { sun_direction, sun, ambient }
     }
 
-    /// Light on an animated body, along its own axes, at the event at which it is seen (`delayed`) or at the
-    /// observer's time. `carrier`: the sky's.
+    /// Light on an animated body, along its own axes, at the event of its middle that is shown. `carrier`: the sky's.
     ///
     /// The velocity of its middle stands for the whole body. D of the light that the body sends out is each point's
     /// own.
@@ -84,10 +84,10 @@ impl Irradiance {
         light: &Lighting,
         animated: &Animated,
         observer: &Observer,
-        delayed: bool,
+        places: Places,
         carrier: &Carrier,
     ) -> Self {
-        let pose = animated.as_seen(observer, delayed);
+        let pose = animated.as_shown(observer, places);
         let Self { sun_direction, sun, ambient } = Self::on_moving(light, animated.celerity(&pose), carrier);
         let body_from_world = pose.axes().transpose();
         let turned = |channel: DVec4| (body_from_world * channel.truncate()).extend(channel.w);

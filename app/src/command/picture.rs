@@ -23,8 +23,11 @@ pub struct PictureOptions {
     /// picture in which nothing changes takes 16 in any case.
     #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,
-    /// Relativistic effects in the picture: all, none, or any of geometry, doppler and searchlight, separated by
-    /// commas.
+    /// Relativistic effects in the picture: all, none, measured, or any of geometry, doppler and searchlight, separated
+    /// by commas.
+    ///
+    /// geometry: things are where their light comes from. Without it, light is infinitely fast in the world. measured:
+    /// things are where they are now for the observer, contracted along the motion; nothing of light goes with it.
     #[arg(long, value_name = "EFFECTS", default_value = "all")]
     pub effects: Effects,
     /// Brightness of the picture: auto, white, or a number of stops brighter than white, as in -1.5 (a stop is a

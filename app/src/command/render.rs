@@ -13,7 +13,7 @@ use super::room::RoomOptions;
 use super::values::{self, Output};
 use super::world::WorldOptions;
 use scene::Start;
-use view::RendererName;
+use view::{OutsideView, Places, RendererName};
 
 /// Pictures per second of a film without `--fps`.
 const FRAMES_PER_SECOND: f64 = 30.0;
@@ -50,6 +50,15 @@ pub struct RenderOptions {
     /// Pictures per second of a film [default: 30].
     #[arg(long, value_name = "N", value_parser = values::within(0.1, 1000.0), help_heading = "Film")]
     fps: Option<f64>,
+    /// Look at the photo-surface from outside: a camera at rest in the observer's frame, at X,Y,Z metres from the eye.
+    ///
+    /// What is drawn is the surface of all apparent positions, with the observer as a ball with its axes (right red, up
+    /// green, ahead blue) and the edges of its field of view. After a slash comes the direction of the camera
+    /// [default: towards the eye], after a colon what colours show: light; doppler, the factor D, blue above 1 and red
+    /// below, with a line at every octave; delay, in rings of equal delay. As in 8,5,9/-1,-0.5,-1:delay. Axes are as
+    /// for --look.
+    #[arg(long, value_name = "X,Y,Z[/X,Y,Z][:COLOURS]", allow_hyphen_values = true, help_heading = "Observer")]
+    pub outside: Option<OutsideView>,
     /// Options of the room for which the picture is drawn.
     #[command(flatten)]
     pub room: RoomOptions,
@@ -133,6 +142,25 @@ impl RenderOptions {
         }
         if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {
             return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));
+        }
+        if self.outside.is_some() && self.room.display.is_some() {
+            return Err(
+                "--outside makes one flat picture, and no room has a screen for it; leave --outside or --display \
+                 out"
+                .to_owned(),
+            );
+        }
+        if self.outside.is_some() && self.dial.renderer == RendererName::Raytrace {
+            return Err(
+                "--outside shows where things appear, and the raytrace renderer follows rays, which all end at \
+                 the eye; choose --renderer polygon or leave --outside out"
+                    .to_owned(),
+            );
+        }
+        if self.picture.effects.places == Places::Measured && self.rays.bounces.is_some_and(|bounces| bounces > 0) {
+            return Err("--bounces are of light, and no light brings what is measured; leave --bounces or --effects \
+                 measured out"
+                .to_owned());
         }
         if self.picture.exact_light && self.dial.renderer != RendererName::Raytrace {
             return Err("--exact-light is for --renderer raytrace; leave one out or add the other".to_owned());

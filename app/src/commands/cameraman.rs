@@ -17,7 +17,7 @@ use scene::Scene;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use trace::{CameraLens, Optics, RayTracer, Traced};
-use view::{Dial, Gaze, Occasion, RendererName, Shot};
+use view::{Dial, Gaze, Occasion, OutsideView, RendererName, Shot};
 
 /// Dial of pictures that are kept.
 pub fn dial_of_stills(dial: &DialOptions, picture: &PictureOptions) -> Dial {
@@ -39,6 +39,8 @@ pub struct Cameraman<'gpu> {
     /// Vertical field of view, degrees.
     fov_deg: f64,
     dial: Dial,
+    /// Camera outside of the eye.
+    outside: Option<OutsideView>,
 }
 
 impl<'gpu> Cameraman<'gpu> {
@@ -63,7 +65,7 @@ impl<'gpu> Cameraman<'gpu> {
             spinner.finish_and_clear();
             let studio = Studio::new(gpu, options.size, 1);
             let maker = Maker::Traced(Box::new(tracer));
-            return Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial });
+            return Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial, outside: None });
         }
         let spinner = progress::cutting(dial);
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
@@ -75,7 +77,7 @@ impl<'gpu> Cameraman<'gpu> {
         gpu.wait()?;
         spinner.finish_and_clear();
         let maker = Maker::Drawn(Box::new(renderer));
-        Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial })
+        Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial, outside: None })
     }
 
     /// Adds a lens, a shutter and mirrors, if this cameraman traces rays. `speed_of_light`: metres per second.
@@ -88,6 +90,17 @@ impl<'gpu> Cameraman<'gpu> {
             self.maker = Maker::Traced(Box::new(tracer));
         }
         self
+    }
+
+    /// Looks at the photo-surface from outside.
+    #[must_use]
+    pub fn with_outside(self, outside: Option<OutsideView>) -> Self {
+        Self { outside, ..self }
+    }
+
+    fn shot(&self, gaze: &Gaze) -> Shot {
+        let shot = gaze.shot(self.fov_deg, self.options.effects);
+        self.outside.map_or(shot, |outside| shot.from_outside(&outside))
     }
 
     /// Takes one picture and writes it as PNG.
@@ -109,7 +122,7 @@ impl<'gpu> Cameraman<'gpu> {
     /// A lost device, or a place that cannot be written.
     pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
         let pending = self.submit(&gaze)?;
-        let shot = gaze.shot(self.fov_deg, self.options.effects);
+        let shot = self.shot(&gaze);
         let light = match &mut self.maker {
             Maker::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot, pending)?,
             Maker::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
@@ -180,7 +193,7 @@ impl<'gpu> Cameraman<'gpu> {
     /// off.
     fn tell_of_quality(&self, gaze: &Gaze) {
         let Maker::Drawn(renderer) = &self.maker else { return };
-        let shot = gaze.shot(self.fov_deg, self.options.effects);
+        let shot = self.shot(gaze);
         let certainty = renderer.certainty(&shot, self.options.size);
         if certainty.error_px() > 1.0 {
             tell(certainty.sentence());
@@ -218,7 +231,7 @@ impl<'gpu> Cameraman<'gpu> {
     }
 
     fn take(&mut self, gaze: &Gaze, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
-        let shot = gaze.shot(self.fov_deg, self.options.effects);
+        let shot = self.shot(gaze);
         let development = self.options.development();
         Ok(match &mut self.maker {
             Maker::Drawn(renderer) => {

@@ -42,7 +42,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let World { scene, speed_of_light_m_s: speed_of_light } = scenes::load(&options.world)?;
     let start = scene.start;
     let camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light);
+    let mut camera = camera.with_rays(&options.rays, speed_of_light).with_outside(options.outside);
     match &options.out {
         Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0), path),
         Output::Light(path) => camera.light(inertial(&options.viewpoint, start, 0.0), path),
@@ -64,7 +64,7 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result
     let rate = options.frames_per_second();
     let Ridden { scene, speed_of_light, reel } = reel::reel(recording, &options.world, rate, options.seconds)?;
     let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light);
+    let mut camera = camera.with_rays(&options.rays, speed_of_light).with_outside(options.outside);
     match &options.out {
         Output::Picture(path) => camera.still(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
         Output::Light(path) => camera.light(reel.last().ok_or(Error::NothingRidden)?.gaze, path),

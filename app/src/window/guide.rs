@@ -56,7 +56,7 @@ impl Guide {
         self.diagram.follow(&self.trail);
         let half = 0.5 * presentation.fov_deg.to_radians();
         self.miniature.field_of_view_rad = 2.0 * (half.tan() * aspect).atan();
-        self.miniature.aberration = presentation.effects.geometry;
+        self.miniature.aberration = presentation.effects.bend();
         self.miniature.follow(&self.trail, self.plan.as_ref().map(|plan| plan.area));
     }
 

@@ -13,6 +13,7 @@ use physics::{Boost, Celerity, Event, Observer};
 use scene::motion::{Motion, Uniform};
 use scene::{Alpha, Mesh, Scene};
 use std::sync::Arc;
+use view::Places;
 
 /// Distance from a surface at which a turned ray begins, relative to its coordinates. It is beyond the rounding error
 /// of a place on the surface.
@@ -55,9 +56,9 @@ impl Bodies {
         Self { bodies, casters, clear_glass: false }
     }
 
-    /// Observer in the frames of all bodies. `geometry` is true if light takes its time.
-    pub fn observer(&self, scene: &Scene, observer: &Observer, geometry: bool) -> ObserverInBodies {
-        ObserverInBodies::new(scene, self.bodies.iter().map(|body| body.motion), observer, geometry)
+    /// Observer in the frames of all bodies.
+    pub fn observer(&self, scene: &Scene, observer: &Observer, places: Places) -> ObserverInBodies {
+        ObserverInBodies::new(scene, self.bodies.iter().map(|body| body.motion), observer, places)
     }
 
     /// First hit in a direction, beyond the given distance in each body's frame, among the hits for which `is_there`
@@ -73,7 +74,7 @@ impl Bodies {
         for (index, ((body, own), &after)) in self.bodies.iter().zip(observer.bodies()).zip(beyond).enumerate() {
             let line = own.line(seen);
             let found = match (&body.swept, &own.delay) {
-                (Some(swept), LightDelay::Travel(_)) => {
+                (Some(swept), LightDelay::Travel(_) | LightDelay::Present(_)) => {
                     swept.first(&body.tree, &observer.observer, &line, after, &is_there)
                 }
                 _ => {
@@ -86,7 +87,7 @@ impl Bodies {
             let Some((hit, doppler)) = found else { continue };
             let apparent = hit.distance * line.apparent;
             if first.as_ref().is_none_or(|first| apparent < first.apparent) {
-                first = Some(FirstHit { hit, doppler, body: index, apparent });
+                first = Some(FirstHit { hit, doppler, body: index, apparent, time: line.time });
             }
         }
         first
@@ -118,13 +119,13 @@ impl Bodies {
 
     /// Emission of the light that is seen as `found`.
     ///
-    /// *Equation:* by the body's own clock it is earlier by the length of the way. If light takes no time, it is when
-    /// the world's clock shows the observer's time: t' = t/γ − β·x'.
+    /// *Equation:* by the body's own clock it is earlier by the length of the way; at the observer's present it is
+    /// later by u·x'. If light takes no time, it is when the world's clock shows the observer's time: t' = t/γ − β·x'.
     pub fn emission(&self, scene: &Scene, observer: &ObserverInBodies, found: &FirstHit) -> Emission {
         let own = &observer.bodies()[found.body];
         let world_ct = observer.world_ct();
         let ct = match (&own.delay, self.uniform(scene, found.body)) {
-            (LightDelay::Travel(_), _) => own.ct - found.hit.distance,
+            (LightDelay::Travel(_) | LightDelay::Present(_), _) => own.ct + found.time * found.hit.distance,
             (LightDelay::PoseNow { .. }, _) => own.ct,
             (LightDelay::MomentNow { .. }, None) => world_ct,
             (LightDelay::MomentNow { .. }, Some(Uniform { celerity, anchor })) => {
@@ -169,14 +170,16 @@ impl Bodies {
     /// rests on the surface at the event at which the light left it. That event and the surface's celerity define this
     /// observer, and the light it sees comes with one more Doppler factor. In the frame of its own body, the observer
     /// is placed exactly where the ray met the surface, to the last bit.
-    pub fn onward(&self, scene: &Scene, turn: &Turn, geometry: bool) -> (ObserverInBodies, DVec3, Vec<f64>) {
+    ///
+    /// What is measured is shown by no light, so nothing turns it.
+    pub fn onward(&self, scene: &Scene, turn: &Turn, places: Places) -> (ObserverInBodies, DVec3, Vec<f64>) {
         let body = turn.emission.body;
         let on_surface = self.in_world(scene, turn.emission, turn.position);
-        let mut observer = self.observer(scene, &on_surface, geometry);
+        let mut observer = self.observer(scene, &on_surface, places);
         let mut start = observer.start();
         start[body] = skin(turn.position);
         let mut seen = turn.direction;
-        if geometry {
+        if places == Places::Seen {
             observer.place_at_rest(body, turn.position, turn.emission.ct);
         } else {
             // At one moment of the world the body is contracted along its motion.

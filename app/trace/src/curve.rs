@@ -1,12 +1,14 @@
-//! A ray of light, followed back through an animated body in the body's own frame.
+//! A ray, followed through an animated body in the body's own frame: of light back in time, or along the observer's
+//! present.
 //!
-//! The light that is seen now from the direction n was at o + n s when it had s metres still to travel. The body then
-//! stood as its keys say. In the body's frame, where its triangles rest, the light's path is a curve, y(s) = M(ct −
-//! s)⁻¹ (o + n s), y' = M⁻¹ (n + β(y)). The curve is followed only inside a ball around the body. Outside, steps are
-//! bounded by the gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less
-//! than the margin of the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved
-//! for on the curve itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the
-//! keys.
+//! The light that is seen now from the direction n was at o + n s when it had s metres still to travel; the place at
+//! o + n s of the observer's present has the time ct + k s (`time` metres for each of s). Time and places are those of
+//! the frame in which the body's chain begins. The body then stood as its keys say. In the body's frame, where its
+//! triangles rest, the path is a curve, y(s) = M(ct + k s)⁻¹ (o + n s), y' = M⁻¹ (n − k β(y)), with k = −1 for light and
+//! |k| < 1 for the present. The curve is followed only inside a ball around the body. Outside, steps are bounded by the
+//! gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less than the margin of
+//! the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved for on the curve
+//! itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the keys.
 
 use glam::{DMat3, DVec3};
 use physics::Observer;
@@ -30,10 +32,12 @@ const CROSSING: Newton = Newton { tolerance: 4.0 * f64::EPSILON, most_steps: 100
 /// Path of one ray in the frame of a body.
 pub struct Curve<'a> {
     pub animated: &'a Animated,
-    /// Observer that sees the light, in the frame in which the body's chain begins; s = 0 is here.
+    /// Observer from whom the ray is followed, in the frame in which the body's chain begins; s = 0 is here.
     pub observer: &'a Observer,
-    /// Direction of sight, unit vector, axes of that frame.
+    /// Direction of the ray, unit vector, axes of that frame.
     pub direction: DVec3,
+    /// Time of that frame for each metre of the ray, k; −1 for light.
+    pub time: f64,
 }
 
 /// A piece of a curve, and the chord that stands for it.
@@ -45,18 +49,23 @@ pub struct CurveChord {
 }
 
 impl Curve<'_> {
+    /// Time at s, of the frame in which the body's chain begins, metres.
+    pub fn ct(&self, s: f64) -> f64 {
+        self.observer.event.ct + self.time * s
+    }
+
     /// Place y and its derivative y'.
     pub fn at(&self, s: f64) -> (DVec3, DVec3) {
-        let pose = self.animated.in_carrier(self.observer.event.ct - s);
+        let pose = self.animated.in_carrier(self.ct(s));
         let body_from_world: DMat3 = pose.world_from_body.matrix3.inverse();
         let light = self.observer.event.position + self.direction * s - pose.world_from_body.translation;
         let place = body_from_world * light;
-        (place, body_from_world * (self.direction + pose.beta(place)))
+        (place, body_from_world * (self.direction - self.time * pose.beta(place)))
     }
 
-    /// Distance of the light from the middle of a ball of the body, metres.
+    /// Distance of the ray from the middle of a ball of the body, metres.
     fn distance(&self, ball: &Ball, s: f64) -> f64 {
-        let centre = self.animated.in_carrier(self.observer.event.ct - s).position(ball.centre);
+        let centre = self.animated.in_carrier(self.ct(s)).position(ball.centre);
         centre.distance(self.observer.event.position + self.direction * s)
     }
 

@@ -40,6 +40,8 @@ pub struct FirstHit {
     pub body: usize,
     /// Apparent distance, metres in the observer's frame.
     pub apparent: f64,
+    /// Metres of the body's time for each metre of the ray: −1 for light that is followed back.
+    pub time: f64,
 }
 
 /// Place in the scene that a pixel shows.

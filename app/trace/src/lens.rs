@@ -11,7 +11,7 @@
 use glam::{DVec2, DVec3};
 use physics::{Boost, FourVector, Observer};
 use std::f64::consts::TAU;
-use view::Shot;
+use view::{Places, Shot};
 
 /// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +64,7 @@ impl Optics {
             ahead = ahead * lens.focus_m - eye;
             place = shot.camera.observer_from_eye * eye;
         }
-        let gone = if shot.effects.geometry {
+        let gone = if shot.effects.places != Places::Instant {
             let world_from_observer = Boost::observer_from_world(observer.celerity).inverse();
             world_from_observer.apply(FourVector { t: tau, r: place })
         } else {

@@ -103,10 +103,13 @@ impl LightShifts {
         for (weights, carrier) in sent.all().filter(|(weights, _)| *weights != DVec3::ZERO) {
             let unshifted = self.at_rest[carrier] * weights;
             at_rest += unshifted;
-            colour +=
-                if effects.doppler && doppler != 1.0 { self.shift(carrier, doppler) * weights } else { unshifted };
+            colour += if effects.shift_colour() && doppler != 1.0 {
+                self.shift(carrier, doppler) * weights
+            } else {
+                unshifted
+            };
         }
-        let brighter = if effects.searchlight { doppler.powi(4) } else { 1.0 };
+        let brighter = if effects.brighten() { doppler.powi(4) } else { 1.0 };
         ObservedLight { light: colour * brighter, at_rest: luminance(at_rest) / self.white }
     }
 

@@ -2,12 +2,13 @@
 //!
 //! The observer's event and celerity are taken to each body's frame once for each picture, a pixel's direction once
 //! for each ray. In that frame the body rests, so light travels there along a straight line. Animated bodies rest in
-//! no frame: their rays are followed in the world.
+//! no frame: their rays are followed in the frame in which their chain begins.
 
 use glam::{DMat3, DQuat, DVec3};
-use physics::{Aberration, Boost, Celerity, FourVector, Observer};
+use physics::{Aberration, Boost, Celerity, Contraction, FourVector, Observer};
 use scene::Scene;
 use scene::motion::{Animated, Motion, SeenBy};
+use view::Places;
 
 /// Observer in the frames of all bodies.
 pub struct ObserverInBodies {
@@ -33,6 +34,8 @@ pub struct ObserverInBody {
 pub enum LightDelay {
     /// Light takes its time.
     Travel(Aberration),
+    /// No light: everything is where it is at the observer's present. A ray is a line of that present.
+    Present(Contraction),
     /// Light takes no time. An animated body is in the pose of that moment, and all of it moves like its middle.
     PoseNow { observer: Aberration, object: Aberration, body_from_world: DMat3 },
     /// Light takes no time. The observer sees the world at one moment, with the light shifted nevertheless.
@@ -47,25 +50,34 @@ pub struct SightLine {
     pub doppler: f64,
     /// Apparent metres for each metre of the ray.
     pub apparent: f64,
+    /// Metres of time, in the body's frame (for animated bodies, in that in which their chain begins), for each metre of
+    /// the ray: −1 for light that is followed back.
+    pub time: f64,
 }
 
 impl SightLine {
-    /// Line along a vector of the body's frame that stands for one apparent metre.
-    fn stretched(vector: DVec3, doppler: f64) -> Self {
+    /// True if light comes along the line. One of an observer's present is spacelike.
+    pub fn is_of_light(&self) -> bool {
+        self.time <= -1.0
+    }
+
+    /// Line along a vector of the body's frame that stands for one apparent metre, and `time` metres of that frame's
+    /// time.
+    fn stretched(vector: DVec3, time: f64, doppler: f64) -> Self {
         let length = vector.length();
-        Self { direction: vector / length, doppler, apparent: 1.0 / length }
+        Self { direction: vector / length, doppler, apparent: 1.0 / length, time: time / length }
     }
 }
 
 impl ObserverInBodies {
-    /// Takes an observer to the frames of bodies with these motions. `geometry` is true if light takes its time.
+    /// Takes an observer to the frames of bodies with these motions.
     pub fn new(
         scene: &Scene,
         motions: impl Iterator<Item = Option<usize>>,
         observer: &Observer,
-        geometry: bool,
+        places: Places,
     ) -> Self {
-        let in_body = |motion| ObserverInBody::new(scene, observer, geometry, motion);
+        let in_body = |motion| ObserverInBody::new(scene, observer, places, motion);
         Self { observer: *observer, bodies: motions.map(in_body).collect(), world: in_body(None) }
     }
 
@@ -98,7 +110,7 @@ impl ObserverInBodies {
 }
 
 impl ObserverInBody {
-    fn new(scene: &Scene, observer: &Observer, geometry: bool, motion: Option<usize>) -> Self {
+    fn new(scene: &Scene, observer: &Observer, places: Places, motion: Option<usize>) -> Self {
         let rest = SeenBy {
             position: observer.event.position,
             celerity: observer.celerity,
@@ -107,17 +119,19 @@ impl ObserverInBody {
         let uniform = match motion.map(|motion| &scene.motions[motion]) {
             None => None,
             Some(Motion::Uniform(uniform)) => Some(*uniform),
-            Some(Motion::Animated(animated)) => return Self::of_animated(observer, geometry, animated),
+            Some(Motion::Animated(animated)) => return Self::of_animated(observer, places, animated),
         };
         let seen_by = uniform.map_or(rest, |uniform| uniform.seen_by(observer));
-        let delay = if geometry {
-            LightDelay::Travel(Aberration::new(seen_by.celerity))
-        } else {
-            let celerity = uniform.map_or(Celerity::ZERO, |uniform| uniform.celerity);
-            LightDelay::MomentNow {
-                observer: Aberration::new(observer.celerity),
-                object: Aberration::new(celerity),
-                object_from_world: Boost::observer_from_world(celerity),
+        let delay = match places {
+            Places::Seen => LightDelay::Travel(Aberration::new(seen_by.celerity)),
+            Places::Measured => LightDelay::Present(Contraction::new(seen_by.celerity)),
+            Places::Instant => {
+                let celerity = uniform.map_or(Celerity::ZERO, |uniform| uniform.celerity);
+                LightDelay::MomentNow {
+                    observer: Aberration::new(observer.celerity),
+                    object: Aberration::new(celerity),
+                    object_from_world: Boost::observer_from_world(celerity),
+                }
             }
         };
         let group_from_observer = seen_by.observer_from_group.conjugate();
@@ -128,20 +142,24 @@ impl ObserverInBody {
         Self { position: seen_by.position - scene.origin, ct, group_from_observer, delay }
     }
 
-    /// Observer for an animated body. Light is followed in the frame in which its chain begins; if light takes no time,
-    /// the body is in one pose.
-    fn of_animated(observer: &Observer, geometry: bool, animated: &Animated) -> Self {
+    /// Observer for an animated body. Light, or the observer's present, is followed in the frame in which its chain
+    /// begins; if light takes no time, the body is in one pose.
+    fn of_animated(observer: &Observer, places: Places, animated: &Animated) -> Self {
         let own = animated.own_observer(observer);
         let ct = own.event.ct;
-        if geometry {
+        let followed = match places {
+            Places::Seen => Some(LightDelay::Travel(Aberration::new(own.celerity))),
+            Places::Measured => Some(LightDelay::Present(Contraction::new(own.celerity))),
+            Places::Instant => None,
+        };
+        if let Some(delay) = followed {
             let turn =
                 animated.carrier().map_or(DQuat::IDENTITY, |carrier| carrier.seen_by(observer).observer_from_group);
-            let delay = LightDelay::Travel(Aberration::new(own.celerity));
             return Self { position: own.event.position, ct, group_from_observer: turn.conjugate(), delay };
         }
         let (position, group_from_observer) = (observer.event.position, DQuat::IDENTITY);
         let of_observer = Aberration::new(observer.celerity);
-        let pose = animated.as_seen(observer, false);
+        let pose = animated.as_shown(observer, places);
         let body_from_world = pose.world_from_body.inverse();
         let object = Aberration::new(animated.celerity(&pose));
         let delay = LightDelay::PoseNow { observer: of_observer, object, body_from_world: body_from_world.matrix3 };
@@ -153,15 +171,20 @@ impl ObserverInBody {
         match &self.delay {
             LightDelay::Travel(aberration) => {
                 let (direction, doppler) = aberration.world_from_observer(self.group_from_observer * seen);
-                SightLine { direction, doppler, apparent: doppler }
+                SightLine { direction, doppler, apparent: doppler, time: -1.0 }
+            }
+            LightDelay::Present(contraction) => {
+                let seen = self.group_from_observer * seen;
+                SightLine::stretched(contraction.world_from_observer(seen), contraction.world_time(seen), 1.0)
             }
             LightDelay::MomentNow { observer, object, object_from_world } => {
                 let doppler = observer.observer_from_world(seen).1 / object.observer_from_world(seen).1;
-                SightLine::stretched(object_from_world.apply(FourVector { t: 0.0, r: seen }).r, doppler)
+                let FourVector { t, r } = object_from_world.apply(FourVector { t: 0.0, r: seen });
+                SightLine::stretched(r, t, doppler)
             }
             LightDelay::PoseNow { observer, object, body_from_world } => {
                 let doppler = observer.observer_from_world(seen).1 / object.observer_from_world(seen).1;
-                SightLine::stretched(*body_from_world * seen, doppler)
+                SightLine::stretched(*body_from_world * seen, 0.0, doppler)
             }
         }
     }

@@ -16,7 +16,7 @@ use scene::Scene;
 use scene::carriers::SceneCarriers;
 use scene::irradiance::Irradiance;
 use std::sync::Arc;
-use view::Effects;
+use view::{Effects, Places};
 
 /// Smallest share of a ray's light that is followed.
 const HIDDEN: f64 = 1e-4;
@@ -80,10 +80,10 @@ impl LitScene {
         !self.surfaces.scene.motions.is_empty()
     }
 
-    /// Observer in the frames of all bodies. `geometry` is true if light takes its time.
-    pub fn observer(&self, observer: &Observer, geometry: bool) -> LitObserver {
-        let bodies = self.bodies.observer(&self.surfaces.scene, observer, geometry);
-        LitObserver { bodies, irradiances: self.surfaces.irradiances(observer, geometry) }
+    /// Observer in the frames of all bodies.
+    pub fn observer(&self, observer: &Observer, places: Places) -> LitObserver {
+        let bodies = self.bodies.observer(&self.surfaces.scene, observer, places);
+        LitObserver { bodies, irradiances: self.surfaces.irradiances(observer, places) }
     }
 
     /// Place in the scene that is seen in a direction; `None` if no surface is there.
@@ -134,7 +134,9 @@ impl LitScene {
         let state = LegState { doppler: leg.state.doppler * found.doppler, ..leg.state };
         let emission = self.bodies.emission(scene, observer, found);
         let (opacity, sent) = self.surfaces.light(&found.hit, emission, irradiances, &self.bodies, &self.light);
-        let finish = if state.bounces > 0 { self.surfaces.finish(&found.hit) } else { None };
+        // No light brings what is measured, so nothing turns it.
+        let turns = state.bounces > 0 && state.effects.places != Places::Measured;
+        let finish = if turns { self.surfaces.finish(&found.hit) } else { None };
         let Some(finish) = finish else {
             let sent = sent.dimmed(1.0, state.filter);
             return (opacity, DVec3::ZERO, self.light.observed(&sent, state.effects, state.doppler));
@@ -168,9 +170,9 @@ impl LitScene {
         if state.filter.max_element() <= HIDDEN {
             return ObservedLight::default();
         }
-        let geometry = state.effects.geometry;
-        let (bodies, seen, start) = self.bodies.onward(&self.surfaces.scene, &turn, geometry);
-        let irradiances = self.surfaces.irradiances(&bodies.observer, geometry);
+        let places = state.effects.places;
+        let (bodies, seen, start) = self.bodies.onward(&self.surfaces.scene, &turn, places);
+        let irradiances = self.surfaces.irradiances(&bodies.observer, places);
         self.along(Leg { observer: &LitObserver { bodies, irradiances }, seen, start, state })
     }
 
@@ -183,12 +185,12 @@ impl LitScene {
                 return sum + self.onward(turn, state);
             };
             turn.position = hit.position;
-            if state.effects.geometry {
+            if state.effects.bend() {
                 turn.emission.ct -= index * hit.distance;
             }
             if self.surfaces.finish(&hit).is_none_or(|finish| !finish.solid) {
                 let observer = self.bodies.in_world(&self.surfaces.scene, turn.emission, turn.position);
-                let irradiances = self.surfaces.irradiances(&observer, state.effects.geometry);
+                let irradiances = self.surfaces.irradiances(&observer, state.effects.places);
                 let (_, sent) = self.surfaces.light(&hit, turn.emission, &irradiances, &self.bodies, &self.light);
                 let sent = sent.dimmed(1.0, state.filter);
                 return sum + self.light.observed(&sent, state.effects, state.doppler);

@@ -18,6 +18,7 @@ use scene::motion::Motion;
 use scene::{Alpha, Lamp, Lamplight, Lighting, Mesh, Panorama, Scene, Texture, Wrap};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use view::Places;
 
 /// Light that a scene's surfaces and its sky emit.
 pub struct LitSurfaces {
@@ -52,12 +53,12 @@ impl LitSurfaces {
         }
     }
 
-    /// Irradiance of each of the scene's motions, as an observer sees it. `geometry` is true if light takes its time.
-    pub fn irradiances(&self, observer: &Observer, geometry: bool) -> Vec<Irradiance> {
+    /// Irradiance of each of the scene's motions, as it is shown to an observer.
+    pub fn irradiances(&self, observer: &Observer, places: Places) -> Vec<Irradiance> {
         let sky = &self.carriers.carriers[self.carriers.sky];
         let irradiance = |(motion, irradiance): (&Motion, &Irradiance)| match motion {
             Motion::Uniform(_) => *irradiance,
-            Motion::Animated(animated) => Irradiance::on_animated(&self.scene.light, animated, observer, geometry, sky),
+            Motion::Animated(animated) => Irradiance::on_animated(&self.scene.light, animated, observer, places, sky),
         };
         self.scene.motions.iter().zip(&self.irradiance.1).map(irradiance).collect()
     }

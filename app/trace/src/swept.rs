@@ -70,7 +70,7 @@ impl Swept {
         is_there: impl Fn(&RayHit) -> bool,
     ) -> Option<(RayHit, f64)> {
         let observer = &self.animated.own_observer(observer);
-        let curve = Curve { animated: &self.animated, observer, direction: line.direction };
+        let curve = Curve { animated: &self.animated, observer, direction: line.direction, time: line.time };
         let hit = curve.first(after, &self.ball, self.world_radius, &self.reach, |chord| {
             let [from, to] = chord.ends;
             let [first, last] = chord.span;
@@ -82,8 +82,12 @@ impl Swept {
             let direction = (to - from).try_normalize()?;
             tree.nearest(from, direction, meet, |hit| ((hit.distance - first) * share).max(0.0))
         })?;
-        let sent = self.own_celerity(observer.event.ct - hit.distance, hit.position);
-        let doppler = line.doppler / Aberration::new(sent).observer_from_world(line.direction).1;
+        let sent = self.own_celerity(curve.ct(hit.distance), hit.position);
+        let doppler = if line.is_of_light() {
+            line.doppler / Aberration::new(sent).observer_from_world(line.direction).1
+        } else {
+            1.0
+        };
         Some((hit, doppler))
     }
 }

@@ -99,7 +99,7 @@ impl RayTracer {
         finished: impl Fn() + Sync,
     ) -> Traced {
         let tiles = tiles(size);
-        let observer = self.scene.observer(&shot.observer, shot.effects.geometry);
+        let observer = self.scene.observer(&shot.observer, shot.effects.places);
         // The next free thread takes the next tile, so the order holds for any number of threads.
         let next = AtomicUsize::new(0);
         let traced: Vec<_> = tiles
@@ -137,7 +137,7 @@ impl RayTracer {
 
     /// Place in the scene that each pixel's centre shows, row by row; `None` for a pixel that shows no surface.
     pub fn places(&self, shot: &Shot, size: [u32; 2]) -> Vec<Option<TracedPlace>> {
-        let observer = self.scene.observer(&shot.observer, shot.effects.geometry);
+        let observer = self.scene.observer(&shot.observer, shot.effects.places);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
             let seen = (shot.camera.observer_from_eye * ahead(shot, size, *pixel, DVec2::ZERO)).normalize();
@@ -165,7 +165,7 @@ impl RayTracer {
                 sum += self.scene.seen(observer, seen, effects, bounces);
             } else {
                 let (observer, seen) = self.optics.look(shot, ahead, pixel, sample);
-                let observer = self.scene.observer(&observer, effects.geometry);
+                let observer = self.scene.observer(&observer, effects.places);
                 sum += self.scene.seen(&observer, seen, effects, bounces);
             }
         }

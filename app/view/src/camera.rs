@@ -96,14 +96,14 @@ impl Camera {
     }
 
     /// Doppler factor of light from the world at a place in a picture of the usual shape: −1 to 1 from left to right,
-    /// and from bottom to top.
-    pub fn doppler_at(&self, place: DVec2, motion: Celerity, geometry: bool) -> f64 {
+    /// and from bottom to top. `bends`: true if light takes its time.
+    pub fn doppler_at(&self, place: DVec2, motion: Celerity, bends: bool) -> f64 {
         const USUAL: [u32; 2] = [16, 10];
         let tangents = self.tangents(USUAL);
         let seen = self.observer_from_eye * (tangents.middle() + place * tangents.half()).extend(-1.0);
         let aberration = Aberration::new(motion);
         let (_, doppler) =
-            if geometry { aberration.world_from_observer(seen) } else { aberration.observer_from_world(seen) };
+            if bends { aberration.world_from_observer(seen) } else { aberration.observer_from_world(seen) };
         doppler
     }
 }

@@ -5,13 +5,15 @@
 mod camera;
 mod dial;
 mod effects;
+mod outside;
 mod sampling;
 mod shot;
 mod sides;
 
 pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
-pub use effects::{Effects, EffectsError};
+pub use effects::{Effects, EffectsError, Places};
+pub use outside::{Colouring, OutsideCamera, OutsideError, OutsideView};
 pub use sampling::{PixelSample, sample_offset};
 pub use shot::{EYE_HEIGHT_M, Gaze, Shot, Stored};
 pub use sides::Sides;

@@ -272,7 +272,7 @@ fn map_shift(sample: u32) -> DVec2 {
 
 /// True if two pictures of a scene in which nothing moves are the same: the time of the event does not matter.
 fn looks_alike(one: &Shot, other: &Shot) -> bool {
-    let same = |shot: &Shot| (shot.observer.event.position, shot.observer.celerity);
+    let same = |shot: &Shot| (shot.observer.event.position, shot.observer.celerity, shot.outside);
     same(one) == same(other)
         && (one.camera, one.effects, one.stored_scale) == (other.camera, other.effects, other.stored_scale)
 }

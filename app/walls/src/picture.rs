@@ -69,6 +69,7 @@ impl EyeContext<'_> {
             observer: self.eye.observer,
             effects: self.effects,
             stored_scale: None,
+            outside: None,
         }
     }
 }

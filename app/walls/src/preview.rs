@@ -16,7 +16,7 @@ use render::shader_view;
 use render::target::texture;
 use room::{Channel, EyeSide};
 use std::f64::consts::TAU;
-use view::{Camera, PixelSample};
+use view::{Camera, PixelSample, Places};
 use wgpu::util::DeviceExt;
 
 /// Number of cells along each side of the net of a channel whose screen is not flat.
@@ -78,7 +78,7 @@ impl RoomOnlooker {
 
     fn clip_from_room(&self, size: [u32; 2]) -> DMat4 {
         let camera = Camera::looking(self.towards_m - self.from_m, DVec3::Y, self.fov_degrees.to_radians());
-        let view = shader_view(&camera, size, PixelSample::WHOLE, Celerity::ZERO, false, 1.0);
+        let view = shader_view(&camera, size, PixelSample::WHOLE, Celerity::ZERO, Places::Instant, 1.0);
         view.clip_from_observer.as_dmat4() * DMat4::from_translation(-self.from_m)
     }
 }

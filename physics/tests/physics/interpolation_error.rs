@@ -3,7 +3,7 @@
 //! took F at the ball's middle only; and places ahead or astern outside the cone, if it took a cone about the middle's
 //! own direction.
 
-use exact_reference::random::{direction, seeded};
+use exact_reference::random::{direction, seeded, vector};
 use glam::DVec3;
 use physics::interpolation_error::TriangleInterpolation;
 use physics::{Celerity, Event, Observer, apparent};
@@ -78,6 +78,41 @@ fn no_place_of_a_triangle_errs_by_more_than_its_longest_edge_says() {
     }
     println!("{claimed} bounds, {astern} of them astern, the tightest reached to {tight:.3}");
     assert!(claimed > 100_000 && astern > 10_000 && tight > 0.5, "{claimed} bounds, {astern} astern, {tight} reached");
+}
+
+#[test]
+fn from_outside_too_no_place_of_a_triangle_errs_by_more_than_is_said() {
+    let mut random = seeded(23);
+    let (mut claimed, mut tight) = (0, 0.0_f64);
+    for round in 0..40_000 {
+        let celerity = super::support::celerity(&mut random, -1.0..1.2);
+        let observer = Observer { event: Event::default(), celerity };
+        let interpolation = TriangleInterpolation::new(celerity);
+        let middle = vector(&mut random, -0.5..0.7);
+        let size = middle.length() * 10.0_f64.powf(random.random_range(-2.5..-0.3));
+        let corners = [0; 3].map(|_| middle + size * vector(&mut random, -0.3..0.0));
+        let camera = if round % 3 == 0 { DVec3::ZERO } else { vector(&mut random, -0.5..1.2) };
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(a, b): (usize, usize)| (corners[a], corners[b]));
+        let (from, to) = edges.into_iter().max_by(|x, y| x.0.distance(x.1).total_cmp(&y.0.distance(y.1))).unwrap();
+        let bound = interpolation.bound_from(camera, 0.5 * (from + to), from.distance(to));
+        for (i, j) in [(0.33, 0.33), (0.5, 0.5), (0.5, 0.0), (0.1, 0.45)] {
+            let shares = [1.0 - i - j, i, j];
+            let place: DVec3 = corners.into_iter().zip(shares).map(|(corner, share)| corner * share).sum();
+            let apparent = |at| apparent::at_rest(&observer, at).position;
+            let drawn: DVec3 = corners.into_iter().zip(shares).map(|(corner, share)| apparent(corner) * share).sum();
+            let (seen, drawn) = (apparent(place) - camera, drawn - camera);
+            if bound.error_rad.is_finite() {
+                let error = angle(seen, drawn);
+                claimed += 1;
+                assert!(error <= bound.error_rad * (1.0 + ROUNDING) + ROUNDING, "{error} > {}", bound.error_rad);
+                tight = tight.max(error / (bound.error_rad + ROUNDING));
+                assert!(angle(seen, bound.cone.axis) <= bound.cone.radius_rad + 1e-6);
+            }
+        }
+    }
+    assert!(claimed > 40_000 && tight > 0.1, "{claimed} bounds, the tightest reached to {tight:.3}");
+    let at_rest = TriangleInterpolation::new(Celerity::ZERO);
+    assert_eq!(at_rest.bound_from(DVec3::X, DVec3::X, 1.0).error_rad, 0.0);
 }
 
 #[test]

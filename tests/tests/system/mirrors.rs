@@ -25,7 +25,7 @@ const LIGHT_TOLERANCE: f64 = 1e-5;
 /// Colours of the wall below and above its edge.
 const WALL: [[f32; 3]; 2] = [[0.5, 0.25, 0.125], [0.25, 0.5, 1.0]];
 
-const SEARCHLIGHT: Effects = Effects { geometry: true, doppler: false, searchlight: true };
+const SEARCHLIGHT: Effects = Effects { searchlight: true, ..Effects::GEOMETRY };
 
 /// Rectangle across z, from `low` to `high` in x and y. It faces +z or, if `back` is true, −z.
 fn rectangle(z: f32, low: [f32; 2], high: [f32; 2], back: bool, material: usize) -> Mesh {

@@ -18,7 +18,7 @@ use scene::{Material, Scene};
 use system_tests::colour::srgb_byte;
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, Photographer};
 use system_tests::view::{View, middle};
-use view::{Dial, Effects};
+use view::{Dial, Effects, Places};
 
 const SIZE: [u32; 2] = [96, 72];
 
@@ -124,12 +124,12 @@ fn each_effect_alone_has_its_share_of_d_to_the_fifth() {
         let mut check = |effects: Effects, expected: &dyn Fn(f64) -> DVec3| {
             let light = photographer.light(&view, DVec3::ZERO, at(0.8), effects);
             let what = format!("{name} with {effects}");
-            assert!(assert_light(&light, &view, at(0.8), effects.geometry, expected, &what) > 6000);
+            assert!(assert_light(&light, &view, at(0.8), effects.bend(), expected, &what) > 6000);
         };
         check(Effects::GEOMETRY, &|_| spectrum.xyz(1.0));
         check(doppler, &|d| spectrum.xyz(d) / d.powi(4));
         check(searchlight, &|d| spectrum.xyz(1.0) * d.powi(4));
-        check(Effects { geometry: false, ..Effects::ALL }, &|d| spectrum.xyz(d));
+        check(Effects { places: Places::Instant, ..Effects::ALL }, &|d| spectrum.xyz(d));
         check(Effects::NONE, &|_| spectrum.xyz(1.0));
     }
 }

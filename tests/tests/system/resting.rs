@@ -31,7 +31,7 @@ fn shot(ct: f64) -> Shot {
         celerity: Beta::new(DVec3::NEG_Z * 0.6).unwrap().celerity(),
     };
     let camera = Camera::looking(DVec3::NEG_Z, DVec3::Y, 60.0_f64.to_radians());
-    Shot { camera, observer, effects: Effects::ALL, stored_scale: None }
+    Shot { camera, observer, effects: Effects::ALL, stored_scale: None, outside: None }
 }
 
 /// Picture and its renderer, in the way in which a window draws the lattice.

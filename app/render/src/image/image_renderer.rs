@@ -39,6 +39,10 @@ impl Method for ImageRenderer {
         Axes::Observer
     }
 
+    fn maps(&self) -> bool {
+        true
+    }
+
     fn prepare_eye(&mut self, gpu: &Gpu, _world: &mut World, shots: &[(Shot, [u32; 2])]) {
         if let Some(moving) = &mut self.moving {
             moving.cut(gpu, shots);

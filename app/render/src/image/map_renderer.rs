@@ -194,6 +194,7 @@ impl MapRenderer {
                 mode,
                 format,
                 sights: &sights,
+                outside: None,
                 pixels: plan.texels(),
                 further_carrier: (layer > 0).then_some(layer as usize),
                 sky: true,

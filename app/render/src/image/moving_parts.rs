@@ -37,7 +37,7 @@ impl MovingParts {
     /// Cuts the moving part for all pictures of one eye, and computes the light that falls on it then.
     pub fn cut(&mut self, gpu: &Gpu, shots: &[(Shot, [u32; 2])]) {
         let Some((shot, _)) = shots.first() else { return };
-        self.world.light_animated(gpu, &shot.observer, shot.effects.geometry);
+        self.world.light_animated(gpu, &shot.observer, shot.effects.places);
         self.adaptive.cut(gpu, &mut self.world, shots);
     }
 
@@ -69,6 +69,7 @@ impl MovingParts {
             mode: sample.mode(),
             format: sample.format,
             sights: sample.sights,
+            outside: None,
             pixels: sample.pixels(),
             further_carrier: None,
             sky: false,

@@ -12,11 +12,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded};
-use glam::{DVec3, Vec3};
-use rayon::prelude::*;
-
 use scene::Scene;
-use scene::cut::{Cut, CutFineness, CutVertex, CutViewpoint, SeenFrom};
+use scene::cut::{Cut, CutFineness, CutViewpoint, SeenFrom};
 use view::{Occasion, Shot};
 
 use crate::certainty::{Certainty, Edges, EdgesDrawn};
@@ -24,7 +21,9 @@ use crate::gpu::Gpu;
 use crate::method::{Method, Sample};
 use crate::moving_objects::Axes;
 use crate::stats::CutStats;
-use crate::world::{DrawList, World, hand_over, stream_count, stream_stride};
+use crate::world::{DrawList, World};
+
+use super::vertex_places::{place_streams, write_places};
 
 /// Largest number of triangles of a still.
 const STILL_TRIANGLES: usize = 8_000_000;
@@ -42,12 +41,6 @@ const RIDE_TURN_RAD: f64 = 0.15;
 /// Pause of the cutting thread after each cut, in durations of that cut. It leaves the processor to the threads that
 /// draw.
 const REST: u32 = 2;
-
-/// Number of vertices that a thread transforms at a time.
-const CHUNK: usize = 4096;
-
-/// Number of vertices that are written to the device at a time.
-const PIECE: usize = 1 << 20;
 
 /// Accuracy and timing of a scene's cuts.
 #[derive(Clone, Copy, Debug)]
@@ -97,24 +90,23 @@ impl Adaptive {
     pub fn cut(&mut self, gpu: &Gpu, world: &mut World, shots: &[(Shot, [u32; 2])]) {
         let Some((first, _)) = shots.first() else { return };
         let pictures = shots.iter().map(|(shot, size)| (shot.camera, *size)).collect();
-        let viewpoint = CutViewpoint { observer: first.observer, pictures };
+        let viewpoint =
+            CutViewpoint { observer: first.observer, pictures, outside: first.outside.map(|outside| outside.place) };
         let made = match (&mut self.cutter, &self.shown) {
             (Some(cutter), Some(shown)) => cutter.follow(&viewpoint, &shown.cut),
             _ => Some(make(&self.scene, &viewpoint, self.tolerance, None)),
         };
         if let Some(Made { cut, list, stats }) = made {
             world.replace(gpu, &self.scene, &cut, list);
-            let streams = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("photo-surface of a cut"),
-                size: stream_count(&self.scene.motions) * stream_stride(cut.vertices),
-                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
+            let streams = place_streams(gpu, &self.scene, Some(&cut));
             let edges = Edges::of_cut(&self.scene, &cut);
             self.shown = Some(Shown { cut, stats, edges, streams });
         }
         if let Some(shown) = &self.shown {
-            write_apparent(gpu, &self.scene, &shown.cut, &viewpoint, &shown.streams);
+            let motions = std::iter::once(None).chain((0..self.scene.motions.len()).map(Some));
+            let sight = |motion| SeenFrom::new(&self.scene, &viewpoint.observer, motion);
+            let sights: Vec<SeenFrom> = motions.map(sight).collect();
+            write_places(gpu, &self.scene, Some(&shown.cut), &sights, &shown.streams);
         }
     }
 
@@ -154,6 +146,10 @@ impl Method for Adaptive {
         estimate(self.edges().unwrap_or(edges), EdgesDrawn::InFull)
     }
 
+    fn shown_cut(&self) -> Option<&Cut> {
+        self.shown.as_ref().map(|shown| shown.cut.as_ref())
+    }
+
     fn cut_stats(&self) -> Option<CutStats> {
         self.shown.as_ref().map(|shown| shown.stats)
     }
@@ -183,87 +179,6 @@ fn make(scene: &Scene, viewpoint: &CutViewpoint, tolerance: Tolerance, before: O
     let kept = cut.tolerance_px / fineness.tolerance_px * tolerance.pixels;
     let stats = CutStats { tolerance_px: kept, triangles: cut.triangles, duration: started.elapsed() };
     Made { cut: Arc::new(cut), list, stats }
-}
-
-/// Writes the apparent positions of a cut's vertices: x, y and z streams, and one of log2 D if anything is animated.
-/// Vertices without an apparent position are put at the eye.
-fn write_apparent(gpu: &Gpu, scene: &Scene, cut: &Cut, viewpoint: &CutViewpoint, buffer: &wgpu::Buffer) {
-    let stride = stream_stride(cut.vertices);
-    let motions = std::iter::once(None).chain((0..scene.motions.len()).map(Some));
-    let sights: Vec<SeenFrom> = motions.map(|motion| SeenFrom::new(scene, &viewpoint.observer, motion)).collect();
-    let count = stream_count(&scene.motions) as usize;
-    let mut piece = vec![0.0_f32; count * cut.vertices.min(PIECE)];
-    let mut parts = scene.meshes.iter().zip(&cut.meshes).flat_map(|(mesh, cut)| {
-        let sight = &sights[mesh.motion.map_or(0, |motion| 1 + motion)];
-        let own = mesh.positions.chunks(CHUNK).map(VertexRun::Own);
-        own.chain(cut.added.chunks(CHUNK).map(VertexRun::Added)).map(move |run| (sight, run))
-    });
-    let mut next = parts.next();
-    let mut first = 0;
-    while next.is_some() {
-        // Share as many vertices among the threads as there is room for.
-        let room = piece.len() / count;
-        let mut streams = piece.chunks_exact_mut(room);
-        let [mut x, mut y, mut z, mut log2_doppler] = [(); 4].map(|()| streams.next().unwrap_or_default());
-        let mut jobs = Vec::new();
-        let mut taken = 0;
-        while let Some((sight, run)) = next.take_if(|(_, run)| taken + run.len() <= room) {
-            let streams = [&mut x, &mut y, &mut z].map(|stream| stream.split_off_mut(..run.len()));
-            let log2_doppler = log2_doppler.split_off_mut(..run.len()).unwrap_or_default();
-            taken += run.len();
-            jobs.push((sight, run, streams, log2_doppler));
-            next = parts.next();
-        }
-        jobs.into_par_iter().for_each(|(sight, run, [x, y, z], log2_doppler)| {
-            let [Some(x), Some(y), Some(z)] = [x, y, z] else { return };
-            for index in 0..run.len() {
-                let place = run.place(index);
-                let seen = match &sight.body {
-                    None => sight.apparent(place),
-                    Some(body) => {
-                        let seen = body.seen(place);
-                        log2_doppler[index] = seen.map_or(0.0, |seen| seen.doppler.log2()) as f32;
-                        seen.map_or(DVec3::ZERO, |seen| seen.apparent)
-                    }
-                };
-                let seen = seen.as_vec3();
-                let seen = if seen.is_finite() { seen } else { Vec3::ZERO };
-                (x[index], y[index], z[index]) = (seen.x, seen.y, seen.z);
-            }
-        });
-        for (number, stream) in (0..).zip(piece.chunks_exact(room)) {
-            let offset = number * stride + 4 * first as u64;
-            gpu.queue.write_buffer(buffer, offset, bytemuck::cast_slice(&stream[..taken]));
-        }
-        first += taken;
-        if next.is_some() {
-            hand_over(gpu);
-        }
-    }
-}
-
-/// Successive vertices of a cut.
-enum VertexRun<'a> {
-    /// Vertices of the mesh.
-    Own(&'a [Vec3]),
-    /// Vertices that the cut added.
-    Added(&'a [CutVertex]),
-}
-
-impl VertexRun<'_> {
-    fn len(&self) -> usize {
-        match self {
-            Self::Own(positions) => positions.len(),
-            Self::Added(vertices) => vertices.len(),
-        }
-    }
-
-    fn place(&self, index: usize) -> DVec3 {
-        match self {
-            Self::Own(positions) => positions[index].as_dvec3(),
-            Self::Added(vertices) => vertices[index].place,
-        }
-    }
 }
 
 /// Thread that cuts while others draw, with its channels.

@@ -9,8 +9,10 @@
 
 mod adaptive;
 mod photo_surface;
+mod vertex_places;
 mod vertex_stage;
 
 pub use adaptive::Adaptive;
 pub use photo_surface::PhotoSurface;
+pub use vertex_places::{place_streams, write_places};
 pub use vertex_stage::VertexStage;

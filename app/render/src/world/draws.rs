@@ -6,6 +6,7 @@ use super::scene_world::World;
 use super::seen_draw::SeenDraw;
 use crate::gpu::Gpu;
 use crate::target::Format;
+use glam::DVec3;
 use scene::cut::SeenFrom;
 use std::ops::Range;
 use view::Sides;
@@ -29,6 +30,8 @@ pub struct Draws<'a> {
     /// Sight of the resting scene, as it is drawn, then of each motion, in the order of the views of each part. Without
     /// those of the motions, moving bodies are not drawn.
     pub sights: &'a [SeenFrom],
+    /// Place of the camera relative to the eye, observer's axes, metres, if it is not there.
+    pub outside: Option<DVec3>,
     /// Number of pixels of all parts.
     pub pixels: f64,
     /// Carrier of which weights are drawn, over the depth that a draw of another carrier has left: opaque surfaces
@@ -75,11 +78,11 @@ impl World {
         };
         let Some(pipelines) = self.pipelines.get(draws.mode, source, draws.format) else { return };
         let Some(geometry) = &self.geometry else { return };
-        let mut opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, source);
+        let mut opaque = SeenDraw::all(&geometry.list.opaque, draws.sights, draws.outside, source);
         if let Some(carrier) = draws.further_carrier {
             opaque.retain(|seen| self.spectra.materials[seen.draw.material] == carrier);
         }
-        let mut blended = SeenDraw::all(&geometry.list.blended, draws.sights, source);
+        let mut blended = SeenDraw::all(&geometry.list.blended, draws.sights, draws.outside, source);
         blended.sort_by(|a, b| b.distance.total_cmp(&a.distance));
         let opaque: Vec<_> = opaque.into_iter().map(|seen| SeenInParts::new(seen, parts)).collect();
         let blended: Vec<_> = blended.into_iter().map(|seen| SeenInParts::new(seen, parts)).collect();

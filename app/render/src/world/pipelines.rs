@@ -10,13 +10,15 @@ use crate::target::{DEPTH_FORMAT, Format};
 use scene::carriers::{SceneCarriers, WHITE};
 use scene::{Alpha, Material, Scene};
 use std::mem::{offset_of, size_of};
-use view::Effects;
+use view::{Colouring, Effects};
 
 /// Kind of values drawn of the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Light that an observer sees, with these effects.
     Light(Effects),
+    /// Photo-surface seen from outside, in these colours, for an observer with these effects.
+    Outside(Colouring, Effects),
     /// Weights of one carrier after another, for the image renderer's map.
     Weights,
     /// Places instead of light: the place in the scene of each pixel's surface, metres relative to the scene's
@@ -137,7 +139,11 @@ impl Pipelines {
         let depth = self.is_depth_first(mode, source, format).then(|| self.depths(gpu, source, format));
         let surface = self.surfaces(gpu, materials, mode, format, (false, source));
         let shifted = source == VertexSource::Streams
-            && matches!(mode, Mode::Light(effects) if effects.geometry && effects.shift_light());
+            && match mode {
+                Mode::Light(effects) => effects.bend() && effects.shift_light(),
+                Mode::Outside(..) => true,
+                Mode::Weights | Mode::Places => false,
+            };
         let animated = (self.animates && shifted).then(|| self.surfaces(gpu, materials, mode, format, (true, source)));
         let sky = Description {
             label: "sky",
@@ -209,10 +215,13 @@ impl Pipelines {
         if !animated {
             buffers[4] = None;
         }
-        let entry_points = match source {
+        let entry_points = match (source, mode) {
+            (VertexSource::Plain, _) => PLAIN,
+            (_, Mode::Outside(..)) => {
+                [["vertex_outside", "vertex_outside_animated"][usize::from(animated)], "fragment_outside"]
+            }
             _ if animated => ANIMATED,
-            VertexSource::Plain => PLAIN,
-            VertexSource::Streams | VertexSource::Bent => USUAL,
+            (VertexSource::Streams | VertexSource::Bent, _) => USUAL,
         };
         if source == VertexSource::Plain {
             buffers[..3].fill(None);
@@ -245,7 +254,11 @@ impl Pipelines {
                         vertex_constants: &[("BENDS", flag(source == VertexSource::Bent))],
                         constants: &[
                             look.constants(self.shadows).as_slice(),
-                            &[("ANIMATED", flag(animated)), ("TEXTURE_BIAS", texture_bias)],
+                            &[
+                                ("ANIMATED", flag(animated)),
+                                ("TEXTURE_BIAS", texture_bias),
+                                ("COLOURING", f64::from(mode.colouring())),
+                            ],
                             &mode.constants(look.identity, format),
                         ]
                         .concat(),
@@ -288,7 +301,7 @@ impl Mode {
     /// Override values of the shaders. `identity` is true if weights are linear sRGB at D = 1.
     fn constants(self, identity: bool, format: Format) -> Vec<Constant> {
         let effects = match self {
-            Self::Light(effects) => effects,
+            Self::Light(effects) | Self::Outside(_, effects) => effects,
             Self::Weights | Self::Places => Effects::NONE,
         };
         let map = [("MAP", flag(self == Self::Weights)), ("PLACES", flag(self == Self::Places))];
@@ -296,12 +309,23 @@ impl Mode {
     }
 }
 
+impl Mode {
+    /// Number of the colouring for `outside.wgsl`.
+    fn colouring(self) -> u32 {
+        match self {
+            Self::Outside(Colouring::Doppler, _) => shaders::OUTSIDE_DOPPLER,
+            Self::Outside(Colouring::Delay, _) => shaders::OUTSIDE_DELAY,
+            _ => shaders::OUTSIDE_LIGHT,
+        }
+    }
+}
+
 /// Override values of `shift.wgsl`, for targets of `format`.
 pub fn effect_constants(effects: Effects, identity: bool, format: Format) -> [Constant; 5] {
     [
-        ("GEOMETRY", flag(effects.geometry)),
-        ("DOPPLER", flag(effects.doppler)),
-        ("SEARCHLIGHT", flag(effects.searchlight)),
+        ("GEOMETRY", flag(effects.bend())),
+        ("DOPPLER", flag(effects.shift_colour())),
+        ("SEARCHLIGHT", flag(effects.brighten())),
         ("IDENTITY", flag(identity)),
         ("LARGEST", f64::from(format.largest())),
     ]
@@ -318,7 +342,7 @@ fn blending(mode: Mode) -> wgpu::BlendState {
         Mode::Weights => wgpu::BlendState::ALPHA_BLENDING,
         // Places must not be blended.
         Mode::Places => wgpu::BlendState::REPLACE,
-        Mode::Light(_) => wgpu::BlendState {
+        Mode::Light(_) | Mode::Outside(..) => wgpu::BlendState {
             alpha: wgpu::BlendComponent {
                 src_factor: wgpu::BlendFactor::Zero,
                 dst_factor: wgpu::BlendFactor::One,

@@ -19,6 +19,7 @@ use scene::motion::Animated;
 use scene::{Lighting, Scene, Texture};
 use std::cell::Cell;
 use std::sync::Arc;
+use view::Places;
 
 /// Number of views that one submission may draw at first. The buffer grows if more are needed.
 const VIEWS: u64 = 64;
@@ -130,6 +131,11 @@ impl World {
         self.draw_shadows(gpu);
     }
 
+    /// Replaces the triangles of a cut by those of the whole scene.
+    pub fn restore(&mut self, gpu: &Gpu, scene: &Scene) {
+        self.geometry = Some(Geometry::new(gpu, scene, self.own, None, DrawList::of(scene, None)));
+    }
+
     /// Uploads the whole scene, if nothing of it is there.
     pub fn complete(&mut self, gpu: &Gpu) {
         if let (None, Some(scene)) = (&self.geometry, &self.scene) {
@@ -145,9 +151,8 @@ impl World {
         }
     }
 
-    /// Writes the light that falls on animated bodies, for the pictures of the next submissions. `delayed` is true if
-    /// light takes its time.
-    pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, delayed: bool) {
+    /// Writes the light that falls on animated bodies, for the pictures of the next submissions.
+    pub fn light_animated(&self, gpu: &Gpu, observer: &Observer, places: Places) {
         let sky = &self.spectra.carriers[self.spectra.sky];
         // No shadow falls on what moves.
         let sun_direction = self.lit_at_rest.sun_direction.with_w(0.0);
@@ -155,7 +160,7 @@ impl World {
         for (animated, uniform) in self.animated.iter().zip(&self.lightings[1..]) {
             // Clockwork is luminous.
             let Some(animated) = animated.as_ref().filter(|body| !body.is_clockwork()) else { continue };
-            let falling = Irradiance::on_animated(&self.light, animated, observer, delayed, sky);
+            let falling = Irradiance::on_animated(&self.light, animated, observer, places, sky);
             gpu.queue.write_buffer(uniform, 0, bytes_of(&with_falling(&lighting, &falling)));
         }
     }
@@ -168,7 +173,7 @@ impl World {
             return Vec::new();
         }
         let unseen = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
-        self.animated.iter().flatten().map(|body| body.pose_seen(observer).unwrap_or(unseen)).collect()
+        self.animated.iter().flatten().map(|body| body.pose_shown(observer, Places::Seen).unwrap_or(unseen)).collect()
     }
 
     /// Layout of the bind group that holds view, light and spectra.

@@ -25,24 +25,30 @@ pub struct SeenDraw<'a> {
 
 impl<'a> SeenDraw<'a> {
     /// Draws as the sights of their motions show them; `sights` are of the resting scene, then of each motion. Draws
-    /// with a motion without a sight are left out.
-    pub fn all(draws: &'a [Draw], sights: &[SeenFrom], source: VertexSource) -> Vec<Self> {
-        draws.iter().filter_map(|draw| Self::new(draw, sights, source)).collect()
+    /// with a motion without a sight are left out. `outside`: place of the camera relative to the eye, observer's axes,
+    /// metres, if it is not there.
+    pub fn all(draws: &'a [Draw], sights: &[SeenFrom], outside: Option<DVec3>, source: VertexSource) -> Vec<Self> {
+        draws.iter().filter_map(|draw| Self::new(draw, sights, outside, source)).collect()
     }
 
-    fn new(draw: &'a Draw, sights: &[SeenFrom], source: VertexSource) -> Option<Self> {
+    fn new(draw: &'a Draw, sights: &[SeenFrom], outside: Option<DVec3>, source: VertexSource) -> Option<Self> {
         let sight = sights.get(draw.motion.map_or(0, |motion| 1 + motion))?;
         // Moving bodies are sorted by their apparent distance; resting ones by their own place, like everything in a
         // scene at rest.
         let distance = match draw.motion {
+            _ if outside.is_some() => sight.apparent(draw.centre).distance(outside.unwrap_or_default()),
             Some(_) => sight.apparent(draw.centre).length(),
             None => sight.towards(draw.centre).length(),
         };
-        // Keys move the corners of animated bodies, and in a plain picture moving bodies are where they are now.
+        // Keys move the corners of animated bodies, and in instant light moving bodies are where they are now.
         let resting = draw.motion.is_none() || sight.pose.is_some();
-        let known = sight.body.is_none() && (resting || source != VertexSource::Plain);
+        let instant = source == VertexSource::Plain && sight.contraction.is_none();
+        let known = sight.body.is_none() && (resting || !instant);
         let cone = |centre: DVec3, radius: f64| {
-            let cone = sight.bend.cone(sight.towards(centre), radius)?.turned(sight.observer_from_group);
+            let cone = match outside {
+                None => sight.cone(centre, radius)?,
+                Some(place) => sight.cone_from(place, centre, radius)?,
+            };
             Some(DirectionCone { radius_rad: cone.radius_rad + MARGIN_RAD, ..cone })
         };
         let groups = if known { draw.groups.as_slice() } else { &[] };
@@ -117,7 +123,7 @@ mod tests {
                 let (centre, radius) = (60.0 * random.next() * random.direction(), 8.0 * random.next() * random.next());
                 let group = Group { indices: 0..3, centre, radius };
                 let draw = Draw { material: 0, motion: None, indices: 0..3, centre: DVec3::ZERO, groups: vec![group] };
-                let seen = SeenDraw::all(std::slice::from_ref(&draw), &sights, VertexSource::Streams);
+                let seen = SeenDraw::all(std::slice::from_ref(&draw), &sights, None, VertexSource::Streams);
                 let drawn = !seen[0].ranges(&sides).is_empty();
                 // Whether a place of the ball is in the picture, by the exact formula and by the camera.
                 let tangents = camera.tangents(SIZE);

@@ -1,5 +1,6 @@
 //! Options of a cut: its accuracy, and the pictures that it is for.
 
+use glam::DVec3;
 use physics::Observer;
 use view::Camera;
 
@@ -21,11 +22,14 @@ pub struct CutViewpoint {
     pub observer: Observer,
     /// Camera and size in pixels of each picture.
     pub pictures: Vec<(Camera, [u32; 2])>,
+    /// Place of the cameras relative to the eye, observer's axes, metres, if they look at the photo-surface from
+    /// outside.
+    pub outside: Option<DVec3>,
 }
 
 impl CutViewpoint {
     /// Makes a viewpoint with one picture.
     pub fn new(observer: Observer, camera: Camera, size: [u32; 2]) -> Self {
-        Self { observer, pictures: vec![(camera, size)] }
+        Self { observer, pictures: vec![(camera, size)], outside: None }
     }
 }

@@ -86,6 +86,8 @@ struct CutRule<'a> {
     sights: Vec<SeenFrom>,
     /// Visible part of the sky, for each picture.
     skies: Vec<ShownSky>,
+    /// Place of the cameras relative to the eye, observer's axes, metres, if they are not there.
+    outside: Option<DVec3>,
     fineness: CutFineness,
     /// Smallest allowed error over all pictures, radians.
     least_allowed: f64,
@@ -110,6 +112,7 @@ impl<'a> CutRule<'a> {
             sights: (0..scene.motions.len()).map(Some).chain([None]).map(sight).collect(),
             least_allowed: skies.iter().map(|sky| sky.least_allowed(&fineness)).fold(f64::INFINITY, f64::min),
             skies,
+            outside: viewpoint.outside,
             fineness,
             unclaimed,
             unclaimed_cuts: AtomicUsize::new(0),
@@ -142,7 +145,10 @@ impl<'a> CutRule<'a> {
         if self.is_short(sight, seen.length(), length) {
             return None;
         }
-        let InterpolationBound { error_rad, cone } = sight.bend.bound(seen, length);
+        let InterpolationBound { error_rad, cone } = match self.outside {
+            None => sight.bend.bound(seen, length),
+            Some(place) => sight.bend.bound_from(sight.observer_from_group.inverse() * place, seen, length),
+        };
         let stays_unclaimed = || self.unclaimed == f64::INFINITY || length <= self.unclaimed * seen.length();
         if error_rad == 0.0 || error_rad == f64::INFINITY && stays_unclaimed() {
             return None;
@@ -158,6 +164,9 @@ impl<'a> CutRule<'a> {
     /// True if a quick bound shows that no edge is to be cut whose middle is at least this far and which is at most
     /// this long, metres. Most edges are so small beside their distance.
     fn is_short(&self, sight: &SeenFrom, distance: f64, length: f64) -> bool {
+        if self.outside.is_some() && !sight.bend.is_straight() {
+            return false;
+        }
         sight.body.is_none() && sight.bend.bound_anywhere(distance, length) <= self.least_allowed
     }
 
@@ -191,7 +200,8 @@ impl<'a> CutRule<'a> {
 
     /// True if an edge of an animated body is to be cut.
     fn is_cut(&self, body: &ObservedBody, known: &SeenCache, ends: [DVec3; 2]) -> bool {
-        let seen = |place| known.seen(body, place);
+        let from = self.outside.unwrap_or(DVec3::ZERO);
+        let seen = |place| known.seen(body, place).map(|seen| SeenPoint { apparent: seen.apparent - from, ..seen });
         let Some(chord) = EdgeChord::of(seen, ends, self.least_allowed) else { return false };
         let allowed = self.allowed(&chord.cone);
         let doppler = chord.error_log2_doppler / LOG2_DOPPLER * allowed;

@@ -1,8 +1,9 @@
-//! Views of a scene's parts: how an observer sees the resting scene, a uniformly moving frame or an animated body.
+//! Views of a scene's parts: how an observer sees or measures the resting scene, a uniformly moving frame or an
+//! animated body.
 
 use glam::{DAffine3, DQuat, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
-use physics::{Celerity, Observer};
+use physics::{Celerity, Contraction, DirectionCone, Observer};
 
 use crate::motion::{Motion, ObservedBody};
 use crate::scene::Scene;
@@ -19,6 +20,8 @@ pub struct SeenFrom {
     pub observer_from_group: DQuat,
     /// Animated body and its observer; `None` for resting and uniformly moving meshes.
     pub body: Option<ObservedBody>,
+    /// Contraction of what is measured at the observer's present; `None` for what is seen.
+    pub contraction: Option<Contraction>,
     /// Transform of the meshes' places to the frame of `place`, for bodies that are drawn in the pose in which they are
     /// seen; `None` for all others.
     pub pose: Option<DAffine3>,
@@ -37,6 +40,7 @@ impl SeenFrom {
             place: position - origin,
             observer_from_group: turn,
             body: None,
+            contraction: None,
             pose: None,
         };
         match motion.map(|motion| &motions[motion]) {
@@ -52,21 +56,64 @@ impl SeenFrom {
         }
     }
 
+    /// Measured part of a scene, from the scene's origin and its motions alone: everything at the observer's present.
+    pub fn measured(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
+        let celerity = match motion.map(|motion| &motions[motion]) {
+            Some(Motion::Uniform(uniform)) => uniform.seen_by(observer).celerity,
+            Some(Motion::Animated(_)) | None => observer.celerity,
+        };
+        Self { contraction: Some(Contraction::new(celerity)), ..Self::of(origin, motions, observer, motion) }
+    }
+
     /// Position of a mesh's place relative to the observer, metres, in the frame in which the mesh rests. For an
-    /// animated body: its retarded position in the world, or NaN if there is none.
+    /// animated body: its position in the world at the event that is shown, or NaN if there is none.
     pub fn towards(&self, place: DVec3) -> DVec3 {
         match &self.body {
             None => self.pose.map_or(place, |pose| pose.transform_point3(place)) - self.place,
             Some(body) => {
+                let shown = if self.contraction.is_some() { body.measured(place) } else { body.seen(place) };
                 let nowhere = DVec3::splat(f64::NAN);
-                body.seen(place).map_or(nowhere, |seen| seen.event.position - body.observer().event.position)
+                shown.map_or(nowhere, |shown| shown.event.position - body.observer().event.position)
             }
         }
     }
 
-    /// Apparent position of a mesh's place relative to the observer, observer's axes, metres; not finite if there is
-    /// none.
+    /// Apparent position of a mesh's place relative to the observer, or its measured one; observer's axes, metres; not
+    /// finite if there is none.
     pub fn apparent(&self, place: DVec3) -> DVec3 {
-        self.observer_from_group * self.bend.apparent(self.towards(place))
+        let towards = self.towards(place);
+        let in_group = match &self.contraction {
+            None => self.bend.apparent(towards),
+            Some(contraction) => contraction.observer_from_world(towards),
+        };
+        self.observer_from_group * in_group
     }
+
+    /// Cone in which a ball of a mesh's places is shown, observer's axes; `None` if the observer is in the ball or it
+    /// has no finite size. Not for animated bodies. `centre` and `radius`: metres.
+    pub fn cone(&self, centre: DVec3, radius: f64) -> Option<DirectionCone> {
+        let cone = match &self.contraction {
+            None => self.bend.cone(self.towards(centre), radius)?,
+            // Contraction makes nothing longer, so what is measured of a ball lies in a ball of that radius.
+            Some(contraction) => {
+                let middle = contraction.observer_from_world(self.towards(centre));
+                ball_cone(middle, radius)?
+            }
+        };
+        Some(cone.turned(self.observer_from_group))
+    }
+
+    /// Cone in which a ball of a mesh's places is shown to a camera at `place` relative to the eye, observer's axes,
+    /// metres; else as [`SeenFrom::cone`].
+    pub fn cone_from(&self, place: DVec3, centre: DVec3, radius: f64) -> Option<DirectionCone> {
+        let stretch = if self.contraction.is_some() { 1.0 } else { self.bend.stretch() };
+        ball_cone(self.apparent(centre) - place, stretch * radius)
+    }
+}
+
+/// Cone in which a ball lies; `None` if the ball holds the place from which it is looked at, or has no finite size.
+fn ball_cone(middle: DVec3, radius: f64) -> Option<DirectionCone> {
+    let distance = middle.length();
+    let share = radius / distance;
+    (share < 1.0).then(|| DirectionCone { axis: middle / distance, radius_rad: share.asin() })
 }

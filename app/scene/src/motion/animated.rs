@@ -132,7 +132,7 @@ impl Animated {
 
     /// Small, slow, luminous body that shows its side +z, as the hand of a clock on a wall.
     ///
-    /// A map of the world then holds it, in the pose that fits what is seen ([`Animated::pose_seen`]), so it costs next
+    /// A map of the world then holds it, in the pose that fits what is shown ([`Animated::pose_shown`]), so it costs next
     /// to nothing. What is left out there is the shift of its light by its own speed; other ways of
     /// drawing have it.
     pub fn as_clockwork(self) -> Self {

@@ -8,7 +8,9 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 use physics::interpolation_error::TriangleInterpolation;
 use physics::retarded::retarded;
-use physics::{Aberration, Beta, Celerity, Event, Observer};
+use physics::simultaneous::simultaneous;
+use physics::{Aberration, Beta, Celerity, Contraction, Event, Observer};
+use view::Places;
 
 use super::animated::{Animated, Ball, Pose};
 
@@ -21,12 +23,13 @@ pub struct ObservedBody {
     own: Observer,
     bend: TriangleInterpolation,
     aberration: Aberration,
+    contraction: Contraction,
 }
 
-/// Point of an animated body as the observer sees it.
+/// Point of an animated body as the observer sees or measures it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPoint {
-    /// Retarded event: the event in the world at which the light left the point.
+    /// Event of the point in the world that is shown: the one at which the light left it, if it is seen.
     pub event: Event,
     /// Apparent position relative to the observer, observer's axes, metres.
     pub apparent: DVec3,
@@ -44,6 +47,7 @@ impl ObservedBody {
             own,
             bend: TriangleInterpolation::new(observer.celerity),
             aberration: Aberration::new(own.celerity),
+            contraction: Contraction::new(observer.celerity),
         }
     }
 
@@ -62,6 +66,17 @@ impl ObservedBody {
         let event = self.animated.world_event(Event { ct: found.ct, position: found.position });
         let apparent = self.bend.apparent(event.position - self.observer.event.position);
         (apparent.is_finite() && doppler > 0.0).then_some(SeenPoint { event, apparent, doppler })
+    }
+
+    /// Place of a point at the observer's present, and its event there; D is 1, since no light brings it. `None` if the
+    /// worldline does not cross that present, which can happen to one faster than light.
+    ///
+    /// *Equation:* the event simultaneous for the observer ([`simultaneous`]), found in the frame in which the body's
+    /// chain begins; its place is that of a point that rests there in the world ([`Contraction`]).
+    pub fn measured(&self, place: DVec3) -> Option<SeenPoint> {
+        let event = self.animated.event_shown(&self.own, Places::Measured, place)?;
+        let apparent = self.contraction.observer_from_world(event.position - self.observer.event.position);
+        apparent.is_finite().then_some(SeenPoint { event, apparent, doppler: 1.0 })
     }
 
     /// Observer that sees the body.
@@ -84,25 +99,35 @@ impl Animated {
         self.carrier().map_or(own, |carrier| carrier.world_from_own(own))
     }
 
-    /// Pose of the body when its middle is seen (`delayed`), or at the observer's time.
-    pub fn as_seen(&self, observer: &Observer, delayed: bool) -> Pose {
-        let own = self.own_observer(observer).event;
-        let seen = if delayed { retarded(own, &self.point(self.ball.centre)).ok() } else { None };
-        let event = seen.map(|seen| self.world_event(Event { ct: seen.ct, position: seen.position }));
+    /// Event in the world at which a point of the body is seen or measured by an observer, who is given in the frame in
+    /// which the body's chain begins. `None` if there is none.
+    fn event_shown(&self, own: &Observer, places: Places, place: DVec3) -> Option<Event> {
+        let point = self.point(place);
+        let shown = match places {
+            Places::Seen => retarded(own.event, &point).ok().map(|seen| (seen.ct, seen.position)),
+            Places::Measured => simultaneous(own, &point).ok().map(|present| (present.ct, present.position)),
+            Places::Instant => None,
+        };
+        shown.map(|(ct, position)| self.world_event(Event { ct, position }))
+    }
+
+    /// Pose of the body at the event of its middle that is shown.
+    pub fn as_shown(&self, observer: &Observer, places: Places) -> Pose {
+        let event = self.event_shown(&self.own_observer(observer), places, self.ball.centre);
         self.at(event.map_or(observer.event.ct, |event| event.ct))
     }
 
-    /// Transform from the body to the places in the world at which an observer sees it, fitted to the middle of its ball
-    /// and to both ends of the ball along each axis. `None` if one of these is not seen.
+    /// Transform from the body to the places in the world at which it is shown to an observer, fitted to the middle of
+    /// its ball and to both ends of the ball along each axis. `None` if one of these is not shown.
     ///
     /// *Accuracy:* a body that turns is bent by the delays of its light; the fit halves what is left of that: half of β
     /// times the radius times the cosine between the body and the line of sight.
-    pub fn pose_seen(&self, observer: &Observer) -> Option<DAffine3> {
-        let own = self.own_observer(observer).event;
-        let place = |at: DVec3| {
-            let seen = retarded(own, &self.point(at)).ok()?;
-            Some(self.world_event(Event { ct: seen.ct, position: seen.position }).position)
-        };
+    pub fn pose_shown(&self, observer: &Observer, places: Places) -> Option<DAffine3> {
+        if places == Places::Instant {
+            return Some(self.at(observer.event.ct).world_from_body);
+        }
+        let own = self.own_observer(observer);
+        let place = |at: DVec3| self.event_shown(&own, places, at).map(|event| event.position);
         let Ball { centre, radius } = self.ball;
         let reach = radius.max(f64::MIN_POSITIVE);
         let middle = place(centre)?;
@@ -184,7 +209,7 @@ mod tests {
         let celerity = Beta::new(DVec3::Z * 0.9).unwrap().celerity();
         for ct in [20.0, 31.0, 77.7] {
             let observer = Observer { event: Event { ct, position: DVec3::new(9.0, 0.0, 3.0) }, celerity };
-            let (pose, body) = (hand.pose_seen(&observer).unwrap(), ObservedBody::new(&hand, &observer));
+            let (pose, body) = (hand.pose_shown(&observer, Places::Seen).unwrap(), ObservedBody::new(&hand, &observer));
             for place in [DVec3::ZERO, DVec3::Y * 0.3, DVec3::Y, DVec3::new(0.1, 0.6, 0.0)] {
                 let off = pose.transform_point3(place).distance(body.seen(place).unwrap().event.position);
                 assert!(off < 1e-2, "{off} m at {place}");

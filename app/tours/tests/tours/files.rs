@@ -59,7 +59,7 @@ pause = true
     assert_eq!((position.to_array(), look.to_array()), ([1.0, 2.0, 3.0], [0.0, 0.0, -1.0]));
     let station = &plan.stations[0];
     assert_eq!((station.seconds, station.ride, station.pause), (2.5, StationRide::Thrust([0, 1, -1]), true));
-    assert_eq!(station.effects, Some(Effects { geometry: true, doppler: true, searchlight: false }));
+    assert_eq!(station.effects, Some(Effects { places: Places::Seen, doppler: true, searchlight: false }));
     assert_eq!(station.view, Some(TourView::Measured));
 }
 
