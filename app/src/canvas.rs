@@ -10,7 +10,7 @@ use physics::{Celerity, Event, Observer};
 use render::display::Development;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use std::time::{Duration, Instant};
-use view::{Camera, Effects, Gaze, Shot};
+use view::{Camera, Effects, Gaze, OutsideView, Shot};
 use walls::preview::{Preview, RoomOnlooker};
 use walls::{Drawing, DrawnChannels, FlatPicture, Occupant, PictureShares, SubmittedRoom, Walls};
 
@@ -63,6 +63,8 @@ pub struct Watcher {
     pub head: Option<walls::RoomHead>,
     /// Turn of a rider who looks round, whose head is not tracked. Screens that stand in the room know nothing of it.
     pub look: FreeLook,
+    /// Camera outside of the eye, for a flat picture.
+    pub outside: Option<OutsideView>,
 }
 
 impl Submitted {
@@ -150,6 +152,7 @@ impl Canvas {
             thrust: Thrust::default(),
             head: None,
             look: FreeLook::default(),
+            outside: None,
         };
         let mut took = Duration::ZERO;
         for _ in 0..2 {
@@ -187,6 +190,7 @@ impl Canvas {
     ) -> Result<Submitted, GpuError> {
         let Some(walls) = self.walls_mut() else {
             let shot = watcher.gaze.shot(fov_deg, effects);
+            let shot = watcher.outside.map_or(shot, |outside| shot.from_outside(&outside));
             let pending = renderer.submit(gpu, &shot.observer, effects)?;
             return Ok(Submitted::Picture { shot, pending });
         };

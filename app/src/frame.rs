@@ -20,6 +20,7 @@ use render::{Gpu, SceneRenderer};
 use ride::RideFrame;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
+use view::{Gaze, OutsideView};
 use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
@@ -37,6 +38,10 @@ pub struct RideInProgress {
     under_way: VecDeque<Submitted>,
     /// True if photo-surfaces are computed beside the drawing, so that frames may overlap.
     pub overlaps: bool,
+    /// Camera of the view from outside; `None` until it is first asked for.
+    pub outside: Option<OutsideView>,
+    /// Gaze that the view from outside shows while it is frozen.
+    frozen: Option<Gaze>,
     /// Newest frame of the ride.
     pub frame: Option<RideFrame>,
     /// Vertices without a finite apparent position in the picture drawn last.
@@ -65,6 +70,8 @@ impl RideInProgress {
             renderer,
             under_way: VecDeque::new(),
             overlaps: false,
+            outside: None,
+            frozen: None,
             frame: None,
             not_finite: 0,
             behind: None,
@@ -94,12 +101,14 @@ impl RideInProgress {
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let light_speed = frame.vehicle.light_speed().speed_of_light_m_s();
         let head = frame.controls.head.as_ref().map(|state| tracker::head(&held(state, frame.paused), light_speed));
+        let outside = self.look_from_outside(&frame, shown);
         let watcher = Watcher {
-            gaze: frame.gaze,
+            gaze: self.frozen.unwrap_or(frame.gaze),
             vehicle: *frame.vehicle.state(),
             thrust: *frame.vehicle.thrust(),
             head,
             look: frame.controls.look,
+            outside,
         };
         let elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         let actions = frame.controls.actions.clone();
@@ -136,6 +145,20 @@ impl RideInProgress {
 }
 
 impl RideInProgress {
+    /// Camera of the view from outside, if that is shown. What is frozen stays the gaze of its first moment.
+    fn look_from_outside(&mut self, frame: &RideFrame, shown: &Presentation) -> Option<OutsideView> {
+        /// Distance at which the camera begins, metres.
+        const BEGIN_M: f64 = 30.0;
+        self.frozen = (shown.outside && shown.frozen).then(|| self.frozen.unwrap_or(frame.gaze));
+        let ahead = frame.gaze.observer_from_eye * DVec3::NEG_Z;
+        let camera = self.outside.get_or_insert_with(|| OutsideView::over(ahead, BEGIN_M));
+        camera.colouring = shown.colouring;
+        if !shown.outside {
+            self.outside = None;
+        }
+        self.outside
+    }
+
     /// Begins with a resolution by the time that a frame with every pixel took which nobody saw.
     pub fn begin(&mut self, canvas: &mut Canvas, took: Duration) {
         if let Some(governor) = &mut self.governor {

@@ -40,6 +40,8 @@ pub enum Setting {
     Renderer,
     /// Language of the interface.
     Language,
+    /// Value that the colours of the view from outside show.
+    Colouring,
 }
 
 /// Part of the picture or of the interface that is on or off.

@@ -67,6 +67,7 @@ fn action(key: KeyboardKey) -> Option<Action> {
         KeyboardKey::F6 => Action::Toggle(Switch::DiagramOfVehicle),
         KeyboardKey::F7 => Action::NextTracking,
         KeyboardKey::F8 => Action::PhotoSphere,
+        KeyboardKey::F9 => Action::Next(Setting::Colouring),
         KeyboardKey::F11 => Action::ToggleFullScreen,
         KeyboardKey::Escape => Action::Leave,
         _ => return None,

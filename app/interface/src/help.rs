@@ -31,7 +31,7 @@ const KEYS: [(&str, Phrase); 31] = [
     ("− =", Phrase::KeyClock),
     ("Backspace", Phrase::KeyRestart),
     ("X", Phrase::KeyView),
-    ("Y  F5", Phrase::KeyOutside),
+    ("Y  F5  F9", Phrase::KeyOutside),
     ("Z  F6", Phrase::KeyDiagram),
     ("Tab", Phrase::KeyMap),
     ("G B N", Phrase::KeyEffects),

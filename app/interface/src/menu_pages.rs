@@ -6,8 +6,9 @@ use clap::ValueEnum;
 use egui::{Align, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, Vec2};
 use hardware::heard::DeviceReport;
 use input::{Action, Setting, Switch, TrackingMode, VehicleKind};
-use presentation::{Latency, Presentation};
+use presentation::{Latency, Presentation, colouring};
 use render::display::{Exposure, Gamut, Tone, development};
+use view::Colouring;
 use words::{Language, Phrase};
 
 /// Largest height of the section on devices, points.
@@ -181,9 +182,17 @@ pub fn picture(ui: &mut Ui, presentation: &Presentation, state: &MenuRide, actio
 pub fn understand(ui: &mut Ui, presentation: &Presentation, actions: &mut Vec<Action>) {
     let language = presentation.language;
     row(ui, language, Phrase::View, |ui| {
-        for (text, name, purpose) in presentation.views() {
-            if Controls::new(ui, language).choice(presentation.view() == name, name, purpose) {
-                actions.push(Action::Set(Setting::Effects, text));
+        for (turns, name, purpose) in presentation.views() {
+            if Controls::new(ui, language).choice(turns == 0, name, purpose) {
+                actions.extend(std::iter::repeat_n(Action::NextView, turns));
+            }
+        }
+    });
+    row(ui, language, Phrase::ColouringChoice, |ui| {
+        for value in Colouring::ALL {
+            let (chosen, name) = (presentation.colouring == value, colouring(value));
+            if Controls::new(ui, language).choice(chosen, name, Phrase::ColouringPurpose) {
+                actions.push(Action::Set(Setting::Colouring, value.name().to_owned()));
             }
         }
     });

@@ -3,7 +3,7 @@
 use crate::latency::Latency;
 use input::{Action, Setting, Switch};
 use render::display::{Development, development};
-use view::{Dial, Effects, Places};
+use view::{Colouring, Dial, Effects, Places};
 use words::{Language, Phrase};
 
 /// State of all that decides how a ride is shown, and nothing of how it goes.
@@ -23,6 +23,8 @@ pub struct Presentation {
     pub language: Language,
     /// True if the view is from outside.
     pub outside: bool,
+    /// Value that the colours of the view from outside show.
+    pub colouring: Colouring,
     /// True if the view from outside shows what was seen at the moment of the switch.
     pub frozen: bool,
     /// True if the head-up display is shown.
@@ -49,6 +51,7 @@ impl Default for Presentation {
             dial: None,
             language: Language::default(),
             outside: false,
+            colouring: Colouring::default(),
             frozen: false,
             readings: true,
             menu: false,
@@ -151,13 +154,15 @@ impl Presentation {
         }
     }
 
-    /// Views that the present effects allow: the text of the effects with each, its name and its purpose.
-    pub fn views(&self) -> Vec<(String, Phrase, Phrase)> {
-        let with = |places| Effects { places, ..self.effects }.to_string();
-        vec![
-            (with(Places::Seen), Phrase::Seen, Phrase::SeenPurpose),
-            (with(Places::Measured), Phrase::Measured, Phrase::MeasuredPurpose),
-            (with(Places::Instant), Phrase::Instant, Phrase::InstantPurpose),
+    /// Views with their names and purposes, each with the number of times that [`Action::NextView`] leads there. The
+    /// switches of the light stay as they are.
+    pub fn views(&self) -> [(usize, Phrase, Phrase); 3] {
+        let number = |places: Places| Places::ALL.iter().position(|known| *known == places).unwrap_or_default();
+        let turns = |places| (number(places) + Places::ALL.len() - number(self.effects.places)) % Places::ALL.len();
+        [
+            (turns(Places::Seen), Phrase::Seen, Phrase::SeenPurpose),
+            (turns(Places::Measured), Phrase::Measured, Phrase::MeasuredPurpose),
+            (turns(Places::Instant), Phrase::Instant, Phrase::InstantPurpose),
         ]
     }
 
@@ -181,8 +186,21 @@ impl Presentation {
                 None
             }
             Setting::Effects => self.act(&Action::NextView),
+            Setting::Colouring => {
+                self.colouring = self.colouring.next();
+                Some(self.language.fill(Phrase::ColouringIs, &[&self.language.text(colouring(self.colouring))]))
+            }
             Setting::Fov | Setting::Exposure | Setting::Renderer => None,
         }
+    }
+}
+
+/// Name of a colouring.
+pub fn colouring(colouring: Colouring) -> Phrase {
+    match colouring {
+        Colouring::Light => Phrase::ByLight,
+        Colouring::Doppler => Phrase::ByDoppler,
+        Colouring::Delay => Phrase::ByDelay,
     }
 }
 

@@ -5,13 +5,14 @@ use clap::ValueEnum;
 use input::{Action, Setting};
 use render::display::development;
 use std::collections::BTreeMap;
+use view::Colouring;
 use view::{Effects, Places};
 
 /// Field of view that can be drawn, degrees, as on the command line.
 const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 
 /// Settings by their names.
-const NAMES: [(&str, Setting); 8] = [
+const NAMES: [(&str, Setting); 9] = [
     ("effects", Setting::Effects),
     ("fov", Setting::Fov),
     ("exposure", Setting::Exposure),
@@ -20,6 +21,7 @@ const NAMES: [(&str, Setting); 8] = [
     ("latency", Setting::Latency),
     ("renderer", Setting::Renderer),
     ("language", Setting::Language),
+    ("colouring", Setting::Colouring),
 ];
 
 impl Presentation {
@@ -40,6 +42,7 @@ impl Presentation {
             Setting::Renderer if text.is_empty() => self.dial = None,
             Setting::Renderer => self.dial = Some(text.parse().ok()?),
             Setting::Language => self.language = text.parse().ok()?,
+            Setting::Colouring => self.colouring = Colouring::ALL.into_iter().find(|known| known.name() == text)?,
         }
         Some(())
     }
@@ -55,6 +58,7 @@ impl Presentation {
             Setting::Latency => development::name(&self.latency),
             Setting::Renderer => self.dial.map_or_else(String::new, |dial| dial.to_string()),
             Setting::Language => self.language.to_string(),
+            Setting::Colouring => self.colouring.name().to_owned(),
         }
     }
 
@@ -91,7 +95,7 @@ mod tests {
     use crate::latency::Latency;
     use input::Switch;
     use render::display::{Exposure, Tone};
-    use words::Language;
+    use words::{Language, Phrase};
 
     #[test]
     fn settings_survive_their_texts() {
@@ -105,6 +109,7 @@ mod tests {
             (Setting::Latency, "low"),
             (Setting::Renderer, "--renderer polygon --tolerance 2"),
             (Setting::Language, "de"),
+            (Setting::Colouring, "delay"),
         ] {
             assert_eq!(other.act(&Action::Set(setting, text.to_owned())), None, "{text}");
             assert_eq!(other.text(setting), text);
@@ -144,6 +149,19 @@ mod tests {
         }
         for json in ["", "[]", "{\"tone\":3}", "{\"tune\":\"x\",\"fov\":\"0\"}"] {
             assert_eq!(before.with_json(json), before);
+        }
+    }
+
+    #[test]
+    fn every_view_is_reached_and_keeps_the_switches_of_the_light() {
+        for (number, view) in [Phrase::Seen, Phrase::Measured, Phrase::Instant].into_iter().enumerate() {
+            let mut after = Presentation::default();
+            after.act(&Action::Toggle(Switch::Doppler));
+            let (turns, name, _) = after.views()[number];
+            (0..turns).for_each(|_| drop(after.act(&Action::NextView)));
+            assert_eq!((after.view(), name), (view, view));
+            assert!(!after.effects.doppler && after.effects.searchlight);
+            assert_eq!(after.views()[number].0, 0);
         }
     }
 

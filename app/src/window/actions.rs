@@ -2,9 +2,11 @@
 
 use super::open::Open;
 use super::photo;
+use crate::canvas::Canvas;
 use crate::session::preferences::Preferences;
 use egui::Key;
 use input::{Action, FocusStep, Sample, Switch};
+use words::Phrase;
 
 impl Open {
     /// Carries out the rider's actions that concern the program. Those of the ride itself have been performed already.
@@ -72,6 +74,10 @@ impl Open {
                 Action::ToggleFullScreen => self.fill_monitors(),
                 Action::ToggleCalibration => self.calibrate(),
                 Action::Leave => self.leaves = true,
+                Action::Toggle(Switch::Outside | Switch::Frozen) if !matches!(self.canvas, Canvas::Picture(_)) => {
+                    let told = self.presentation.language.text(Phrase::OnlyFlat);
+                    self.ride.live.tell(told);
+                }
                 _ => {
                     let language = self.presentation.language;
                     if let Some(told) = self.presentation.act(&action) {

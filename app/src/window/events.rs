@@ -131,6 +131,15 @@ impl Open {
         const CLOSER: f64 = 1.1;
         if self.room_interface.is_some() && self.presentation.menu {
             // The mouse points in the menu.
+        } else if let Some(outside) = self.ride.outside.as_mut().filter(|_| self.presentation.outside) {
+            match event {
+                MouseEvent::Button { button: MouseButton::Left, pressed } => self.dragged = pressed,
+                MouseEvent::Moved { right, down } if self.dragged => {
+                    outside.orbit(-TURN_RAD * f64::from(right), TURN_RAD * f64::from(down), 1.0);
+                }
+                MouseEvent::Wheel(notches) => outside.orbit(0.0, 0.0, CLOSER.powf(f64::from(notches))),
+                _ => {}
+            }
         } else if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
         } else if self.mouse_looks {

@@ -183,6 +183,8 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
         Action::Set(Setting::Latency, "low".to_owned()),
         Action::Tracking(TrackingMode::Position),
         Action::Recentre,
+        Action::NextView,
+        Action::Set(Setting::Colouring, "delay".to_owned()),
         Action::Toggle(Switch::Outside),
         Action::Toggle(Switch::Frozen),
         Action::Toggle(Switch::Miniature),

@@ -240,6 +240,20 @@ phrases! {
     Wrong,
     /// Notice at the end of a tour.
     TourOver,
+    /// Choice of what colours show from outside.
+    ColouringChoice,
+    /// Use of the colours from outside.
+    ColouringPurpose,
+    /// Colours of light.
+    ByLight,
+    /// Colours of the Doppler factor.
+    ByDoppler,
+    /// Colours of the delay.
+    ByDelay,
+    /// Notice of the colours from outside; {0}: their name.
+    ColouringIs,
+    /// Notice that rooms have no view from outside.
+    OnlyFlat,
     /// Label of the speed of light on the display; {0}: the speed.
     Light,
     /// Label of the rider's clock.

@@ -39,7 +39,7 @@ const PLAN: [(&str, &[&str]); 29] = [
     ("tours", &["input", "regular_file", "ride", "scene", "view"]),
     ("words", &[]),
     ("presentation", &["input", "render", "view", "words"]),
-    ("interface", &["hardware", "input", "presentation", "render", "ride", "words"]),
+    ("interface", &["hardware", "input", "presentation", "render", "ride", "view", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
