@@ -321,6 +321,28 @@ mod tests {
     }
 
     #[test]
+    fn measured_hands_show_what_an_observers_own_present_reads_off_each_clock() {
+        let mut scene = build();
+        scene.set_speed_of_light(SPEED_OF_LIGHT_M_S).unwrap();
+        for beta in [DVec3::ZERO, DVec3::X * 0.6, DVec3::new(-0.5, 0.0, 0.3)] {
+            let observer = Observer { celerity: Beta::new(beta).unwrap().celerity(), ..standing(11.3, 2.0) };
+            let hands = scene.motions.iter().filter_map(|motion| motion.animated());
+            for animated in hands.filter(|animated| animated.name.contains("seconds")) {
+                let clock = scene.clocks.iter().find(|clock| animated.name.starts_with(&*clock.name.english)).unwrap();
+                let shown_s = clock.reading(&observer, SPEED_OF_LIGHT_M_S).measured_s;
+                let angle = SceneClock::hand_rad(shown_s, crate::clock::ROUND_S);
+                let expected = DVec3::new(angle.sin(), angle.cos(), 0.0);
+                // The event of the dial's middle at the observer's present, and the hand's angle by its own time there.
+                let body = scene::motion::ObservedBody::new(animated, &observer);
+                let own_from_world = |event| animated.carrier().map_or(event, |carrier| carrier.own_from_world(event));
+                let own = own_from_world(body.measured(DVec3::ZERO).unwrap().event);
+                let tip = animated.in_carrier(own.ct).world_from_body.transform_vector3(DVec3::Y);
+                assert!(tip.distance(expected) < 1e-6, "{} at {beta}", animated.name);
+            }
+        }
+    }
+
+    #[test]
     fn the_hands_of_each_clock_show_what_its_reading_says() {
         let mut scene = build();
         scene.set_speed_of_light(SPEED_OF_LIGHT_M_S).unwrap();

@@ -96,8 +96,8 @@ pub fn plain_view(
 }
 
 /// View of the resting scene (`None`) or of a moving body in a picture of what the observer measures about the eye. Its
-/// own positions are relative to `origin`. Clockwork is in one pose, exact at four of its points; not for other animated
-/// bodies, each of whose points is at its own event.
+/// own positions are relative to `origin`. Clockwork is in one pose, exact at four of its points; not for other
+/// animated bodies, each of whose points is at its own event.
 ///
 /// *Equation:* in the body's frame, in which it rests, x' = d − (1 − 1/γ)(d·n) n with the observer's place and motion
 /// there ([`Contraction`]), turned into the observer's axes.

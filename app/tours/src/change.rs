@@ -2,12 +2,12 @@
 
 use crate::plan::{TourPanel, TourView};
 use input::{Action, Setting, Switch};
-use view::Effects;
+use view::{Effects, Places};
 
 /// Change of what is shown, at the beginning of a station.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TourChange {
-    /// Effects from now on.
+    /// Effects from now on, and the view that they name.
     Effects(Effects),
     /// View from now on.
     View(TourView),
@@ -28,7 +28,13 @@ impl TourShown {
     /// Takes a change over.
     pub fn take(&mut self, change: &TourChange) {
         match change {
-            TourChange::Effects(_) => {}
+            TourChange::Effects(effects) => {
+                self.view = match effects.places {
+                    Places::Seen => TourView::Seen,
+                    Places::Measured => TourView::Measured,
+                    Places::Instant => TourView::Instant,
+                };
+            }
             TourChange::View(view) => self.view = *view,
             TourChange::Show(panels) => self.panels.clone_from(panels),
         }
@@ -56,6 +62,44 @@ impl TourChange {
                 let differs = |panel: &TourPanel| panels.contains(panel) != shown.panels.contains(panel);
                 let turned = SWITCHES.iter().filter(|(panel, _)| differs(panel));
                 turned.map(|(_, switch)| Action::Toggle(*switch)).collect()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: whatever the effects and views of the stations before, the actions of a change lead to the view that it
+    //! names. A tour that forgot which view its effects name would turn too far, or not far enough.
+
+    use super::*;
+
+    /// Places that are shown after these actions.
+    fn after(actions: &[Action], places: Places) -> Places {
+        actions.iter().fold(places, |places, action| match action {
+            Action::NextView => places.next(),
+            Action::Set(Setting::Effects, text) => text.parse::<Effects>().unwrap().places,
+            other => panic!("{other:?}"),
+        })
+    }
+
+    #[test]
+    fn a_change_leads_to_its_view_from_every_other() {
+        let named = [
+            (TourView::Seen, Places::Seen),
+            (TourView::Measured, Places::Measured),
+            (TourView::Instant, Places::Instant),
+        ];
+        for effects in [Effects::ALL, Effects::MEASURED, Effects::NONE] {
+            for (_, before) in named {
+                for (view, expected) in named {
+                    let (mut shown, mut places) = (TourShown::default(), before);
+                    for change in [TourChange::Effects(effects), TourChange::View(view)] {
+                        places = after(&change.actions(&shown), places);
+                        shown.take(&change);
+                    }
+                    assert_eq!((places, shown.view), (expected, view), "{effects} from {before:?}");
+                }
             }
         }
     }

@@ -4,11 +4,11 @@
 //! The light that is seen now from the direction n was at o + n s when it had s metres still to travel; the place at
 //! o + n s of the observer's present has the time ct + k s (`time` metres for each of s). Time and places are those of
 //! the frame in which the body's chain begins. The body then stood as its keys say. In the body's frame, where its
-//! triangles rest, the path is a curve, y(s) = M(ct + k s)⁻¹ (o + n s), y' = M⁻¹ (n − k β(y)), with k = −1 for light and
-//! |k| < 1 for the present. The curve is followed only inside a ball around the body. Outside, steps are bounded by the
-//! gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less than the margin of
-//! the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved for on the curve
-//! itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the keys.
+//! triangles rest, the path is a curve, y(s) = M(ct + k s)⁻¹ (o + n s), y' = M⁻¹ (n − k β(y)), with k = −1 for light
+//! and |k| < 1 for the present. The curve is followed only inside a ball around the body. Outside, steps are bounded by
+//! the gap, since nothing outruns light. Inside, it is followed in chords whose distance from it is less than the
+//! margin of the boxes around the triangles. For every triangle whose box a chord meets, the hit is solved for on the
+//! curve itself (Newton's method on the distance from the triangle's plane), so that it is as exact as the keys.
 
 use glam::{DMat3, DVec3};
 use physics::Observer;

@@ -50,8 +50,8 @@ pub struct SightLine {
     pub doppler: f64,
     /// Apparent metres for each metre of the ray.
     pub apparent: f64,
-    /// Metres of time, in the body's frame (for animated bodies, in that in which their chain begins), for each metre of
-    /// the ray: −1 for light that is followed back.
+    /// Metres of time, in the body's frame (for animated bodies, in that in which their chain begins), for each metre
+    /// of the ray: −1 for light that is followed back.
     pub time: f64,
 }
 

@@ -1,5 +1,6 @@
 //! The hand of a clock must be drawn where its light left it, by every method: as clockwork in a map of the world, and
-//! aboard a train, where it turns by the train's own time at each of its points.
+//! aboard a train, where it turns by the train's own time at each of its points. What is measured of it must be where
+//! it is at the observer's own present.
 //!
 //! A wrong program shows hands as they are now, or as the middle of the dial is seen, or turns a train's hands by the
 //! platform's time; then the pictures differ from those of traced rays by more than the pixels at their outlines.
@@ -55,15 +56,16 @@ fn clock(carrier: Option<Uniform>) -> Scene {
 }
 
 /// Share of the hand's pixels in which the pictures of a method and of traced rays differ.
-fn differing(scene: &Scene, who: &Observer, method: Dial) -> f64 {
-    let body = scene.motions[0].animated().unwrap();
-    let look = ObservedBody::new(body, who).seen(DVec3::Y * 0.5).unwrap().apparent;
-    let view = View { look, up: DVec3::Y, fov_degrees: 30.0, size: SIZE };
-    let shot = view.shot(who, Effects::GEOMETRY);
+fn differing(scene: &Scene, who: &Observer, method: Dial, effects: Effects) -> f64 {
+    let body = ObservedBody::new(scene.motions[0].animated().unwrap(), who);
+    let middle = DVec3::Y * 0.5;
+    let shown = if effects.bend() { body.seen(middle) } else { body.measured(middle) };
+    let view = View { look: shown.unwrap().apparent, up: DVec3::Y, fov_degrees: 30.0, size: SIZE };
+    let shot = view.shot(who, effects);
     let tracer = RayTracer::new(scene.clone(), Some([0.0; 3]), false).unwrap();
     let traced = tracer.trace(&shot, SIZE, 1, &AtomicBool::new(false), || {}).light;
     let mut photographer = Photographer::with(scene, SIZE, 1, Some([0.0; 3]), method);
-    let drawn = photographer.light(&view, who.event.position, who.celerity, Effects::GEOMETRY);
+    let drawn = photographer.light(&view, who.event.position, who.celerity, effects);
     let drawn: Vec<bool> = drawn.pixels().map(|pixel| pixel.0[1] > 0.1).collect();
     let traced: Vec<bool> = traced.iter().map(|light| light.y > 0.1).collect();
     let shown = traced.iter().filter(|shown| **shown).count();
@@ -88,7 +90,7 @@ fn clockwork_in_a_map_stands_where_rays_find_it() {
     let scene = clock(None);
     for who in observers() {
         for method in [DEFAULT_MAP, Dial::tolerance(0.1)] {
-            let share = differing(&scene, &who, method);
+            let share = differing(&scene, &who, method, Effects::GEOMETRY);
             println!("{:?}: {share:.3}", method.renderer);
             assert!(share < OUTLINE, "{share} with {method:?}");
         }
@@ -101,9 +103,24 @@ fn a_hand_aboard_a_train_is_drawn_alike_by_every_method() {
     let scene = clock(Some(Uniform { celerity, anchor: Event { ct: -9.0, position: CENTRE } }));
     for who in observers() {
         for method in [DEFAULT_MAP, Dial::tolerance(0.1)] {
-            let share = differing(&scene, &who, method);
+            let share = differing(&scene, &who, method, Effects::GEOMETRY);
             println!("{:?}: {share:.3}", method.renderer);
             assert!(share < OUTLINE, "{share} with {method:?}");
+        }
+    }
+}
+
+#[test]
+fn a_measured_hand_is_drawn_alike_by_every_method() {
+    let celerity = Beta::new(DVec3::X * 0.6).unwrap().celerity();
+    let carrier = Uniform { celerity, anchor: Event { ct: -9.0, position: CENTRE } };
+    for scene in [clock(None), clock(Some(carrier))] {
+        for who in observers() {
+            for method in [DEFAULT_MAP, Dial::tolerance(0.1)] {
+                let share = differing(&scene, &who, method, Effects::MEASURED);
+                println!("{:?}: {share:.3}", method.renderer);
+                assert!(share < OUTLINE, "{share} with {method:?}");
+            }
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use input::VehicleKind;
 use tours::{BUILT_IN, StationRide, TourError, TourView, built_in, parse, read};
-use view::Effects;
+use view::{Effects, Places};
 
 const HEAD: &str = "title.en = \"A\"\nscene = \"town\"\n";
 
