@@ -407,7 +407,7 @@ mod tests {
 
     #[test]
     fn the_second_stick_looks_where_it_is_free_or_pressed_down() {
-        let mut pad = GamepadDecoder::new(true, GamepadMap::default());
+        let mut pad = GamepadDecoder::new(true, false, GamepadMap::default());
         let mut actions = Actions::default();
         let pushed = [GamepadItem::Gamepad, axis(codes::RX, -32768), axis(codes::RY, 32767)];
         feed(&mut pad, &pushed, &mut actions);
@@ -445,7 +445,7 @@ mod tests {
             ..GamepadMap::default()
         };
         assert_eq!(map.check(), Ok(()));
-        let mut pad = GamepadDecoder::new(false, map);
+        let mut pad = GamepadDecoder::new(false, false, map);
         let mut actions = Actions::default();
         let axis = |code, value| GamepadItem::Axis { code, value, least: -100, most: 100 };
         feed(&mut pad, &[GamepadItem::Gamepad, axis(2, 75), axis(9, -100)], &mut actions);

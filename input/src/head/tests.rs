@@ -5,7 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DQuat, DVec3};
 
-use super::config::{HeadConfig, TrackingMode, VelocityFilter};
+use super::config::{HeadConfig, VelocityFilter};
+use super::tracking_mode::TrackingMode;
 use super::placement::AxesPlacement;
 use super::state::{HeadState, Tracking};
 use super::tracked_head::TrackedHead;
