@@ -114,7 +114,8 @@ pub fn build() -> Scene {
 
     let mut scene = Scene {
         name: "laboratory".to_owned(),
-        // The moving ones are luminous: in their own frame the room's light comes from ahead, hundreds of times as bright.
+        // The moving ones are luminous: in their own frame the room's light comes from ahead, hundreds of times as
+        // bright.
         materials: vec![
             Material { name: "painted".to_owned(), ..Material::default() },
             Material { name: "luminous".to_owned(), unlit: true, ..Material::default() },

@@ -1,4 +1,5 @@
-//! Built-in railway: a platform with clocks, and two trains with clocks on their carriages that pass at 0.6 c and 0.8 c.
+//! Built-in railway: a platform with clocks, and two trains with clocks on their carriages that pass at 0.6 c and 0.8
+//! c.
 //!
 //! The platform's clocks agree with each other in the world, those of a train aboard it. As a carriage passes one clock
 //! after the other, its own falls behind by γ; and along the train each clock is behind the one that follows, for the

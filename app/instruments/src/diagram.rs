@@ -241,8 +241,8 @@ struct DiagramMarks {
     unit: &'static str,
 }
 
-/// First points of the lines between the jumps of `points`, in the order of [`slice::split`]; none for what precedes the
-/// first jump.
+/// First points of the lines between the jumps of `points`, in the order of [`slice::split`]; none for what precedes
+/// the first jump.
 fn beginnings(points: &[TrailPoint]) -> impl Iterator<Item = Option<TrailPoint>> {
     std::iter::once(None).chain(points.iter().filter(|point| point.begins).map(|point| Some(*point)))
 }

@@ -74,8 +74,8 @@ pub struct PlanPicture {
 }
 
 impl PlanPicture {
-    /// Draws the plan of a scene at rest with at most `side` pixels a side (1024 at most): every surface at its greatest
-    /// height, once, in time linear in the triangles. `None` for a scene that has no plan.
+    /// Draws the plan of a scene at rest with at most `side` pixels a side (1024 at most): every surface at its
+    /// greatest height, once, in time linear in the triangles. `None` for a scene that has no plan.
     pub fn draw(scene: &Scene, side: u32) -> Option<Self> {
         let area = PlanArea::of(scene)?;
         let side = side.clamp(1, LARGEST_SIDE);

@@ -1,4 +1,5 @@
-//! Map from events to the diagram's plane: across, one direction of space; upward, time; both in metres of light travel.
+//! Map from events to the diagram's plane: across, one direction of space; upward, time; both in metres of light
+//! travel.
 
 use physics::glam::DVec3;
 use physics::{Boost, Event, FourVector, Observer};

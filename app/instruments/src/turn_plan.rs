@@ -8,10 +8,10 @@
 //! ```
 //!
 //! (Misner, Thorne, Wheeler, *Gravitation*, § 6.2; W 4.7 for a straight line.) A journey that ends at rest at the
-//! distance d, begun with γ₀, thrusts towards the destination over x₁ and against the motion over d − x₁. Both stretches
-//! meet at the same γ₁: γ₁ = γ₀ + a x₁ = 1 + a (d − x₁). With b = (γ₀ − 1)/a, the way to stop from the present speed,
-//! x₁ = (d − b)/2 and γ₁ − 1 = a (d + b)/2, whether the present motion leads towards the destination or away from it.
-//! From rest the turn is half way.
+//! distance d, begun with γ₀, thrusts towards the destination over x₁ and against the motion over d − x₁. Both
+//! stretches meet at the same γ₁: γ₁ = γ₀ + a x₁ = 1 + a (d − x₁). With b = (γ₀ − 1)/a, the way to stop from the
+//! present speed, x₁ = (d − b)/2 and γ₁ − 1 = a (d + b)/2, whether the present motion leads towards the destination or
+//! away from it. From rest the turn is half way.
 
 use physics::worldline::Thrust;
 use ride::LightSpeed;
@@ -19,8 +19,8 @@ use ride::LightSpeed;
 /// Standard acceleration of free fall, m/s².
 const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 
-/// Acceleration that the rider feels, in units of the standard acceleration of free fall: the proper acceleration of the
-/// vehicle by the world's metres and the rider's own seconds.
+/// Acceleration that the rider feels, in units of the standard acceleration of free fall: the proper acceleration of
+/// the vehicle by the world's metres and the rider's own seconds.
 pub fn felt_g(thrust: &Thrust, light_speed: LightSpeed) -> f64 {
     let c = light_speed.speed_of_light_m_s();
     thrust.acceleration.length() * c * c / STANDARD_GRAVITY_M_S2

@@ -69,8 +69,8 @@ impl DrawnSheet {
         })
     }
 
-    /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already. `keys`: keys that
-    /// were pressed since.
+    /// Lays out `contents` at the time `now_s`, seconds, and draws them unless they are drawn already. `keys`: keys
+    /// that were pressed since.
     pub fn draw(
         &mut self,
         gpu: &Gpu,

@@ -292,8 +292,8 @@ impl Live {
                         break false;
                     }
                 };
-                // Of the recorded rider's actions, those are performed again that decide what is shown. Actions that the
-                // onlooker asks for now follow.
+                // Of the recorded rider's actions, those are performed again that decide what is shown. Actions that
+                // the onlooker asks for now follow.
                 let mut frame = if ended && next.is_none() { None } else { shown.as_deref().cloned() };
                 if let Some(frame) = &mut frame {
                     repeated.extend(onlooker(&said));

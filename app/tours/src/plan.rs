@@ -139,7 +139,8 @@ impl TourPlan {
         self.stations.iter().map(|station| station.seconds).sum()
     }
 
-    /// Setup of the tour's ride in a scene with this start and this speed of light; `desk` says how samples are decoded.
+    /// Setup of the tour's ride in a scene with this start and this speed of light; `desk` says how samples are
+    /// decoded.
     pub fn setup(&self, start: &Start, light_speed: LightSpeed, desk: DeskConfig) -> Setup {
         let on_ground = start.position;
         let [position, look] = self.start.unwrap_or([on_ground, start.look]);

@@ -6,11 +6,11 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DQuat, DVec3};
 
 use super::config::{HeadConfig, VelocityFilter};
-use super::tracking_mode::TrackingMode;
 use super::placement::AxesPlacement;
 use super::state::{HeadState, Tracking};
 use super::tracked_head::TrackedHead;
 use super::tracked_pose::TrackedPose;
+use super::tracking_mode::TrackingMode;
 use crate::clock::{Nanos, SECOND};
 
 /// Rounding of differences of places a few metres from the origin, over a hundredth of a second, m/s.

@@ -1,6 +1,6 @@
 //! What is measured must be where it is at the observer's own present: resting things contracted by 1/γ along the
-//! motion, moving ones by their motion relative to the observer and in the observer's axes, animated ones point by point
-//! at the events that are simultaneous for the observer. All renderers must agree.
+//! motion, moving ones by their motion relative to the observer and in the observer's axes, animated ones point by
+//! point at the events that are simultaneous for the observer. All renderers must agree.
 //!
 //! A wrong program takes the world's present, forgets Wigner's rotation, contracts by the body's motion in the world,
 //! leaves things out beside the picture at high speed, or draws the sky of another direction. The expected places come

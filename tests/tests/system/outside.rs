@@ -1,6 +1,6 @@
 //! From outside, the photo-surface is an object in space: every point of it must be drawn where its apparent position,
-//! taken about the eye, stands for the camera (W 5.1.5). Cuts must be as fine for that camera, nothing may be left out at
-//! its edges, and colours are those of the direction from the eye.
+//! taken about the eye, stands for the camera (W 5.1.5). Cuts must be as fine for that camera, nothing may be left out
+//! at its edges, and colours are those of the direction from the eye.
 //!
 //! A wrong program draws the world instead of the photo-surface, puts the camera in the world's axes, cuts for the eye
 //! alone, leaves out what the eye does not look at, or shifts light by where the camera looks.

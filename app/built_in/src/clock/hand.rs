@@ -1,7 +1,8 @@
 //! Hands of a clock: their shapes, and the keys that turn them.
 //!
 //! A dial has twelve numbers. The hand of seconds goes round in twelve seconds, from number to number in one; the hand
-//! of rounds counts its rounds. So the time is read off as on any clock, and what a ride of a minute does to it is seen.
+//! of rounds counts its rounds. So the time is read off as on any clock, and what a ride of a minute does to it is
+//! seen.
 
 use crate::shape::{FaceColour, Shape};
 use glam::{DQuat, DVec3, Vec3};

@@ -34,8 +34,8 @@ const CRAWL_M_S: f64 = 2.0;
 /// Length of the ways that are compared, metres, and distance within which bends are looked for.
 const OUTLOOK_M: f64 = 14.0;
 const FARTHEST_M: f64 = 60.0;
-/// Longest way that is followed, metres. Nothing in a street goes so fast that it aims further, and where nothing ends a
-/// way it would be followed for hours.
+/// Longest way that is followed, metres. Nothing in a street goes so fast that it aims further, and where nothing ends
+/// a way it would be followed for hours.
 const LONGEST_WAY_M: f64 = 200.0;
 /// Spacing of the places of the circuit whose bends are looked at, metres.
 const SPACING_M: f64 = 2.0;

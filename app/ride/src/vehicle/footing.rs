@@ -3,8 +3,8 @@
 //! The motion along the ground ([`super::ground`]) turns up and down no faster than a rider can follow. At a high
 //! celerity that would throw a vehicle off the first kerb and over the roofs, and nothing stops it where the ground
 //! ends. So, after each stride, a vehicle that had ground below is held: it rises no further above the ground than a
-//! wheel on a kerb's ramp, sinks at least at a slope while it is higher, is lifted until it finds the ground that it has run into,
-//! and stops where there is no ground.
+//! wheel on a kerb's ramp, sinks at least at a slope while it is higher, is lifted until it finds the ground that it
+//! has run into, and stops where there is no ground.
 
 use glam::DVec3;
 use scene::Surroundings;

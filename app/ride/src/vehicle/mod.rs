@@ -13,8 +13,9 @@
 //! | fly | three thrusts, roll, rudder, brake (`flight`) | free space, if its hull has a radius (`hull`) |
 //!
 //! The celerity is never set directly, except by named constraints: wheels do not slip (`bicycle::roll`), walls hold
-//! (`walls`, `hull`), the ground keeps what is on it (`footing`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion therefore never jumps, at rest, in reverse or
-//! at extreme speed; only a change of kind and a restart may make it jump.
+//! (`walls`, `hull`), the ground keeps what is on it (`footing`), the rapidity is capped at [`RAPIDITY_CAP`]. Motion
+//! therefore never jumps, at rest, in reverse or at extreme speed; only a change of kind and a restart may make it
+//! jump.
 //!
 //! A step depends only on the vehicle, the controls and the [`scene::Surroundings`]; the same calls give the same bits.
 //!

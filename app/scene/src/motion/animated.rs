@@ -132,8 +132,8 @@ impl Animated {
 
     /// Small, slow, luminous body that shows its side +z, as the hand of a clock on a wall.
     ///
-    /// A map of the world then holds it, in the pose that fits what is shown ([`Animated::pose_shown`]), so it costs next
-    /// to nothing. What is left out there is the shift of its light by its own speed; other ways of
+    /// A map of the world then holds it, in the pose that fits what is shown ([`Animated::pose_shown`]), so it costs
+    /// next to nothing. What is left out there is the shift of its light by its own speed; other ways of
     /// drawing have it.
     pub fn as_clockwork(self) -> Self {
         Self { is_clockwork: true, ..self }
@@ -171,8 +171,8 @@ impl Animated {
 
     /// Pose in the world at world time `ct`, metres of light travel.
     ///
-    /// *Accuracy:* exact without a carrier. With one, the whole body is in the pose that it has by the carrier's time at
-    /// the middle of its ball, contracted along the motion; other points are earlier or later by β·x'.
+    /// *Accuracy:* exact without a carrier. With one, the whole body is in the pose that it has by the carrier's time
+    /// at the middle of its ball, contracted along the motion; other points are earlier or later by β·x'.
     pub fn at(&self, ct: f64) -> Pose {
         match &self.carrier {
             None => self.in_carrier(ct),

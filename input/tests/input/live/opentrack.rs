@@ -1,9 +1,9 @@
 //! Tests with opentrack on a real UDP socket, played by the test.
 //!
 //! Poses must move the head in opentrack's directions from home; short datagrams, garbage, foreign senders and floods
-//! must be survived with a reason; opentrack may be started again; the straight pose must be the one of the key. A wrong
-//! program would move the picture against the head, or let a stray datagram move it. What was recorded must give the
-//! same head again to the last bit.
+//! must be survived with a reason; opentrack may be started again; the straight pose must be the one of the key. A
+//! wrong program would move the picture against the head, or let a stray datagram move it. What was recorded must give
+//! the same head again to the last bit.
 
 use std::net::UdpSocket;
 use std::thread;

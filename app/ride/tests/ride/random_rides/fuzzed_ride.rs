@@ -16,8 +16,8 @@ use scene::{Scene, Surroundings};
 use super::devices::MadDevices;
 use super::streets::Streets;
 
-/// Least distance of a vehicle on the ground from a wall, metres: the reach of its body, save for rounding and for a wall
-/// that begins where a wheel has been lifted.
+/// Least distance of a vehicle on the ground from a wall, metres: the reach of its body, save for rounding and for a
+/// wall that begins where a wheel has been lifted.
 const BODY_M: f64 = 0.38;
 /// Greatest height of a vehicle above or below the ground, metres: a doorstep's, until its ramp is ridden.
 const OFF_GROUND_M: f64 = 0.5;
@@ -253,8 +253,8 @@ impl Rider<'_> {
         Ok(frame)
     }
 
-    /// Frames with these samples at their beginning, for [`FRESH_S`]. True if they move the vehicle by [`MOVED_M`], or by
-    /// what its own time leaves of that: a head far ahead of a vehicle that speeds up has a faster clock.
+    /// Frames with these samples at their beginning, for [`FRESH_S`]. True if they move the vehicle by [`MOVED_M`], or
+    /// by what its own time leaves of that: a head far ahead of a vehicle that speeds up has a faster clock.
     fn moves_with(&mut self, samples: &[Sample]) -> Result<bool, String> {
         let vehicle = self.simulation.vehicle();
         let (from, light_m_s) = (vehicle.state().position, vehicle.light_speed().speed_of_light_m_s());
