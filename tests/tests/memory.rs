@@ -39,9 +39,9 @@ fn a_film_needs_no_more_memory_the_longer_it_is() {
     let place = start + 6.0 * look.normalize();
     let mut ball = sphere(place, 0.3).meshes.remove(0);
     ball.positions.iter_mut().for_each(|position| *position += (place - scene.origin).as_vec3());
-    ball.motion = Some(0);
+    ball.motion = Some(scene.motions.len());
     scene.meshes.push(ball);
-    scene.motions = vec![Motion::Uniform(passing(DVec3::Y * 0.5, place, start))];
+    scene.motions.push(Motion::Uniform(passing(DVec3::Y * 0.5, place, start)));
     let view = View { look, up: DVec3::Y, fov_degrees: 60.0, size: SIZE };
     let cut = Dial::tolerance(2.0);
     for (method, background) in [(cut, None), (AS_GIVEN, Some([0.1, 0.2, 0.3])), (DEFAULT_MAP, None)] {

@@ -63,7 +63,7 @@ impl DrawnSheet {
     pub fn controls(&self) -> Vec<[f64; 2]> {
         self.context.viewport(|viewport| {
             let all = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
-            let active = all.filter(|widget| widget.enabled && widget.sense.senses_click());
+            let active = all.filter(|widget| widget.enabled && widget.sense.interactive());
             let place = |at: Pos2| [f64::from(at.x / self.size.x), f64::from(at.y / self.size.y)];
             active.map(|widget| place(widget.interact_rect.center())).collect()
         })

@@ -82,10 +82,12 @@ fn corners_are_moved_on_the_screen_and_saved_in_the_file() {
     });
     assert!(status.success());
 
-    // The vehicle received no key presses.
+    // The vehicle received no key presses but those that begin the calibration and end the ride.
     for entry in Recording::open(&folder.path().join("r.mcap")).unwrap() {
         if let RecordingEntry::Sample(sample) = entry.unwrap() {
-            assert!(KeyboardKey::ALL.iter().all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
+            let mut others =
+                KeyboardKey::ALL.iter().filter(|key| !matches!(key, KeyboardKey::F4 | KeyboardKey::Escape));
+            assert!(others.all(|key| sample != Sample::key(sample.at, *key, true)), "{sample:?}");
         }
     }
 
