@@ -42,7 +42,7 @@ pub enum Submitted {
     /// The eye of a flat picture.
     Picture {
         /// Picture that is to be drawn.
-        shot: Shot,
+        shot: Box<Shot>,
         /// Photo-surface of its observer.
         pending: Pending,
     },
@@ -192,7 +192,7 @@ impl Canvas {
             let shot = watcher.gaze.shot(fov_deg, effects);
             let shot = watcher.outside.map_or(shot, |outside| shot.from_outside(&outside));
             let pending = renderer.submit(gpu, &shot.observer, effects)?;
-            return Ok(Submitted::Picture { shot, pending });
+            return Ok(Submitted::Picture { shot: Box::new(shot), pending });
         };
         let head = watcher.head.unwrap_or_else(|| {
             let viewer = &walls.display.viewer;

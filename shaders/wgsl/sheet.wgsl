@@ -64,7 +64,7 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
         1.0 - dot(met, sheet.up.xyz) / dot(sheet.up.xyz, sheet.up.xyz));
     let across = dpdx(place);
     let down = dpdy(place);
-    let pixel = max(abs(across) + abs(down), vec2(1e-9));
+    let pixel = max(vec2(length(vec2(across.x, down.x)), length(vec2(across.y, down.y))), vec2(1e-9));
     let inside = min(place, 1.0 - place) / pixel + 0.5;
     let cover = clamp(inside.x, 0.0, 1.0) * clamp(inside.y, 0.0, 1.0);
     if (point.w == 0.0 || way <= 0.0 || cover <= 0.0) {

@@ -12,10 +12,32 @@ pub struct Caption {
     pub title: String,
     /// Text on what is seen; empty if there is none.
     pub text: String,
-    /// Question, its answers, and the one chosen last: its number, whether it is right, and the explanation.
-    pub question: Option<(String, Vec<String>, Option<(usize, bool, String)>)>,
+    /// Question that waits for an answer, or whose answer is explained.
+    pub question: Option<CaptionQuestion>,
     /// True if the tour waits for the visitor.
     pub waits: bool,
+}
+
+/// Question of a tour.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CaptionQuestion {
+    /// Question itself.
+    pub ask: String,
+    /// Answers to choose from.
+    pub answers: Vec<String>,
+    /// Answer that was chosen last.
+    pub chosen: Option<ChosenAnswer>,
+}
+
+/// Answer that was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenAnswer {
+    /// Number of the answer, from 0.
+    pub number: usize,
+    /// True if it is right.
+    pub is_right: bool,
+    /// Explanation.
+    pub why: String,
 }
 
 const RIGHT: Color32 = Color32::from_rgb(0x8f, 0xd1, 0x7f);
@@ -32,20 +54,20 @@ pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
     if !caption.text.is_empty() {
         ui.label(RichText::new(&caption.text).size(18.0).strong());
     }
-    if let Some((question, answers, chosen)) = &caption.question {
-        ui.label(RichText::new(question).size(18.0).color(WRONG));
+    if let Some(CaptionQuestion { ask, answers, chosen }) = &caption.question {
+        ui.label(RichText::new(ask).size(18.0).color(WRONG));
         for (number, answer) in answers.iter().enumerate() {
-            let is_chosen = chosen.as_ref().is_some_and(|(chosen, ..)| *chosen == number);
+            let is_chosen = chosen.as_ref().is_some_and(|chosen| chosen.number == number);
             if Controls::new(ui, language).named_choice(is_chosen, answer, Phrase::AnswerPurpose) {
                 actions.push(Action::Answer(u8::try_from(number).unwrap_or(u8::MAX)));
             }
         }
-        if let Some((_, is_right, why)) = chosen {
+        if let Some(ChosenAnswer { is_right, why, .. }) = chosen {
             let (verdict, colour) = if *is_right { (Phrase::Right, RIGHT) } else { (Phrase::Wrong, WRONG) };
             ui.label(RichText::new(format!("{} {why}", language.text(verdict))).color(colour));
         }
     }
-    let can_go_on = caption.waits && caption.question.as_ref().is_none_or(|(.., chosen)| chosen.is_some());
+    let can_go_on = caption.waits && caption.question.as_ref().is_none_or(|question| question.chosen.is_some());
     if can_go_on && Controls::new(ui, language).button(Phrase::GoOn, Phrase::GoOnPurpose) {
         actions.push(Action::Choose);
     }

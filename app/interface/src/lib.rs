@@ -14,7 +14,7 @@ mod menu_pages;
 mod menu_ride;
 mod notices;
 
-pub use caption::{Caption, sheet as caption_sheet, window as caption_window};
+pub use caption::{Caption, CaptionQuestion, ChosenAnswer, sheet as caption_sheet, window as caption_window};
 pub use clock_table::{ClockRow, show as show_clocks};
 pub use drawn_sheet::{DrawnSheet, SheetPointer, key_events};
 pub use help::show as show_help;

@@ -2,8 +2,10 @@
 //! head's tracker, live devices, interruption.
 
 #[cfg(test)]
+#[path = "crossing/tests.rs"]
 mod crossing_tests;
 #[cfg(test)]
+#[path = "desk/tests.rs"]
 mod desk_tests;
 pub mod gaps;
 pub mod interrupt;

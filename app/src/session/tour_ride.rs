@@ -1,7 +1,7 @@
 //! Tour in a live ride: its rider's samples, the changes of what is shown, and its captions.
 
 use input::{Action, Nanos, Sample};
-use interface::Caption;
+use interface::{Caption, CaptionQuestion, ChosenAnswer};
 use ride::Vehicle;
 use tours::{TourPlayer, TourQuestion, TourShown};
 use words::Language;
@@ -52,9 +52,9 @@ impl TourRide {
             let texts = answers.iter().map(|answer| answer.text.in_language(code).to_owned()).collect();
             let chosen = self.player.answered().and_then(|chosen| {
                 let number = answers.iter().position(|answer| answer == chosen)?;
-                Some((number, chosen.right, chosen.why.in_language(code).to_owned()))
+                Some(ChosenAnswer { number, is_right: chosen.right, why: chosen.why.in_language(code).to_owned() })
             });
-            (ask.in_language(code).to_owned(), texts, chosen)
+            CaptionQuestion { ask: ask.in_language(code).to_owned(), answers: texts, chosen }
         });
         Some(Caption {
             title: self.player.plan().title.in_language(code).to_owned(),

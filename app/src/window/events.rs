@@ -1,6 +1,5 @@
 //! Events of the windows: keys, mouse, sizes.
 
-use super::keys;
 use super::open::Open;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
@@ -118,7 +117,7 @@ impl Open {
 
     /// Passes a key on to the ride.
     fn ride_key(&mut self, code: KeyCode, pressed: bool) {
-        if let Some(key) = keys::key(code) {
+        if let Some(key) = cabin::key(code) {
             self.ride.live.say(|at| Sample::key(at, key, pressed));
         }
     }

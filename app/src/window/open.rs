@@ -1,10 +1,8 @@
 //! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
-use super::guide::Guide;
 use super::operator::Operator;
 use super::place::{attributes, filling, fit};
-use super::room_interface::RoomInterface;
 use super::server_loss;
 use super::surface_interface::SurfaceInterface;
 use super::window_surface::WindowSurface;
@@ -17,6 +15,7 @@ use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
 use crate::session::start::RideRoom;
+use cabin::{Guide, RoomInterface};
 use glam::DVec2;
 use hardware::{DESK, WINDOW};
 use interface::MenuPage;

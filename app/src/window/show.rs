@@ -2,10 +2,10 @@
 
 use super::open::Open;
 use super::operator::Operated;
-use super::room_interface::{self, Shown};
 use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
+use cabin::Shown;
 use input::{Action, SECOND, Sample};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -64,7 +64,8 @@ impl Open {
         if let Some(frame) = &self.ride.frame {
             self.guide.note(frame, &shown, width / height);
         }
-        let clocks = if shown.miniature { self.guide.clocks(&self.ride, shown.language) } else { Vec::new() };
+        let wanting = self.ride.frame.as_ref().filter(|_| shown.miniature);
+        let clocks = wanting.map_or_else(Vec::new, |frame| self.guide.clocks(frame, shown.language));
         let caption = self.ride.live.caption();
         let keys = std::mem::take(&mut self.menu_keys);
         let room = Shown {
@@ -163,10 +164,10 @@ impl Open {
         };
         // The wand of a recorded rider has chosen already.
         let frame = self.ride.frame.as_ref().filter(|_| !self.ride.live.is_recorded());
-        let wand = frame.and_then(|frame| frame.controls.wand.as_deref()).and_then(room_interface::of_wand);
+        let wand = frame.and_then(|frame| frame.controls.wand.as_deref()).and_then(cabin::of_wand);
         let mouse = || {
             let (window, pixel) = self.pointed?;
-            room_interface::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
+            cabin::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
         };
         let (sheets, actions) = interface.draw(&self.gpu, shown, &self.guide, &mut self.page, wand.or_else(mouse));
         walls.sheets = sheets;

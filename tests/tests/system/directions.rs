@@ -43,9 +43,12 @@ fn errors(scene: &Scene, method: Dial, eye: DVec3, celerity: DVec3, look: DVec3)
     let mut photographer = Photographer::with(scene, SIZE, 1, None, method);
     let places = photographer.places(&view, eye, celerity);
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
-    let shown = pixels
-        .zip(places)
-        .filter_map(|(pixel, shown)| Some((view.direction(middle(pixel)), shown?.position + scene.origin)));
+    // What moves has places of its own frame; the hands of clocks are compared with rays in `clocks`.
+    let resting = |(pixel, shown): ([u32; 2], Option<render::picture::Shown>)| {
+        let shown = shown.filter(|shown| shown.motion.is_none())?;
+        Some((view.direction(middle(pixel)), shown.position + scene.origin))
+    };
+    let shown = pixels.zip(places).filter_map(resting);
     let observer = Observer { event: Event { ct: 0.0, position: eye }, celerity };
     direction::errors(&observer, shown)
 }

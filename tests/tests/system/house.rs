@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 29] = [
+const PLAN: [(&str, &[&str]); 30] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -44,12 +44,16 @@ const PLAN: [(&str, &[&str]); 29] = [
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
     (
+        "cabin",
+        &["input", "instruments", "interface", "presentation", "render", "ride", "room", "scene", "walls", "words"],
+    ),
+    (
         "rapidity",
         &[
             "built_in",
+            "cabin",
             "hardware",
             "input",
-            "instruments",
             "interface",
             "kiosk",
             "measure",

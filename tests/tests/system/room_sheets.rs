@@ -22,8 +22,10 @@ use walls::{Occupant, Quality, RoomHead, RoomSheet, Walls};
 
 /// Colour of the sheet, which no box has.
 const MAGENTA: [u8; 4] = [255, 0, 255, 255];
-/// Largest distance of a sheet's outline from its place, pixels.
+/// Largest distance of a sheet's outline from its place, pixels, besides the half pixel over which it is softened.
 const OUTLINE_PIXELS: f64 = 0.5;
+/// Half width of the softened outline, pixels.
+const SOFT_PIXELS: f64 = 0.5;
 
 struct Room {
     walls: Walls,
@@ -104,8 +106,12 @@ fn assert_a_sheet_is_in_its_place(name: &str, coarser: u32, least_seen: usize) {
         let (mut inside, mut outside) = (0, 0);
         for (x, y, pixel) in with.enumerate_pixels() {
             let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let around = [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
-            let around = around.map(|step| room.meets(channel, (centre + OUTLINE_PIXELS * step) / size, &sheet));
+            let reach = OUTLINE_PIXELS + SOFT_PIXELS;
+            let steps = [-reach, 0.0, reach];
+            let around: Vec<_> = steps
+                .into_iter()
+                .flat_map(|x| steps.map(|y| room.meets(channel, (centre + DVec2::new(x, y)) / size, &sheet)))
+                .collect();
             if around.iter().all(|met| *met == Some(true)) {
                 assert_eq!(pixel.0, MAGENTA, "{name}, channel {channel}, pixel {x}, {y}: the sheet is there");
                 assert_eq!(fast.get_pixel(x, y), pixel, "{name}, channel {channel}, pixel {x}, {y}: at 0.99 c");

@@ -170,10 +170,9 @@ fn setup(random: &mut ChaCha8Rng, ground: &RidingGround) -> Setup {
         let celerity = look.normalize_or(DVec3::X) * libm::exp10(random.random_range(-1.0..most));
         start.celerity = celerity.to_array();
     }
-    let mut vehicle = VehicleSettings::default();
-    vehicle.integrator =
-        [IntegratorKind::Rk4, IntegratorKind::Rk4, IntegratorKind::Exact, IntegratorKind::DormandPrince]
-            [random.random_range(0..4)];
+    let integrators = [IntegratorKind::Rk4, IntegratorKind::Rk4, IntegratorKind::Exact, IntegratorKind::DormandPrince];
+    let integrator = integrators[random.random_range(0..4)];
+    let mut vehicle = VehicleSettings { integrator, ..VehicleSettings::default() };
     vehicle.flight.nose = [Nose::FacesMotion, Nose::Gyroscopic][random.random_range(0..2)];
     vehicle.flight.hull_m = if random.random_range(0..4) == 0 { 0.0 } else { HULL_M };
     vehicle.assist = [AssistMode::Off, AssistMode::On, AssistMode::Auto][random.random_range(0..3)];

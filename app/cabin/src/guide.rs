@@ -1,6 +1,5 @@
 //! What explains a ride: map, space-time diagram, clocks, places to go to.
 
-use crate::frame::RideInProgress;
 use egui::{Area, Color32, ColorImage, Id, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use input::Place;
 use instruments::{DiagramFrame, DiagramView, InstrumentWords, MiniatureView, PlanPicture, PlanTexture, Trail};
@@ -70,8 +69,7 @@ impl Guide {
     }
 
     /// Readings of the clocks that are nearest to the rider.
-    pub fn clocks(&self, ride: &RideInProgress, language: Language) -> Vec<ClockRow> {
-        let Some(frame) = &ride.frame else { return Vec::new() };
+    pub fn clocks(&self, frame: &RideFrame, language: Language) -> Vec<ClockRow> {
         let observer = &frame.gaze.observer;
         let light_m_s = frame.vehicle.light_speed().speed_of_light_m_s();
         let away = |clock: &SceneClock| match &clock.motion {

@@ -1,7 +1,7 @@
 //! Interface of a room: sheets that float in the vehicle, which every eye sees on every screen, and the pointer that
 //! chooses on them.
 
-use super::guide::Guide;
+use crate::guide::Guide;
 use glam::{DQuat, DVec2, DVec3};
 use input::head::Tracking;
 use input::{Action, WandState};
@@ -223,7 +223,7 @@ impl RoomInterface {
 }
 
 #[cfg(test)]
-#[path = "room_menu_tests.rs"]
+#[path = "room_menu/tests.rs"]
 mod menu_tests;
 
 #[cfg(test)]

@@ -1,0 +1,9 @@
+//! What a rider finds in the vehicle: the keys, what explains the ride, and the sheets that float in a room.
+
+mod guide;
+mod keys;
+mod room_interface;
+
+pub use guide::Guide;
+pub use keys::key;
+pub use room_interface::{PointerRay, RoomInterface, Shown, of_mouse, of_wand};
