@@ -7,7 +7,7 @@
 
 use built_in::lattice::Lattice;
 use glam::{DMat3, DQuat, DVec2, DVec3};
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};
 use render::display::Development;
@@ -22,10 +22,12 @@ use walls::{Occupant, Quality, RoomHead, RoomSheet, Walls};
 
 /// Colour of the sheet, which no box has.
 const MAGENTA: [u8; 4] = [255, 0, 255, 255];
-/// Largest distance of a sheet's outline from its place, pixels, besides the half pixel over which it is softened.
+/// Largest distance of a sheet's outline, where half of a pixel is covered, from its place, pixels.
 const OUTLINE_PIXELS: f64 = 0.5;
-/// Half width of the softened outline, pixels.
-const SOFT_PIXELS: f64 = 0.5;
+/// Largest change of a value by a sheet that covers less than half of a pixel.
+const HALF_COVERED: u8 = 128;
+/// Distance from the outline, pixels, from which a sheet is opaque, however obliquely it is seen.
+const OPAQUE_PIXELS: f64 = 3.0;
 
 struct Room {
     walls: Walls,
@@ -106,22 +108,20 @@ fn assert_a_sheet_is_in_its_place(name: &str, coarser: u32, least_seen: usize) {
         let (mut inside, mut outside) = (0, 0);
         for (x, y, pixel) in with.enumerate_pixels() {
             let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let reach = OUTLINE_PIXELS + SOFT_PIXELS;
-            let steps = [-reach, 0.0, reach];
-            let around: Vec<_> = steps
-                .into_iter()
-                .flat_map(|x| steps.map(|y| room.meets(channel, (centre + DVec2::new(x, y)) / size, &sheet)))
-                .collect();
-            if around.iter().all(|met| *met == Some(true)) {
-                assert_eq!(pixel.0, MAGENTA, "{name}, channel {channel}, pixel {x}, {y}: the sheet is there");
+            let around = |reach: f64| {
+                let steps = [-reach, 0.0, reach];
+                let places = steps.into_iter().flat_map(|x| steps.map(|y| centre + DVec2::new(x, y)));
+                places.map(|place| room.meets(channel, place / size, &sheet)).collect::<Vec<_>>()
+            };
+            let Rgba([red, green, blue, _]) = *pixel;
+            if around(OPAQUE_PIXELS).iter().all(|met| *met == Some(true)) {
+                assert!(green == 0 && red == blue, "{name}, channel {channel}, pixel {x}, {y}: {pixel:?}");
                 assert_eq!(fast.get_pixel(x, y), pixel, "{name}, channel {channel}, pixel {x}, {y}: at 0.99 c");
                 inside += 1;
-            } else if around.iter().all(|met| *met == Some(false)) {
-                assert_eq!(
-                    pixel,
-                    without.get_pixel(x, y),
-                    "{name}, channel {channel}, pixel {x}, {y}: nothing is there"
-                );
+            } else if around(OUTLINE_PIXELS).iter().all(|met| *met == Some(false)) {
+                let before = without.get_pixel(x, y);
+                let changed = (0..3).map(|part| pixel.0[part].abs_diff(before.0[part])).max().unwrap();
+                assert!(changed <= HALF_COVERED, "{name}, channel {channel}, pixel {x}, {y}: {pixel:?}, {before:?}");
                 outside += 1;
             }
         }
