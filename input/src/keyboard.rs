@@ -15,7 +15,7 @@
 //! | J, L, I, K | look left, right, up, down | the same |
 //! | M | look back | the same |
 //!
-//! All other keys are actions, as [`action`] lists them.
+//! All other keys are actions, as the function `action` lists them.
 
 use crate::action::{Action, Setting, Switch, VehicleKind};
 use crate::clock::Nanos;

@@ -35,7 +35,7 @@ pub struct OutsideView {
     pub colouring: Colouring,
 }
 
-/// Part of a [`Shot`] that is seen from outside.
+/// Part of a `Shot` that is seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutsideCamera {
     /// Place of the camera relative to the eye, observer's axes, metres.

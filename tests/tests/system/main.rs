@@ -22,7 +22,6 @@ mod outside;
 mod radiance;
 mod raytrace;
 mod resting;
-mod room_sheets;
 mod shadows;
 mod sky;
 mod sphere;
