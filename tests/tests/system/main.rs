@@ -22,6 +22,7 @@ mod outside;
 mod radiance;
 mod raytrace;
 mod resting;
+mod room_sheets;
 mod shadows;
 mod sky;
 mod sphere;

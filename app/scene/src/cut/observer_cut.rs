@@ -106,7 +106,7 @@ impl<'a> CutRule<'a> {
         unclaimed: f64,
         before: Option<&'a Cut>,
     ) -> Self {
-        let sight = |motion| SeenFrom::new(scene, &viewpoint.observer, motion);
+        let sight = |motion| SeenFrom::for_cutting(scene, &viewpoint.observer, motion);
         let skies: Vec<_> = viewpoint.pictures.iter().map(|(camera, size)| ShownSky::new(camera, *size)).collect();
         Self {
             sights: (0..scene.motions.len()).map(Some).chain([None]).map(sight).collect(),
@@ -141,7 +141,7 @@ impl<'a> CutRule<'a> {
         if let Some(body) = &sight.body {
             return self.is_cut(body, known, [a, b]).then_some(middle);
         }
-        let seen = middle - sight.place;
+        let seen = sight.towards(middle);
         if self.is_short(sight, seen.length(), length) {
             return None;
         }
@@ -173,7 +173,7 @@ impl<'a> CutRule<'a> {
     /// True if no edge of these triangles is to be cut, and all their corners are finite.
     fn is_whole(&self, mesh: &Mesh, corners: &[u32]) -> bool {
         let sight = self.sight(mesh);
-        if sight.body.is_some() {
+        if sight.body.is_some() || sight.pose.is_some() {
             return false;
         }
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -281,7 +281,8 @@ impl<'a> CutRule<'a> {
             while let Some([a, b, c]) = stack.pop() {
                 let [at_a, at_b, at_c] = [a, b, c].map(|corner| batch.place(mesh, corner));
                 let short = |from: DVec3, to: DVec3| {
-                    self.is_short(sight, (0.5 * from + 0.5 * to - sight.place).length(), from.distance(to))
+                    !sight.is_sought()
+                        && self.is_short(sight, sight.towards(0.5 * from + 0.5 * to).length(), from.distance(to))
                 };
                 if short(at_a, at_b) && short(at_b, at_c) && short(at_c, at_a) {
                     indices.extend([a, b, c]);

@@ -7,6 +7,7 @@ use physics::{Celerity, Contraction, DirectionCone, Observer};
 
 use crate::motion::{Motion, ObservedBody};
 use crate::scene::Scene;
+use view::Places;
 
 /// View of one part of a scene: how one observer sees meshes that rest in one frame, or an animated body.
 #[derive(Clone, Debug)]
@@ -56,6 +57,21 @@ impl SeenFrom {
         }
     }
 
+    /// View by which edges are cut: clockwork that is seen in one pose counts as resting in it. Its corners are sought
+    /// one by one all the same. Sought for every edge, they would take all the triangles that bodies may have.
+    pub fn for_cutting(scene: &Scene, observer: &Observer, motion: Option<usize>) -> Self {
+        let sight = Self::new(scene, observer, motion);
+        let animated = motion.and_then(|motion| scene.motions[motion].animated());
+        let clockwork = animated.filter(|body| body.is_clockwork());
+        match clockwork.and_then(|body| body.pose_shown(observer, Places::Seen)) {
+            Some(pose) => {
+                let pose = DAffine3 { translation: pose.translation - scene.origin, ..pose };
+                Self { body: None, pose: Some(pose), ..sight }
+            }
+            None => sight,
+        }
+    }
+
     /// Measured part of a scene, from the scene's origin and its motions alone: everything at the observer's present.
     pub fn measured(origin: DVec3, motions: &[Motion], observer: &Observer, motion: Option<usize>) -> Self {
         let celerity = match motion.map(|motion| &motions[motion]) {
@@ -63,6 +79,11 @@ impl SeenFrom {
             Some(Motion::Animated(_)) | None => observer.celerity,
         };
         Self { contraction: Some(Contraction::new(celerity)), ..Self::of(origin, motions, observer, motion) }
+    }
+
+    /// True if each place is sought on its worldline.
+    pub fn is_sought(&self) -> bool {
+        self.body.is_some()
     }
 
     /// Position of a mesh's place relative to the observer, metres, in the frame in which the mesh rests. For an
